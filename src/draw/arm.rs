@@ -1,7 +1,7 @@
 //! The arm in one configuration, with what it carries.
 
 use super::axes::Frame;
-use super::color::{ACCENT, BARRED, INK, PALE, Rgb, WHITE};
+use super::color::{self, ACCENT, BARRED, GREY, INK, PALE, Rgb, WHITE};
 use super::figure::{Item, Step, Style};
 use super::shapes::union;
 use super::view::PayloadView;
@@ -26,8 +26,7 @@ pub const UNREACHED: Look = Look { fill: WHITE, line: BARRED, width: 1.2, opacit
 /// Where it is.
 pub const NOW: Look = Look { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true };
 /// On the way.
-pub const GHOST: Look =
-    Look { fill: Rgb(0xf3, 0xf4, 0xf6), line: Rgb(0x8c, 0x94, 0x9d), width: 1.0, opacity: 0.65, joints: false };
+pub const GHOST: Look = Look { fill: color::GHOST, line: GREY, width: 0.8, opacity: 0.7, joints: false };
 
 /// The arm at `q`: its own outline, and above it what it carries in the colour of the object.
 #[must_use]

@@ -11,7 +11,7 @@ pub type Range = (f64, f64);
 pub enum Unit {
     /// Metres.
     Meters,
-    /// Radians, labelled in degrees.
+    /// Radians; each number has its degree sign.
     Degrees,
 }
 
@@ -176,6 +176,7 @@ fn sparse_ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> 
         Unit::Meters => 1.0,
         Unit::Degrees => 180.0 / std::f64::consts::PI,
     };
+    let sign = if unit == Unit::Degrees { "\u{b0}" } else { "" };
     let (lower, upper) = (range.0 * factor, range.1 * factor);
     let least = (upper - lower) / at_most as f64;
     let step = match unit {
@@ -190,7 +191,7 @@ fn sparse_ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> 
     (0..=count)
         .map(|k| {
             let value = (first + k as f64) * step;
-            (value / factor, label(value, decimals))
+            (value / factor, label(value, decimals) + sign)
         })
         .collect()
 }
@@ -228,7 +229,7 @@ mod tests {
 
     #[test]
     fn a_turn_is_divided_evenly() {
-        let expected = ["\u{2212}180", "\u{2212}90", "0", "90", "180"];
+        let expected = ["\u{2212}180\u{b0}", "\u{2212}90\u{b0}", "0\u{b0}", "90\u{b0}", "180\u{b0}"];
         assert_eq!(names((-PI, PI), Unit::Degrees, 5), expected);
         assert_eq!(names((-PI, PI), Unit::Degrees, 9).len(), 9);
         assert_eq!(names((-PI / 2.0, PI / 2.0), Unit::Degrees, 7).len(), 7);
@@ -242,7 +243,7 @@ mod tests {
 
     #[test]
     fn short_axes_have_two_ticks() {
-        assert_eq!(names((-2.9, 2.9), Unit::Degrees, 2), ["\u{2212}90", "0", "90"]);
+        assert_eq!(names((-2.9, 2.9), Unit::Degrees, 2), ["\u{2212}90\u{b0}", "0\u{b0}", "90\u{b0}"]);
         assert_eq!(names((0.1, 0.9), Unit::Meters, 1), ["0.2", "0.4", "0.6", "0.8"]);
     }
 

@@ -110,8 +110,8 @@ pub fn titles(arm: &Arm) -> [String; 2] {
 fn title(joint: &Joint) -> String {
     let name = super::figure::shortened(&joint.name, 14.0, 260.0);
     match (joint.joint_type.is_revolute(), joint.range.is_circle()) {
-        (true, true) => format!("{name} (degrees, wraps around)"),
-        (true, false) => format!("{name} (degrees)"),
+        (true, true) => format!("{name}, wraps around"),
+        (true, false) => name,
         (false, _) => format!("{name} (m)"),
     }
 }

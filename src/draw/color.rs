@@ -36,15 +36,56 @@ pub const WHITE: Rgb = Rgb(255, 255, 255);
 /// Text, path and arm.
 pub const INK: Rgb = Rgb(0x22, 0x26, 0x2b);
 /// For text that is less important.
-pub const GREY: Rgb = Rgb(0x6b, 0x72, 0x7a);
-/// Ghost poses and roadmaps.
+pub const GREY: Rgb = Rgb(0x5c, 0x63, 0x6b);
+/// What is there for orientation: the reach, ticks.
 pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
 /// What bars the way, and what is out of reach.
 pub const BARRED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
+/// Proofs: of no obstacle, and of no path.
+pub const PROOF: Rgb = Rgb(0xd9, 0x5f, 0x02);
 /// What moves.
 pub const ACCENT: Rgb = Rgb(0x00, 0x72, 0xb2);
 /// For lines of the grid behind a chart.
 pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
+/// The arm on its way.
+pub const GHOST: Rgb = Rgb(0xd8, 0xdc, 0xe1);
+/// Edges of roadmaps, sides of cells.
+pub const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
+/// Cells that the way leads through.
+pub const CHANNEL: Rgb = Rgb(0xf6, 0xe3, 0xa1);
+/// Boxes of free configurations.
+pub const FREE: Rgb = Rgb(0xd3, 0xee, 0xda);
+/// Boxes of which nothing is known: grey, which no obstacle is.
+pub const MIXED: Rgb = Rgb(0xae, 0xb3, 0xbb);
+/// Regions that fields avoid, and that they prefer.
+pub const AVOIDED: Rgb = Rgb(0xc4, 0x6a, 0x1d);
+pub const PREFERRED: Rgb = Rgb(0x2b, 0x7a, 0x78);
+
+/// The colours that mean something, by the names that the style of pages has for them.
+pub const TINTS: [(&str, Rgb); 15] = [
+    ("ink", INK),
+    ("paper", WHITE),
+    ("grey", GREY),
+    ("pale", PALE),
+    ("faint", FAINT),
+    ("ghost", GHOST),
+    ("accent", ACCENT),
+    ("barred", BARRED),
+    ("proof", PROOF),
+    ("edge", EDGE),
+    ("channel", CHANNEL),
+    ("free", FREE),
+    ("mixed", MIXED),
+    ("avoided", AVOIDED),
+    ("preferred", PREFERRED),
+];
+
+/// The name of a colour that means something, or the colour.
+#[must_use]
+pub fn tint(color: Rgb) -> String {
+    let named = TINTS.iter().find(|(_, tint)| *tint == color);
+    named.map_or_else(|| color.to_string(), |(name, _)| (*name).to_owned())
+}
 
 /// Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), neighbours in the list far apart.
 const MUTED: [Rgb; 9] = [
@@ -139,6 +180,18 @@ mod tests {
         assert!(all.windows(2).all(|w| w[1] < w[0]));
         assert_eq!(scale(-1.0), scale(0.0));
         assert_eq!(scale(2.0), Rgb(0x41, 0x3f, 0x80));
+    }
+
+    #[test]
+    fn surfaces_and_ghosts_can_be_told_apart_where_a_projector_is_weak() {
+        let contrast = |a: Rgb, b: Rgb| {
+            let [a, b] = [a, b].map(|color| luminance(color) + 0.05);
+            a.max(b) / a.min(b)
+        };
+        assert!(contrast(FREE, MIXED) >= 1.6, "{}", contrast(FREE, MIXED));
+        assert!(contrast(MIXED, WHITE) >= 1.6);
+        // The outline of a ghost.
+        assert!(contrast(GREY.lighter(0.3), WHITE) >= 3.0);
     }
 
     #[test]

@@ -1,14 +1,18 @@
 //! A configuration space.
 
+use super::axes::Frame;
 use super::chart::{self, Chart};
 use super::color::{ACCENT, INK, Rgb, WHITE};
 use super::figure::{Item, Pen, Rect, Spot, Step, Style};
 use super::shapes::DASH;
-use super::view::{ContourView, PanelView, View, WorldView};
-use super::{boxes, page, preferences, reach, stuck, tags, trace};
+use super::view::{ContourView, NameView, PanelView, View, WorldView};
+use super::{boxes, labels, page, preferences, reach, stuck, tags, trace};
 
 /// The pen for goals along a segment.
 const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
+
+/// How wide the markers of start and goals are, pixels.
+const MARKER: f64 = 16.0;
 
 /// The panel in this part of the page, with room for a scale of colours to the right of it.
 #[must_use]
@@ -33,12 +37,16 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(world.trace.iter().flat_map(|trace| trace::above(trace, chart)));
     inside.extend(view.still.reach.iter().flat_map(|reach| reach::in_cspace(reach, chart)));
     inside.extend(preferences::in_cspace(&world.regions, chart));
-    inside.push(boxes::proof(&world.proof, frame));
+    inside.extend(boxes::proof(&world.proof, frame));
+    let stuck = view.still.stuck.iter().filter_map(|stuck| Some(stuck.at?.0));
+    let marked = view.ends(panel).into_iter().map(|(q, ..)| q).chain([panel.start.into()]).chain(stuck);
+    let markers = marked.map(|q| labels::about(chart.place(q), [MARKER; 2])).collect();
+    inside.extend(names(world, frame, markers));
     inside.extend(page::lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOALS))));
     inside.extend(page::lines(paths.map(|path| (chart.outline(&path.points.0), path.pen()))));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
-    items.extend(world.trace.iter().flat_map(|trace| trace::color_bar(trace, &frame.rect)));
+    items.extend(world.scale.iter().flat_map(|scale| trace::color_bar(scale, &frame.rect)));
     // Where paths were found, the goals that none of them reached are hollow.
     let mut numbers = Vec::new();
     for (q, number, reached) in view.ends(panel) {
@@ -49,7 +57,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     if let Some((q, world)) = view.still.now
         && panel.worlds.contains(&world)
     {
-        items.push(Item::Disc(chart.place(q.into()), 6.5, Style::line(WHITE, 2.0).filled(ACCENT)));
+        items.push(Item::Disc(chart.place(q.into()), 4.8, Style::line(WHITE, 1.2).filled(ACCENT)));
     }
     items.extend(view.still.stuck.iter().flat_map(|stuck| stuck::in_cspace(stuck, chart)));
     if view.is_task() && numbers.len() > 1 {
@@ -72,6 +80,13 @@ fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     dashed
 }
 
+/// Names within the C-obstacles; numbers of many.
+fn names(world: &WorldView, frame: &Frame, markers: Vec<Rect>) -> Vec<Item> {
+    let room = frame.rect.width * frame.rect.height;
+    let name = |name: &NameView| (world.called(name.obstacle), frame.at(name.at[0], name.at[1]), name.area * room);
+    labels::inside(&frame.rect, markers, world.names.iter().map(name))
+}
+
 /// How a C-obstacle is drawn.
 fn blocked(color: Rgb) -> Style {
     let style = Style::line(color.darker(0.25), 2.0).filled(color.lighter(0.35)).faded(0.85);
@@ -84,10 +99,10 @@ fn passable(color: Rgb) -> Style {
     Style { pen_below: true, ..style }
 }
 
-/// Where the motion begins: a ring.
+/// Where the motion begins: a ring, in which there is room for where the arm is.
 #[must_use]
 pub fn start_marker(at: Spot) -> Vec<Item> {
-    vec![Item::Disc(at, 8.0, Style::fill(WHITE).faded(0.85)), Item::Disc(at, 5.5, Style::line(INK, 2.2).filled(WHITE))]
+    vec![Item::Disc(at, 9.5, Style::fill(WHITE).faded(0.85)), Item::Disc(at, 7.0, Style::line(INK, 2.2).filled(WHITE))]
 }
 
 /// Where it ends: a diamond, hollow if no path ended there.

@@ -1,17 +1,16 @@
 //! What the signs mean.
 
-use super::color::{BARRED, GREY, INK, PALE, Rgb};
+use super::color::{self, BARRED, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
-use super::view::{ObstacleView, PathView, View};
+use super::view::{NAMED, ObstacleView, PathView, View};
 use super::{boxes, cspace, preferences, reach, shapes, stuck, trace};
+use serde::Serialize;
 
 /// Height of a row, pixels.
 pub const ROW: f64 = 21.0;
 const SIZE: f64 = 13.0;
 const SIGN: f64 = 26.0;
 const GAP: f64 = 26.0;
-/// More obstacles than this are not named.
-const NAMED: usize = 16;
 
 /// What stands before a name.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,21 +25,76 @@ pub enum Sign {
     Line(Pen),
     /// A small square of this colour.
     Swatch(Rgb),
+    /// The same in a colour of the scale, from 0 to 1.
+    Shade(f64),
     /// A dashed outline.
     Dashed(Rgb),
+    /// The hatch of a proof.
+    Hatched,
 }
 
 /// A sign and what it means.
 pub type Key = (Sign, String);
 
-/// Everything that the picture needs explained.
+/// A key as pages read it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct KeyView {
+    sign: &'static str,
+    /// That of a line or a square: its name, if it means something, or `#rrggbb`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    color: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    width: Option<f64>,
+    #[serde(skip_serializing_if = "<[f64]>::is_empty")]
+    dash: &'static [f64],
+    /// Of a colour of the scale.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part: Option<f64>,
+    text: String,
+}
+
+impl KeyView {
+    fn new((sign, text): Key) -> Self {
+        let name = match sign {
+            Sign::Start => "start",
+            Sign::Goal => "goal",
+            Sign::Unreached => "unreached",
+            Sign::Line(_) => "line",
+            Sign::Swatch(_) => "swatch",
+            Sign::Shade(_) => "shade",
+            Sign::Dashed(_) => "dashed",
+            Sign::Hatched => "hatched",
+        };
+        let bare = Self { sign: name, color: None, width: None, dash: &[], part: None, text };
+        match sign {
+            Sign::Line(Pen { color, width, dash }) => {
+                Self { color: Some(color::tint(color)), width: Some(width), dash, ..bare }
+            }
+            Sign::Swatch(color) | Sign::Dashed(color) => Self { color: Some(color::tint(color)), ..bare },
+            Sign::Shade(part) => Self { part: Some(part), ..bare },
+            Sign::Start | Sign::Goal | Sign::Unreached | Sign::Hatched => bare,
+        }
+    }
+}
+
+/// Everything that a picture needs explained.
 #[must_use]
 pub fn keys(view: &View) -> Vec<Key> {
+    all(view, true)
+}
+
+/// Everything that a page needs explained, which shows one world after the other, and not all that pictures do.
+#[must_use]
+pub fn on_pages(view: &View) -> Vec<KeyView> {
+    all(view, false).into_iter().map(KeyView::new).collect()
+}
+
+fn all(view: &View, still: bool) -> Vec<Key> {
     let world = view.first_world();
     let goal = if view.is_task() { "end of a step" } else { "goal" };
     let mut keys = vec![(Sign::Start, "start".to_owned()), (Sign::Goal, goal.to_owned())];
     keys.extend(paths(view));
-    if view.worlds.iter().any(|world| !world.open.is_empty()) {
+    if still && view.worlds.iter().any(|world| !world.open.is_empty()) {
         keys.push((Sign::Dashed(GREY), "open to link 2 (picked or placed)".to_owned()));
     }
     if view.unreached().next().is_some() {
@@ -51,7 +105,9 @@ pub fn keys(view: &View) -> Vec<Key> {
     keys.extend(world.trace.as_ref().map_or_else(Vec::new, trace::keys));
     keys.extend(view.worlds.iter().any(|world| !world.proof.0.is_empty()).then(boxes::proof_key));
     keys.extend(preferences::keys(&world.regions));
-    keys.extend(view.still.reach.as_ref().map_or_else(Vec::new, reach::keys));
+    if still {
+        keys.extend(view.still.reach.as_ref().map_or_else(Vec::new, reach::keys));
+    }
     keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, stuck::keys));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
     keys.extend(obstacles(world.obstacles.iter().filter(|obstacle| obstacle.lies())));
@@ -130,6 +186,7 @@ fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
             let style = Style { pen: Some(*pen), ..Style::line(pen.color, pen.width) };
             vec![Item::Outline(vec![Step::Move([x, y]), Step::Line([x + SIGN, y])], style)]
         }
+        Sign::Shade(part) => self::sign(&Sign::Swatch(color::scale(*part)), x, y),
         Sign::Swatch(color) => {
             let style = Style::line(color.darker(0.25), 1.0).filled(color.lighter(0.25));
             vec![Item::Outline(rectangle(swatch(x, y)), style)]
@@ -137,6 +194,7 @@ fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
         Sign::Dashed(color) => {
             vec![Item::Outline(rectangle(swatch(x, y)), Style::line(*color, 1.4).dashed(shapes::DASH))]
         }
+        Sign::Hatched => boxes::hatched(&[swatch(x, y)]),
     }
 }
 

@@ -8,9 +8,10 @@
 //!
 //! Two panels side by side: left the workspace in metres with the arm at the start, at the goal and on its way, and the
 //! trace of its tip; right the configuration space in degrees or metres, with the C-obstacles in the colours of their
-//! obstacles, the path and what the planner saw. The picture of a task has a configuration space for each payload state.
-//! What is drawn, from where and in which colour stands in the [`View`]; the figure is where that is on the page, and knows
-//! no file format. The same view is the same file, byte for byte.
+//! obstacles and their names in them, the path and what the planner saw; proofs are hatched, as nothing else is. The
+//! picture of a task has a configuration space for each payload state. What is drawn, from where and in which colour stands
+//! in the [`View`]; the figure is where that is on the page, and knows no file format. The same view is the same file, byte
+//! for byte.
 
 mod animation;
 mod arm;
@@ -26,6 +27,7 @@ mod frames;
 #[cfg(feature = "png")]
 mod gif_writer;
 mod grid;
+mod labels;
 mod legend;
 mod obstacles;
 mod page;

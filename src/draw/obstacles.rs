@@ -1,13 +1,12 @@
 //! Obstacles alone, before there is an arm.
 
 use super::axes::{Frame, Range, Unit};
-use super::color::{self, INK, WHITE};
-use super::figure::{Anchor, Item, Rect, Spot, Style, label, rectangle, shortened, text_width};
+use super::color;
+use super::figure::Item;
 use super::legend::{Key, Sign};
-use super::tags::overlap;
 use super::view::{Grain, ObstacleView, around};
-use super::{page, shapes, svg_writer};
-use crate::model::{Obstacle, Shape};
+use super::{labels, page, shapes, svg_writer};
+use crate::model::Obstacle;
 use crate::text::markup;
 
 /// Share of the extent that is left free on each side.
@@ -51,74 +50,13 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
 const MOST_KEYS: usize = 32;
 /// More obstacles than this are not named: nobody could tell whose the names are.
 const MOST_NAMES: usize = 200;
-const SIZE: f64 = 12.0;
-/// Widest name, pixels.
-const WIDEST: f64 = 160.0;
-/// Height of a name's box, and its distance from the obstacle that it stands beside, pixels.
-const LINE: f64 = 15.0;
-const GAP: f64 = 4.0;
-
-/// Names on their obstacles or, where those are smaller, beside them; none over another.
+/// Names on their obstacles or beside them.
 fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
     if obstacles.len() > MOST_NAMES {
         return Vec::new();
     }
-    let places: Vec<Rect> = obstacles.iter().map(|obstacle| place(frame, obstacle)).collect();
-    let mut taken: Vec<Rect> = Vec::new();
-    let mut items = Vec::new();
-    for (obstacle, of) in obstacles.iter().zip(&places) {
-        let name = shortened(&obstacle.name, SIZE, WIDEST);
-        let size = [text_width(&name, SIZE) + 6.0, LINE];
-        let middle = [of.x + of.width / 2.0, of.y + of.height / 2.0];
-        let beside = [
-            [0.0, 0.0],
-            [0.0, -1.0],
-            [0.0, 1.0],
-            [1.0, 0.0],
-            [-1.0, 0.0],
-            [1.0, -1.0],
-            [-1.0, -1.0],
-            [1.0, 1.0],
-            [-1.0, 1.0],
-        ];
-        let fits = size[0] <= of.width && size[1] <= of.height;
-        let boxes = beside.into_iter().skip(usize::from(!fits)).map(|side: Spot| {
-            let away = [0, 1].map(|k| side[k] * (size[k] / 2.0 + GAP + [of.width, of.height][k] / 2.0));
-            Rect {
-                x: middle[0] + away[0] - size[0] / 2.0,
-                y: middle[1] + away[1] - size[1] / 2.0,
-                width: size[0],
-                height: size[1],
-            }
-        });
-        let is_free = |b: &Rect| {
-            taken.iter().all(|other| overlap(b, other) == 0.0) && overlap(b, &frame.rect) > 0.999 * b.width * b.height
-        };
-        // What is smaller than the obstacle is hidden last.
-        let hidden = |b: &Rect| {
-            places.iter().filter(|place| *place != of).map(|place| overlap(b, place).min(400.0)).sum::<f64>()
-        };
-        let Some(best) = boxes.filter(is_free).min_by(|a, b| hidden(a).total_cmp(&hidden(b))) else { continue };
-        items.push(Item::Outline(rectangle(best), Style::fill(WHITE).faded(0.7)));
-        let at = [best.x + best.width / 2.0, best.bottom() - 3.5];
-        items.push(label(at, name, SIZE, Anchor::Middle, INK));
-        taken.push(best);
-    }
-    items
-}
-
-/// What an obstacle's name belongs to, pixels: all of it, or the middle of a wall's longest stretch.
-fn place(frame: &Frame, obstacle: &Obstacle) -> Rect {
-    if let Shape::Polyline(points) = &obstacle.shape {
-        let longest = points.windows(2).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));
-        if let Some([a, b]) = longest {
-            let [x, y] = frame.at((a.x + b.x) / 2.0, (a.y + b.y) / 2.0);
-            return Rect { x, y, width: 0.0, height: 0.0 };
-        }
-    }
-    let [x, y] = around(&obstacle.pieces);
-    let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
-    Rect { x: left, y: top, width: right - left, height: bottom - top }
+    let named = |o: &Obstacle| (o.name.clone(), labels::place(frame, &o.shape, &o.pieces));
+    labels::items(&frame.rect, &obstacles.iter().map(named).collect::<Vec<_>>())
 }
 
 /// Least and greatest coordinates of obstacles.

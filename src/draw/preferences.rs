@@ -2,15 +2,11 @@
 
 use super::axes::Frame;
 use super::chart::Chart;
-use super::color::Rgb;
+use super::color::{AVOIDED, PREFERRED};
 use super::figure::{Item, Pen, Step, Style, chain};
 use super::legend::{Key, Sign};
 use super::view::RegionView;
 
-/// Of regions with a positive epsilon.
-const AVOIDED: Rgb = Rgb(0xc4, 0x6a, 0x1d);
-/// Of the others.
-const PREFERRED: Rgb = Rgb(0x2b, 0x7a, 0x78);
 const DASH: &[f64] = &[7.0, 4.0];
 
 /// Those of the workspace.

@@ -10,6 +10,7 @@ use super::shapes;
 use super::view::View;
 use crate::geometry::Point;
 use crate::space::Configuration;
+use serde::{Serialize, Serializer};
 
 /// Dashes of what is in the way.
 const DASH: &[f64] = &[7.0, 3.0];
@@ -18,12 +19,18 @@ const DASH: &[f64] = &[7.0, 3.0];
 const WIDTH: f64 = 3.0;
 
 /// What is in the way, and where it is narrowest.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Stuck {
     /// Numbers of the obstacles.
     pub blockers: Vec<usize>,
     /// Where the arm gets stuck: the configuration, and the place in the plane.
+    #[serde(serialize_with = "pair", skip_serializing_if = "Option::is_none")]
     pub at: Option<(Configuration, Point)>,
+}
+
+/// The configuration and the place, as pages read them.
+fn pair<S: Serializer>(at: &Option<(Configuration, Point)>, serializer: S) -> Result<S::Ok, S::Error> {
+    at.map(|(q, p)| [[q[0], q[1]], [p.x, p.y]]).serialize(serializer)
 }
 
 /// The blockers' outlines, the arm where it gets stuck, and the place.

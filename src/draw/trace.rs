@@ -2,18 +2,16 @@
 
 use super::boxes;
 use super::chart::Chart;
-use super::color::{self, ACCENT, GREY, INK, PALE, Rgb};
+use super::color::{self, ACCENT, CHANNEL, EDGE, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Pen, Raster, Rect, Style, chain, label, upwards};
 use super::legend::{Key, Sign};
-use super::view::{Chain, LEVELS, TraceView, Waves};
+use super::view::{Chain, LEVELS, ScaleView, TraceView, Waves};
 
 /// Colours of a wavefront; each stands for some of its levels.
 const SHADES: usize = 32;
 
-const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
 /// Part of white in the colours of surfaces, on which lines must stay legible.
 const SOFT: f64 = 0.22;
-const CHANNEL: Rgb = Rgb(0xf6, 0xe3, 0xa1);
 
 /// What lies under the C-obstacles: surfaces.
 #[must_use]
@@ -40,7 +38,7 @@ pub fn above(trace: &TraceView, chart: &Chart) -> Vec<Item> {
             [edges(lines, chart)].into_iter().chain(places(expanded, chart)).collect()
         }
         TraceView::Channel { cells, expanded, sweep, .. } => {
-            let steps = cells.iter().flat_map(|cell| chart.polygon(cell)).collect();
+            let steps = cells.iter().filter(|cell| wide(cell, chart)).flat_map(|cell| chart.polygon(cell)).collect();
             let sides = Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.7));
             let [bottom, top] = [chart.frame.y.0, chart.frame.y.1];
             let line = sweep.map(|x| chain([chart.frame.at(x, bottom), chart.frame.at(x, top)], false));
@@ -57,6 +55,14 @@ pub fn above(trace: &TraceView, chart: &Chart) -> Vec<Item> {
         }
         TraceView::Wavefront(_) => Vec::new(),
     }
+}
+
+/// Whether the sides of a cell are drawn: those of narrow ones together make a moire.
+fn wide(Chain(corners): &Chain, chart: &Chart) -> bool {
+    const NARROW: f64 = 5.0;
+    let columns = corners.iter().map(|q| chart.frame.at(q[0], q[1])[0]);
+    let (low, high) = columns.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    high - low >= NARROW
 }
 
 fn edges(lines: &Chain, chart: &Chart) -> Item {
@@ -97,23 +103,15 @@ pub fn keys(trace: &TraceView) -> Vec<Key> {
 
 /// What the colours of a search's places mean.
 fn order(expanded: &Chain) -> Vec<Key> {
-    let key = |part, text: &str| (Sign::Swatch(color::scale(part)), text.to_owned());
+    let key = |part, text: &str| (Sign::Shade(part), text.to_owned());
     if expanded.is_empty() { Vec::new() } else { vec![key(0.0, "expanded first"), key(1.0, "expanded last")] }
 }
 
 /// The scale of colours, to the right of the frame.
 #[must_use]
-pub fn color_bar(trace: &TraceView, frame: &Rect) -> Vec<Item> {
-    let (title, top, bottom, white) = match trace {
-        TraceView::Wavefront(waves) if waves.levels().any(|level| level.is_some()) => {
-            ("steps to the goal", waves.farthest.to_string(), "0".to_owned(), SOFT)
-        }
-        TraceView::Field { logarithmic: true, span: [low, high], .. } => {
-            ("ln of the potential", short(*low), short(*high), 0.0)
-        }
-        TraceView::Field { span: [low, high], .. } => ("potential", format!("{low:.2}"), format!("{high:.2}"), 0.0),
-        _ => return Vec::new(),
-    };
+pub fn color_bar(scale: &ScaleView, frame: &Rect) -> Vec<Item> {
+    let ScaleView { title, ends: [top, bottom], soft } = scale;
+    let white = if *soft { SOFT } else { 0.0 };
     let (x, height) = (frame.right() + 16.0, frame.height.min(200.0));
     let rect = Rect { x, y: frame.bottom() - height, width: 12.0, height };
     vec![
@@ -123,18 +121,14 @@ pub fn color_bar(trace: &TraceView, frame: &Rect) -> Vec<Item> {
             palette: palette(white),
             levels: (0..SHADES).map(Some).collect(),
         }),
-        label([x + 18.0, rect.y + 10.0], top, 13.0, Anchor::Start, GREY),
-        label([x + 18.0, rect.bottom()], bottom, 13.0, Anchor::Start, GREY),
-        upwards([x + 30.0, rect.y + height / 2.0], title, 13.0, INK),
+        label([x + 18.0, rect.y + 10.0], top.as_str(), 13.0, Anchor::Start, GREY),
+        label([x + 18.0, rect.bottom()], bottom.as_str(), 13.0, Anchor::Start, GREY),
+        upwards([x + 30.0, rect.y + height / 2.0], *title, 13.0, INK),
     ]
 }
 
 fn palette(white: f64) -> Vec<Rgb> {
     (0..SHADES).map(|k| color::scale(k as f64 / (SHADES - 1) as f64).lighter(white)).collect()
-}
-
-fn short(value: f64) -> String {
-    format!("{value:.0}").replace('-', "\u{2212}").replace("\u{2212}0", "0")
 }
 
 fn shades(waves: &Waves, frame: &Rect) -> Raster {

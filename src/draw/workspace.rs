@@ -4,6 +4,7 @@ use super::arm::{self, GHOST, GOAL, NOW, START, UNREACHED};
 use super::axes::{Frame, Unit};
 use super::color::{BARRED, GREY, INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Spot, Step, Style, chain, label};
+use super::labels::{self, Named};
 use super::view::{ObstacleView, PathView, View, around};
 use super::{frames, page, preferences, reach, shapes, stuck, tags};
 use crate::geometry::{Convex, cross};
@@ -36,6 +37,8 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
     let spots: Vec<Spot> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
     inside.extend(page::lines(traces));
+    let named = if view.is_task() || view.still.panels.is_empty() { Vec::new() } else { names(view, &frame) };
+    inside.extend(labels::items(&frame.rect, &named));
     if view.is_task() {
         let boxes: Vec<Rect> = lying().map(|obstacle| on_page(&frame, obstacle)).collect();
         inside.extend(numbers(view, &frame, &boxes, &spots));
@@ -49,6 +52,21 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     items.extend(frame.border([Unit::Meters; 2], titles(&arm.plane), [false; 2]));
     items.extend(frames::items(&frame, &view.frames));
     items
+}
+
+/// Which of the arms is which, and the names of obstacles, or numbers of many.
+fn names(view: &View, frame: &Frame) -> Vec<Named> {
+    let arm = |name: &str, q: [f64; 2]| {
+        let [tip, elbow] = [view.arm.tip_at(q.into()), view.arm.elbow_at(q[0])].map(|p| frame.at(p.x, p.y));
+        (name.to_owned(), labels::beyond(name, tip, elbow))
+    };
+    // An arm that goes nowhere needs no name.
+    let ends = view.still.end.map(|(q, _)| [arm("goal", q), arm("start", view.start)]);
+    let arms = ends.into_iter().flatten();
+    let world = view.first_world();
+    let lying = world.obstacles.iter().enumerate().filter(|(_, obstacle)| obstacle.lies());
+    let obstacles = lying.map(|(number, o)| (world.called(number), labels::place(frame, &o.outline, o.own())));
+    arms.chain(obstacles).collect()
 }
 
 /// A dot where each step ends, or was to end, with its number.
@@ -115,7 +133,7 @@ pub fn titles(plane: &Plane) -> [String; 2] {
 
 /// The region that the tip can never leave: within the greatest distance from the base if joint 1 turns, else the
 /// places that the slides reach, grown by the reach of a turning second link.
-fn reach_shape(arm: &Arm) -> Convex {
+pub fn reach_shape(arm: &Arm) -> Convex {
     let topology = arm.topology();
     let [first, second] = topology.ranges.map(|axis| axis.domain());
     if arm.joints[0].joint_type.is_revolute() {

@@ -31,6 +31,7 @@ mod open_list;
 mod ordered;
 mod penetration;
 pub(crate) mod planar;
+mod pole;
 mod polygon;
 mod predicates;
 mod rings;
@@ -54,6 +55,7 @@ pub use ordered::Ordered;
 pub use penetration::{
     CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,
 };
+pub use pole::pole_of_inaccessibility;
 pub use polygon::{PolygonError, SimplePolygon};
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
 pub use rings::{Polygon, RingError, RingSide};

@@ -140,7 +140,7 @@ pub(super) fn origin_depth(polygon: &[Point]) -> f64 {
 }
 
 /// Distance of `p` from the closed segment `ab`.
-fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
+pub(super) fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
     let along: Vector = b - a;
     let t = (p - a).dot(&along) / along.norm_squared();
     if t > 0.0 && t < 1.0 { signed_distance(p, a, b).abs() } else { (p - a).norm().min((p - b).norm()) }

@@ -164,9 +164,13 @@ impl Plan {
         let (MotionPlan { problem, answer, curve }, report) = (plan, self.report());
         let scene = problem.scene();
         let outline = curve.as_ref().map(|curve| curve.curve().outline());
-        let detail = match report.length {
-            Some(length) => format!("{}: length {length:.4}, {}", answer.method, kept(report.clearance)),
-            None => answer.method.to_string(),
+        let detail = match (report.length, &answer.verdict) {
+            (Some(length), _) => format!("{}: length {length:.4}, {}", answer.method, kept(report.clearance)),
+            (None, Verdict::Infeasible(_)) => {
+                let proven = answer.verdict.reason().unwrap_or_default();
+                format!("{}: there is no path; {proven}", answer.method)
+            }
+            (None, _) => answer.method.to_string(),
         };
         View::of_picture(&Picture {
             title: vec![title_of(scene), detail],

@@ -49,6 +49,8 @@ struct ArmView<'a> {
     base: [f64; 2],
     offset: [f64; 2],
     tip: [f64; 2],
+    /// What the tip can never leave.
+    reach: ShapeView,
     /// Names of the plane's coordinates.
     plane: [String; 2],
 }
@@ -79,6 +81,7 @@ pub fn document<'a, S: Serializer>(arm: &'a Arm, serializer: S) -> Result<S::Ok,
         base: [arm.base.x, arm.base.y],
         offset: [arm.offset.x, arm.offset.y],
         tip: [arm.tip.x, arm.tip.y],
+        reach: ShapeView(workspace::reach_shape(arm)),
         plane: workspace::titles(&arm.plane),
     };
     document.serialize(serializer)

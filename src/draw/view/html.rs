@@ -1,6 +1,7 @@
 //! The file around a view.
 
 use super::View;
+use crate::draw::color::TINTS;
 use crate::text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
@@ -9,6 +10,8 @@ const STYLE: &str = include_str!("assets/view.css");
 const CODE: [&str; 9] = [
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
+    include_str!("assets/labels.js"),
+    include_str!("assets/legend.js"),
     include_str!("assets/think.js"),
     include_str!("assets/workspace.js"),
     include_str!("assets/cspace.js"),
@@ -20,6 +23,12 @@ const CODE: [&str; 9] = [
 
 /// What shows the view that lies in the page.
 const PLAN: &str = include_str!("assets/plan.js");
+
+/// The colours of pictures, as the style's variables; it has others for the dark.
+fn colors() -> String {
+    let variables: String = TINTS.iter().map(|(name, color)| format!(" --{name}: {color};")).collect();
+    format!(":root {{{variables} }}\n")
+}
 
 /// The view as one self-contained file of HTML.
 #[must_use]
@@ -49,10 +58,11 @@ pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> Str
 #[must_use]
 pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
     let title = markup(title);
+    let colors = colors();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{head}\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}{style}</style>\n</head>\n<body>\n<main><noscript>This page draws with JavaScript, which is switched \
+         <style>\n{colors}{STYLE}{style}</style>\n</head>\n<body>\n<main><noscript>This page draws with JavaScript, which is switched \
          off here.</noscript></main>\n{before}<script>\n{code}</script>\n</body>\n</html>\n"
     )
 }

@@ -16,6 +16,7 @@ mod flow;
 mod html;
 mod isolines;
 mod motion;
+mod names;
 mod numbers;
 mod picture;
 mod replay;
@@ -33,14 +34,16 @@ pub use task::TaskPicture;
 
 pub(super) use extent::around;
 pub(super) use motion::PathView;
+pub(super) use names::NameView;
 pub(super) use numbers::{Chain, Grain};
 use replay::PhaseView;
 pub(super) use states::ranges;
 pub(super) use steps::Row;
-pub(super) use trace::TraceView;
+pub(super) use trace::{ScaleView, TraceView};
 pub(super) use waves::{LEVELS, Waves};
-pub(super) use world::{ContourView, ObstacleView, PayloadView, RegionView, WorldView};
+pub(super) use world::{ContourView, NAMED, ObstacleView, PayloadView, RegionView, WorldView};
 
+use super::legend::{self, KeyView};
 use super::stuck::Stuck;
 use crate::engine::Reach;
 use crate::model::{Arm, Status};
@@ -85,6 +88,16 @@ pub struct View {
     pub(super) replay: Vec<PhaseView>,
     #[serde(skip)]
     pub(super) still: Still,
+}
+
+/// A view, what its signs mean, and what is in the way of the motion that is not there.
+#[derive(Serialize)]
+struct Document<'a> {
+    #[serde(flatten)]
+    view: &'a View,
+    legend: Vec<KeyView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stuck: Option<&'a Stuck>,
 }
 
 /// A frame, drawn by its axes: see [`AxesFrame`].
@@ -195,6 +208,7 @@ impl View {
     /// Never: all keys are strings.
     #[must_use]
     pub fn json(&self) -> String {
-        serde_json::to_string(self).expect("numbers and strings")
+        let document = Document { view: self, legend: legend::on_pages(self), stuck: self.still.stuck.as_ref() };
+        serde_json::to_string(&document).expect("numbers and strings")
     }
 }

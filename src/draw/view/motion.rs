@@ -30,11 +30,15 @@ pub struct PathView {
     /// Configurations that divide it into equal parts.
     pub ghosts: Chain,
     /// The number of the step that it is in a task.
-    #[serde(skip)]
+    #[serde(skip_serializing_if = "is_none")]
     pub step: usize,
     /// Whether it is being drawn, and does not end where it does as yet.
     #[serde(skip)]
     pub grows: bool,
+}
+
+fn is_none(step: &usize) -> bool {
+    *step == 0
 }
 
 impl PathView {

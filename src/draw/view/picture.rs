@@ -90,8 +90,9 @@ impl View {
     pub fn of_picture(picture: &Picture) -> Self {
         let Picture { scene, start, .. } = *picture;
         let grain = Grain::of(scene.arm());
-        let mut world = WorldView::new(scene, String::new(), picture.c_obstacles, grain).proven(picture.proof, grain);
-        world.trace = picture.trace.and_then(|trace| TraceView::new(trace, &scene.arm().topology(), grain));
+        let trace = picture.trace.and_then(|trace| TraceView::new(trace, &scene.arm().topology(), grain));
+        let world = WorldView::new(scene, String::new(), picture.c_obstacles, grain);
+        let world = world.proven(picture.proof, grain).traced(trace);
         let count = picture.paths.len();
         let named = picture.paths.iter().enumerate();
         let paths: Vec<PathView> =

@@ -16,6 +16,15 @@ pub struct LevelView {
     pub lines: Vec<Chain>,
 }
 
+/// What a scale of colours is about, and the values at its dark end and at its light one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ScaleView {
+    pub title: &'static str,
+    pub ends: [String; 2],
+    /// Whether the colours are those of surfaces, on which lines must stay legible.
+    pub soft: bool,
+}
+
 /// A trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
@@ -64,6 +73,20 @@ pub enum TraceView {
 }
 
 impl TraceView {
+    /// What its colours are values of, if it has any.
+    pub fn scale(&self) -> Option<ScaleView> {
+        let whole = |value: f64| format!("{value:.0}").replace('-', "\u{2212}").replace("\u{2212}0", "0");
+        let (title, ends, soft) = match self {
+            Self::Wavefront(waves) if waves.levels().any(|level| level.is_some()) => {
+                ("steps to the goal", [waves.farthest.to_string(), "0".to_owned()], true)
+            }
+            Self::Field { logarithmic: true, span, .. } => ("ln of the potential", span.map(whole), false),
+            Self::Field { span, .. } => ("potential", span.map(|value| format!("{value:.2}")), false),
+            _ => return None,
+        };
+        Some(ScaleView { title, ends, soft })
+    }
+
     /// The trace; none where there is nothing to show.
     pub fn new(trace: &Trace, topology: &Topology, grain: Grain) -> Option<Self> {
         let pairs = |pairs: &[[Configuration; 2]]| grain.configurations(pairs.iter().flatten());

@@ -1,7 +1,8 @@
 //! A world that the arm moves in: obstacles, what it carries, which pairs can meet, and the C-obstacles.
 
+use super::names::{self, NameView};
 use super::numbers::{Chain, Grain, ShapeView, number, outline};
-use super::trace::TraceView;
+use super::trace::{ScaleView, TraceView};
 use crate::check::CheckedProof;
 use crate::cspace::CObstacle;
 use crate::draw::color::{self, Rgb};
@@ -9,6 +10,9 @@ use crate::geometry::{Convex, Point};
 use crate::model::{Grip, Obstacle, Pair, Preference, Region, Scene, Shape};
 use crate::space::Configuration;
 use serde::{Serialize, Serializer};
+
+/// More obstacles than this are numbered, not named.
+pub const NAMED: usize = 16;
 
 /// An obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -101,12 +105,17 @@ pub struct WorldView {
     /// Which shapes can meet: link, part, obstacle, first piece, and the one after the last.
     pub pairs: Vec<[usize; 5]>,
     pub c_obstacles: Vec<ContourView>,
+    /// Where the names of C-obstacles stand.
+    pub names: Vec<NameView>,
     /// What the obstacles would block that link 2 may reach into here. Pages show one world at a time, and do without.
     #[serde(skip)]
     pub open: Vec<ContourView>,
     pub regions: Vec<RegionView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trace: Option<TraceView>,
+    /// What the colours of the trace are values of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scale: Option<ScaleView>,
     /// Boxes that prove that there is no path: least and greatest values of each.
     pub proof: Chain,
     /// Configurations that were to be reached and are not.
@@ -116,20 +125,34 @@ pub struct WorldView {
 impl WorldView {
     /// A scene, what there is to say of it, and the contours of its C-obstacles.
     pub fn new(scene: &Scene, label: String, c_obstacles: &[CObstacle], grain: Grain) -> Self {
-        let obstacles = scene.workspace().obstacles.iter().enumerate();
+        let obstacles = &scene.workspace().obstacles;
+        let contours = contours(c_obstacles, grain);
         Self {
             label,
             clearance: scene.workspace().clearance,
-            obstacles: obstacles.map(|(number, o)| obstacle(scene, number, o, grain)).collect(),
+            obstacles: obstacles.iter().enumerate().map(|(number, o)| obstacle(scene, number, o, grain)).collect(),
             payload: payload(scene, grain),
             pairs: ranges(scene.pairs()),
-            c_obstacles: contours(c_obstacles, grain),
+            names: names::places(scene.arm(), obstacles.len(), &contours, grain),
+            c_obstacles: contours,
             open: Vec::new(),
             regions: scene.workspace().preferences.iter().map(|preference| region(preference, grain)).collect(),
             trace: None,
+            scale: None,
             proof: Chain::default(),
             unreached: Vec::new(),
         }
+    }
+
+    /// The same with what a planner saw.
+    pub fn traced(self, trace: Option<TraceView>) -> Self {
+        let scale = trace.as_ref().and_then(TraceView::scale);
+        Self { trace, scale, ..self }
+    }
+
+    /// What an obstacle is called: its name or, where there are many, its number.
+    pub fn called(&self, obstacle: usize) -> String {
+        if self.obstacles.len() > NAMED { (obstacle + 1).to_string() } else { self.obstacles[obstacle].name.clone() }
     }
 
     /// The same with proofs.

@@ -140,7 +140,7 @@ fn a_wavefront_between_limits() {
         Trace::Wavefront { cells: [cells.n; 2], labels: labels.to_vec(), expanded: Vec::new() }
     });
     let words = words(&text);
-    for word in ["shoulder (degrees)", "elbow (degrees)", "shelf", "post <1>", "fence & gate", "steps to the goal"] {
+    for word in ["shoulder", "elbow", "90\u{b0}", "shelf", "post <1>", "fence & gate", "steps to the goal"] {
         assert!(words.contains(word), "{word} is missing in {words}");
     }
     assert!(text.contains("post &lt;1&gt;") && text.contains("fence &amp; gate"));
@@ -154,7 +154,7 @@ fn a_field_on_a_torus() {
         potential: cells.potential(goal),
     });
     let words = words(&text);
-    assert!(words.contains("shoulder (degrees, wraps around)") && words.contains("equipotentials"));
+    assert!(words.contains("shoulder, wraps around") && words.contains("equipotentials"));
     assert!(text.contains("stroke-dasharray"), "seams are dashed");
 }
 

@@ -6,6 +6,8 @@ const CSpace = (() => {
 
   /** More obstacles than this are a crowd. */
   const CROWD = 100;
+  /** The sides of cells that are narrower are not drawn, pixels. */
+  const NARROW = 5;
 
   function bounds(flat) {
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
@@ -74,13 +76,11 @@ const CSpace = (() => {
     }
   }
 
-  function surfaces(context, panel, boxes, color, alpha = 0.8) {
+  function surfaces(context, panel, boxes, color) {
     context.beginPath();
     rectangles(context, panel, boxes);
-    context.globalAlpha = alpha;
     context.fillStyle = color;
     context.fill();
-    context.globalAlpha = 1;
   }
 
   const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/';
@@ -101,9 +101,10 @@ const CSpace = (() => {
       pixels.data.set([...palette[level], 255], at);
     }
     raster.getContext('2d').putImageData(pixels, 0, 0);
-    const { x, y, width, height } = panel.rect;
+    const far = panel.whole.map(([low, high], k) => low + (high - low) * extent[k]);
+    const [[x0, y0], [x1, y1]] = [panel.at([panel.whole[0][0], far[1]]), panel.at([far[0], panel.whole[1][0]])];
     context.imageSmoothingEnabled = false;
-    context.drawImage(raster, x, y + height * (1 - extent[1]), width * extent[0], height * extent[1]);
+    context.drawImage(raster, x0, y0, x1 - x0, y1 - y0);
   }
 
   function below(context, panel, view, seen) {
@@ -146,7 +147,7 @@ const CSpace = (() => {
     }
     if (seen.kind === 'channel' && view.shows('cells')) {
       context.beginPath();
-      for (const cell of seen.cells) shifted(context, panel, cell, circles(view), true);
+      for (const cell of seen.cells) if (isWide(panel, cell)) shifted(context, panel, cell, circles(view), true);
       context.stroke();
     }
     if (seen.kind === 'boxes' && view.shows('boxes')) {
@@ -164,6 +165,12 @@ const CSpace = (() => {
     }
     if (seen.expanded && view.shows('expanded')) expanded(context, panel, view, seen.expanded);
     if (seen.kind === 'field') field(context, panel, view, seen);
+  }
+
+  /** Whether the sides of a cell are drawn: those of narrow ones together make a moire. */
+  function isWide(panel, cell) {
+    const [[low, high]] = bounds(cell);
+    return (high - low) * panel.pixels >= NARROW;
   }
 
   /** Samples: where edges begin. */
@@ -231,15 +238,19 @@ const CSpace = (() => {
     context.fill();
   }
 
+  /** Hatched, as nothing else is, on paper of a kind. */
   function proof(context, panel, boxes) {
     context.beginPath();
     rectangles(context, panel, boxes);
-    context.globalAlpha = 0.5;
-    context.fillStyle = panel.theme.barred;
+    context.globalAlpha = 0.45;
+    context.fillStyle = panel.theme.paper;
     context.fill();
     context.globalAlpha = 1;
-    context.lineWidth = 1;
-    context.strokeStyle = panel.theme.barred;
+    hatch(context, panel.rect, panel.theme.proof);
+    context.beginPath();
+    rectangles(context, panel, boxes);
+    context.lineWidth = 1.1;
+    context.strokeStyle = panel.theme.proof;
     context.stroke();
   }
 
@@ -249,29 +260,19 @@ const CSpace = (() => {
       shifted(context, panel, region.corners, circles(view), true);
       context.setLineDash([7, 4]);
       context.lineWidth = 1.4;
-      context.strokeStyle = region.epsilon > 0 ? panel.theme.barred : panel.theme.accent;
+      context.strokeStyle = region.epsilon > 0 ? panel.theme.avoided : panel.theme.preferred;
       context.stroke();
       context.setLineDash([]);
     }
   }
 
+  /** Names within the C-obstacles; those that would cover what they name, or another, are left out. */
   function names(context, panel, view, world) {
-    const size = ({ contour }) => {
-      const [[x0, x1], [y0, y1]] = bounds(contour);
-      return (x1 - x0) * (y1 - y0);
-    };
-    const shown = world.obstacles.map((obstacle, index) => {
-      const contours = view.hidden.has(obstacle.name) ? [] : world.c_obstacles.filter((c) => c.obstacle === index);
-      if (!contours.length) return null;
-      const largest = contours.reduce((best, c) => (size(c) > size(best) ? c : best));
-      const middle = bounds(largest.contour).map(([a, b], k) => {
-        const value = (a + b) / 2;
-        const [low, high] = panel.shown[k];
-        return turning(view)[k] ? value - TURN * Math.floor((value - (low + high) / 2) / TURN + 0.5) : value;
-      });
-      return [view.named ? obstacle.name : String(index + 1), panel.at(middle)];
-    });
-    Workspace.labels(context, panel, shown.filter(Boolean));
+    const [[x0, x1], [y0, y1]] = panel.shown;
+    const [width, height] = panel.whole.map(([low, high]) => high - low);
+    const room = (panel.rect.width * width / (x1 - x0)) * (panel.rect.height * height / (y1 - y0));
+    const shown = world.names.filter(({ obstacle, at }) => !view.hidden.has(world.obstacles[obstacle].name) && panel.contains(panel.at(at)));
+    Labels.inside(context, panel, markers(panel, view), shown.map(({ obstacle, at, area }) => [view.called(obstacle), panel.at(at), area * room]));
   }
 
   /** What stays while the arm moves. */
@@ -283,8 +284,7 @@ const CSpace = (() => {
     if (seen) above(context, panel, view, seen);
     if (view.shows('regions')) regions(context, panel, view, world);
     if (view.shows('proof') && world.proof.length) proof(context, panel, Think.begun(world.proof, 4, Think.part(view, 'proof')));
-    // Numbers of many would only flicker while something moves.
-    if (view.shows('names') && view.shows('c-obstacles') && (view.named || !view.light)) names(context, panel, view, world);
+    if (view.shows('names') && view.shows('c-obstacles') && !view.isCrowded) names(context, panel, view, world);
     if (view.shows('path')) {
       for (const path of Think.paths(view, view.pathsHere())) {
         pathLine(context, panel.theme, path, () => {
@@ -295,8 +295,13 @@ const CSpace = (() => {
       }
     }
     goalLines(context, panel, view);
+    if (view.model.stuck?.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
     view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
-    ring(context, panel, place(view, panel, view.beginning()), 5.5);
+    ring(context, panel, place(view, panel, view.beginning()), 7);
+    if (view.isTask) {
+      const ends = view.pathsHere().map((path) => [String(path.step), Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
+      Labels.beside(context, panel, ends, markers(panel, view));
+    }
   }
 
   /** Goals of which a joint is free: dots along a line. */
@@ -315,6 +320,9 @@ const CSpace = (() => {
   function place(view, panel, q) {
     return panel.at(q.map((value, k) => wrap(view.model.arm.joints[k], value)));
   }
+
+  /** Where start, goals and what is stuck are marked. */
+  const markers = (panel, view) => [view.beginning(), ...view.goals().map(([q]) => q), ...(view.model.stuck?.at?.slice(0, 1) ?? [])].map((q) => place(view, panel, q));
 
   function ring(context, panel, [x, y], r) {
     context.beginPath();
@@ -340,10 +348,10 @@ const CSpace = (() => {
     const { theme } = panel;
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
-    context.arc(x, y, 6, 0, 2 * Math.PI);
+    context.arc(x, y, 4.8, 0, 2 * Math.PI);
     context.fillStyle = theme.accent;
     context.fill();
-    context.lineWidth = 2;
+    context.lineWidth = 1.2;
     context.strokeStyle = theme.paper;
     context.stroke();
     if (!view.probe) return;
@@ -361,5 +369,31 @@ const CSpace = (() => {
     line(context, [[px, py - 7], [px, py + 7]]);
   }
 
-  return { still, moving, place };
+  /** The scale of colours, to the right of the panel. */
+  function beside(context, panel, view) {
+    const { scale, trace: seen } = view.world;
+    if (!scale || !view.shows(seen.kind === 'field' ? 'equipotentials' : seen.kind)) return;
+    const { rect, theme } = panel;
+    const height = Math.min(200, rect.height);
+    const [x, y] = [rect.x + rect.width + 14, rect.y + rect.height - height];
+    for (let k = 0; k < height; k += 1) {
+      const color = theme.scale(1 - k / (height - 1));
+      context.fillStyle = scale.soft ? Theme.mixed(color, theme.paper, 0.25) : color;
+      context.fillRect(x, y + k, 12, 1.5);
+    }
+    context.font = '12px system-ui, sans-serif';
+    context.fillStyle = theme.grey;
+    context.textAlign = 'left';
+    context.textBaseline = 'middle';
+    scale.ends.forEach((end, k) => context.fillText(end, x + 17, y + (k ? height - 5 : 5)));
+    context.save();
+    context.translate(x + 25, y + height / 2);
+    context.rotate(-Math.PI / 2);
+    context.textAlign = 'center';
+    context.fillStyle = theme.ink;
+    context.fillText(scale.title, 0, 0);
+    context.restore();
+  }
+
+  return { still, moving, beside, place };
 })();

@@ -6,7 +6,7 @@ class Theme {
   constructor(root) {
     const style = getComputedStyle(root);
     const value = (name) => style.getPropertyValue(`--${name}`).trim();
-    for (const name of ['ink', 'grey', 'pale', 'faint', 'paper', 'accent', 'barred', 'free', 'mixed', 'edge', 'channel', 'probe']) {
+    for (const name of ['ink', 'grey', 'pale', 'faint', 'ghost', 'paper', 'accent', 'barred', 'proof', 'free', 'mixed', 'edge', 'channel', 'avoided', 'preferred', 'probe']) {
       this[name] = value(name);
     }
     this.dark = value('dark') === '1';
@@ -17,6 +17,11 @@ class Theme {
     const channel = (text, k) => parseInt(text.slice(1 + 2 * k, 3 + 2 * k), 16);
     const mix = (k) => Math.round(channel(color, k) + (channel(other, k) - channel(color, k)) * part);
     return `#${[0, 1, 2].map((k) => mix(k).toString(16).padStart(2, '0')).join('')}`;
+  }
+
+  /** A colour that is given by its name or as #rrggbb. */
+  tint(color) {
+    return this[color] ?? color;
   }
 
   /** Surface and outline of an obstacle. */
@@ -50,17 +55,23 @@ function ticks(low, high, degrees, room, spacing) {
   return found;
 }
 
+/** How many times a panel magnifies at the most: numbers of a view have five digits. */
+const MOST_TIMES = 2000;
+
 class Panel {
   /**
    * @param canvas where to draw
    * @param options `x`, `y`: ranges; `degrees`: for both axes; `titles`; `scale`: 'fill' (one scale, more than the ranges
    * may show), 'fit' (one scale, just the ranges) or 'free'; `still` and `moving`: functions that draw what stays and
-   * what moves; `margins`
+   * what moves; `beside`: one that draws what stays beyond the sides; `margins`
    */
   constructor(canvas, options) {
     Object.assign(this, { degrees: [false, false], seams: [false, false], titles: ['', ''], scale: 'free' }, options);
     this.canvas = canvas;
     this.overlays = [];
+    /** How many times it is magnified, and what of the ranges is then in the middle. */
+    this.times = 1;
+    this.middle = [0, 0];
     this.back = document.createElement('canvas');
     this.scratch = document.createElement('canvas');
     this.dirty = true;
@@ -86,7 +97,8 @@ class Panel {
   /** Ranges to pixels. */
   layout() {
     if (!this.size) return;
-    const [left, right, top, bottom] = this.margins ?? [48, 10, 8, 40];
+    const [narrow, right, top, bottom] = this.margins ?? [48, 10, 8, 40];
+    const left = narrow + this.digits;
     const rect = { x: left, y: top, width: this.size[0] - left - right, height: this.size[1] - top - bottom };
     let [x, y] = [this.x.slice(), this.y.slice()];
     for (const range of [x, y]) if (!(range[1] > range[0])) [range[0], range[1]] = [range[0] - 0.5, range[0] + 0.5];
@@ -101,7 +113,64 @@ class Panel {
       }
     }
     this.rect = rect;
-    this.shown = [x, y];
+    this.whole = [x, y];
+    this.shown = this.whole.map(([low, high], k) => {
+      const half = (high - low) / 2 / this.times;
+      this.middle[k] = this.times > 1 ? Math.min(high - half, Math.max(low + half, this.middle[k])) : (low + high) / 2;
+      return [this.middle[k] - half, this.middle[k] + half];
+    });
+  }
+
+  /** Room for the digits that values have when they are magnified, pixels. */
+  get digits() {
+    return 7 * Math.max(0, Math.ceil(Math.log10(this.times)) - 1);
+  }
+
+  /** Magnifies by a factor; what is at a spot stays there as far as it can. */
+  magnify(factor, spot) {
+    const value = this.value(spot);
+    this.times = Math.min(MOST_TIMES, Math.max(1, this.times * factor));
+    if (this.times < 1.001) this.times = 1;
+    this.layout();
+    const now = this.value(spot);
+    this.middle = this.middle.map((x, k) => x + value[k] - now[k]);
+    this.layout();
+    this.redraw();
+  }
+
+  /** Moves what is magnified by so many pixels. */
+  move(dx, dy) {
+    const [from, to] = [this.value([0, 0]), this.value([dx, dy])];
+    this.middle = this.middle.map((x, k) => x - (to[k] - from[k]));
+    this.layout();
+    this.redraw();
+  }
+
+  /** Moves what is magnified so that a value is seen. */
+  reveal(value) {
+    const isSeen = value.every((x, k) => x >= this.shown[k][0] && x <= this.shown[k][1]);
+    if (isSeen || this.times === 1) return;
+    this.middle = value.slice();
+    this.layout();
+    this.redraw();
+  }
+
+  /** Shows all again. */
+  reset() {
+    this.times = 1;
+    this.layout();
+    this.redraw();
+  }
+
+  /** Draws all anew with the next picture of the screen. */
+  redraw() {
+    this.dirty = true;
+    if (this.isAsked) return;
+    this.isAsked = true;
+    requestAnimationFrame(() => {
+      this.isAsked = false;
+      this.draw();
+    });
   }
 
   at([x, y]) {
@@ -144,6 +213,7 @@ class Panel {
       this.axes(context);
       this.within(context, () => this.still?.(context, this));
       this.border(context);
+      this.beside?.(context, this);
     }
     const context = this.begin(this.canvas);
     context.drawImage(this.back, 0, 0, this.size[0], this.size[1]);
@@ -192,7 +262,7 @@ class Panel {
     context.fillStyle = theme.grey;
     context.strokeStyle = theme.faint;
     context.lineWidth = 1;
-    const [across, up] = [0, 1].map((k) => ticks(...shown[k], this.degrees[k], [rect.width, rect.height][k], [56, 34][k]));
+    const [across, up] = [0, 1].map((k) => ticks(...shown[k], this.degrees[k], [rect.width, rect.height][k], [56 + 1.4 * this.digits, 34][k]));
     context.textAlign = 'center';
     context.textBaseline = 'top';
     for (const { value, text } of across) {
@@ -212,7 +282,7 @@ class Panel {
     context.textBaseline = 'bottom';
     context.fillText(this.titles[0], rect.x + rect.width / 2, rect.y + rect.height + 36);
     context.save();
-    context.translate(rect.x - 36, rect.y + rect.height / 2);
+    context.translate(rect.x - 36 - this.digits, rect.y + rect.height / 2);
     context.rotate(-Math.PI / 2);
     context.fillText(this.titles[1], 0, 0);
     context.restore();
@@ -252,6 +322,33 @@ function trace(context, panel, flat, closed, by = [0, 0]) {
     else context.moveTo(x, y);
   }
   if (closed) context.closePath();
+}
+
+/** A cross on paper: where the arm gets stuck. */
+function cross(context, theme, [x, y]) {
+  for (const [r, width, color] of [[7.5, 6, theme.paper], [6, 2.6, theme.barred]]) {
+    [context.lineWidth, context.strokeStyle] = [width, color];
+    for (const side of [1, -1]) line(context, [[x - r, y - r * side], [x + r, y + r * side]]);
+  }
+}
+
+/** From one line of a hatch to the next, along the horizontal; pixels. */
+const HATCH = 7;
+
+/** Lines that rise to the right, within the current outline. */
+function hatch(context, rect, color) {
+  context.save();
+  context.clip();
+  context.beginPath();
+  const last = rect.x + rect.width + rect.y + rect.height;
+  for (let sum = HATCH * Math.ceil((rect.x + rect.y) / HATCH); sum <= last; sum += HATCH) {
+    context.moveTo(rect.x, sum - rect.x);
+    context.lineTo(sum - rect.y, rect.y);
+  }
+  context.lineWidth = 1.6;
+  context.strokeStyle = color;
+  context.stroke();
+  context.restore();
 }
 
 /** Adds the outline of a rounded convex shape: sides moved outwards, joined by arcs. */

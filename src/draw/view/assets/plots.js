@@ -73,7 +73,7 @@ const Plots = (() => {
       const panel = new Panel(canvas, {
         x: [0, 1],
         y: [-1, 1],
-        titles: ['s', quantity.title],
+        titles: ['time (s)', quantity.title],
         margins: [52, 8, 6, 38],
         still: (context, panel) => view.model.clock && draw(context, panel, view, quantity),
         moving: (context, panel) => view.model.clock && cursor(context, panel, view),
@@ -94,7 +94,7 @@ const Plots = (() => {
     const [first, second] = arm.joints.map((joint) => joint.name);
     legend.textContent = `${first} solid, ${second} dashed; limits dotted`;
     const units = [...new Set(arm.joints.map((joint) => joint.unit + per))].join(', ');
-    panel.titles = ['s', `${title} [${units}]`];
+    panel.titles = ['time (s)', `${title} (${units})`];
     panel.x = [0, Math.max(clock.time[clock.time.length - 1], 1e-6)];
     panel.y = span(view.model, key);
     panel.layout();

@@ -36,9 +36,18 @@ const LAYERS = [
 const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\u2022', waiting: '\u2026' };
 /** A finger that moves less than this has tapped; one that begins this near to the cross takes it. Pixels. */
 const [TAP, NEAR] = [10, 24];
+/** Where arrow keys lead, and by how many pixels they move what is magnified. */
+const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+const PAN = 40;
+/** What moves farther drags what is magnified, pixels. */
+const DRAG = 4;
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];
-/** More obstacles than this are numbered, not named. */
-const NAMED = 16;
+/** More obstacles than this are numbered, not named; of still more names show under the pointer alone. */
+const [NAMED, CROWDED] = [16, 40];
+/** Keys and buttons magnify so many times; a wheel's pixel by the exponential of so much. */
+const [MAGNIFIES, A_PIXEL] = [1.5, 0.002];
+/** A wheel that turned the page so short a time ago goes on doing that, milliseconds. */
+const SCROLLING = 300;
 
 class View {
   /** A view of `model` within `root`. */
@@ -76,9 +85,13 @@ class View {
   update(model) {
     this.model = model;
     this.traces = null;
-    this.named = (model.worlds[0]?.obstacles.length ?? 0) <= NAMED;
+    const count = model.worlds[0]?.obstacles.length ?? 0;
+    [this.named, this.isCrowded] = [count <= NAMED, count > CROWDED];
+    this.hovered = null;
     this.headings();
     this.choices();
+    if (!this.light) this.explain();
+    this.enumerate();
     const { workspace, cspace } = this.panels;
     const { joints, plane, one_scale: alike } = model.arm;
     [workspace.x, workspace.y] = model.frame;
@@ -88,6 +101,8 @@ class View {
     cspace.seams = joints.map((joint) => joint.circle);
     cspace.titles = joints.map((joint) => `${joint.name}${joint.unit === 'm' ? ' (m)' : ''}${joint.circle ? ', wraps around' : ''}`);
     cspace.scale = alike ? 'fit' : 'free';
+    // Beside it stands a scale of colours.
+    cspace.margins = model.worlds.some((world) => world.scale) ? [48, 56, 8, 40] : undefined;
     for (const panel of [workspace, cspace]) panel.layout();
     for (const plot of this.plots) plot.fit();
     this.learn.update(model);
@@ -124,11 +139,12 @@ class View {
     const learns = this.mode === 'learn';
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
-    parts.panels.hidden = learns && !this.learn.isSlice;
+    parts.panels.hidden = parts.legend.hidden = learns && !this.learn.isSlice;
     // While something is dragged, what is gone comes back.
     parts.transport.classList.toggle('still', !this.duration && !this.light);
     for (const button of parts.modes.children) button.setAttribute('aria-pressed', String(button.dataset.mode === this.mode));
     parts.scrubber.max = this.duration;
+    this.tick();
     this.seek(Math.min(this.time, this.duration));
     this.refresh();
   }
@@ -150,7 +166,7 @@ class View {
     if (this.mode === 'think') return motions[0];
     const time = this.mode === 'move' ? this.time : this.times.move;
     let found = 0;
-    for (let i = 1; i < motions.length && motions[i].from <= time + 1e-9; i += 1) found = i;
+    for (let i = 1; i < motions.length && motions[i].from <= time + 1e-6; i += 1) found = i;
     return motions[found];
   }
 
@@ -198,6 +214,20 @@ class View {
     return [...this.model.goals.map((q) => [q, alone]), ...unreached, ...ends.map((q) => [q, true])];
   }
 
+  /** What an obstacle is called: its name or, where there are many, its number. */
+  called(obstacle) {
+    return this.named ? this.world.obstacles[obstacle].name : String(obstacle + 1);
+  }
+
+  get isTask() {
+    return this.model.paths.some((path) => path.step);
+  }
+
+  /** Whether there is somewhere to go, rather than a configuration alone. */
+  get isMotion() {
+    return this.model.paths.length + this.model.goals.length > 0;
+  }
+
   jointColors() {
     const { theme } = this.panels.workspace;
     return [theme.ink, theme.accent];
@@ -206,7 +236,7 @@ class View {
   // What the page is made of.
 
   build() {
-    const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label });
+    const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label, 'aria-describedby': 'told' });
     const [left, right] = [canvas('Workspace'), canvas('Configuration space')];
     const parts = {
       title: element('h1'),
@@ -214,6 +244,10 @@ class View {
       status: element('p', { class: 'status', role: 'status' }),
       facts: element('dl', { class: 'facts' }),
       probe: element('p', { class: 'probe', 'aria-live': 'polite' }),
+      told: element('p', { class: 'unseen', id: 'told' }),
+      legend: element('ul', { class: 'legend', 'aria-label': 'Legend' }),
+      ticks: element('span', { class: 'ticks', 'aria-hidden': 'true' }),
+      steps: element('ol', { class: 'steps' }),
       play: element('button', { type: 'button', class: 'play', onclick: () => this.toggle() }, '\u25b6'),
       scrubber: element('input', {
         type: 'range', min: '0', max: '1', step: 'any', value: '0', 'aria-label': 'time',
@@ -230,31 +264,42 @@ class View {
     parts.speed = speed;
     const mode = (name, text) => element('button', { type: 'button', class: 'button', 'data-mode': name, onclick: () => this.switchTo(name) }, text);
     parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Move'), mode('think', 'Think'), mode('learn', 'Learn'));
-    parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.modes, parts.play, parts.scrubber, parts.clock, speed);
+    parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.modes, parts.play, element('span', { class: 'track' }, parts.ticks, parts.scrubber), parts.clock, speed);
     parts.panels = element(
       'section',
       { class: 'panels' },
-      element('figure', {}, element('figcaption', {}, 'Workspace'), left),
-      element('figure', {}, element('figcaption', {}, 'Configuration space'), right),
+      element('figure', {}, element('figcaption', {}, 'Workspace'), left, this.buttons('workspace', 'Workspace')),
+      element('figure', {}, element('figcaption', {}, 'Configuration space'), right, this.buttons('cspace', 'Configuration space')),
+      parts.probe,
     );
     this.parts = parts;
     this.root.append(
       element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
-      parts.panels,
-      this.learn.parts.panels,
-      parts.probe,
-      parts.transport,
-      this.learn.parts.choice,
-      parts.step,
-      this.learn.parts.told,
-      parts.plots,
       element(
-        'section',
-        { class: 'below' },
-        parts.facts,
-        element('fieldset', {}, element('legend', {}, 'Layers'), parts.layers),
-        element('fieldset', {}, element('legend', {}, 'Obstacles'), parts.obstacles),
+        'div',
+        { class: 'stage' },
+        element(
+          'div',
+          { class: 'pictures' },
+          parts.panels,
+          this.learn.parts.panels,
+          parts.legend,
+          parts.told,
+          parts.transport,
+          this.learn.parts.choice,
+          parts.step,
+          this.learn.parts.told,
+          parts.plots,
+        ),
+        element(
+          'aside',
+          { class: 'side', 'aria-label': 'What is shown' },
+          element('fieldset', { hidden: true }, element('legend', {}, 'Steps'), parts.steps),
+          element('fieldset', {}, element('legend', {}, 'Layers'), parts.layers),
+          element('fieldset', {}, element('legend', {}, 'Obstacles'), parts.obstacles),
+        ),
       ),
+      element('section', { class: 'below' }, parts.facts),
       help(),
     );
     this.panels = {
@@ -267,10 +312,14 @@ class View {
         x: [0, 1], y: [0, 1], scale: 'fit',
         still: (context, panel) => CSpace.still(context, panel, this),
         moving: (context, panel) => (this.mode === 'learn' ? this.learn.drawSlice(context, panel) : CSpace.moving(context, panel, this)),
+        beside: (context, panel) => CSpace.beside(context, panel, this),
       }),
     };
     this.plots = Plots.mount(parts.plots, this);
-    for (const panel of Object.values(this.panels)) this.listen(panel);
+    for (const panel of Object.values(this.panels)) {
+      this.listen(panel);
+      this.magnifies(panel);
+    }
     this.mark();
     this.recolor();
   }
@@ -290,6 +339,54 @@ class View {
     if (status.dataset.ending === ending && status.dataset.words === words) return;
     Object.assign(status.dataset, { ending, words });
     status.replaceChildren(element('span', { 'aria-hidden': 'true' }, SYMBOLS[ending]), ` ${words}`);
+  }
+
+  /** What the signs mean. */
+  explain() {
+    const { theme } = this.panels.workspace;
+    const signature = JSON.stringify([this.model.legend, theme.dark]);
+    if (signature === this.explained) return;
+    this.explained = signature;
+    this.parts.legend.replaceChildren(...Legend.items(theme, this.model.legend));
+  }
+
+  /** The steps of a task, to be gone to, and marks where each begins. */
+  enumerate() {
+    const { motions } = this.model;
+    const isTask = motions.length > 1;
+    this.parts.steps.parentElement.hidden = !isTask;
+    const steps = isTask ? motions : [];
+    this.parts.steps.replaceChildren(...steps.map(({ label, from }) => {
+      const go = element('button', { type: 'button', onclick: () => this.seek(from) }, element('span', {}, label), element('span', { class: 'at' }, `${from.toFixed(2)} s`));
+      return element('li', {}, go);
+    }));
+  }
+
+  /** Marks on the scrubber: where steps or phases begin. */
+  tick() {
+    let begin = 0;
+    const phases = this.mode === 'think' ? this.model.replay.map(({ seconds }) => (begin += seconds) - seconds) : this.model.motions.map(({ from }) => from);
+    const marks = phases.filter((at) => at > 0 && at < this.duration);
+    this.parts.ticks.replaceChildren(...marks.map((at) => {
+      const mark = element('i');
+      mark.style.setProperty('--at', String(at / this.duration));
+      return mark;
+    }));
+  }
+
+  /** What pictures show, for who does not see them. */
+  tell() {
+    if (this.playing || this.light) return;
+    const { arm } = this.model;
+    const touching = Geometry.contacts(arm, this.world, this.q);
+    const stands = `The arm is at ${this.valued(this.q)}. ${this.touched(touching)}.`;
+    const [path] = this.pathsHere();
+    const goes = () => {
+      const [n, end] = [path.points.length / 2, path.points.slice(-2)];
+      return `The path leads from ${this.valued(path.points.slice(0, 2))} to ${this.valued(end)}, over ${n - 2} places in between.`;
+    };
+    const proven = this.world.proof.length ? ' Boxes of colliding configurations, hatched, prove that there is no path.' : '';
+    this.parts.told.textContent = `${stands} ${path ? goes() : this.isMotion ? 'There is no path here.' : ''}${proven}`;
   }
 
   /** Layers that there are, and obstacles. */
@@ -340,7 +437,9 @@ class View {
   recolor() {
     const theme = new Theme(document.documentElement);
     for (const panel of [...this.allPanels(), ...Object.values(this.learn.panels)]) panel.theme = theme;
-    if (this.model) this.ready();
+    if (!this.model) return;
+    if (!this.light) this.explain();
+    this.ready();
   }
 
   allPanels() {
@@ -383,6 +482,9 @@ class View {
     if (motion !== before) {
       if (this.probe) this.examine(this.probe.q);
     }
+    const now = this.mode === 'move' ? this.model.motions.indexOf(motion) : -1;
+    [...parts.steps.children].forEach((item, k) => item.firstChild.setAttribute('aria-current', k === now ? 'step' : 'false'));
+    this.tell();
     for (const panel of this.allPanels()) panel.draw();
   }
 
@@ -410,6 +512,7 @@ class View {
   pause() {
     this.playing = false;
     this.mark();
+    if (this.model) this.tell();
   }
 
   mark() {
@@ -428,49 +531,133 @@ class View {
     const { canvas } = panel;
     const asTool = (name, event) => this.tool?.[name]?.(panel, panel.value(panel.spot(event)), event);
     const isCSpace = panel === this.panels.cspace;
-    /** Where a finger began, and whether it took the cross. */
-    let finger = null;
+    /** Whether the tool has the pointer. */
+    let taken = false;
+    /** Where a pointer was put down, whether it took the cross, and where it drags the picture from. */
+    let press = null;
+    /** The fingers that pinch: how far apart they are, and the spot between them. */
+    let pinch = null;
     canvas.addEventListener('pointerdown', (event) => {
-      finger = null;
-      if (asTool('down', event)) {
+      press = null;
+      taken = Boolean(asTool('down', event));
+      if (taken) {
         canvas.setPointerCapture(event.pointerId);
         event.preventDefault();
-      } else if (event.pointerType !== 'mouse') {
-        finger = { from: panel.spot(event), holds: isCSpace && this.isAtCross(panel.spot(event)) };
-      } else if (isCSpace && panel.contains(panel.spot(event))) {
-        this.pinned = !this.pinned;
-        this.examine(panel.value(panel.spot(event)));
+      } else if (event.button === 0) {
+        const spot = panel.spot(event);
+        press = { from: spot, last: spot, holds: isCSpace && event.pointerType !== 'mouse' && this.isAtCross(spot), drags: false };
+        if (panel.times > 1 && event.pointerType === 'mouse') canvas.setPointerCapture(event.pointerId);
       }
     });
     canvas.addEventListener('pointermove', (event) => {
-      if (asTool('move', event) || !isCSpace || !panel.contains(panel.spot(event))) return;
-      if (event.pointerType === 'mouse' ? !this.pinned : finger?.holds) this.examine(panel.value(panel.spot(event)));
+      if (asTool('move', event) || pinch) return;
+      const spot = panel.spot(event);
+      if (press && !press.holds && panel.times > 1) {
+        press.drags ||= Math.hypot(spot[0] - press.from[0], spot[1] - press.from[1]) > DRAG;
+        if (!press.drags) return;
+        panel.move(spot[0] - press.last[0], spot[1] - press.last[1]);
+        press.last = spot;
+        return;
+      }
+      if (!panel.contains(spot)) return;
+      if (!isCSpace) this.hover(panel, event);
+      else if (event.pointerType === 'mouse' ? !this.pinned : press?.holds) this.examine(panel.value(spot));
     });
     canvas.addEventListener('pointerup', (event) => {
-      if (asTool('up', event) || !finger) return;
+      taken = false;
+      if (asTool('up', event) || !press) return;
       const spot = panel.spot(event);
-      const isTap = Math.hypot(spot[0] - finger.from[0], spot[1] - finger.from[1]) < TAP;
-      const { holds } = finger;
-      finger = null;
-      if (!isTap) return;
-      this.tool?.tap(panel);
+      const { from, holds, drags } = press;
+      press = null;
+      if (drags || Math.hypot(spot[0] - from[0], spot[1] - from[1]) >= TAP) return;
+      const isMouse = event.pointerType === 'mouse';
+      if (!isMouse) this.tool?.tap(panel);
       if (!isCSpace || !panel.contains(spot)) return;
-      this.pinned = !holds;
+      this.pinned = isMouse ? !this.pinned : !holds;
       this.examine(holds ? null : panel.value(spot));
     });
     canvas.addEventListener('pointercancel', (event) => {
-      finger = null;
+      [press, taken] = [null, false];
       asTool('up', event);
     });
     canvas.addEventListener('pointerleave', () => {
       if (isCSpace && !this.pinned) this.examine(null);
+      if (!isCSpace) this.hover(panel, null);
     });
-    // What begins on a handle does not scroll the page.
+    // What begins on a handle does not scroll the page, nor do two fingers, nor one in what is magnified.
     const takes = ({ clientX, clientY }) => {
       const touch = { clientX, clientY, pointerType: 'touch' };
-      return asTool('grasps', touch) || (isCSpace && this.isAtCross(panel.spot(touch)));
+      return panel.times > 1 || asTool('grasps', touch) || (isCSpace && this.isAtCross(panel.spot(touch)));
     };
-    canvas.addEventListener('touchstart', (event) => event.touches.length === 1 && takes(event.touches[0]) && event.preventDefault(), { passive: false });
+    const between = ([a, b]) => ({
+      apart: Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY),
+      spot: panel.spot({ clientX: (a.clientX + b.clientX) / 2, clientY: (a.clientY + b.clientY) / 2 }),
+    });
+    canvas.addEventListener('touchstart', (event) => {
+      const { touches } = event;
+      if (touches.length === 1 ? takes(touches[0]) : touches.length === 2) event.preventDefault();
+      pinch = touches.length === 2 && !taken ? between(touches) : null;
+      if (pinch) press = null;
+    }, { passive: false });
+    canvas.addEventListener('touchmove', (event) => {
+      if (!pinch || event.touches.length !== 2) return;
+      event.preventDefault();
+      const now = between(event.touches);
+      panel.move(now.spot[0] - pinch.spot[0], now.spot[1] - pinch.spot[1]);
+      panel.magnify(now.apart / pinch.apart, now.spot);
+      pinch = now;
+    }, { passive: false });
+    for (const end of ['touchend', 'touchcancel']) canvas.addEventListener(end, () => (pinch = null));
+  }
+
+  /** Magnifies by wheel and double click. */
+  magnifies(panel) {
+    const { canvas } = panel;
+    let scrolled = -Infinity;
+    document.addEventListener('scroll', () => (scrolled = performance.now()), { passive: true });
+    canvas.addEventListener('wheel', (event) => {
+      const spot = panel.spot(event);
+      const leaves = panel.times === 1 && (event.deltaY > 0 || (!event.ctrlKey && performance.now() - scrolled < SCROLLING));
+      if (leaves || !panel.contains(spot)) {
+        // A pinch on a pad would magnify the page.
+        if (event.ctrlKey) event.preventDefault();
+        return;
+      }
+      event.preventDefault();
+      const pixels = event.deltaY * (event.deltaMode === 1 ? 30 : 1) * (event.ctrlKey ? 4 : 1);
+      panel.magnify(Math.exp(-A_PIXEL * Math.min(400, Math.max(-400, pixels))), spot);
+    }, { passive: false });
+    canvas.addEventListener('dblclick', (event) => {
+      const takes = this.tool?.grasps(panel, panel.value(panel.spot(event)), event);
+      if (panel.times > 1 && !takes) panel.reset();
+    });
+  }
+
+  /** Magnifies about the cross or the middle. */
+  magnify(panel, factor) {
+    const { rect } = panel;
+    const at = panel === this.panels.cspace && this.probe ? panel.at(this.probe.q) : null;
+    panel.magnify(factor, at && panel.contains(at) ? at : [rect.x + rect.width / 2, rect.y + rect.height / 2]);
+  }
+
+  buttons(name, label) {
+    const button = (text, what, act) => element('button', { type: 'button', class: 'button', 'aria-label': `${what}: ${label}`, title: what, onclick: () => act(this.panels[name]) }, text);
+    return element(
+      'span',
+      { class: 'zoom' },
+      button('+', 'zoom in', (panel) => this.magnify(panel, MAGNIFIES)),
+      button('\u2212', 'zoom out', (panel) => this.magnify(panel, 1 / MAGNIFIES)),
+      button('\u21ba', 'show all', (panel) => panel.reset()),
+    );
+  }
+
+  /** Names the obstacle under the pointer, where they have numbers or none. */
+  hover(panel, event) {
+    const index = event && !this.named ? Workspace.found(this, panel.value(panel.spot(event))) : null;
+    if (index === null && !this.hovered) return;
+    const [x, y] = event ? panel.spot(event) : [0, 0];
+    this.hovered = index === null ? null : [`${index + 1} ${this.world.obstacles[index].name}`, x, y - 14];
+    panel.draw();
   }
 
   /** Whether a finger there takes the cross in the configuration space. */
@@ -492,24 +679,44 @@ class View {
     if (!q) this.pinned = false;
     const text = this.probe ? this.described() : '';
     if (this.parts.probe.textContent !== text) this.parts.probe.textContent = text;
+    if (this.probe) this.follow(this.probe.q);
     this.parts.probe.dataset.free = this.probe ? String(!(this.probe.contacts[0]?.distance <= 0)) : '';
     for (const panel of Object.values(this.panels)) panel.draw();
   }
 
+  /** On a small screen what is said stands where the finger is: above it, as far as there is room. */
+  follow(q) {
+    const { canvas } = this.panels.cspace;
+    const [x, y] = this.panels.cspace.at(q);
+    const { style } = this.parts.probe;
+    style.setProperty('--x', `${Math.round(canvas.offsetParent.offsetLeft + canvas.offsetLeft + x)}px`);
+    style.setProperty('--y', `${Math.round(canvas.offsetParent.offsetTop + canvas.offsetTop + y)}px`);
+  }
+
   described() {
-    const { q, contacts } = this.probe;
+    return `${this.valued(this.probe.q)}: ${this.touched(this.probe.contacts)}`;
+  }
+
+  /** A configuration in words. */
+  valued(q) {
+    // With more digits where they can be seen.
+    const more = Math.floor(Math.log10(this.panels.cspace.times));
+    const value = (joint, x) => (joint.unit === 'rad' ? `${((x * 180) / Math.PI).toFixed(1 + more)}\u00b0` : `${x.toFixed(3 + more)} m`);
+    return this.model.arm.joints.map((joint, k) => `${joint.name} ${value(joint, q[k])}`).join(', ');
+  }
+
+  /** What is touched, or nearest, in words. */
+  touched(contacts) {
     const { arm } = this.model;
-    const value = (joint, x) => (joint.unit === 'rad' ? `${((x * 180) / Math.PI).toFixed(1)}\u00b0` : `${x.toFixed(3)} m`);
-    const at = arm.joints.map((joint, k) => `${joint.name} ${value(joint, q[k])}`).join(', ');
     const hits = contacts.filter((c) => c.distance <= 0);
     const who = (c) => (c.carried ? `payload "${c.body}"` : `link "${arm.links[c.link].name}"`);
     const pair = (c) => `${who(c)} and "${this.world.obstacles[c.obstacle].name}"`;
     const depth = (c) => `${(-c.distance * 1000).toPrecision(3)} mm deep`;
-    if (hits.length) return `${at}: touches. ${hits.map((c) => `${pair(c)}, ${depth(c)}`).join('; ')}`;
+    if (hits.length) return `touches. ${hits.map((c) => `${pair(c)}, ${depth(c)}`).join('; ')}`;
     const [nearest] = contacts;
-    if (!nearest) return `${at}: free; nothing can be hit`;
+    if (!nearest) return 'free; nothing can be hit';
     const room = nearest.distance <= this.world.clearance ? 'nearer than the clearance asked for' : 'free';
-    return `${at}: ${room}; nearest: ${pair(nearest)}, ${(nearest.distance * 1000).toPrecision(3)} mm`;
+    return `${room}; nearest: ${pair(nearest)}, ${(nearest.distance * 1000).toPrecision(3)} mm`;
   }
 
   // Keys.
@@ -517,8 +724,8 @@ class View {
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.target.matches?.('input:not([type=checkbox]):not([type=range]), textarea, select')) return;
-    const { canvas } = this.panels.cspace;
-    if (event.target === canvas && this.nudge(event)) return;
+    const panel = Object.values(this.panels).find(({ canvas }) => event.target === canvas);
+    if (panel && (this.zooms(panel, event) || (panel === this.panels.cspace && this.nudge(event)))) return;
     const control = event.target.matches?.('button, input, a, summary');
     const step = event.shiftKey ? 0.5 : 0.05;
     const keys = {
@@ -532,6 +739,7 @@ class View {
       l: () => this.switchTo(this.mode === 'learn' ? 'move' : 'learn'),
       '+': () => this.hasten(SPEEDS[Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + 1)]),
       '-': () => this.hasten(SPEEDS[Math.max(0, SPEEDS.indexOf(this.speed) - 1)]),
+      0: () => Object.values(this.panels).forEach((panel) => panel.reset()),
       Escape: () => this.examine(null),
     };
     const done = keys[event.key]?.();
@@ -539,20 +747,32 @@ class View {
     else if (keys[event.key] && !control) event.preventDefault();
   }
 
-  /** Arrow keys move the cross in the configuration space. */
+  /** Keys that magnify a panel, and that move what is magnified; in the configuration space what is seen follows the cross. */
+  zooms(panel, event) {
+    const way = WAYS[event.key];
+    const keys = { '+': () => this.magnify(panel, MAGNIFIES), '=': () => this.magnify(panel, MAGNIFIES), '-': () => this.magnify(panel, 1 / MAGNIFIES), 0: () => panel.reset() };
+    const pans = way && event.shiftKey && panel.times > 1 && panel === this.panels.workspace;
+    if (pans) panel.move(-PAN * way[0], PAN * way[1]);
+    else if (keys[event.key]) keys[event.key]();
+    else return false;
+    event.preventDefault();
+    return true;
+  }
+
+  /** Arrow keys move the cross in the configuration space, by less where it is magnified. */
   nudge(event) {
-    const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
-    const way = ways[event.key];
+    const way = WAYS[event.key];
     if (!way) return false;
     const from = this.probe?.q ?? this.q;
     const { joints } = this.model.arm;
-    const step = (joint) => (joint.unit === 'rad' ? Math.PI / 180 : (joint.domain[1] - joint.domain[0]) / 200) * (event.shiftKey ? 10 : 1);
+    const step = (joint) => (joint.unit === 'rad' ? Math.PI / 180 : (joint.domain[1] - joint.domain[0]) / 200) * (event.shiftKey ? 10 : 1) / this.panels.cspace.times;
     const next = joints.map((joint, k) => {
       const value = Geometry.wrap(joint, from[k] + way[k] * step(joint));
       return joint.circle ? value : Math.min(joint.domain[1], Math.max(joint.domain[0], value));
     });
     this.pinned = true;
     this.examine(next);
+    this.panels.cspace.reveal(next);
     event.preventDefault();
     return true;
   }
@@ -568,7 +788,10 @@ function help() {
     ['Home, End', 'to the start, to the end'],
     ['t', 'the motion, or how the planner came to it'],
     ['l', 'lessons: contact angles, the two tests of penetration, Minkowski differences'],
-    ['+, \u2212', 'faster, slower'],
+    ['+, \u2212', 'faster, slower; in a panel that was clicked: zoom'],
+    ['wheel, two fingers, then drag', 'zoom where the pointer is, and move what is seen'],
+    ['Shift and arrow keys in a workspace that is magnified', 'move what is seen'],
+    ['0, double click', 'shows all again'],
     ['Escape', 'takes the tried arm away'],
   ];
   const list = element('dl', {}, ...rows.flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));

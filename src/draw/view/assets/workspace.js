@@ -8,7 +8,6 @@ const Workspace = (() => {
   const FINE = 0.0125;
   /** Frames of joints: length of an axis, pixels. */
   const AXIS = 46;
-  const FONT = '600 12px system-ui, sans-serif';
 
   function outline(context, panel, obstacle) {
     context.beginPath();
@@ -37,55 +36,50 @@ const Workspace = (() => {
     });
   }
 
+  /** Which of the arms is which, and the names of obstacles, above the arm. */
   function names(context, panel, view, world) {
-    const shown = world.obstacles.map((obstacle, index) => {
-      if (obstacle.own === 0 || view.hidden.has(obstacle.name)) return null;
-      return [view.named ? obstacle.name : String(index + 1), panel.at(middle(obstacle))];
-    });
-    labels(context, panel, shown.filter(Boolean));
-  }
-
-  /** Texts about spots, moved into the panel; one that would lie over another is left out. */
-  function labels(context, panel, texts) {
-    const { rect } = panel;
-    const taken = [];
-    context.font = FONT;
-    for (const [text, [x, y]] of texts) {
-      const [w, h] = [context.measureText(text).width / 2 + 3, 9];
-      const at = [Math.min(rect.x + rect.width - w, Math.max(rect.x + w, x)), Math.min(rect.y + rect.height - h, Math.max(rect.y + h, y))];
-      if (taken.some(([p, v, wide]) => Math.abs(p - at[0]) < wide + w && Math.abs(v - at[1]) < 2 * h)) continue;
-      taken.push([...at, w]);
-      label(context, panel.theme, text, ...at);
+    const shown = [];
+    const { arm: model } = view.model;
+    const beyond = (text, q) => [text, Labels.beyond(context, text, panel.at(tipAt(model, q)), panel.at(elbowAt(model, q)))];
+    if (view.isTask) {
+      for (const path of view.pathsHere()) shown.push(beyond(String(path.step), path.points.slice(-2)));
+    } else if (view.shows('poses') && view.isMotion) {
+      for (const q of view.ends()) shown.push(beyond('goal', q));
+      shown.push(beyond('start', view.beginning()));
     }
+    if (!view.isCrowded) {
+      world.obstacles.forEach((obstacle, index) => {
+        if (obstacle.own > 0 && !view.hidden.has(obstacle.name)) shown.push([view.called(index), box(panel, obstacle)]);
+      });
+    }
+    Labels.beside(context, panel, shown);
   }
 
-  /** Where a name stands: in the middle, of a wall in the middle of its longest piece. */
-  function middle({ outline: { polyline }, pieces, own }) {
+  /** What the name of an obstacle belongs to, pixels: all of it, of a wall the middle of its longest piece. */
+  function box(panel, { outline: { polyline }, pieces, own }) {
     if (polyline) {
       const points = [...pointsOf(polyline)];
       const sides = points.slice(1).map((b, i) => [points[i], b]);
       const length = ([a, b]) => Math.hypot(b[0] - a[0], b[1] - a[1]);
       const [a, b] = sides.reduce((best, side) => (length(side) > length(best) ? side : best));
-      return [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+      return Labels.about(panel.at([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]), 5);
     }
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
-    for (const { core } of pieces.slice(0, own)) {
+    for (const { core, radius } of pieces.slice(0, own)) {
       for (const [x, y] of pointsOf(core)) {
-        [x0, x1, y0, y1] = [Math.min(x0, x), Math.max(x1, x), Math.min(y0, y), Math.max(y1, y)];
+        [x0, x1, y0, y1] = [Math.min(x0, x - radius), Math.max(x1, x + radius), Math.min(y0, y - radius), Math.max(y1, y + radius)];
       }
     }
-    return [(x0 + x1) / 2, (y0 + y1) / 2];
+    const [[left, top], [right, bottom]] = [panel.at([x0, y1]), panel.at([x1, y0])];
+    return { x: left, y: top, width: right - left, height: bottom - top };
   }
 
-  function label(context, theme, text, x, y) {
-    context.font = FONT;
-    context.textAlign = 'center';
-    context.textBaseline = 'middle';
-    context.lineWidth = 3.5;
-    context.strokeStyle = theme.paper;
-    context.strokeText(text, x, y);
-    context.fillStyle = theme.ink;
-    context.fillText(text, x, y);
+  /** The obstacle at a place; none where there is none. */
+  function found(view, place) {
+    const point = { core: place, radius: 0 };
+    const holds = ({ name, pieces, own }) => !view.hidden.has(name) && pieces.slice(0, own).some((piece) => Geometry.separation(point, piece) <= 0);
+    const index = view.world.obstacles.findLastIndex(holds);
+    return index < 0 ? null : index;
   }
 
   /** The arm at q. `look`: fill, line, width, alpha, whether joints are shown, and colours of links that touch. */
@@ -174,13 +168,13 @@ const Workspace = (() => {
     for (const region of world.regions.filter((r) => !r.joints)) {
       context.beginPath();
       trace(context, panel, region.corners, true);
-      dashed(context, region.epsilon > 0 ? panel.theme.barred : panel.theme.accent);
+      dashed(context, [7, 4], 1.4, region.epsilon > 0 ? panel.theme.avoided : panel.theme.preferred);
     }
   }
 
-  function dashed(context, color) {
-    context.setLineDash([7, 4]);
-    context.lineWidth = 1.4;
+  function dashed(context, dash, width, color) {
+    context.setLineDash(dash);
+    context.lineWidth = width;
     context.strokeStyle = color;
     context.stroke();
     context.setLineDash([]);
@@ -190,24 +184,40 @@ const Workspace = (() => {
   function still(context, panel, view) {
     const { model, world } = view;
     const { theme } = panel;
+    context.beginPath();
+    rounded(context, panel, model.arm.reach);
+    dashed(context, [2, 4], 1, theme.pale);
     obstacles(context, panel, view, world);
     if (view.shows('regions')) regions(context, panel, world);
     if (view.shows('poses')) {
       const shown = view.pathsHere();
       if (shown.length === 1 && !view.light && !view.moment) {
         for (const q of pointsOf(shown[0].ghosts)) {
-          arm(context, panel, view, world, q, { fill: theme.faint, line: theme.pale, width: 0.8, alpha: 0.7 });
+          arm(context, panel, view, world, q, { fill: theme.ghost, line: theme.grey, width: 0.8, alpha: 0.7 });
         }
       }
-      const look = { fill: theme.pale, line: theme.ink, width: 1, alpha: 0.75, joints: true };
-      for (const q of view.ends()) arm(context, panel, view, world, q, look);
+      const look = { line: theme.ink, width: 1, alpha: 0.85, joints: true };
+      if (view.isMotion) arm(context, panel, view, world, view.beginning(), { ...look, fill: theme.paper });
+      for (const q of view.ends()) arm(context, panel, view, world, q, { ...look, fill: theme.pale });
       for (const q of world.unreached) {
         arm(context, panel, view, world, q, { fill: theme.paper, line: theme.barred, width: 0.9, alpha: 0.65 });
       }
     }
+    if (model.stuck) stuck(context, panel, view, model.stuck);
     if (view.shows('trace')) traces(context, panel, view);
-    if (view.shows('names')) names(context, panel, view, world);
     if (view.shows('frames')) for (const frame of model.frames) axes(context, panel, frame);
+  }
+
+  /** What is in the way of a motion that is not there, and where the arm gets stuck. */
+  function stuck(context, panel, view, { blockers, at }) {
+    const { theme } = panel;
+    for (const number of blockers) {
+      outline(context, panel, view.world.obstacles[number]);
+      dashed(context, [7, 3], 3, theme.barred);
+    }
+    if (!at) return;
+    arm(context, panel, view, view.world, at[0], { fill: theme.paper, line: theme.barred, width: 0.9, alpha: 0.65 });
+    cross(context, theme, panel.at(at[1]));
   }
 
   /** The outline of an obstacle that is hit. */
@@ -221,8 +231,15 @@ const Workspace = (() => {
   /** What moves: the arm, and the one that is tried. */
   function moving(context, panel, view) {
     const { theme } = panel;
-    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.ink, width: 1.3, joints: true });
-    if (!view.probe) return;
+    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, joints: true });
+    if (view.probe) tried(context, panel, view);
+    if (view.shows('names')) names(context, panel, view, view.world);
+    if (view.hovered) Labels.write(context, theme, ...view.hovered);
+  }
+
+  /** The arm that is tried, and what it touches. */
+  function tried(context, panel, view) {
+    const { theme } = panel;
     const { contacts, q } = view.probe;
     const hits = contacts.filter((c) => c.distance <= 0);
     for (const { obstacle } of hits) struck(context, panel, view.world.obstacles[obstacle]);
@@ -251,17 +268,16 @@ const Workspace = (() => {
         context.beginPath();
         context.arc(x, y, 7, 0, 2 * Math.PI);
         context.stroke();
-        label(context, panel.theme, w > 0 ? '\u2022' : '\u00d7', x, y);
+        Labels.write(context, panel.theme, w > 0 ? '\u2022' : '\u00d7', x, y);
         return;
       }
       line(context, [[x, y], [x + AXIS * u, y - AXIS * v]]);
-      label(context, panel.theme, letter, x + (AXIS + 9) * u, y - (AXIS + 9) * v);
+      Labels.write(context, panel.theme, letter, x + (AXIS + 9) * u, y - (AXIS + 9) * v);
     });
-    context.textAlign = 'left';
-    label(context, panel.theme, frame.name, x + 30, y + 18);
+    Labels.write(context, panel.theme, frame.name, x + 30, y + 18);
   }
 
-  return { still, moving, labels, arm, struck };
+  return { still, moving, found, arm, struck };
 })();
 
 /** A path or trace: in its colour, visible on any ground by the broad line of paper under it. */

@@ -1,0 +1,133 @@
+"""Pages and pictures say the same in the same signs."""
+
+import re
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+from conftest import ROOT
+from test_page import pixels
+
+CASES = [
+    ("planar_2r", "workbench", ("--planner", "shortest"), 0),
+    ("planar_2r", "workbench", ("--planner", "wavefront"), 0),
+    ("planar_2r_continuous", "torus_open", ("--planner", "harmonic"), 0),
+    ("planar_2r", "workbench", ("--planner", "subdivision"), 0),
+    ("planar_2r", "shelf", ("--planner", "voronoi"), 0),
+    ("planar_2r_continuous", "no_path", (), 3),
+    ("gantry", "tasks/board_and_gate", (), 3),
+]
+# What pictures show side by side, and pages one after the other.
+STILL_ALONE = {"open to link 2 (picked or placed)"}
+
+
+def picture(program, robot, world, *words, code=0):
+    """The texts of the picture."""
+    program.run(ROOT / f"robots/{robot}.urdf", ROOT / f"workspaces/{world}.toml", *words, "--quiet", "--picture", "picture.svg", code=code)
+    tree = ElementTree.parse(program.folder / "picture.svg")
+    return [text.text.strip() for text in tree.iter("{http://www.w3.org/2000/svg}text")]
+
+
+@pytest.mark.parametrize(("robot", "world", "words", "code"), CASES, ids=lambda value: str(value))
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_legend_is_that_of_the_picture(program, show_file, robot, world, words, code, scheme):
+    page, _ = program.plan(robot, world, *words, code=code)
+    seen = show_file(page, color_scheme=scheme)
+    entries = seen.page.get_by_role("list", name="Legend").get_by_role("listitem").all_inner_texts()
+    texts = picture(program, robot, world, *words, code=code)
+    # The legend is what the picture ends with.
+    begin = len(texts) - 1 - texts[::-1].index("start")
+    assert [text for text in texts[begin:] if text not in STILL_ALONE] == entries
+    signs = seen.page.locator(".legend svg")
+    assert signs.count() == len(entries)
+    # Each sign can be seen.
+    bare = seen.do("[...document.querySelectorAll('.legend svg')].filter((sign) => ![...sign.children].some((part) => ['fill', 'stroke'].some((name) => !/^(none|)$/.test(part.getAttribute(name) ?? '')))).length")
+    assert bare == 0
+    title = seen.do("cplan.model.worlds[0].scale?.title ?? null")
+    assert title is None or title in texts
+    if title:
+        shown = pixels(seen, "cspace")
+        seen.do("cplan.model.worlds[0].scale.title = 'another'")
+        seen.do("cplan.refresh()")
+        assert pixels(seen, "cspace") != shown, "the scale of colours stands beside the space"
+    seen.shoot(f"grammar-{world.replace('/', '_')}-{'-'.join(words)}-{scheme}")
+
+
+def test_a_proof_is_hatched_in_a_colour_of_its_own(program, show_file):
+    page, result = program.plan("planar_2r_continuous", "no_path", code=3)
+    seen = show_file(page)
+    colors = seen.do(
+        """() => { const { canvas, ratio } = cplan.panels.cspace; const found = {};
+             const { x, y, width, height } = cplan.panels.cspace.rect;
+             const { data } = canvas.getContext('2d').getImageData(x * ratio, y * ratio, width * ratio, height * ratio);
+             for (let k = 0; k < data.length; k += 4) { const key = data.slice(k, k + 3).join(); found[key] = (found[key] ?? 0) + 1; }
+             return found; }"""
+    )
+    proof = seen.do("cplan.panels.cspace.theme.proof")
+    rgb = ",".join(str(int(proof[k : k + 2], 16)) for k in (1, 3, 5))
+    assert colors.get(rgb, 0) > 200
+    assert proof not in seen.do("cplan.world.obstacles.map(({ color }) => color)")
+    sentence = f"there is no path; {result['reason']}"
+    assert sentence in seen.page.locator(".lines").inner_text()
+    assert any(sentence in text for text in picture(program, "planar_2r_continuous", "no_path", code=3))
+
+
+def test_where_it_gets_stuck_is_marked_in_both_spaces(program, show_file):
+    files = [ROOT / "robots/planar_2r_continuous.urdf", ROOT / "workspaces/no_path.toml"]
+    program.run("explain", *files, "--quiet", "--picture", "why.html", "--picture", "why.svg", code=3)
+    seen = show_file(program.folder / "why.html")
+    entries = seen.page.get_by_role("list", name="Legend").get_by_role("listitem").all_inner_texts()
+    assert {"in the way", "x: where it gets stuck, and the arm there"} <= set(entries)
+    drawn = (program.folder / "why.svg").read_text()
+    assert all(entry in drawn for entry in entries)
+    before = [pixels(seen, "workspace"), pixels(seen, "cspace")]
+    seen.do("() => { delete cplan.model.stuck; cplan.refresh(); }")
+    after = [pixels(seen, "workspace"), pixels(seen, "cspace")]
+    assert before[0] != after[0] and before[1] != after[1]
+    seen.shoot("stuck")
+
+
+def test_arms_and_obstacles_are_named_alike(program, show_file):
+    texts = picture(program, "planar_2r", "workbench")
+    assert [texts.count(name) for name in ("start", "goal")] == [2, 2], "at the arms, and in the legend"
+    page, _ = program.plan("planar_2r", "workbench")
+    seen = show_file(page)
+    seen.do("() => { window.written = []; const of = CanvasRenderingContext2D.prototype; const fill = of.fillText; of.fillText = function (text, ...rest) { written.push(text); fill.call(this, text, ...rest); }; }")
+    seen.do("cplan.refresh()")
+    written = seen.do("written")
+    assert {"start", "goal"} <= set(written)
+    for name in ("vice", "bottle", "lamp", "rack", "board"):
+        # In both spaces; in pictures in the legend, too.
+        assert (written.count(name), texts.count(name)) == (2, 3), name
+    # Every number of the axes has its unit.
+    seen.do("() => { written.length = 0; cplan.panels.cspace.dirty = true; cplan.panels.cspace.draw(); }")
+    numbers = [text for text in seen.do("written") if re.match("\u2212?[0-9]", text)]
+    assert len(numbers) > 8 and all(text.endswith("\u00b0") for text in numbers)
+    assert set(numbers) & set(texts), "in pictures, too"
+
+
+def test_of_many_obstacles_the_names_show_under_the_pointer(program, show_file):
+    page, _ = program.plan("planar_2r", "crowd")
+    seen = show_file(page)
+    assert seen.do("cplan.isCrowded")
+    obstacle = seen.do("cplan.world.obstacles.findIndex(({ outline }) => outline.circle)")
+    x, y, _ = seen.do("(i) => cplan.world.obstacles[i].outline.circle", obstacle)
+    box = seen.page.locator("canvas[aria-label='Workspace']").bounding_box()
+    at = seen.do("(p) => cplan.panels.workspace.at(p)", [x, y])
+    before = pixels(seen, "workspace")
+    seen.page.mouse.move(box["x"] + at[0], box["y"] + at[1])
+    name = seen.do("(i) => cplan.world.obstacles[i].name", obstacle)
+    assert seen.do("cplan.hovered[0]") == f"{obstacle + 1} {name}"
+    assert pixels(seen, "workspace") != before
+    seen.page.mouse.move(5, 5)
+    assert pixels(seen, "workspace") == before
+
+
+def test_the_start_is_seen_where_the_arm_stands_on_it(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    ring = """() => { const { cspace } = cplan.panels; const [x, y] = cspace.at(cplan.q);
+        const at = (dx) => [...cspace.canvas.getContext('2d').getImageData((x + dx) * cspace.ratio, y * cspace.ratio, 1, 1).data].slice(0, 3);
+        return [at(0), at(7)]; }"""
+    middle, edge = seen.do(ring)
+    assert middle[2] > 150 and middle[0] < 50, "blue: where the arm is"
+    assert max(edge) < 90, "ink: where it begins"
