@@ -114,7 +114,7 @@ impl Study {
 
     /// Of these rows, in some lines for people.
     fn summary(&self, rows: &Rows) -> String {
-        Summary::new(&self.study, &rows.rows).to_text()
+        Summary::new(&self.study, &rows.rows).to_text(false)
     }
 
     /// The same as a JSON object.

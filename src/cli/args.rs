@@ -193,6 +193,9 @@ pub struct PlanArgs {
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
     pub print: PrintArgs,
+    /// Tell also how the robot was read: the plane, the tip, the outline of each link.
+    #[arg(long, short)]
+    pub verbose: bool,
     /// Put the time that each stage took into the JSON; without it the same input gives the same bytes.
     #[arg(long)]
     pub timings: bool,

@@ -1,12 +1,12 @@
 //! `cplan check`: why a configuration is, or is not, free.
 
-use super::DONE;
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::sinks::{self, Sink};
+use super::{DONE, REFUTED};
 use crate::draw::{Picture, View};
 use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
-use crate::input::{self, LoadedScene};
+use crate::input::{self, LoadedScene, RobotReport};
 use crate::model::Scene;
 use crate::output::{configuration, contours, range};
 use crate::space::Configuration;
@@ -32,7 +32,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     if args.json {
         sinks::print_json(&sinks::pretty(&findings)?)?;
     } else {
-        sinks::tell(&text(&loaded, q, &findings))?;
+        sinks::sum_up(&text(&loaded, q, &findings), if findings.free { DONE } else { REFUTED })?;
     }
     Ok(DONE)
 }
@@ -51,11 +51,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
     let arm = scene.arm();
     let mut columns = Columns::default();
     let mut line = |key: &str, value: String| columns.add(key, &value);
-    line("arm", format!("{} ({})", arm.name, arm.kind()));
-    let axis = |v: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", v[0], v[1], v[2]);
-    let BasisFinding { u, v, normal } = &findings.plane;
-    line("plane", format!("u = {}, v = {}, heights along {}; root frame", axis(*u), axis(*v), axis(*normal)));
-    loaded.robot.notes.iter().chain(&loaded.world.notes).for_each(|note| line("", note.clone()));
+    line("result", if findings.free { "free".into() } else { "not free".into() });
     line("at", configuration(arm, q));
     line("tip", format!("({:.4}, {:.4}) m", findings.tip[0], findings.tip[1]));
     for (k, joint) in arm.joints.iter().enumerate() {
@@ -97,6 +93,12 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
         None if !findings.free => line("nearest", "no free configuration was found anywhere".into()),
         None => {}
     }
-    line("result", if findings.free { "free".into() } else { "not free".into() });
+    line("arm", format!("{} ({})", arm.name, arm.kind()));
+    let axis = |v: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", v[0], v[1], v[2]);
+    let BasisFinding { u, v, normal } = &findings.plane;
+    line("plane", format!("u = {}, v = {}, heights along {}; root frame", axis(*u), axis(*v), axis(*normal)));
+    let RobotReport { geometry, notes, .. } = &loaded.robot;
+    geometry.iter().for_each(|fact| line("", fact.clone()));
+    notes.iter().chain(&loaded.world.notes).for_each(|note| line("note", note.clone()));
     columns.into_text()
 }

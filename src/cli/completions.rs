@@ -3,7 +3,7 @@
 use super::args::Cli;
 use super::failure::Failure;
 use super::{DONE, sinks};
-use clap::{Args, CommandFactory};
+use clap::{Arg, Args, CommandFactory};
 use clap_complete::Shell;
 
 /// Arguments of `completions`.
@@ -32,6 +32,46 @@ pub struct CompletionsArgs {
 pub fn run(args: &CompletionsArgs) -> Result<u8, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "cplan", &mut script);
-    sinks::print(&String::from_utf8_lossy(&script))?;
+    let script = String::from_utf8_lossy(&script);
+    sinks::print(&if args.shell == Shell::Fish { for_fish(&script) } else { script.into_owned() })?;
     Ok(DONE)
 }
+
+/// The script for fish as it works here. The generated one takes the first file for a subcommand, so that the main job has options in front
+/// of its files only; it knows nothing behind an option whose value is not there yet, nor behind `help`, which it takes for a
+/// subcommand of itself; and it has no values of arguments without a name.
+fn for_fish(script: &str) -> String {
+    let rules = script.find("complete -c").map_or("", |at| &script[at..]);
+    let is_known = |line: &&str| !line.contains("__fish_cplan_using_subcommand help");
+    let rules: String = rules.split_inclusive('\n').filter(is_known).collect();
+    let of_main_job = |rules: String, option: &str| {
+        let generated = format!("\"__fish_cplan_needs_command\" {option}");
+        rules.replace(&generated, &format!("\"not __fish_cplan_using_subcommand $__fish_cplan_commands\" {option}"))
+    };
+    let rules = ["-s ", "-l "].into_iter().fold(rules, of_main_job);
+    let command = Cli::command();
+    let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).chain(["help"]).collect();
+    let values = command.get_subcommands().flat_map(|command| {
+        let values = command.get_positionals().flat_map(Arg::get_possible_values);
+        values.map(|value| values_rule(command.get_name(), value.get_name()))
+    });
+    let topics = names.iter().map(|name| values_rule("help", name));
+    let values: String = values.chain(topics).collect();
+    format!("set -g __fish_cplan_commands {}\n\n{FISH}\n{rules}{values}", names.join(" "))
+}
+
+fn values_rule(command: &str, value: &str) -> String {
+    format!("complete -c cplan -n \"__fish_cplan_using_subcommand {command}\" -f -a \"{value}\"\n")
+}
+
+/// A subcommand is the first word or none.
+const FISH: &str = "\
+function __fish_cplan_needs_command
+    test (count (commandline -opc)) -eq 1
+end
+
+function __fish_cplan_using_subcommand
+    set -l words (commandline -opc)
+    contains -- \"$words[2]\" $argv
+end
+";

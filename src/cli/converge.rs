@@ -132,7 +132,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
         }
     }
     write_whole_set(&written)?;
-    args.print.tell(json, || measured.to_text())?;
+    args.print.tell(DONE, json, || measured.to_text())?;
     Ok(DONE)
 }
 

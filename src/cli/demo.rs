@@ -57,7 +57,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
         )
     })?;
     if code == DONE && !args.plan.print.quiet && !args.plan.print.json {
-        sinks::tell(&next(&picture))?;
+        sinks::sum_up(&next(&picture), code)?;
     }
     Ok(code)
 }

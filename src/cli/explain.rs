@@ -62,8 +62,9 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
             }
         }
     }
-    args.print.tell(|| sinks::pretty(&explained.to_json()), || explained.summary())?;
-    Ok(exit_code(explained.status()))
+    let code = exit_code(explained.status());
+    args.print.tell(code, || sinks::pretty(&explained.to_json()), || explained.summary())?;
+    Ok(code)
 }
 
 /// What there is to say of what a world asks for.

@@ -153,12 +153,13 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
         files.push((description.clone(), map_description(&done.survey, &name).into_bytes()));
     }
     write_whole_set(&files)?;
-    args.print.tell(|| Ok(json()), || summary(&world, &done, args.timings))?;
-    Ok(match done.ending {
+    let code = match done.ending {
         Ending::Reached | Ending::Explored { .. } => DONE,
         Ending::Unreachable(_) => INFEASIBLE,
         Ending::Unknown(_) => UNKNOWN,
-    })
+    };
+    args.print.tell(code, || Ok(json()), || summary(&world, &done, args.timings))?;
+    Ok(code)
 }
 
 impl ExploreArgs {
@@ -281,7 +282,7 @@ fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
         Ending::Unreachable(why) => format!("unreachable: {why}"),
         Ending::Unknown(why) => format!("unknown: {why}"),
     };
-    let mut lines: Vec<Line> = world.notes.iter().map(|note| ("note", note.clone())).collect();
+    let mut lines = vec![("result", ending)];
     lines.extend(facts(done));
     if timed {
         let mut times: Vec<f64> = done.decisions.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
@@ -289,5 +290,6 @@ fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
         let [median, most, longest] = [times.len() / 2, times.len() * 99 / 100, times.len() - 1].map(|k| times[k]);
         lines.push(("decision", format!("{median:.1} ms (median), {most:.1} ms (99 %), {longest:.1} ms (longest)")));
     }
-    format!("{}\n{ending}\n{}", title_of(&world.scene), laid_out(&lines))
+    lines.extend(world.notes.iter().map(|note| ("note", note.clone())));
+    format!("{}\n{}", title_of(&world.scene), laid_out(&lines))
 }

@@ -1,10 +1,10 @@
 //! `cplan inspect`: what the planner makes of a robot, and what keeps it from planning.
 
-use super::DONE;
 use super::args::InspectArgs;
 use super::failure::Failure;
 use super::inspect_text::text;
 use super::sinks::{self, Sink};
+use super::{DONE, REFUTED};
 use crate::draw::{AxesFrame, Picture, View};
 use crate::input::{self, Diagnostic, Inspection};
 use crate::space::Configuration;
@@ -52,7 +52,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
         let json = Json { plannable: inspection.is_plannable(), inspection: &inspection, diagnostics };
         sinks::print_json(&sinks::pretty(&json)?)?;
     } else {
-        sinks::tell(&text(&inspection))?;
+        sinks::sum_up(&text(&inspection), if inspection.is_plannable() { DONE } else { REFUTED })?;
     }
     match inspection.errors.into_iter().next() {
         None => Ok(DONE),

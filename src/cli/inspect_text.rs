@@ -11,6 +11,15 @@ const REFUSED_SHOWN: usize = 12;
 /// The whole report.
 pub fn text(report: &Inspection) -> String {
     let mut lines = Columns::default();
+    let count: usize = report.errors.iter().map(|e| e.diagnostics().len()).sum();
+    lines.add(
+        "result",
+        &match count {
+            0 => "the robot can be planned with".to_owned(),
+            1 => "the robot cannot be planned with as it is: see the defect".to_owned(),
+            n => format!("the robot cannot be planned with as it is: see the {n} defects"),
+        },
+    );
     let name = report.robot.as_deref().unwrap_or("(no name)");
     lines.add("robot", &format!("{name}, {}", report.urdf));
     lines.add("world", report.world.as_deref().unwrap_or("none given: nothing is chosen, held or overridden"));
@@ -47,15 +56,6 @@ pub fn text(report: &Inspection) -> String {
         lines.add("remedy", "with these entries in the world file the robot loads; the numbers are placeholders:");
         lines.add("remedy", &format!("[robot]\n{help}"));
     }
-    let count: usize = report.errors.iter().map(|e| e.diagnostics().len()).sum();
-    lines.add(
-        "result",
-        &match count {
-            0 => "the robot can be planned with".to_owned(),
-            1 => "the robot cannot be planned with as it is: see the defect".to_owned(),
-            n => format!("the robot cannot be planned with as it is: see the {n} defects"),
-        },
-    );
     lines.into_text()
 }
 

@@ -33,6 +33,7 @@ mod serve;
 mod sinks;
 #[cfg(feature = "study")]
 mod study;
+mod terminal;
 mod variant;
 mod verify;
 mod words;

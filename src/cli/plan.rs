@@ -45,12 +45,13 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     let begun = Instant::now();
     let written = written(&plan, &sinks, &files, &args.print)?;
     let after = [("write", begun.elapsed())];
-    args.print.tell(|| Ok(plan.to_json()), || plan.summary_with(&written, &after))?;
-    Ok(match plan.status() {
+    let code = match plan.status() {
         Status::Found => DONE,
         Status::Infeasible => INFEASIBLE,
         Status::Unknown => UNKNOWN,
-    })
+    };
+    args.print.tell(code, || Ok(plan.to_json()), || plan.summary_with(&written, &after, args.verbose))?;
+    Ok(code)
 }
 
 /// Writes results, then configuration spaces and pictures. The names of the files that are written, for people.

@@ -23,19 +23,20 @@ impl PrintArgs {
         }
     }
 
-    /// Prints the result on stdout: as JSON, for people, or not at all.
+    /// Prints the result on stdout: as JSON, for people, or not at all. The verdict has the colour of the exit code.
     ///
     /// # Errors
     /// I/O, and what `json` cannot say.
     pub fn tell(
         &self,
+        code: u8,
         json: impl FnOnce() -> Result<String, Failure>,
         summary: impl FnOnce() -> String,
     ) -> Result<(), Failure> {
         match (self.json, self.quiet) {
             (true, _) => sinks::print_json(&json()?),
             (false, true) => Ok(()),
-            (false, false) => sinks::tell(&summary()),
+            (false, false) => sinks::sum_up(&summary(), code),
         }
     }
 }

@@ -135,16 +135,27 @@ fn put(text: &str) {
     let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
-/// Runs a second, and seconds that are left at that rate, if it can be told.
-fn rate(done: usize, total: usize, elapsed: Duration) -> (f64, Option<f64>) {
+/// Runs a second, and the time that is left at that rate, if it can be told.
+fn rate(done: usize, total: usize, elapsed: Duration) -> (f64, Option<String>) {
     let rate = done as f64 / elapsed.as_secs_f64().max(1e-3);
-    (rate, (done > 0 && done < total).then(|| ((total - done) as f64 / rate).ceil()))
+    (rate, (done > 0 && done < total).then(|| time((total - done) as f64 / rate)))
+}
+
+/// Whole seconds, in the two greatest units of them: `45 s`, `3 min 20 s`, `2 h 5 min`.
+fn time(seconds: f64) -> String {
+    let seconds = seconds.ceil() as u64;
+    let (minutes, hours) = (seconds / 60, seconds / 3600);
+    match (hours, minutes) {
+        (0, 0) => format!("{seconds} s"),
+        (0, _) => format!("{minutes} min {} s", seconds % 60),
+        _ => format!("{hours} h {} min", minutes % 60),
+    }
 }
 
 /// `37 of 1000 runs, 12.3 a second, 78 s left`.
-fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
+pub(super) fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
     let (rate, left) = rate(done, total, elapsed);
-    let left = left.map_or_else(String::new, |left| format!(", {left:.0} s left"));
+    let left = left.map_or_else(String::new, |left| format!(", {left} left"));
     format!("{done} of {total} {things}, {rate:.1} a second{left}")
 }
 
@@ -152,7 +163,7 @@ fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
 fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     let full = (BAR * done).checked_div(total).unwrap_or(BAR).min(BAR);
     let (rate, left) = rate(done, total, elapsed);
-    let left = left.map_or_else(String::new, |left| format!(" {left:.0} s left"));
+    let left = left.map_or_else(String::new, |left| format!(" {left} left"));
     let text = format!("[{}{}] {done}/{total} {rate:.1}/s{left}  {now}", "#".repeat(full), ".".repeat(BAR - full));
     let cut: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(WIDTH).collect();
     format!("{cut:WIDTH$}")
@@ -170,6 +181,11 @@ mod tests {
             assert_eq!((bar.chars().count(), bar.matches('#').count()), (WIDTH, full), "{bar}");
         }
         assert_eq!(bar(0, 0, second, "\n").chars().count(), WIDTH);
+    }
+
+    #[test]
+    fn times_have_two_units() {
+        assert_eq!([0.2, 59.5, 200.0, 7500.0].map(time), ["1 s", "1 min 0 s", "3 min 20 s", "2 h 5 min"]);
     }
 
     #[test]

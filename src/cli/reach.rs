@@ -88,7 +88,7 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
         written.push((path.clone(), format.bytes(&view(&world, &reach))?));
     }
     write_whole_set(&written)?;
-    args.print.tell(|| sinks::pretty(&object(&world, &reach)), || summary(&world, &reach))?;
+    args.print.tell(DONE, || sinks::pretty(&object(&world, &reach)), || summary(&world, &reach))?;
     Ok(DONE)
 }
 
@@ -168,8 +168,8 @@ fn facts(world: &Explorable, reach: &Reach) -> Vec<(&'static str, String)> {
 }
 
 fn summary(world: &Explorable, reach: &Reach) -> String {
-    let mut lines: Vec<(&str, String)> = world.notes.iter().map(|note| ("note", note.clone())).collect();
-    lines.extend(facts(world, reach));
+    let mut lines = facts(world, reach);
+    lines.extend(world.notes.iter().map(|note| ("note", note.clone())));
     format!("{}\n{}", title_of(&world.scene), laid_out(&lines))
 }
 

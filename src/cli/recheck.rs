@@ -8,6 +8,7 @@ use crate::check::{ProofFormatError, read_proof};
 use crate::engine::{Bound, checked_bound};
 use crate::input::{self, Source};
 use crate::model::MotionProblem;
+use crate::text::counted;
 
 /// Share of a bound that its check may not see: each allows for rounding of its own.
 const UNSEEN: f64 = 1e-6;
@@ -37,8 +38,8 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
         .checked(problem.scene(), problem.start(), problem.goals(), problem.scene().workspace().clearance)
         .map_err(|error| failed(format!("the proof does not hold: {error}")))?;
     sinks::print(&format!(
-        "the proof holds: {} boxes of collisions separate the start from every goal\n",
-        proof.stuck().len()
+        "the proof holds: collisions separate the start from every goal ({})\n",
+        counted(proof.stuck().len(), "box")
     ))?;
     Ok(DONE)
 }

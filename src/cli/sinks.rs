@@ -2,6 +2,8 @@
 
 use super::failure::Failure;
 use super::print_args::PrintArgs;
+use super::progress;
+use super::terminal;
 use crate::draw::View;
 use crate::input::{FileIdentity, read_from};
 use crate::motion::{Format, check_writable, write_whole};
@@ -99,18 +101,19 @@ pub fn save_picture(format: PictureFormat, path: &Path, view: &View) -> Result<(
 /// Says now and then how many pictures of a picture in motion are done, if that takes long.
 pub fn pictures_done(path: &Path, print: &PrintArgs) -> impl FnMut(usize, usize) {
     const INTERVAL: Duration = Duration::from_secs(5);
-    let mut told = Instant::now();
+    let begun = Instant::now();
+    let mut told = begun;
     move |done, all| {
         if told.elapsed() > INTERVAL {
             told = Instant::now();
-            print.say(&format!("{}: {done} of {all} pictures", path.display()));
+            print.say(&format!("{}: {}", path.display(), progress::line(done, all, "pictures", begun.elapsed())));
         }
     }
 }
 
 /// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.
 pub fn say(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{}", plain(text));
+    let _ = writeln!(anstream::stderr(), "{}", terminal::said(&plain(text)));
 }
 
 /// Prints for people on stdout: as [`print`], but what names hold that would act on a terminal is seen instead.
@@ -119,6 +122,14 @@ pub fn say(text: &str) {
 /// I/O.
 pub fn tell(text: &str) -> Result<(), Failure> {
     print(&plain(text))
+}
+
+/// The same of a summary, whose verdict has the colour of the exit code, and whose lines are as wide as the terminal at the most.
+///
+/// # Errors
+/// I/O.
+pub fn sum_up(text: &str, code: u8) -> Result<(), Failure> {
+    printed(anstream::stdout().lock(), &terminal::summary(&plain(text), code))
 }
 
 /// JSON that people read, too, with a line feed at its end.
@@ -143,7 +154,10 @@ pub fn print_json(json: &str) -> Result<(), Failure> {
 /// # Errors
 /// I/O.
 pub fn print(text: &str) -> Result<(), Failure> {
-    let mut stdout = std::io::stdout().lock();
+    printed(std::io::stdout().lock(), text)
+}
+
+fn printed(mut stdout: impl Write, text: &str) -> Result<(), Failure> {
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Option(format!("stdout: {error}"))),
         _ => Ok(()),

@@ -61,6 +61,9 @@ pub struct StudyArgs {
     /// Begin anew, whatever rows are left of a study that was stopped.
     #[arg(long)]
     pub fresh: bool,
+    /// Print tables as wide as they are, not in parts of 80 columns.
+    #[arg(long)]
+    pub wide: bool,
     #[command(flatten)]
     pub print: PrintArgs,
 }
@@ -139,7 +142,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let planned = summary.best().and_then(|best| Some((best.layout, command(&study, &files)?)));
     let planned =
         planned.map_or_else(String::new, |(best, command)| format!("layout {best} is planned by: {command}\n"));
-    args.print.tell(|| sinks::pretty(&summary.to_json()), || summary.to_text() + &planned)?;
+    args.print.tell(DONE, || sinks::pretty(&summary.to_json()), || summary.to_text(args.wide) + &planned)?;
     Ok(DONE)
 }
 

@@ -88,6 +88,7 @@ use crate::cspace::{Grid, Regions};
 use crate::model::Outcome;
 use crate::planner::{PathKind, Planner as _, Run, Trace, Visibility};
 use crate::space::Configuration;
+use crate::text::counted;
 use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::ops::Add;
@@ -109,8 +110,8 @@ impl Verdict {
         match self {
             Verdict::Found(_) => None,
             Verdict::Infeasible(proof) => {
-                let boxes = proof.stuck().len();
-                Some(format!("proven: {boxes} boxes of colliding configurations separate start and goal"))
+                let boxes = counted(proof.stuck().len(), "box");
+                Some(format!("proven: colliding configurations separate start and goal ({boxes})"))
             }
             Verdict::Unknown(reason) => Some(reason.clone()),
         }

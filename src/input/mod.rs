@@ -90,7 +90,9 @@ use std::path::Path;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotReport {
-    /// For the summary: the plane, the outline of each link, joints held still, defaults taken, things ignored.
+    /// What is made of the robot: the plane, the tip, the outline of each link.
+    pub geometry: Vec<String>,
+    /// What was taken for granted: joints held still, defaults, outlines of what is not meant for it, things ignored.
     pub notes: Vec<String>,
     /// What may surprise: links that cannot collide, meshes that a bar stands in for.
     pub warnings: Vec<String>,

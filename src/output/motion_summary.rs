@@ -8,7 +8,7 @@ use crate::model::Scene;
 use crate::space::Metric;
 use crate::text::counted;
 
-/// Start and goals; what the planner did and found.
+/// What the planner found and did; start and goals.
 pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
     let (scene, arm) = (plan.problem.scene(), whole.arm());
     let obstacles = counted(scene.workspace().obstacles.len(), "obstacle");
@@ -17,18 +17,12 @@ pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
         ("start", configuration(arm, plan.problem.start())),
     ];
     asked.extend(plan.problem.goals().pieces().iter().map(|goals| ("goal", segment(arm, goals))));
-    Told { asked, found: found(whole, plan) }
+    Told { found: found(whole, plan), asked }
 }
 
 fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
     let (MotionPlan { problem, answer, curve }, report) = (plan, whole.report());
     let mut lines = Vec::new();
-    let search = report.search.as_ref().map(|used| format!(" ({used})"));
-    let space = report.space.map(|space| format!(", {space}"));
-    let how = search.unwrap_or_default() + &space.unwrap_or_default();
-    lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
-    lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
-    lines.extend(field(whole.options()));
     match &answer.verdict {
         Verdict::Found(certified) => {
             let path = certified.path();
@@ -49,10 +43,16 @@ fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
         Verdict::Unknown(reason) => lines.push(("result", format!("unknown: {reason}"))),
     }
     if let (Some(curve), Some(trajectory)) = (curve, whole.trajectory()) {
-        lines.push(("clearance", clearance(problem.scene(), curve)));
         let (samples, corners) = (trajectory.time.len(), corners(curve));
         lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
+        lines.push(("clearance", clearance(problem.scene(), curve)));
     }
+    let search = report.search.as_ref().map(|used| format!(" ({used})"));
+    let space = report.space.map(|space| format!(", {space}"));
+    let how = search.unwrap_or_default() + &space.unwrap_or_default();
+    lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
+    lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
+    lines.extend(field(whole.options()));
     lines
 }
 

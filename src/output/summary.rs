@@ -35,32 +35,42 @@ pub fn range(joint: &Joint) -> String {
 }
 
 impl Plan {
-    /// What was found, in some ten lines for people; of a task a line a step.
+    /// What was found, in some ten lines for people, the verdict first; of a task a line a step.
     #[must_use]
     pub fn summary(&self) -> String {
-        self.summary_with(&[], &[])
+        self.summary_with(&[], &[], false)
     }
 
-    /// The same with the files that were written and the stages, in milliseconds, that came after planning.
+    /// The same with the files that were written and the stages, in milliseconds, that came after planning; and, if that is asked
+    /// for, how the robot was read.
     #[must_use]
-    pub(crate) fn summary_with(&self, files: &[String], after: &[(&'static str, Duration)]) -> String {
-        let Told { asked, found } = self.told();
-        let notes = self.problem().robot().notes.iter().chain(self.problem().notes());
-        let mut lines = arm_lines(self.arm());
-        lines.extend(notes.map(|note| ("", note.clone())));
-        lines.extend(asked.into_iter().chain(found));
-        lines.extend(self.made().motion().and_then(|plan| motion_summary::blocked_by(plan)));
+    pub(crate) fn summary_with(
+        &self,
+        files: &[String],
+        after: &[(&'static str, Duration)],
+        is_verbose: bool,
+    ) -> String {
+        let Told { found: mut lines, asked } = self.told();
+        if let Some(blocked) = self.made().motion().and_then(|plan| motion_summary::blocked_by(plan)) {
+            lines.insert(1, blocked);
+        }
         lines.extend(files.iter().map(|file| ("file", file.clone())));
         let stages = self.timings().iter().chain(after);
         let stages: Vec<String> =
             stages.map(|(name, time)| format!("{name} {:.1}", time.as_secs_f64() * 1e3)).collect();
         lines.push(("time", format!("{} ms", stages.join(", "))));
+        lines.extend(asked);
+        lines.extend(arm_lines(self.arm()));
+        let robot = self.problem().robot();
+        let geometry = robot.geometry.iter().filter(|_| is_verbose);
+        lines.extend(geometry.map(|fact| ("robot", fact.clone())));
+        lines.extend(robot.notes.iter().chain(self.problem().notes()).map(|note| ("note", note.clone())));
         laid_out(&lines)
     }
 
-    /// What a page says of it: arm and outcome.
+    /// What a page says of it: outcome and arm.
     pub(super) fn facts(&self) -> Vec<[String; 2]> {
-        let lines = arm_lines(self.arm()).into_iter().chain(self.told().found);
+        let lines = self.told().found.into_iter().chain(arm_lines(self.arm()));
         lines.map(|(key, text)| [key.to_owned(), text]).collect()
     }
 
@@ -74,10 +84,10 @@ impl Plan {
 
 /// Lines that a single motion and a task have for themselves.
 pub(super) struct Told {
+    /// What was found, which a page says, too: the verdict first.
+    pub found: Vec<Line>,
     /// What was asked.
     pub asked: Vec<Line>,
-    /// What was found, which a page says, too.
-    pub found: Vec<Line>,
 }
 
 /// A line of the summary: its key, empty if it goes on with what the line before is about, and its text.

@@ -7,7 +7,7 @@ use crate::engine::{Plan, Report, TaskPlan, percent};
 use crate::model::Task;
 use crate::text::counted;
 
-/// Start and steps; what came of them.
+/// What came of the steps; start and steps.
 pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
     let (TaskPlan { task, answer }, report) = (plan, whole.report());
     let things = [counted(task.workspace.obstacles.len(), "obstacle"), counted(task.objects.len(), "object")];
@@ -15,13 +15,13 @@ pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
     let mut asked = vec![
         ("world", format!("{}, {}", non_empty(&task.workspace.name), things.join(", "))),
         ("start", configuration(&task.arm, task.start)),
-        ("planner", format!("{}: {motions} planned, {states} seen", report.planner)),
     ];
-    asked.extend(field(whole.options()));
     asked.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
     let mut found = outcome(answer, report);
     found.extend(clearance(answer, report));
-    Told { asked, found }
+    found.push(("planner", format!("{}: {motions} planned, {states} seen", report.planner)));
+    found.extend(field(whole.options()));
+    Told { found, asked }
 }
 
 /// A line a step, those of later cycles in one.

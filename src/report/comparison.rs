@@ -1,10 +1,11 @@
 //! Several planners on one problem.
 
 use super::row::Row;
-use super::table::{Align, Column, Table, fixed, quoted};
+use super::table::{Align, Column, Table, WIDTH, fixed, quoted};
 use crate::model::Status;
 use crate::planner::{PathKind, Size};
 use crate::space::Configuration;
+use crate::text::wrapped;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -50,6 +51,20 @@ impl Comparison {
         has(Status::Found) && has(Status::Infeasible)
     }
 
+    /// What became of the problem, in words.
+    #[must_use]
+    pub fn outcome(&self) -> String {
+        let all = self.rows.len();
+        let [found, proved, unknown] =
+            Status::ALL.map(|outcome| self.rows.iter().filter(|row| row.outcome == outcome).count());
+        match (found, proved) {
+            (0, 0) => format!("{unknown} of {all} left it open"),
+            (0, _) => format!("{proved} of {all} proved that there is none"),
+            (_, 0) => format!("{found} of {all} found a certified path"),
+            _ => format!("{found} of {all} found a certified path, {proved} proved that there is none"),
+        }
+    }
+
     /// The contradiction in words, if there is one.
     #[must_use]
     pub fn alarm(&self) -> Option<String> {
@@ -68,12 +83,22 @@ impl Comparison {
         })
     }
 
-    /// An aligned table for a terminal, units in the header, `-` where there is nothing; below it the planners' notes,
-    /// a line each. Ends in a newline.
+    /// An aligned table for a terminal, of what matters most, in 80 columns; units in the header, `-` where there is nothing. Below
+    /// it the planners' notes, a line each. Ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
-        let remarks = self.rows.iter().flat_map(Row::remarks).map(|line| line + "\n");
-        self.table().to_text() + &remarks.collect::<String>()
+        let remarks = self.remarks().map(|line| wrapped(&line, WIDTH, 2) + "\n");
+        self.table().of_columns(&ESSENTIAL).to_text_within(WIDTH) + &remarks.collect::<String>()
+    }
+
+    /// The same with all there is, however wide.
+    #[must_use]
+    pub fn to_wide_text(&self) -> String {
+        self.table().to_text() + &self.remarks().map(|line| line + "\n").collect::<String>()
+    }
+
+    fn remarks(&self) -> impl Iterator<Item = String> {
+        self.rows.iter().flat_map(Row::remarks)
     }
 
     /// The same table in Markdown.
@@ -191,6 +216,9 @@ impl Comparison {
     }
 }
 
+/// Columns of the table that come first: planner, outcome, length and how near that is to the optimum, clearance, motion, time, memory.
+const ESSENTIAL: [usize; 8] = [0, 1, 2, 4, 5, 6, 11, 12];
+
 /// Length and clearance of both paths.
 fn paths(row: &Row) -> Value {
     let figures =
@@ -254,7 +282,7 @@ mod tests {
 
     #[test]
     fn text_is_aligned() {
-        insta::assert_snapshot!(example().to_text(), @r#"
+        insta::assert_snapshot!(example().to_wide_text(), @r#"
     planner     outcome  length [rad]  ratio  over optimum  clearance [mm]  motion [s]  size                    build [ms]  query [ms]  certify [ms]  total [ms]  memory [MiB]
     ----------  -------  ------------  -----  ------------  --------------  ----------  ----------------------  ----------  ----------  ------------  ----------  ------------
     visibility  found          4.0000  1.000        1.2500           1.100       3.250  512 nodes, 2300 edges        2.100       0.412         1.000       3.600          1.50
@@ -263,6 +291,13 @@ mod tests {
     harmonic: not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4
     a, "b" | c: unknown: too coarse, or "so"
     "#);
+    }
+
+    #[test]
+    fn what_matters_most_fits_a_terminal() {
+        let text = example().to_text();
+        assert!(text.lines().all(|line| line.chars().count() <= WIDTH), "{text}");
+        assert!(text.contains("1.2500") && !text.contains("65536") && text.ends_with("or \"so\"\n"), "{text}");
     }
 
     #[test]
@@ -310,18 +345,21 @@ mod tests {
         assert_eq!(ratios, [[None; 2], [Some(1.0); 2], [None; 2]]);
         all.rows.clear();
         assert_eq!(all.best(), None);
-        assert_eq!(all.to_text().lines().count(), 2);
+        assert_eq!(all.to_wide_text().lines().count(), 2);
     }
 
     #[test]
     fn a_path_and_a_proof_are_a_contradiction() {
         let mut all = example();
         assert!(!all.is_contradictory() && all.alarm().is_none());
+        assert_eq!(all.outcome(), "2 of 3 found a certified path");
         all.rows[2].outcome = Status::Infeasible;
+        assert_eq!(all.outcome(), "2 of 3 found a certified path, 1 proved that there is none");
         let alarm = all.alarm().unwrap();
         assert!(alarm.contains("on shelf: visibility, harmonic found") && alarm.contains("| c proved"), "{alarm}");
         all.rows.remove(0);
         all.rows.remove(0);
         assert!(!all.is_contradictory(), "proofs alone agree");
+        assert_eq!(all.outcome(), "1 of 1 proved that there is none");
     }
 }

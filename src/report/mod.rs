@@ -33,6 +33,8 @@ pub use row::{Family, OtherPath, Row};
 pub use sign::sign_test;
 pub use spread::Spread;
 pub use study::{Refusal, Sampling, Study};
+#[cfg(feature = "study")]
+pub(crate) use table::WIDTH;
 #[cfg(feature = "program")]
 pub(crate) use table::quoted;
 pub use table::{Align, Column, Table};

@@ -4,10 +4,10 @@ use super::comparison::{CSV_HEADER, Comparison};
 use super::measure::Measure;
 use super::row::Row;
 use super::study::{Refusal, Study};
-use super::table::{Align, Column, Table, quoted};
+use super::table::{Align, Column, Table, WIDTH, quoted};
 use super::words::words;
 use crate::model::Status;
-use crate::text::plain_line;
+use crate::text::{plain_line, wrapped};
 use serde_json::{Value, json};
 
 /// More problems than this are not listed one by one in tables; CSV, JSON and the page have them all.
@@ -21,13 +21,23 @@ impl Study {
     /// more than start and goal; then the summary in words. Ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
+        self.text(|table| table.to_text_within(WIDTH))
+    }
+
+    /// The same with tables as wide as they are.
+    #[must_use]
+    pub fn to_wide_text(&self) -> String {
+        self.text(Table::to_text)
+    }
+
+    fn text(&self, shown: impl Fn(&Table) -> String) -> String {
         let mut text = format!("{}\n", plain_line(&self.title));
         for (heading, table) in self.tables() {
-            text += &format!("\n{heading}\n{}", table.to_text());
+            text += &format!("\n{heading}\n{}", shown(&table));
         }
-        let paragraphs = words(self).into_iter().map(|paragraph| wrapped(&paragraph, 110));
+        let paragraphs = words(self).into_iter().map(|paragraph| wrapped(&paragraph, WIDTH, 0));
         text += &format!("\n{}\n", paragraphs.collect::<Vec<_>>().join("\n"));
-        text + &self.footnotes().map(|line| line + "\n").collect::<String>()
+        text + &self.footnotes().map(|line| wrapped(&line, WIDTH, 2) + "\n").collect::<String>()
     }
 
     /// The same in Markdown.
@@ -178,21 +188,6 @@ impl Refusal {
     fn json(&self) -> Value {
         json!({ "problem": self.problem, "kind": self.kind, "reason": self.reason })
     }
-}
-
-/// Breaks a paragraph into lines of at most so many characters, where words allow it.
-fn wrapped(text: &str, width: usize) -> String {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines.join("\n")
 }
 
 /// Text in which Markdown sees no markup.

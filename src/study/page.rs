@@ -243,7 +243,7 @@ fn pictured(pictures: &[Picture]) -> String {
         let title = markup(title);
         let source = image_source(svg);
         let shown = format!(
-            "<figure class=\"picture\"><img alt=\"{title}: workspace and configuration space\" src=\"{source}\"/></figure>\n"
+            "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace and configuration space\" src=\"{source}\"/></figure>\n"
         );
         if number == 0 { format!("<h3>{title}</h3>\n{shown}") } else { folded(&title, &shown) }
     };

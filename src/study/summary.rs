@@ -4,7 +4,7 @@ use super::Study;
 use super::measure::Measure;
 use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
-use crate::report::{Align, Column, Table};
+use crate::report::{Align, Column, Table, WIDTH};
 use crate::text::counted;
 use serde_json::{Value, json};
 use std::cmp::Reverse;
@@ -15,6 +15,9 @@ const REASONS: usize = 6;
 
 /// What share of a range is its end.
 const EDGE: f64 = 0.05;
+
+/// In front of the lines of tables.
+const INDENT: &str = "  ";
 
 /// Layouts that are listed as the best, and as the worst.
 const BEST: usize = 5;
@@ -130,9 +133,9 @@ impl<'a> Summary<'a> {
         self.study.parameters.iter().zip(&best.values).filter_map(edge).collect()
     }
 
-    /// For a terminal. Ends in a newline.
+    /// For a terminal: tables as wide as they are, or in 80 columns. Ends in a newline.
     #[must_use]
-    pub fn to_text(&self) -> String {
+    pub fn to_text(&self, wide: bool) -> String {
         let study = self.study;
         let [rows, parameters] = [counted(self.rows.len(), "layout"), counted(study.parameters.len(), "parameter")];
         let mut text = format!("{}: {rows}, {parameters}\n", study.name);
@@ -170,10 +173,13 @@ impl<'a> Summary<'a> {
             }
         }
         if let (Some(objective), Some(_)) = (study.objective, self.best()) {
-            text += &format!("best ({objective}):\n{}", indented(&self.table(self.ranked.iter().take(BEST)).to_text()));
+            let table = |table: Table| if wide { table.to_text() } else { table.to_text_within(WIDTH - INDENT.len()) };
+            let best = table(self.table(self.ranked.iter().take(BEST)));
+            text += &format!("best ({objective}):\n{}", indented(&best));
             self.edges().iter().for_each(|edge| text += &format!("  {edge}\n"));
             if self.ranked.len() > BEST {
-                text += &format!("worst:\n{}", indented(&self.table(self.ranked.iter().rev().take(1)).to_text()));
+                let worst = table(self.table(self.ranked.iter().rev().take(1)));
+                text += &format!("worst:\n{}", indented(&worst));
             }
         }
         text
@@ -219,14 +225,17 @@ impl<'a> Summary<'a> {
 
     fn table<'b>(&self, rows: impl Iterator<Item = &'b usize>) -> Table {
         let study = self.study;
+        // What the best are best by comes first.
+        let mut measures: Vec<usize> = (0..study.measures.len()).collect();
+        measures.sort_by_key(|&k| study.objective.is_none_or(|objective| objective.measure != study.measures[k]));
         let mut columns = vec![Column::new("layout", Align::Right)];
         columns.extend(study.parameters.iter().map(|parameter| Column::new(&parameter.titled(), Align::Right)));
         let titled = |m: &Measure| m.unit().map_or_else(|| m.name().to_owned(), |unit| format!("{}, {unit}", m.name()));
-        columns.extend(study.measures.iter().map(|measure| Column::new(&titled(measure), Align::Right)));
+        columns.extend(measures.iter().map(|&k| Column::new(&titled(&study.measures[k]), Align::Right)));
         let cells = |&i: &usize| {
             let row = &self.rows[i];
             let values = row.values.iter().map(|value| Some(shown(*value)));
-            let measured = row.measured.iter().map(|value| value.map(shown));
+            let measured = measures.iter().map(|&k| row.measured[k].map(shown));
             std::iter::once(Some(row.layout.to_string())).chain(values).chain(measured).collect()
         };
         Table { columns, rows: rows.map(cells).collect() }
@@ -251,7 +260,7 @@ pub(super) fn shown(value: f64) -> String {
 }
 
 fn indented(text: &str) -> String {
-    text.lines().map(|line| format!("  {line}\n")).collect()
+    text.lines().map(|line| format!("{INDENT}{line}").trim_end().to_owned() + "\n").collect()
 }
 
 /// A reason with `#` in place of each number, so that layouts that fail alike are counted together. Numbers in names stay.

@@ -3,6 +3,9 @@
 use super::plain_line;
 use std::fmt::Write;
 
+/// Where the second column begins.
+pub const INDENT: usize = 11;
+
 /// Lines with a key in front; one that is the same as in the line before is not repeated.
 #[derive(Debug, Default)]
 pub struct Columns {
@@ -15,7 +18,7 @@ impl Columns {
     pub fn add(&mut self, key: &str, line: &str) {
         let shown = if key == self.before { "" } else { key };
         // Writing to a string cannot fail.
-        let _ = writeln!(self.text, "{shown:<10} {}", plain_line(line));
+        let _ = writeln!(self.text, "{shown:<width$} {}", plain_line(line), width = INDENT - 1);
         key.clone_into(&mut self.before);
     }
 

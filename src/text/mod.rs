@@ -1,4 +1,4 @@
-//! Text for people: what is shown of names, markup, numbers of things, two columns; and infinite numbers in data. Imports nothing, and all may import it.
+//! Text for people: what is shown of names, markup, numbers of things, two columns, lines of a width; and infinite numbers in data. Imports nothing, and all may import it.
 
 #[cfg(feature = "live")]
 mod base64;
@@ -6,19 +6,28 @@ mod columns;
 mod markup;
 pub mod number;
 mod plain;
+mod wrapped;
 
 #[cfg(feature = "live")]
 pub use base64::base64;
 pub use columns::Columns;
+#[cfg(feature = "program")]
+pub use columns::INDENT;
 pub use markup::markup;
 #[cfg(feature = "program")]
 pub use plain::plain_json;
 pub use plain::{plain, plain_line};
+pub use wrapped::wrapped;
 
-/// A number of things: `1 obstacle`, `3 obstacles`.
+/// A number of things: `1 obstacle`, `3 obstacles`, `2 boxes`.
 #[must_use]
 pub fn counted(count: usize, thing: &str) -> String {
-    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+    let ending = match count {
+        1 => "",
+        _ if thing.ends_with('x') => "es",
+        _ => "s",
+    };
+    format!("{count} {thing}{ending}")
 }
 
 #[cfg(test)]
@@ -26,5 +35,6 @@ mod tests {
     #[test]
     fn one_thing_is_singular() {
         assert_eq!([0, 1, 2].map(|n| super::counted(n, "row")), ["0 rows", "1 row", "2 rows"]);
+        assert_eq!([1, 2].map(|n| super::counted(n, "box")), ["1 box", "2 boxes"]);
     }
 }

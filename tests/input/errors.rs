@@ -76,7 +76,7 @@ fn with_robot(table: &str, parts: &[&str]) {
 fn the_healthy_files_load() {
     let loaded = load_files("arm.urdf", ARM, WORLD, &Overrides::default()).unwrap();
     assert_eq!(loaded.problem.scene().arm().tip_name, "tool");
-    assert!(loaded.robot.notes.iter().any(|n| n.contains("heights along z")));
+    assert!(loaded.robot.geometry.iter().any(|n| n.contains("heights along z")));
     assert!(loaded.robot.notes.iter().any(|n| n.contains("top speed in 0.25 s")));
     assert!(loaded.robot.warnings.is_empty());
 }

@@ -12,7 +12,7 @@ const MOST_QUERIES: i64 = 100_000;
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("format").args(["json", "csv", "markdown"]))]
+#[command(group = ArgGroup::new("format").args(["wide", "json", "csv", "markdown"]))]
 #[command(after_help = "\
 Examples:
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml --picture paths.svg
@@ -69,6 +69,9 @@ pub struct CompareArgs {
     /// --direction 0,-1" or --with "trapezoid --path own"; can be repeated.
     #[arg(long, value_name = "PLANNER OPTIONS", value_parser = Variant::parse)]
     pub with: Vec<Variant>,
+    /// Print tables with all there is, however wide: also the size of what was searched, the time of each stage, both paths.
+    #[arg(long)]
+    pub wide: bool,
     /// Print the results as JSON: of several problems all runs, distributions and the summary.
     #[arg(long)]
     pub json: bool,

@@ -2,11 +2,12 @@
 
 use super::cases::{Case, Cases};
 use super::runner::Compared;
+use crate::check::CheckedProof;
 use crate::cli::failure::Failure;
 use crate::cli::sinks;
 use crate::draw::{self, Picture, View};
-use crate::model::Scene;
-use crate::model::Status;
+use crate::engine::{Options, Problem, plan};
+use crate::model::{MotionProblem, Scene, Status};
 use crate::output::{self, PictureFormat};
 use crate::report::{self, Comparison, Overlay, Study};
 use crate::space::Path;
@@ -52,7 +53,7 @@ pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Pi
     let drawn = chosen.into_iter().take(DRAWN_WORLDS).map(|i| {
         let (case, comparison) = (&cases.cases[i], &study.comparisons[i]);
         let svg = draw::svg(&view(case, comparison, &done.paths[i]));
-        report::Picture { title: case.name.clone(), svg }
+        report::Picture { title: format!("{}: {}", case.name, comparison.outcome()), svg }
     });
     drawn.collect()
 }
@@ -95,13 +96,22 @@ fn blocked(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
 fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
     let problem = case.problem();
     let named = comparison.rows.iter().zip(paths).filter_map(|(row, path)| Some((row, path.as_ref()?)));
-    let found = comparison.rows.iter().filter(|row| row.outcome == Status::Found).count();
+    let proof = proof(&problem, comparison);
     View::of_picture(&Picture {
         title: vec![output::title_of(problem.scene()), format!("lengths in {}", comparison.length_unit)],
-        status: format!("{found} of {} found a certified path", comparison.rows.len()),
+        status: comparison.outcome(),
         goals: problem.goals().pieces(),
         paths: named.map(|(row, path)| (format!("{}: {:.3}", row.planner, path.length()), path)).collect(),
+        proof: proof.as_ref(),
         c_obstacles: &output::contours(problem.scene()),
         ..Picture::new(problem.scene(), problem.start())
     })
+}
+
+/// The default planner's proof, where planners proved that there is no path. It is found again rather than kept: of many problems
+/// only a few are drawn.
+fn proof(problem: &MotionProblem, comparison: &Comparison) -> Option<CheckedProof> {
+    let is_proven = comparison.rows.iter().any(|row| row.outcome == Status::Infeasible);
+    let made = is_proven.then(|| plan(&Problem::from(problem.clone()), &Options::default()))?.ok()?;
+    made.motion()?.answer.verdict.proof().cloned()
 }

@@ -63,6 +63,9 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
         (true, ..) => sinks::print_json(&results.content(ReportFormat::Json)?)?,
         (_, true, _) => sinks::print(&results.content(ReportFormat::Csv)?)?,
         (.., true) => sinks::tell(&results.content(ReportFormat::Markdown)?)?,
+        _ if args.wide => {
+            sinks::tell(&results.single().map_or_else(|| study.to_wide_text(), Comparison::to_wide_text))?
+        }
         _ => sinks::tell(&results.single().map_or_else(|| study.to_text(), Comparison::to_text))?,
     }
     let alarms = study.alarms();

@@ -225,7 +225,7 @@ fn tell(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World, tex
         })
     };
     if args.output.is_some() || args.print.json {
-        return args.print.tell(json, || summary(args, taken, notes, world));
+        return args.print.tell(DONE, json, || summary(args, taken, notes, world));
     }
     args.print.say(summary(args, taken, notes, world).trim_end());
     sinks::print(text)

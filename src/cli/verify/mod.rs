@@ -43,12 +43,13 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
             draw(scene, recording, &findings, *format, path)?;
         }
     }
-    args.print.tell(|| sinks::pretty(&findings), || text::summary(scene.arm(), recording, &findings))?;
-    Ok(match findings.verdict {
+    let code = match findings.verdict {
         Verdict::Free => DONE,
         Verdict::Undecided => UNKNOWN,
         Verdict::Collision | Verdict::Limits | Verdict::Task | Verdict::Ends | Verdict::Claims => REFUTED,
-    })
+    };
+    args.print.tell(code, || sinks::pretty(&findings), || text::summary(scene.arm(), recording, &findings))?;
+    Ok(code)
 }
 
 fn overrides(args: &VerifyArgs) -> Overrides {

@@ -11,14 +11,7 @@ use crate::text::counted;
 
 /// The findings for people.
 pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFindings) -> String {
-    let mut lines = vec![("arm", format!("{} ({})", arm.name, arm.kind()))];
-    let duration = findings.duration.map_or("no times".into(), |d| format!("{d:.3} s"));
-    lines.push(("motion", format!("{} samples, {duration}", findings.samples)));
-    lines.extend(findings.notes.iter().map(|note| ("", note.clone())));
-    let positions = recording.positions();
-    lines.push(("from", configuration(arm, positions[0])));
-    lines.push(("to", configuration(arm, positions[findings.samples - 1])));
-    lines.extend(findings.steps.iter().flat_map(|steps| rows(steps)).map(|row| ("step", row)));
+    let mut lines = vec![("result", result(findings))];
     lines.extend(way(arm, &findings.way, findings.verdict));
     lines.extend(findings.steps.iter().flatten().filter_map(turn));
     lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
@@ -27,7 +20,14 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFinding
     if !findings.not_judged.is_empty() {
         lines.push(("not judged", format!("what the file says of {}", findings.not_judged.join(", "))));
     }
-    lines.push(("result", result(findings)));
+    let duration = findings.duration.map_or("no times".into(), |d| format!("{d:.3} s"));
+    lines.push(("motion", format!("{} samples, {duration}", findings.samples)));
+    let positions = recording.positions();
+    lines.push(("from", configuration(arm, positions[0])));
+    lines.push(("to", configuration(arm, positions[findings.samples - 1])));
+    lines.extend(findings.steps.iter().flat_map(|steps| rows(steps)).map(|row| ("step", row)));
+    lines.push(("arm", format!("{} ({})", arm.name, arm.kind())));
+    lines.extend(findings.notes.iter().map(|note| ("note", note.clone())));
     laid_out(&lines)
 }
 

@@ -11,6 +11,7 @@ use crate::model::{Grip, MotionProblem, Scene, Step, Task};
 use crate::motion::{Timed, single};
 use crate::search::{Connectivity, slab_connectivity};
 use crate::space::{Configuration, Path};
+use crate::text::counted;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -47,7 +48,8 @@ impl Refusal {
     /// There is no way, as this proves.
     fn barred(proof: CheckedProof) -> Self {
         let stuck = proof.stuck();
-        let reason = format!("there is no way: {} boxes of colliding configurations bar it (proven)", stuck.len());
+        let reason =
+            format!("there is no way: colliding configurations bar it (proven, {})", counted(stuck.len(), "box"));
         let blockers = Blockers::OnTheWay(distinct(stuck.iter().map(|stuck| stuck.pair.obstacle)));
         Self { proof: Some(proof), blockers, ..Self::new(reason, true) }
     }

@@ -49,6 +49,7 @@ struct Found {
 /// Two links, and what the user should know of them.
 pub(super) struct Outlines {
     pub links: [Link; 2],
+    pub geometry: Vec<String>,
     pub notes: Vec<String>,
     pub warnings: Vec<String>,
 }
@@ -60,11 +61,8 @@ impl Bodies<'_> {
     /// When a mesh cannot be used and the world asks for no bar instead, or when neither link has an outline.
     pub fn outlines(&self) -> Result<Outlines, InputError> {
         let bar = self.bar()?;
-        let mut notes = Vec::new();
-        let mut warnings = Vec::new();
-        let first = self.link(0, bar, &mut notes, &mut warnings)?;
-        let second = self.link(1, bar, &mut notes, &mut warnings)?;
-        let links = [first, second];
+        let (mut notes, mut warnings) = (Vec::new(), Vec::new());
+        let links = [self.link(0, bar, &mut notes, &mut warnings)?, self.link(1, bar, &mut notes, &mut warnings)?];
         if links.iter().all(|l| l.source == OutlineSource::None) {
             let message = format!(
                 "neither link \"{}\" nor link \"{}\" has collision or visual geometry: nothing of the arm can be hit",
@@ -74,7 +72,8 @@ impl Bodies<'_> {
                         world file: [robot] bar = 0.05 (their radius in metres)";
             return Err(self.document.source.diagnostic(message).help(help).into());
         }
-        Ok(Outlines { links, notes, warnings })
+        let geometry = links.iter().enumerate().map(|(index, link)| self.described(index, link)).collect();
+        Ok(Outlines { links, geometry, notes, warnings })
     }
 
     fn bar(&self) -> Result<Option<f64>, Diagnostic> {
@@ -126,14 +125,21 @@ impl Bodies<'_> {
                 }
             }
         }
-        notes.push(format!("link {} \"{name}\": {}", index + 1, self.summary(source, &parts)));
         if source == OutlineSource::None {
             warnings.push(format!(
                 "link {} \"{name}\" has no geometry, so it cannot collide ([robot] bar = RADIUS gives it one)",
                 index + 1
             ));
         }
-        Ok(Link { name, parts, source })
+        let link = Link { name, parts, source };
+        if matches!(source, OutlineSource::Visual | OutlineSource::Bar) {
+            notes.push(self.described(index, &link));
+        }
+        Ok(link)
+    }
+
+    fn described(&self, index: usize, Link { name, parts, source }: &Link) -> String {
+        format!("link {} \"{name}\": {}", index + 1, self.summary(*source, parts))
     }
 
     fn summary(&self, source: OutlineSource, parts: &[Part]) -> String {

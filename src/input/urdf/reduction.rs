@@ -92,13 +92,13 @@ impl<'a> Reduction<'a> {
     /// Puts the arm together.
     pub fn arm(&self, plane: Plane, bounds: [Bounds; 2], outlines: Outlines) -> (Arm, RobotReport) {
         let mut report = RobotReport {
-            notes: vec![plane::describe(&plane, &self.tree.links[self.tree.root])],
+            geometry: vec![plane::describe(&plane, &self.tree.links[self.tree.root])],
             ..Default::default()
         };
         if self.tree.implicit_world {
             report.notes.push("link \"world\" is not declared in the URDF; taken as the root".into());
         }
-        report.notes.push(format!("tip: origin of link \"{}\"", self.tree.links[self.chain.tip]));
+        report.geometry.push(format!("tip: origin of link \"{}\"", self.tree.links[self.chain.tip]));
         report.notes.extend(self.chain.notes.iter().cloned());
         let held = |&j: &usize| (self.document.robot.joints[j].name.clone(), self.chain.values[j]);
         report.held = self.chain.held.iter().map(held).collect();
@@ -116,6 +116,7 @@ impl<'a> Reduction<'a> {
                 report.assumed.acceleration.insert(name.clone(), bounds.rates.acceleration);
             }
         }
+        report.geometry.extend(outlines.geometry);
         report.notes.extend(outlines.notes);
         report.warnings.extend(outlines.warnings);
 

@@ -300,7 +300,7 @@ fn bare(reduction: &Reduction) -> Outlines {
         parts: Vec::new(),
         source: OutlineSource::None,
     });
-    Outlines { links, notes: Vec::new(), warnings: Vec::new() }
+    Outlines { links, geometry: Vec::new(), notes: Vec::new(), warnings: Vec::new() }
 }
 
 /// Ranges for the picture of an arm whose ranges are not all known: the known ones, a turn, or no slide.

@@ -23,6 +23,9 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     let values: Vec<Vec<f64>> = (0..study.planners().len())
         .map(|i| study.runs(i).filter_map(|(c, row)| measure.of(c, row)).map(|v| v * measure.scale()).collect())
         .collect();
+    if values.iter().all(Vec::is_empty) {
+        return None;
+    }
     // Nothing is shorter than the optimum.
     let base = (measure == Measure::OverOptimum).then_some(1.0);
     let axis = Axis::over(values.iter().flatten().copied(), base)?;
@@ -136,6 +139,7 @@ mod tests {
         assert!(svg.contains("class=\"only\"") && !svg.contains("class=\"box\""));
         assert_eq!(chart(&study(&[2.0]), Measure::Clearance), None);
         assert_eq!(chart(&study(&[]), Measure::Duration), None);
+        assert_eq!(chart(&study(&[2.0]), Measure::OverOptimum), None);
         let many: Vec<f64> = (0..1000).map(f64::from).collect();
         assert_eq!(chart(&study(&many), Measure::Duration).unwrap().matches("class=\"dot\"").count(), DOTS);
     }

@@ -11,7 +11,7 @@ impl Convergence {
         let [rows, columns] = self.cells;
         let subtitle = format!("Relaxations on {rows} x {columns} cells, {} of which are free", self.free);
         let charts = format!(
-            "<figure class=\"picture\"><img alt=\"Errors and sweeps\" src=\"{}\"/></figure>\n",
+            "<figure class=\"picture\" tabindex=\"0\"><img alt=\"Errors and sweeps\" src=\"{}\"/></figure>\n",
             image_source(&self.to_svg())
         );
         head(&self.title, &subtitle)

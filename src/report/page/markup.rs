@@ -54,7 +54,7 @@ pub fn image_source(svg: &str) -> String {
     source
 }
 
-/// A table with its first column as headings of the rows.
+/// A table with its first column as headings of the rows. It scrolls where it is, by keys, too.
 pub fn table(table: &Table) -> String {
     let class = |align| if align == Align::Right { " class=\"r\"" } else { "" };
     let head = table.columns.iter().map(|c| format!("<th scope=\"col\"{}>{}</th>", class(c.align()), markup(c.name())));
@@ -69,7 +69,7 @@ pub fn table(table: &Table) -> String {
         format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>())
     };
     format!(
-        "<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n",
+        "<div class=\"wide\" tabindex=\"0\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n",
         head.collect::<String>(),
         table.rows.iter().map(row).collect::<String>()
     )

@@ -54,11 +54,14 @@ impl Page<'_> {
             html +=
                 &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", markup(&alarm));
         }
+        if let [only] = &study.comparisons[..] {
+            html += &format!("<p class=\"verdict\">{}</p>\n", markup(&only.outcome()));
+        }
+        html += &section("Outcomes", &self.outcomes());
+        html += &self.charts();
+        html += &self.ways();
         let sentences: String = words(study).iter().map(|w| paragraph(w)).collect();
         html += &section("In words", &sentences);
-        html += &section("Outcomes", &self.outcomes());
-        html += &section("Distributions", &self.charts());
-        html += &self.ways();
         html += &self.tables();
         html + &foot(HOW)
     }
@@ -96,9 +99,12 @@ impl Page<'_> {
             ))
         };
         let charts: String = Measure::ALL.into_iter().filter_map(chart).collect();
+        if charts.is_empty() {
+            return charts;
+        }
         let note = "Box: the middle half of the runs; bar across it: the median; whiskers: the least and the greatest; each \
                     dot is a run. Axes are logarithmic where values differ much.";
-        format!("<p class=\"sub\">{note}</p>\n<div class=\"charts\">\n{charts}</div>\n")
+        section("Distributions", &format!("<div class=\"charts\">\n{charts}</div>\n<p class=\"sub\">{note}</p>\n"))
     }
 
     fn ways(&self) -> String {
@@ -111,7 +117,7 @@ impl Page<'_> {
         let picture = |picture: &Picture| {
             let title = markup(&picture.title);
             format!(
-                "<figure class=\"picture\"><img alt=\"{title}: workspace and configuration space\" src=\"{}\"/></figure>\n",
+                "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace and configuration space\" src=\"{}\"/></figure>\n",
                 image_source(&picture.svg)
             )
         };
@@ -125,7 +131,7 @@ impl Page<'_> {
         });
         let pictures: String = pictures.collect();
         let all = overlays + &pictures;
-        if all.is_empty() { all } else { section("Paths", &all) }
+        if all.is_empty() { all } else { section("Paths and proofs", &all) }
     }
 
     fn tables(&self) -> String {

@@ -90,7 +90,7 @@ pub fn matrix(study: &Study) -> String {
     };
     let lines: String = study.comparisons.iter().map(line).collect();
     format!(
-        "<div class=\"wide\"><table class=\"matrix\">\n<thead><tr><th scope=\"col\">problem</th>{head}</tr></thead>\n\
+        "<div class=\"wide\" tabindex=\"0\"><table class=\"matrix\">\n<thead><tr><th scope=\"col\">problem</th>{head}</tr></thead>\n\
          <tbody>\n{lines}</tbody>\n</table></div>\n"
     )
 }

@@ -117,6 +117,49 @@ fn completions_know_commands_options_and_values() {
     assert!(dir.contains("compgen -d") || dir.contains("-o plusdirs"), "{dir}");
 }
 
+/// What fish offers for a command line that begins so; none where there is no fish.
+fn offered_by_fish(place: &Place, line: &str) -> Option<Vec<String>> {
+    let script = format!("source cplan.fish; complete -C '{line}'");
+    let mut fish = std::process::Command::new("fish");
+    fish.args(["--no-config", "-c", &script]).current_dir(place.path("")).env("HOME", place.path(""));
+    let said = String::from_utf8(fish.output().ok()?.stdout).expect("UTF-8");
+    Some(said.lines().filter_map(|line| line.split('\t').next()).map(str::to_owned).collect())
+}
+
+#[test]
+fn fish_completes_whatever_stands_before() {
+    let place = Place::new();
+    let script = place.run(&["completions", "fish"], "").stdout;
+    // The main job's options are there behind its files, too: nothing asks whether a word is the first but for subcommands.
+    assert!(!script.contains("needs_command\" -l") && !script.contains("needs_command\" -s"), "{script}");
+    for rule in [
+        "$__fish_cplan_commands\" -l planner",
+        "subcommand completions\" -f -a \"zsh\"",
+        "subcommand help\" -f -a \"study\"",
+    ] {
+        assert!(script.contains(rule), "{rule}");
+    }
+    place.write("cplan.fish", &script);
+    place.write("arm.urdf", "");
+    for (line, has, lacks) in [
+        ("cplan ", "compare", "visibility"),
+        ("cplan ", "arm.urdf", "--planner"),
+        ("cplan arm.urdf world.toml --pl", "--planner", "arm.urdf"),
+        ("cplan arm.urdf world.toml --planner ", "visibility", "arm.urdf"),
+        ("cplan --planner ", "visibility", "compare"),
+        ("cplan compare arm.urdf world.toml --wi", "--wide", "--goal-tip"),
+        ("cplan completions ", "fish", "arm.urdf"),
+        ("cplan help ", "study", "arm.urdf"),
+    ] {
+        let Some(offered) = offered_by_fish(&place, line) else {
+            eprintln!("there is no fish here: its script was read, but not run");
+            return;
+        };
+        let offers = |word: &str| offered.iter().any(|offered| offered == word);
+        assert!(offers(has) && !offers(lacks), "{line}: {offered:?}");
+    }
+}
+
 #[test]
 fn manual_pages_say_what_the_help_says() {
     let place = Place::new();

@@ -1,4 +1,4 @@
-//! What names hold does nothing to a terminal.
+//! What a terminal shows: the verdict first, within its width, in colour. What names hold does nothing to it.
 
 use super::*;
 use serde_json::Value;
@@ -65,4 +65,75 @@ fn names_of_files_are_shown_with_escapes() {
     let name = "no\u{1b}[2Jworld\u{202e}.toml";
     harmless(&place.run(&[&shipped("robots/planar_2r.urdf"), name], ""), name);
     harmless(&place.run(&[&shelf()[0], &shelf()[1], "--output", "no\u{1b}[2J/plan.json"], ""), name);
+}
+
+#[test]
+fn the_verdict_comes_first_and_what_was_taken_for_granted_last() {
+    let done = Place::new().run(&shelf(), "");
+    let keys: Vec<&str> =
+        done.stdout.lines().filter_map(|line| line.split(' ').next()).filter(|k| !k.is_empty()).collect();
+    let order = [
+        "result",
+        "optimum",
+        "motion",
+        "clearance",
+        "planner",
+        "time",
+        "world",
+        "start",
+        "goal",
+        "arm",
+        "joint",
+        "note",
+    ];
+    assert_eq!(keys, order, "{}", done.stdout);
+    assert!(done.stdout.contains("no acceleration limit given; taken as"), "{}", done.stdout);
+    assert!(!done.stdout.contains("heights along"), "{}", done.stdout);
+    let verbose = Place::new().run(&shelf(), "-v").stdout;
+    assert!(
+        verbose.contains("\nrobot      plane: coordinates are (x, y)") && verbose.contains("outline from"),
+        "{verbose}"
+    );
+}
+
+#[test]
+fn colours_are_for_terminals_that_want_them() {
+    let told = |variables: &[(&str, &str)]| {
+        let output = Place::new().command().args(shelf()).envs(variables.iter().copied()).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let timeless = |text: &str| text.lines().filter(|line| !line.starts_with("time ")).collect::<Vec<_>>().join("\n");
+    let plain = told(&[]);
+    assert!(!plain.contains('\u{1b}'), "{plain:?}");
+    let forced = told(&[("CLICOLOR_FORCE", "1"), ("COLUMNS", "40")]);
+    assert!(forced.starts_with("result     \u{1b}[1m\u{1b}[32mfound and certified\u{1b}[0m: "), "{forced:?}");
+    assert_eq!(timeless(&told(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")])), timeless(&plain));
+    // Where it is no terminal nothing is wrapped, whatever its width.
+    assert_eq!(forced.lines().count(), plain.lines().count());
+}
+
+/// `script` runs a program on a terminal of its own.
+#[cfg(target_os = "linux")]
+#[test]
+fn lines_keep_to_the_terminal() {
+    let on_a_terminal = |columns: &str, no_color: bool| {
+        let mut command = std::process::Command::new("script");
+        let words = [env!("CARGO_BIN_EXE_cplan").to_owned()].into_iter().chain(shelf());
+        command.args(["-qec", &words.collect::<Vec<_>>().join(" "), "/dev/null"]).stdin(std::process::Stdio::null());
+        command.env("COLUMNS", columns).env("TERM", "xterm").env_remove("NO_COLOR");
+        if no_color {
+            command.env("NO_COLOR", "1");
+        }
+        String::from_utf8(command.output().unwrap().stdout).unwrap().replace('\r', "")
+    };
+    let narrow = on_a_terminal("60", true);
+    assert!(narrow.lines().all(|line| line.chars().count() <= 60), "{narrow}");
+    assert!(narrow.contains("\n           ") && !narrow.contains('\u{1b}'), "{narrow:?}");
+    let usual = Place::new().run(&shelf(), "").stdout;
+    let words = |text: &str| {
+        let lines = text.lines().filter(|line| !line.starts_with("time ") && !line.ends_with(" ms"));
+        lines.flat_map(str::split_whitespace).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(words(&narrow), words(&usual), "nothing is lost");
+    assert!(on_a_terminal("60", false).contains("\u{1b}[32mfound and certified\u{1b}[0m"));
 }

@@ -18,20 +18,27 @@ fn timeless(word: &str) -> &str {
     if word.trim_end_matches(',').parse::<f64>().is_ok() { ANY } else { word }
 }
 
-/// The lines of a text in a form to compare by: without times and memory, and without the widths of the columns beside them.
+/// The lines of a text in a form to compare by: without times and memory, and without the widths of the columns beside them. Units may
+/// stand below the headers that they belong to.
 fn lines(text: &str) -> Vec<String> {
     let is_volatile = |head: &str| head.ends_with("[ms]") || head.ends_with("[MiB]");
-    // Columns of the table that a line stands in.
+    // Columns of the table that a line stands in, counted from the last.
     let mut volatile: Vec<usize> = Vec::new();
-    let mut lines = Vec::new();
+    let mut lines: Vec<String> = Vec::new();
     for line in text.lines() {
         let cells = cells(line);
-        let heads: Vec<usize> = (0..cells.len()).filter(|&k| cells.len() > 1 && is_volatile(cells[k])).collect();
+        let from_last = |k: usize| cells.len() - 1 - k;
+        let heads = (0..cells.len()).filter(|&k| cells.len() > 1 && is_volatile(cells[k]));
+        let heads: Vec<usize> = heads.map(from_last).collect();
         let begins = !heads.is_empty();
         if begins || line.is_empty() {
             volatile = heads;
         }
-        let cell = |k: usize| if volatile.contains(&k) { ANY } else { cells[k] };
+        if begins && line.starts_with(' ') {
+            let above = lines.pop().unwrap_or_default();
+            lines.push(self::cells(&above).join("  "));
+        }
+        let cell = |k: usize| if volatile.contains(&from_last(k)) { ANY } else { cells[k] };
         lines.push(match (begins, volatile.is_empty()) {
             (true, _) => cells.join("  "),
             (_, false) if line.chars().all(|c| c == '-' || c == ' ') => "---".into(),

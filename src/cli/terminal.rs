@@ -1,0 +1,108 @@
+//! What a terminal shows: lines within its width, and in colour what a reader looks for. Elsewhere lines and letters stay as they are,
+//! for scripts.
+
+use super::{DONE, INFEASIBLE, UNKNOWN};
+use crate::text::{INDENT, wrapped};
+use clap::builder::styling::{AnsiColor, Style};
+use std::io::IsTerminal;
+use terminal_size::{Width, terminal_size_of};
+
+/// A narrower terminal would show a word a line.
+const NARROWEST: usize = 40;
+
+/// Characters of a line on stdout: those that `COLUMNS` says, or the terminal has; none where it is no terminal.
+fn width() -> Option<usize> {
+    let stdout = std::io::stdout();
+    let told = || std::env::var("COLUMNS").ok()?.parse().ok();
+    let seen = || terminal_size_of(std::io::stdout()).map(|(Width(width), _)| usize::from(width));
+    let width = stdout.is_terminal().then(|| told().or_else(seen)).flatten().filter(|width| *width > 0);
+    width.map(|width| width.max(NARROWEST))
+}
+
+/// A summary within the terminal's width, with its verdict in the colour of the exit code: in escapes, which
+/// [`anstream`] takes off where they have no place.
+pub fn summary(text: &str, code: u8) -> String {
+    let text = width().map_or_else(|| text.to_owned(), |width| narrowed(text, width));
+    painted(&text, code)
+}
+
+/// What is said on the way, with its label in colour.
+pub fn said(text: &str) -> String {
+    for (label, color) in [("error:", AnsiColor::Red), ("warning:", AnsiColor::Yellow)] {
+        if let Some(rest) = text.strip_prefix(label) {
+            return format!("{}{rest}", in_color(label, color));
+        }
+    }
+    text.to_owned()
+}
+
+/// Each line within the width; what is too long goes on below its second column.
+fn narrowed(text: &str, width: usize) -> String {
+    let narrowed = |line: &str| {
+        let blanks = line.chars().take_while(|c| *c == ' ').count();
+        let has_key = line.chars().nth(INDENT - 1) == Some(' ');
+        wrapped(line, width, if blanks == 0 && has_key { INDENT } else { blanks }) + "\n"
+    };
+    text.lines().map(narrowed).collect()
+}
+
+/// The verdict, as far as its first stop, in the colour of what it means.
+fn painted(text: &str, code: u8) -> String {
+    let color = match code {
+        DONE => AnsiColor::Green,
+        INFEASIBLE => AnsiColor::Red,
+        UNKNOWN => AnsiColor::Yellow,
+        _ => return text.to_owned(),
+    };
+    let mut lines = text.split_inclusive('\n');
+    let mut before = String::new();
+    for line in lines.by_ref() {
+        if let Some(result) = line.strip_prefix("result ") {
+            let verdict = result.trim_start();
+            let blanks = &result[..result.len() - verdict.len()];
+            let (verdict, rest) = verdict.split_at(verdict.find([':', ';', ',', '\n']).unwrap_or(verdict.len()));
+            let rest: String = std::iter::once(rest).chain(lines).collect();
+            return format!("{before}result {blanks}{}{rest}", in_color(verdict, color));
+        }
+        before.push_str(line);
+    }
+    before
+}
+
+fn in_color(text: &str, color: AnsiColor) -> String {
+    let style = Style::new().bold().fg_color(Some(color.into()));
+    format!("{style}{text}{style:#}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_go_on_below_their_second_column() {
+        let text = "shelf: planar_2r\nresult     there is no path; proven\n             without it there is one\n";
+        let narrow = "shelf: planar_2r\nresult     there is no\n           path;\n           proven\n             without\n             \
+                      it there\n             is one\n";
+        assert_eq!(narrowed(text, 22), narrow);
+        assert_eq!(narrowed(text, 80), text);
+    }
+
+    #[test]
+    fn the_verdict_alone_is_coloured() {
+        let text = "shelf\nresult     free: proven\nresult     free\n";
+        let green = painted(text, DONE);
+        assert_eq!(anstream::adapter::strip_str(&green).to_string(), text);
+        assert_eq!(green.matches("\u{1b}[32m").count(), 1);
+        assert!(green.contains("free\u{1b}[0m: proven\nresult     free\n"), "{green:?}");
+        assert!(painted("result     free", INFEASIBLE).contains("\u{1b}[31mfree\u{1b}[0m"));
+        assert_eq!(painted("no verdict\n", DONE), "no verdict\n");
+    }
+
+    #[test]
+    fn labels_are_coloured() {
+        assert!(
+            said("error: no").ends_with("error:\u{1b}[0m no") && said("warning: no").ends_with("warning:\u{1b}[0m no")
+        );
+        assert_eq!(said("no error: none"), "no error: none");
+    }
+}

@@ -1,0 +1,77 @@
+"""Who reads with a keyboard, a screen reader or tired eyes: axe finds nothing on any page, light or dark, on a desk or a phone."""
+
+import json
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from conftest import ROOT
+
+LOOKS = [("light", 1400, 1000), ("dark", 1400, 1000), ("light", 390, 844), ("dark", 390, 844)]
+
+
+def faults(seen):
+    """What axe finds: each rule that is broken, where, and why."""
+    found = Axe().run(seen.page).response
+    assert found["passes"], "axe has looked at nothing"
+    return [
+        f"{violation['id']}: {node['target']}: {node['failureSummary']}"
+        for violation in found["violations"]
+        for node in violation["nodes"]
+    ]
+
+
+def is_in_place(seen):
+    """The page itself never scrolls sideways, on a phone either."""
+    return seen.do("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+
+
+@pytest.fixture(scope="module")
+def pages(program):
+    """Pages of a plan, a proof, a task, comparisons, a study and a convergence."""
+    robot, shelf, closed = (
+        ROOT / f"{name}" for name in ("robots/planar_2r.urdf", "workspaces/shelf.toml", "workspaces/no_path.toml")
+    )
+    made = {
+        "plan": program.plan("planar_2r", "shelf")[0],
+        "proof": program.plan("planar_2r", "no_path", code=3)[0],
+        "task": program.plan("scara", "tasks/kitting_cell")[0],
+    }
+    for name, words, code in [
+        ("report", ["compare", robot, shelf, "--quiet"], 0),
+        ("infeasible", ["compare", robot, closed, "--planner", "shortest", "--planner", "first", "--quiet"], 3),
+        ("queries", ["compare", robot, shelf, "--queries", "4", "--planner", "shortest", "--planner", "wavefront", "--quiet"], 0),
+        ("study", ["study", ROOT / "workspaces/studies/base.toml", "--quiet"], 0),
+    ]:
+        made[name] = program.folder / f"axe_{name}.html"
+        program.run(*words, "--output", made[name], code=code)
+    made["convergence"] = program.folder / "axe_convergence.html"
+    program.run("converge", robot, shelf, "--cells", "24", "--quiet", "--picture", made["convergence"])
+    return made
+
+
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "report", "infeasible", "queries", "study", "convergence"])
+def test_nothing_is_found_on_pages(pages, show_file, name):
+    for scheme, width, height in LOOKS:
+        seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)
+        seen.do("document.querySelectorAll('details').forEach((folded) => { folded.open = true; })")
+        assert faults(seen) == [], f"{name}, {scheme}, {width} pixels wide"
+        assert is_in_place(seen), f"{name}, {width} pixels wide"
+        seen.shoot(f"axe_{name}_{scheme}_{width}")
+
+
+@pytest.mark.parametrize(("scheme", "width", "height"), LOOKS)
+def test_nothing_is_found_on_the_live_page(serve, scheme, width, height):
+    files = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]
+    seen = serve(*files, width=width, height=height, color_scheme=scheme)
+    assert faults(seen) == []
+    assert is_in_place(seen)
+
+
+def test_an_infeasible_world_says_so_and_shows_the_proof(pages, show_file):
+    seen = show_file(pages["infeasible"])
+    said = seen.page.locator(".verdict").inner_text()
+    assert said == "2 of 2 proved that there is none"
+    picture = seen.page.locator(".picture img").get_attribute("src")
+    assert "proof" in picture and json.dumps(said)[1:-1] in picture.replace("%20", " ")
+    headings = seen.page.locator("h2").all_inner_texts()
+    assert headings.index("Outcomes") < headings.index("Paths and proofs") < headings.index("In words")
