@@ -7,7 +7,7 @@ use crate::text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// What draws a view, in the order in which one part needs the other.
-const CODE: [&str; 9] = [
+const CODE: [&str; 11] = [
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
     include_str!("assets/labels.js"),
