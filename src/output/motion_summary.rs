@@ -66,7 +66,7 @@ const FEW_PAIRS: usize = 1000;
 pub(super) fn blocked_by(plan: &MotionPlan) -> Option<Line> {
     let (proof, scene) = (plan.answer.verdict.proof()?, plan.problem.scene());
     let is_small = scene.pairs().len() <= FEW_PAIRS;
-    let set = is_small.then(|| blocking_set(&Question::from(&plan.problem), Some(proof.clone()), BOXES));
+    let set = is_small.then(|| blocking_set(&Question::from(&plan.problem), Some(proof.clone()), [BOXES; 2]));
     let told = set.filter(BlockingSet::is_irreducible).map(|set| set.describe(scene));
     Some(("blocked by", told.unwrap_or_else(|| "`cplan explain` tells".into())))
 }

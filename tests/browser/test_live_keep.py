@@ -36,6 +36,18 @@ def test_edits_survive_a_reload(serve):
     assert crate(seen)[0] == [0.5, -1.6] and seen.page.locator(".remark").inner_text() == ""
 
 
+def test_what_can_be_dragged_says_so_until_it_was(serve):
+    seen = serve(*PLANAR)
+    settled(seen)
+    assert seen.do("cplan.editor.isNew")
+    drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
+    settled(seen)
+    assert not seen.do("cplan.editor.isNew")
+    seen.page.reload()
+    settled(seen)
+    assert not seen.do("cplan.editor.isNew")
+
+
 def test_a_loaded_world_survives_a_reload_with_its_edits(serve):
     seen = serve(*PLANAR)
     text = (ROOT / "workspaces/workbench.toml").read_bytes()

@@ -23,6 +23,9 @@ use std::time::{Duration, Instant};
 /// Boxes for decisions.
 const BOXES: usize = 20_000;
 
+/// And for what `explain` would else not know.
+const BOXES_AT_LAST: usize = 1_000_000;
+
 /// Farther than any slide of the random worlds needs to go.
 const FAR: f64 = 20.0;
 
@@ -81,7 +84,7 @@ fn blocking_sets_are_irreducible() {
             let Some(problem) = world(kind, seed) else { continue };
             let Verdict::Infeasible(proof) = decide(&problem, BOXES) else { continue };
             let clock = Instant::now();
-            let set = blocking_set(&Question::from(&problem), Some(proof), BOXES);
+            let set = blocking_set(&Question::from(&problem), Some(proof), [BOXES, BOXES_AT_LAST]);
             times.push(clock.elapsed());
             sizes.push(set.blockers.len());
             unknown += usize::from(!set.is_irreducible());

@@ -68,10 +68,12 @@ impl BlockingSet {
 ///
 /// A deletion filter: what the proof does not name goes at once, and of the rest each in turn if there is no motion without it, either. What is
 /// kept was needed: a motion is certified without it. That holds when others go later, since fewer obstacles, wider limits and less clearance only
-/// free more. Decisions by slabs and boxes, of these no more than so many; no optimum is asked for. `O(n)` decisions for the `n` that the proof names.
+/// free more. Decisions by slabs and boxes, of these no more than the first number, and the second of the few that are left where else
+/// something would be unknown; no optimum is asked for. `O(n)` decisions for the `n` that the proof names.
 #[must_use]
-pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: usize) -> BlockingSet {
-    let mut filter = Filter { question, boxes, all: Element::all(question.scene()), set: Vec::new(), proof: None };
+pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: [usize; 2]) -> BlockingSet {
+    let mut filter =
+        Filter { question, boxes: boxes[0], all: Element::all(question.scene()), set: Vec::new(), proof: None };
     filter.set.clone_from(&filter.all);
     filter.refine(proof);
     let (limits, others): (Vec<_>, Vec<_>) =
@@ -92,6 +94,7 @@ pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: usi
         }
     }
     // What was not decided among many may be among few.
+    filter.boxes = boxes[1];
     let count = kept.len();
     for k in (0..count).rev() {
         if kept[k].without.is_none() {
@@ -107,7 +110,7 @@ pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: usi
 
 /// Sets that have no obstacle in common, each of which is enough: one after the other, while there is none without the obstacles of those before.
 #[must_use]
-pub fn blocking_sets(question: &Question, proof: Option<CheckedProof>, boxes: usize) -> Vec<BlockingSet> {
+pub fn blocking_sets(question: &Question, proof: Option<CheckedProof>, boxes: [usize; 2]) -> Vec<BlockingSet> {
     let mut sets = vec![blocking_set(question, proof, boxes)];
     let mut gone: Vec<Element> = Vec::new();
     while sets.len() < MOST_SETS
@@ -119,7 +122,7 @@ pub fn blocking_sets(question: &Question, proof: Option<CheckedProof>, boxes: us
         }
         gone.extend(obstacles);
         let rest = question.without(&gone);
-        let Decision::Closed(proof) = rest.answer(boxes) else { break };
+        let Decision::Closed(proof) = rest.answer(boxes[0]) else { break };
         sets.push(blocking_set(&rest, proof, boxes));
     }
     sets

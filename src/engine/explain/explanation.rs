@@ -13,6 +13,9 @@ use crate::model::{Outcome, Status};
 /// Boxes that are looked at for each of the many decisions.
 const BOXES: usize = 20_000;
 
+/// And for those of the few that are in the way which would else be unknown.
+const BOXES_AT_LAST: usize = 1_000_000;
+
 /// Why there is no motion, or what shapes the one that there is.
 #[derive(Debug, Clone)]
 pub struct Explanation {
@@ -82,7 +85,7 @@ impl Closed {
 
 /// Why there is none.
 fn closed(question: &Question, proof: Option<CheckedProof>) -> Closed {
-    let mut sets = blocking_sets(question, proof.clone(), BOXES);
+    let mut sets = blocking_sets(question, proof.clone(), [BOXES, BOXES_AT_LAST]);
     let all = super::Element::all(question.scene());
     for set in &mut sets {
         let elements = set.elements();

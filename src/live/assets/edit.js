@@ -6,6 +6,9 @@ const GRASP = { mouse: 9, pen: 12, touch: 20 };
 /** Time between the taps of a double tap, milliseconds. */
 const DOUBLE = 350;
 
+/** Room for the name of a thing on each side of it, pixels. */
+const NAME = 18;
+
 class Editor {
   /**
    * `changed(final)` is called when the scene has changed; `selected()` when something else is selected; `used(panel)` when a
@@ -25,6 +28,8 @@ class Editor {
       tap: (panel) => this.tap(panel),
       grasps: (panel, value, event) => Boolean(this.reached(panel, value, event)),
     };
+    /** Whether nothing was ever dragged in this browser: what can be says so. */
+    this.isNew = !Keep.hasDragged();
     /** When a finger last tapped without moving anything. */
     this.tapped = { at: -Infinity };
     const { workspace, cspace } = view.panels;
@@ -162,6 +167,10 @@ class Editor {
     const { moved } = this.held;
     this.held.panel.canvas.style.cursor = '';
     this.held = null;
+    if (moved && this.isNew) {
+      this.isNew = false;
+      Keep.drag();
+    }
     if (moved) this.changed(true);
     else if (event.pointerType === 'touch') this.tapTwice(panel, value);
     return true;
@@ -351,6 +360,23 @@ class Editor {
       context.lineWidth = selection?.kind === 'start' ? 4 : 2;
       context.stroke();
     }
+    if (this.isNew) this.invite(context, panel);
+  }
+
+  /** On the first visit the goal and an obstacle say that they can be dragged. */
+  invite(context, panel) {
+    const { goal, start } = this.tips;
+    const obstacle = this.scene.obstacles.find(({ shape }) => shape)?.shape;
+    const { center, radius } = obstacle?.circle ?? {};
+    const ends = obstacle && (obstacle.circle ? [-1, 1].map((side) => center.map((x) => x + side * radius)) : Shapes.corners(obstacle));
+    const around = (places) => {
+      const spots = places.map((place) => panel.at(place));
+      const [[x, right], [y, bottom]] = [0, 1].map((k) => [Math.min(...spots.map((spot) => spot[k])), Math.max(...spots.map((spot) => spot[k]))]);
+      // Beyond their names.
+      return { x: x - NAME, y: y - NAME, width: right - x + 2 * NAME, height: bottom - y + 2 * NAME };
+    };
+    const names = [goal && around([goal]), ends && around(ends)].filter(Boolean).map((of) => ['drag me', of]);
+    Labels.beside(context, panel, names, [goal, start].filter(Boolean).map((tip) => panel.at(tip)));
   }
 
   /** Configurations that are not free: the links that hit something red, and what they hit. */

@@ -8,6 +8,7 @@ const MOST_STEPS = 20;
 
 const Keep = (() => {
   const PREFIX = 'cplan edits ';
+  const DRAGGED = 'cplan dragged';
 
   /** Of this window first, then of any. Browsers may refuse both. */
   function stores() {
@@ -84,5 +85,22 @@ const Keep = (() => {
     }
   }
 
-  return { write, read, forget };
+  /** Whether anything was ever dragged here, so that nobody needs to be told that it can be; for who keeps nothing it is as if. */
+  function hasDragged() {
+    try {
+      return window.localStorage.getItem(DRAGGED) !== null;
+    } catch {
+      return true;
+    }
+  }
+
+  function drag() {
+    try {
+      window.localStorage.setItem(DRAGGED, '1');
+    } catch {
+      // Then it is said again.
+    }
+  }
+
+  return { write, read, forget, hasDragged, drag };
 })();
