@@ -1,0 +1,7 @@
+//! x
+#![forbid(unsafe_code)]
+mod decimal;
+mod interval;
+mod overlap;
+mod polygon;
+mod sweep;

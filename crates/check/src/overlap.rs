@@ -1,0 +1,149 @@
+//! How deep two convex shapes overlap.
+
+use crate::interval::{Interval, Point};
+use num_bigint::{BigInt, Sign};
+
+/// All points within `radius` of the convex hull of some points.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    pub points: Vec<Point>,
+    pub radius: Interval,
+}
+
+type Exact = [BigInt; 2];
+
+fn cross(u: &Exact, v: &Exact) -> BigInt {
+    &u[0] * &v[1] - &u[1] * &v[0]
+}
+
+fn dot(u: &Exact, v: &Exact) -> BigInt {
+    &u[0] * &v[0] + &u[1] * &v[1]
+}
+
+fn minus(u: &Exact, v: &Exact) -> Exact {
+    [&u[0] - &v[0], &u[1] - &v[1]]
+}
+
+/// The corners of the convex hull, turning left; no three in a line (Andrew 1979).
+fn hull(mut points: Vec<Exact>) -> Vec<Exact> {
+    points.sort();
+    points.dedup();
+    if points.len() < 3 {
+        return points;
+    }
+    let mut ring: Vec<Exact> = Vec::new();
+    for back in [false, true] {
+        let first = ring.len();
+        for p in if back { points.iter().rev().collect::<Vec<_>>() } else { points.iter().collect() } {
+            while let [.., a, b] = &ring[first..]
+                && cross(&minus(b, a), &minus(p, a)).sign() != Sign::Plus
+            {
+                ring.pop();
+            }
+            ring.push(p.clone());
+        }
+        // Where one half ends the other begins.
+        ring.pop();
+    }
+    ring
+}
+
+/// Whether the origin is nearer than `distance` to the segment from `p` to `q`.
+fn is_near(p: &Exact, q: &Exact, distance: &BigInt) -> bool {
+    let (along, square) = (minus(q, p), distance * distance);
+    let at = -dot(p, &along);
+    let whole = dot(&along, &along);
+    if at.sign() != Sign::Plus {
+        dot(p, p) < square
+    } else if at >= whole {
+        dot(q, q) < square
+    } else {
+        let area = cross(p, q);
+        &area * &area < square * whole
+    }
+}
+
+/// Whether in every direction the shape `a` reaches beyond where `b` begins by more than `depth`: no translation of `a` by
+/// `depth` or less takes it off `b`.
+///
+/// With `M` the convex hull of all differences of a point of `b` and one of `a`, and `r` the sum of the radii, that means: in
+/// every direction `M` reaches beyond the origin by more than `depth - r`. For exact points in the middle of the enclosures
+/// that is decided without rounding, with `error`, the farthest that a difference is from there, added to what is asked for.
+pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
+    let mut error = BigInt::ZERO;
+    let mut differences = Vec::with_capacity(a.points.len() * b.points.len());
+    for p in &b.points {
+        for q in &a.points {
+            let [(x, dx), (y, dy)] = [0, 1].map(|k| (&p[k] - &q[k]).middle());
+            error = error.max(dx + dy);
+            differences.push([x, y]);
+        }
+    }
+    let needed = depth - &a.radius.lower - &b.radius.lower + error;
+    let ring = hull(differences);
+    let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
+    if needed.sign() == Sign::Minus && edges().any(|(p, q)| is_near(p, q, &-&needed)) {
+        return true;
+    }
+    // The origin is inside, and from each side farther than is needed.
+    let is_deep = |(p, q): (&Exact, &Exact)| {
+        let (area, along) = (cross(p, q), minus(q, p));
+        let is_inside = area.sign() == Sign::Plus;
+        is_inside && (needed.sign() == Sign::Minus || &area * &area > &needed * &needed * dot(&along, &along))
+    };
+    ring.len() > 2 && edges().all(is_deep)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decimal::Decimal;
+
+    fn of(text: &str) -> Interval {
+        Interval::from(&text.parse::<Decimal>().unwrap())
+    }
+
+    fn shape(points: &str, radius: &str) -> Shape {
+        let numbers: Vec<Interval> = points.split_whitespace().map(of).collect();
+        Shape { points: numbers.chunks(2).map(|p| [p[0].clone(), p[1].clone()]).collect(), radius: of(radius) }
+    }
+
+    /// The depth is this number: a little less is proven, a little more is not.
+    fn has_depth(a: &Shape, b: &Shape, depth: &str) {
+        let little = of("1e-50").upper;
+        for (a, b) in [(a, b), (b, a)] {
+            assert!(overlap_by_more_than(a, b, &(of(depth).lower - &little)), "{depth}");
+            assert!(!overlap_by_more_than(a, b, &(of(depth).upper + &little)), "{depth}");
+        }
+    }
+
+    #[test]
+    fn closed_forms() {
+        let square = shape("0 0  2 0  2 2  0 2", "0");
+        has_depth(&square, &shape("1 1  5 1  5 5  1 5", "0"), "1");
+        has_depth(&square, &shape("0.5 -9  0.5 9", "0"), "0.5");
+        has_depth(&square, &shape("1 1", "0.25"), "1.25");
+        has_depth(&square, &shape("5 6", "5.5"), "0.5");
+        has_depth(&square, &shape("2.1 1", "0.3"), "0.2");
+        has_depth(&shape("0 0", "1"), &shape("0.3 0.4", "2"), "2.5");
+        has_depth(&shape("0 0", "1"), &shape("3 4", "4.5"), "0.5");
+        has_depth(&shape("-1 0  1 0", "0.1"), &shape("0 -1  0 1", "0.1"), "1.2");
+        has_depth(&shape("-1 0  1 0", "0.1"), &shape("0 0.15", "0.1"), "0.05");
+        let root = "0.7071067811865475244008443621048490392848359376884740365883398689";
+        has_depth(&shape("1 0  0 1  -1 0  0 -1", "0"), &shape("0 0", "0"), root);
+        has_depth(&shape("-1 0  1 0", "1"), &shape("2 0  4 0", "1"), "1");
+        // Extra points within the hull and repeated ones change nothing.
+        has_depth(&shape("0 0  2 0  2 2  0 2  1 1  1 0  0 0", "0"), &shape("1 1  5 1  5 5  1 5", "0"), "1");
+    }
+
+    #[test]
+    fn what_touches_or_is_apart_has_no_depth() {
+        let square = shape("0 0  2 0  2 2  0 2", "0");
+        for other in [shape("2 0  3 0  3 1", "0"), shape("3 1", "1"), shape("3 3", "1"), shape("0 2  2 2", "0")] {
+            assert!(!overlap_by_more_than(&square, &other, &BigInt::ZERO));
+            assert!(!overlap_by_more_than(&other, &square, &BigInt::ZERO));
+        }
+        let point = shape("1 1", "0");
+        assert!(!overlap_by_more_than(&point, &point, &BigInt::ZERO));
+    }
+}

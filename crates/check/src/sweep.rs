@@ -1,0 +1,276 @@
+//! Whether boxes separate configurations from one another.
+
+use crate::decimal::Decimal;
+use crate::interval::Interval;
+
+/// All values from the first to the second.
+pub type Range = [Decimal; 2];
+
+/// All configurations from one corner to another, joint by joint.
+pub type Rectangle = [Range; 2];
+
+/// The values of a joint.
+#[derive(Debug, Clone)]
+pub enum Axis {
+    /// Between limits.
+    Line(Range),
+    /// All angles: values that differ by whole turns are one.
+    Circle,
+}
+
+/// The configuration space as a rectangle of the plane, and what is one on its border.
+#[derive(Debug)]
+pub struct Domain {
+    /// A range that holds all values. A circle's goes from a little below -pi to a little above pi.
+    ranges: [Range; 2],
+    /// Enclosures of a circle's -pi and pi, which are one angle.
+    seams: [Option<[Range; 2]>; 2],
+}
+
+impl Domain {
+    pub fn new(axes: &[Axis; 2]) -> Self {
+        let turn = [(-Interval::pi()).ends(), Interval::pi().ends()];
+        Self {
+            ranges: [0, 1].map(|k| match &axes[k] {
+                Axis::Line(range) => range.clone(),
+                Axis::Circle => [turn[0][0].clone(), turn[1][1].clone()],
+            }),
+            seams: [0, 1].map(|k| matches!(axes[k], Axis::Circle).then(|| turn.clone())),
+        }
+    }
+
+    /// A value's enclosure within the domain, whole turns taken off. None if it is outside, or too near a seam to say.
+    pub fn wrapped(&self, axis: usize, value: &Range) -> Option<Range> {
+        let within = |[low, high]: &Range| self.ranges[axis][0] <= *low && *high <= self.ranges[axis][1];
+        if within(value) {
+            return Some(value.clone());
+        }
+        self.seams[axis].as_ref()?;
+        let value = Interval { lower: Interval::from(&value[0]).lower, upper: Interval::from(&value[1]).upper };
+        let turn = Interval::pi() + Interval::pi();
+        let turns = (&value.lower + &Interval::pi().lower) / &turn.lower;
+        let candidates =
+            [-1, 0, 1].map(|more| &value - &(&turn * &(Interval::exactly(&turns + more << crate::interval::BITS))));
+        candidates.into_iter().map(|c| c.ends()).find(within)
+    }
+}
+
+/// What closed boxes leave of a domain: strips of the first joint between the boxes' sides, and in each the open gaps of the
+/// second.
+struct Gaps {
+    /// Ends of the strips, ascending: first joint's values by rank.
+    strips: Vec<Strip>,
+    /// Groups of gaps that belong together: each one's representative, or one nearer to it.
+    group: Vec<usize>,
+    values: [Vec<Decimal>; 2],
+}
+
+/// Gaps beside one another: from and to, by rank, and the number of the first of them.
+struct Strip {
+    first: usize,
+    gaps: Vec<[usize; 2]>,
+}
+
+impl Gaps {
+    fn new(domain: &Domain, boxes: &[Rectangle]) -> Self {
+        let clipped: Vec<Rectangle> = boxes.iter().filter_map(|b| clipped(b, &domain.ranges)).collect();
+        let values = [0, 1].map(|k| {
+            let ends = clipped.iter().map(|b| &b[k]).chain([&domain.ranges[k]]).flatten();
+            let mut values: Vec<Decimal> = ends.cloned().collect();
+            values.sort();
+            values.dedup();
+            values
+        });
+        let rank = |k: usize, value: &Decimal| values[k].partition_point(|v| v < value);
+        let mut ranked: Vec<[[usize; 2]; 2]> =
+            clipped.iter().map(|b| [0, 1].map(|k| [rank(k, &b[k][0]), rank(k, &b[k][1])])).collect();
+        ranked.sort_unstable();
+        let mut waiting = ranked.into_iter().peekable();
+        let mut active: Vec<[[usize; 2]; 2]> = Vec::new();
+        let (mut strips, mut count) = (Vec::new(), 0);
+        for left in 0..values[0].len() - 1 {
+            active.retain(|[[_, right], _]| *right > left);
+            while let Some(next) = waiting.next_if(|[[from, _], _]| *from <= left) {
+                active.extend((next[0][1] > left).then_some(next));
+            }
+            active.sort_unstable_by_key(|[_, side]| *side);
+            let (mut gaps, mut from) = (Vec::new(), 0);
+            for [_, [low, high]] in &active {
+                gaps.extend((*low > from).then_some([from, *low]));
+                from = from.max(*high);
+            }
+            let top = values[1].len() - 1;
+            gaps.extend((from < top).then_some([from, top]));
+            strips.push(Strip { first: count, gaps });
+            count += strips[left].gaps.len();
+        }
+        let mut gaps = Self { strips, group: (0..count).collect(), values };
+        gaps.join(domain);
+        gaps
+    }
+
+    /// Puts gaps together between which a free motion may lead: those of strips side by side that overlap; and across a seam
+    /// those that reach its enclosures on both sides.
+    fn join(&mut self, domain: &Domain) {
+        for right in 1..self.strips.len() {
+            self.join_strips(right - 1, right);
+        }
+        if let Some([low, high]) = &domain.seams[0] {
+            for a in self.strips_that_meet(low) {
+                for b in self.strips_that_meet(high) {
+                    self.join_strips(a, b);
+                }
+            }
+        }
+        if let Some([[_, low], [high, _]]) = &domain.seams[1] {
+            let values = &self.values[1];
+            let (below, above) = (values.partition_point(|v| v <= low), values.partition_point(|v| v < high));
+            for strip in 0..self.strips.len() {
+                let Strip { first, gaps } = &self.strips[strip];
+                let bottom = (0..gaps.len()).filter(|&g| gaps[g][0] < below).map(|g| first + g);
+                let top = (0..gaps.len()).filter(|&g| gaps[g][1] >= above).map(|g| first + g);
+                let pairs: Vec<_> = bottom.flat_map(|a| top.clone().map(move |b| (a, b))).collect();
+                pairs.into_iter().for_each(|(a, b)| self.unite(a, b));
+            }
+        }
+    }
+
+    fn join_strips(&mut self, a: usize, b: usize) {
+        let (mut i, mut j) = (0, 0);
+        while let (Some(&[low_a, high_a]), Some(&[low_b, high_b])) =
+            (self.strips[a].gaps.get(i), self.strips[b].gaps.get(j))
+        {
+            if low_a.max(low_b) < high_a.min(high_b) {
+                self.unite(self.strips[a].first + i, self.strips[b].first + j);
+            }
+            if high_a < high_b { i += 1 } else { j += 1 }
+        }
+    }
+
+    /// Strips whose closure meets a range.
+    fn strips_that_meet(&self, [low, high]: &Range) -> std::ops::Range<usize> {
+        let values = &self.values[0];
+        let from = values.partition_point(|v| v < low).saturating_sub(1);
+        from..values.partition_point(|v| v <= high).min(self.strips.len())
+    }
+
+    fn representative(&self, mut gap: usize) -> usize {
+        while self.group[gap] != gap {
+            gap = self.group[gap];
+        }
+        gap
+    }
+
+    fn unite(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.representative(a), self.representative(b));
+        self.group[a.max(b)] = a.min(b);
+    }
+
+    /// The groups of which some lies in a rectangle, borders included.
+    fn groups_that_meet(&self, [first, [low, high]]: &Rectangle) -> Vec<usize> {
+        let values = &self.values[1];
+        let meets = |[from, to]: &[usize; 2]| values[*from] <= *high && *low <= values[*to];
+        let strips = self.strips_that_meet(first).map(|s| &self.strips[s]);
+        let gaps = strips.flat_map(|s| (0..s.gaps.len()).filter(|&g| meets(&s.gaps[g])).map(|g| s.first + g));
+        gaps.map(|gap| self.representative(gap)).collect()
+    }
+}
+
+/// The part of a box in the domain; none if it has no inside there.
+fn clipped(stuck: &Rectangle, domain: &[Range; 2]) -> Option<Rectangle> {
+    let part = [0, 1].map(|k| [(&stuck[k][0]).max(&domain[k][0]).clone(), (&stuck[k][1]).min(&domain[k][1]).clone()]);
+    part.iter().all(|[low, high]| low < high).then_some(part)
+}
+
+/// The first of the goals that what the boxes leave may connect with the start; start and goals lie in the domain.
+pub fn connected(domain: &Domain, boxes: &[Rectangle], start: &Rectangle, goals: &[Rectangle]) -> Option<usize> {
+    let gaps = Gaps::new(domain, boxes);
+    let from = gaps.groups_that_meet(start);
+    goals.iter().position(|goal| gaps.groups_that_meet(goal).iter().any(|group| from.contains(group)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(text: &str) -> Decimal {
+        text.parse().unwrap()
+    }
+
+    fn range(low: &str, high: &str) -> Range {
+        [number(low), number(high)]
+    }
+
+    fn point(x: &str, y: &str) -> Rectangle {
+        [range(x, x), range(y, y)]
+    }
+
+    fn boxes(list: &[[&str; 4]]) -> Vec<Rectangle> {
+        list.iter().map(|[l, r, b, t]| [range(l, r), range(b, t)]).collect()
+    }
+
+    fn separates(axes: [Axis; 2], list: &[[&str; 4]]) -> bool {
+        let (start, goal) = (point("-1", "0.5"), point("1", "0.5"));
+        connected(&Domain::new(&axes), &boxes(list), &start, &[goal]).is_none()
+    }
+
+    fn line() -> Axis {
+        Axis::Line(range("-2", "2.1"))
+    }
+
+    #[test]
+    fn a_wall_separates_and_a_slit_does_not() {
+        assert!(!separates([line(), line()], &[]));
+        assert!(separates([line(), line()], &[["0", "0.1", "-2", "2.1"]]));
+        assert!(separates([line(), line()], &[["0", "0.1", "-5", "0.3"], ["0.05", "0.2", "0.3", "9"]]));
+        for slit in ["0.3000000000000000000000000000000001", "0.31"] {
+            assert!(!separates([line(), line()], &[["0", "0.1", "-5", "0.3"], ["0.05", "0.2", slit, "9"]]), "{slit}");
+        }
+        // Side by side they close; that their ends are written in different ways does not matter.
+        assert!(separates([line(), line()], &[["0", "0.10", "-5", "0.3"], ["1e-1", "0.2", "0.3", "9"]]));
+        assert!(!separates([line(), line()], &[["0", "0.1", "-5", "0.3"], ["0.1000000001", "0.2", "0.3", "9"]]));
+        // Up to just before the limit is not enough, nor is a wall without thickness or turned inside out.
+        assert!(!separates([line(), line()], &[["0", "0.1", "-2", "2.0999999999999999999"]]));
+        assert!(!separates([line(), line()], &[["0", "0", "-2", "2.1"]]));
+        assert!(!separates([line(), line()], &[["0.1", "0", "-2", "2.1"]]));
+        // Around the goal.
+        let ring =
+            [["0", "0.2", "-1", "1"], ["1.5", "1.6", "-1", "1"], ["0", "1.6", "-1", "0"], ["0", "1.6", "0.9", "1"]];
+        assert!(separates([line(), line()], &ring));
+        assert!((0..4).all(|gone| {
+            let rest: Vec<_> = (0..4).filter(|k| *k != gone).map(|k| ring[k]).collect();
+            !separates([line(), line()], &rest)
+        }));
+    }
+
+    #[test]
+    fn a_circle_goes_on_across_its_seam() {
+        let wall = ["0", "0.1", "-4", "4"];
+        let other = ["3", "3.1", "-4", "4"];
+        for second in [line(), Axis::Circle] {
+            assert!(!separates([Axis::Circle, second.clone()], &[wall]));
+            assert!(separates([Axis::Circle, second], &[wall, other]));
+        }
+        // Across the second joint's seam: a roof alone does not keep a circle in.
+        let roofed = [["-9", "9", "0.7", "0.8"], ["0", "0.1", "-4", "0.75"]];
+        assert!(separates([line(), line()], &roofed));
+        let short = [["-9", "9", "0.7", "0.8"], ["0", "0.1", "-3.1", "0.75"]];
+        assert!(!separates([line(), Axis::Circle], &short));
+        // Up to what a double takes for pi is a slit; beyond it is none.
+        let up_to = |pi| separates([line(), Axis::Circle], &[["0", "0.1", "-3.2", pi]]);
+        assert!(!up_to("3.141592653589793") && up_to("3.1415926535897936"));
+    }
+
+    #[test]
+    fn whole_turns_are_taken_off() {
+        let domain = Domain::new(&[Axis::Circle, line()]);
+        for (value, wrapped) in
+            [("7", "0.716"), ("-7", "-0.716"), ("3", "3"), ("-600.25", "2.935"), ("600.25", "-2.935")]
+        {
+            let [low, high] = domain.wrapped(0, &range(value, value)).unwrap();
+            let near = |a: &Decimal, by: &str| (&(a - &number(wrapped))).max(&(&number(wrapped) - a)) < &number(by);
+            assert!(near(&low, "0.001") && near(&high, "0.001") && low <= high, "{value}: {low} {high}");
+        }
+        assert!(domain.wrapped(1, &range("2.2", "2.2")).is_none() && domain.wrapped(1, &range("2.1", "2.1")).is_some());
+    }
+}
