@@ -25,6 +25,11 @@ impl Decimal {
         Self { mantissa: mantissa * BigInt::from(5).pow(bits), scale: bits }
     }
 
+    /// A whole number.
+    pub fn whole(n: i32) -> Self {
+        Self { mantissa: n.into(), scale: 0 }
+    }
+
     /// The middle of two numbers.
     pub fn middle(a: &Self, b: &Self) -> Self {
         let Self { mantissa, scale } = a + b;

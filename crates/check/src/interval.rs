@@ -46,6 +46,11 @@ impl Interval {
         Self { lower: n.clone(), upper: n }
     }
 
+    /// All numbers from the first to the second.
+    pub fn around([low, high]: &[Decimal; 2]) -> Self {
+        Self { lower: low.floor(BITS), upper: Self::from(high).upper }
+    }
+
     /// Whether it holds this one number and no other.
     pub fn is_whole(&self, n: i32) -> bool {
         *self == Self::whole(n)

@@ -1,7 +1,143 @@
-//! x
+//! An independent checker of cplan's certificates.
+//!
+//! [`check`] reads a URDF, a world and a certificate, and says whether the certificate proves its answer, in exact arithmetic:
+//! decimals are taken as they are written, roots, sines and cosines are enclosed by numbers below and above. It shares no code
+//! with the planner. `docs/certificates.md` in cplan's repository has the format, what each part of it means, and why what is
+//! checked suffices.
+//!
+//! ```
+//! let urdf = r#"<robot name="bar">
+//!     <link name="base"/>
+//!     <joint name="j1" type="revolute">
+//!         <parent link="base"/> <child link="bar"/> <axis xyz="0 0 1"/> <limit lower="-3" upper="3"/>
+//!     </joint>
+//!     <link name="bar">
+//!         <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1 0.1 0.1"/> </geometry> </collision>
+//!     </link>
+//!     <joint name="j2" type="revolute">
+//!         <parent link="bar"/> <child link="tool"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/> <limit lower="-1" upper="1"/>
+//!     </joint>
+//!     <link name="tool"/>
+//! </robot>"#;
+//! let world = "start.joints = [-1, 0]\ngoal.joints = [1, 0]\nobstacle = [{ circle = { center = [0.9, 0.0], radius = 0.2 } }]";
+//! let certificate = r#"{
+//!     "format": "cplan certificate 1", "answer": "infeasible",
+//!     "shapes": [{ "link": "bar", "collision": 0 }], "parts": [{ "obstacle": 0 }],
+//!     "boxes": [{ "lower": [-0.1, -1], "upper": [0.1, 1], "shape": 0, "part": 0 }]
+//! }"#;
+//! assert!(cplan_check::check(urdf, world, certificate).is_ok());
+//! let too_long = certificate.replace("0.1, 1", "0.3, 1");
+//! let why = cplan_check::check(urdf, world, &too_long).unwrap_err();
+//! assert!(matches!(why, cplan_check::CheckError::Fails(_)));
+//! ```
 #![forbid(unsafe_code)]
+
+mod arm;
+mod certificate;
 mod decimal;
+mod error;
 mod interval;
 mod overlap;
 mod polygon;
+mod robot;
 mod sweep;
+mod world;
+
+pub use error::{CheckError, Input};
+
+use arm::Cell;
+use certificate::{Answer, Certificate};
+use decimal::Decimal;
+use interval::Interval;
+use overlap::{Shape, overlap_by_more_than};
+use robot::{Arm, Body};
+use sweep::{Domain, Range, Rectangle};
+use world::World;
+
+/// Checks a certificate: the texts of the three files. What it proves is returned in words.
+///
+/// # Errors
+/// [`CheckError::Fails`] with the first part that does not hold, [`CheckError::Input`] for files that are wrong or that say
+/// what the checker does not know.
+pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, CheckError> {
+    let certificate = Certificate::read(certificate)?;
+    let world = World::read(world)?;
+    let document = roxmltree::Document::parse(urdf).map_err(|error| CheckError::Input {
+        input: Input::Urdf,
+        line: Some(error.pos().row as usize),
+        message: error.to_string(),
+    })?;
+    let arm = Arm::read(&document, &world)?;
+    match certificate.answer {
+        Answer::Infeasible => infeasible(&arm, &world, &certificate),
+    }
+}
+
+/// That no motion leads from the start to the goal.
+fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
+    let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
+    let start = place(arm, &domain, "start", certificate.start.as_ref(), world.start.as_ref())?;
+    let goal = place(arm, &domain, "goal", certificate.goal.as_ref(), world.goal.as_ref())?;
+    let clearance = certificate.clearance.as_ref().unwrap_or(&world.clearance);
+    if *clearance < Decimal::whole(0) {
+        return Err(CheckError::in_file(Input::World, "the clearance is negative"));
+    }
+    let boxes: Vec<Rectangle> =
+        certificate.boxes.iter().map(|b| [0, 1].map(|k| [b.lower[k].clone(), b.upper[k].clone()])).collect();
+    if let Some(empty) = boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
+        return CheckError::fails(format!("box {empty}: an upper end is below the lower one"));
+    }
+    if sweep::connected(&domain, &boxes, &start, &[goal]).is_some() {
+        return CheckError::fails("the boxes do not separate the goal from the start");
+    }
+    let bodies = certificate.shapes.iter().map(|name| arm.body(&name.link, name.collision));
+    let bodies = bodies.collect::<Result<Vec<Body>, _>>()?;
+    let parts = certificate.parts.iter().enumerate().map(|(number, name)| {
+        let obstacle = world.obstacles.get(name.obstacle);
+        let mut part = obstacle.map_or_else(|| Err("there is no such obstacle".into()), |o| o.part(&name.corners));
+        if let Ok(part) = &mut part {
+            part.radius = &part.radius + &Interval::from(clearance);
+        }
+        part.map_err(|why| CheckError::Fails(format!("part {number}, of obstacle {}: {why}", name.obstacle)))
+    });
+    let parts = parts.collect::<Result<Vec<Shape>, _>>()?;
+    for (number, (stuck, ranges)) in certificate.boxes.iter().zip(&boxes).enumerate() {
+        let (Some(body), Some(part)) = (bodies.get(stuck.shape), parts.get(stuck.part)) else {
+            return CheckError::fails(format!("box {number} names a shape or a part that is not there"));
+        };
+        if !body.is_at(world.obstacles[certificate.parts[stuck.part].obstacle].heights.as_ref()) {
+            return CheckError::fails(format!("box {number}: the shape passes over or under the obstacle"));
+        }
+        let cell = Cell::from(ranges);
+        if !overlap_by_more_than(&arm.placed(body, &cell), part, &arm.farthest(body, &cell)) {
+            return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
+        }
+    }
+    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
+    let shown = |own: Option<&[Decimal; 2]>| own.map_or_else(String::new, |[a, b]| format!(" ({a}, {b})"));
+    Ok(format!(
+        "no motion of \"{first}\" and \"{second}\" leads from the start{} to the goal{} with clearance {clearance}",
+        shown(certificate.start.as_ref()),
+        shown(certificate.goal.as_ref())
+    ))
+}
+
+/// The start or the goal: the certificate's, else the world's.
+fn place(
+    arm: &Arm,
+    domain: &Domain,
+    what: &str,
+    own: Option<&[Decimal; 2]>,
+    given: Option<&[Range; 2]>,
+) -> Result<Rectangle, CheckError> {
+    let own = own.map(|q| q.each_ref().map(|value| [value.clone(), value.clone()]));
+    let Some(values) = own.or_else(|| given.cloned()) else {
+        return Err(CheckError::in_file(Input::World, format!("there is no {what}: [{what}] joints = [q1, q2]")));
+    };
+    let wrapped = |k: usize| {
+        let message =
+            || format!("the {what}'s joint \"{}\" is outside its limits, or at half a turn", arm.joints[k].name);
+        domain.wrapped(k, &values[k]).ok_or_else(|| CheckError::in_file(Input::World, message()))
+    };
+    Ok([wrapped(0)?, wrapped(1)?])
+}

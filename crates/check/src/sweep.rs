@@ -46,7 +46,7 @@ impl Domain {
             return Some(value.clone());
         }
         self.seams[axis].as_ref()?;
-        let value = Interval { lower: Interval::from(&value[0]).lower, upper: Interval::from(&value[1]).upper };
+        let value = Interval::around(value);
         let turn = Interval::pi() + Interval::pi();
         let turns = (&value.lower + &Interval::pi().lower) / &turn.lower;
         let candidates =

@@ -1,0 +1,81 @@
+//! The certificate file.
+
+use crate::decimal::Decimal;
+use crate::error::{CheckError, Input};
+use crate::polygon::Corner;
+use serde::Deserialize;
+
+/// What certificates of this form begin with.
+pub const FORMAT: &str = "cplan certificate 1";
+
+/// A certificate. Numbers are exact.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate {
+    pub format: String,
+    pub answer: Answer,
+    /// What was asked, where it was not the world's own.
+    pub start: Option<[Decimal; 2]>,
+    pub goal: Option<[Decimal; 2]>,
+    pub clearance: Option<Decimal>,
+    pub shapes: Vec<ShapeName>,
+    pub parts: Vec<PartName>,
+    pub boxes: Vec<StuckBox>,
+}
+
+/// What is certified.
+#[derive(Deserialize, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum Answer {
+    Infeasible,
+}
+
+/// A collision shape of the URDF.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShapeName {
+    pub link: String,
+    /// Its number among those of the link.
+    pub collision: usize,
+}
+
+/// A convex part of an obstacle.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PartName {
+    /// The obstacle's number in the world file.
+    pub obstacle: usize,
+    /// Corners of the obstacle; none of a circle.
+    #[serde(default)]
+    pub corners: Vec<Corner>,
+}
+
+/// Configurations in all of which a shape and a part overlap.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StuckBox {
+    pub lower: [Decimal; 2],
+    pub upper: [Decimal; 2],
+    /// Into the shapes.
+    pub shape: usize,
+    /// Into the parts.
+    pub part: usize,
+}
+
+impl Certificate {
+    /// Reads a certificate.
+    ///
+    /// # Errors
+    /// What is none, or of another form.
+    pub fn read(text: &str) -> Result<Self, CheckError> {
+        let certificate: Self = serde_json::from_str(text).map_err(|error| {
+            let message = format!("this is no certificate: {error}");
+            CheckError::Input { input: Input::Certificate, line: Some(error.line()), message }
+        })?;
+        if certificate.format != FORMAT {
+            let message = format!("its format is \"{}\": the checker knows \"{FORMAT}\"", certificate.format);
+            return Err(CheckError::in_file(Input::Certificate, message));
+        }
+        Ok(certificate)
+    }
+}

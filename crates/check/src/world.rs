@@ -1,0 +1,279 @@
+//! The world file: obstacles, what is asked, and what goes over the URDF.
+
+use crate::decimal::Decimal;
+use crate::error::{CheckError, Input};
+use crate::interval::{Interval, Point, sum, turned};
+use crate::overlap::Shape;
+use crate::polygon::{self, Corner};
+use crate::sweep::Range;
+use std::collections::BTreeMap;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+type Value<'a> = Spanned<DeValue<'a>>;
+
+/// What the checker knows of a world. Enclosures of what is in degrees, else the numbers themselves.
+pub struct World {
+    /// The names of the two joints, if it says them.
+    pub joints: Option<Vec<String>>,
+    /// Values of other joints, by name.
+    pub fixed: BTreeMap<String, Range>,
+    /// Ranges of joints, by name.
+    pub limits: BTreeMap<String, Range>,
+    pub start: Option<[Range; 2]>,
+    pub goal: Option<[Range; 2]>,
+    pub clearance: Decimal,
+    pub obstacles: Vec<Obstacle>,
+}
+
+/// An obstacle, as it stands in the file.
+pub struct Obstacle {
+    outline: Outline,
+    /// Where its frame's origin lies, and how it is turned.
+    at: Corner,
+    angle: Interval,
+    /// Its extent along the plane's normal; none: everywhere.
+    pub heights: Option<Range>,
+}
+
+enum Outline {
+    /// What its rings surround an odd number of times.
+    Polygon(Vec<Vec<Corner>>),
+    Polyline(Vec<Corner>),
+    Circle(Corner, Decimal),
+    Image,
+}
+
+/// Reads values of the file, with their places.
+struct Reader<'a>(&'a str);
+
+type Read<T> = Result<T, CheckError>;
+
+impl Reader<'_> {
+    fn error<T>(&self, value: &Value, message: &str) -> Read<T> {
+        Err(CheckError::at(Input::World, self.0, value.span().start, message))
+    }
+
+    fn table<'v, 'i>(&self, value: &'v Value<'i>) -> Read<&'v DeTable<'i>> {
+        value.get_ref().as_table().map_or_else(|| self.error(value, "expected a table"), Ok)
+    }
+
+    fn list<'v, 'i>(&self, value: &'v Value<'i>) -> Read<Vec<&'v Value<'i>>> {
+        value
+            .get_ref()
+            .as_array()
+            .map_or_else(|| self.error(value, "expected a list"), |list| Ok(list.iter().collect()))
+    }
+
+    fn text(&self, value: &Value) -> Read<String> {
+        value.get_ref().as_str().map_or_else(|| self.error(value, "expected a text"), |text| Ok(text.to_owned()))
+    }
+
+    /// A number, exactly as it is written.
+    fn number(&self, value: &Value) -> Read<Decimal> {
+        let text = match value.get_ref() {
+            DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
+            DeValue::Float(number) => number.as_str(),
+            _ => return self.error(value, "expected a decimal number"),
+        };
+        text.replace('_', "").parse().or_else(|why: String| self.error(value, &why))
+    }
+
+    /// A number, or an enclosure of degrees in radians.
+    fn quantity(&self, value: &Value) -> Read<Range> {
+        let Some(text) = value.get_ref().as_str() else {
+            let number = self.number(value)?;
+            return Ok([number.clone(), number]);
+        };
+        let degrees = text.trim().strip_suffix("deg").and_then(|number| number.trim_end().parse::<Decimal>().ok());
+        let Some(degrees) = degrees else {
+            return self.error(value, "expected a number, or an angle such as \"30deg\"");
+        };
+        Ok((&Interval::from(&degrees) * &Interval::pi().over(180)).ends())
+    }
+
+    fn two<T>(&self, value: &Value, read: impl Fn(&Value) -> Read<T>) -> Read<[T; 2]> {
+        match self.list(value)?[..] {
+            [a, b] => Ok([read(a)?, read(b)?]),
+            _ => self.error(value, "expected two numbers"),
+        }
+    }
+
+    fn corners(&self, value: &Value) -> Read<Vec<Corner>> {
+        self.list(value)?.into_iter().map(|p| self.two(p, |n| self.number(n))).collect()
+    }
+
+    /// A ring, or as in GeoJSON a list of rings.
+    fn rings(&self, value: &Value) -> Read<Vec<Vec<Corner>>> {
+        let list = self.list(value)?;
+        let first = list.first().and_then(|ring| ring.get_ref().as_array()?.iter().next()?.get_ref().as_array());
+        if first.is_some() {
+            list.into_iter().map(|r| self.corners(r)).collect()
+        } else {
+            Ok(vec![self.corners(value)?])
+        }
+    }
+
+    fn by_name<T>(&self, value: &Value, read: impl Fn(&Value) -> Read<T>) -> Read<BTreeMap<String, T>> {
+        self.table(value)?.iter().map(|(name, value)| Ok((name.get_ref().to_string(), read(value)?))).collect()
+    }
+
+    /// Joint values of `[start]` or `[goal]`.
+    fn configuration(&self, value: &Value) -> Read<[Range; 2]> {
+        match self.table(value)?.get("joints") {
+            Some(joints) => self.two(joints, |q| self.quantity(q)),
+            None => self.error(value, "the checker does not know places of the tip yet: give joints = [q1, q2]"),
+        }
+    }
+
+    fn robot(&self, value: &Value, world: &mut World) -> Read<()> {
+        for (key, value) in self.table(value)? {
+            match &**key.get_ref() {
+                "joints" => {
+                    let names: Read<Vec<String>> = self.list(value)?.into_iter().map(|name| self.text(name)).collect();
+                    world.joints = Some(names?);
+                }
+                "fixed" => world.fixed = self.by_name(value, |q| self.quantity(q))?,
+                "limits" => {
+                    let range = |limits: &Value| {
+                        let [[low, _], [_, high]] = self.two(limits, |q| self.quantity(q))?;
+                        Ok([low, high])
+                    };
+                    world.limits = self.by_name(value, range)?;
+                }
+                // What does not concern where shapes are.
+                "tip" | "velocity" | "acceleration" | "jerk" | "wrist" | "stroke" | "payload" => {}
+                // Links have more shapes by it, never fewer.
+                "bar" => {}
+                other => return self.error(value, &format!("the checker does not know [robot] {other}")),
+            }
+        }
+        Ok(())
+    }
+
+    fn obstacle(&self, value: &Value) -> Read<Obstacle> {
+        let zero = || Decimal::whole(0);
+        let (mut outlines, mut holes) = (Vec::new(), Vec::new());
+        let (mut at, mut angle, mut heights) = ([zero(), zero()], Interval::whole(0), None);
+        for (key, value) in self.table(value)? {
+            match &**key.get_ref() {
+                "polygon" => outlines.push(Outline::Polygon(self.rings(value)?)),
+                "polyline" => outlines.push(Outline::Polyline(self.corners(value)?)),
+                "circle" => {
+                    let table = self.table(value)?;
+                    let (Some(center), Some(radius)) = (table.get("center"), table.get("radius")) else {
+                        return self.error(value, "a circle has a center and a radius");
+                    };
+                    outlines.push(Outline::Circle(self.two(center, |n| self.number(n))?, self.number(radius)?));
+                }
+                "image" => outlines.push(Outline::Image),
+                "holes" => holes = self.rings(value)?,
+                "at" => at = self.two(value, |n| self.number(n))?,
+                "angle" => angle = Interval::around(&self.quantity(value)?),
+                "height" => heights = Some(self.two(value, |n| self.number(n))?),
+                "name" | "unknown" => {}
+                other => {
+                    return self.error(value, &format!("the checker does not know the key {other} of an obstacle"));
+                }
+            }
+        }
+        let [outline] =
+            <[Outline; 1]>::try_from(outlines).or_else(|_| self.error(value, "an obstacle has one shape"))?;
+        let outline = match outline {
+            Outline::Polygon(mut rings) => {
+                rings.extend(holes);
+                Outline::Polygon(rings)
+            }
+            other => other,
+        };
+        Ok(Obstacle { outline, at, angle, heights })
+    }
+}
+
+impl World {
+    /// Reads a world file.
+    ///
+    /// # Errors
+    /// What is no world, or says what the checker does not know and what could make a difference.
+    pub fn read(text: &str) -> Read<Self> {
+        let table = DeTable::parse(text).map_err(|error| {
+            let at = error.span().map_or(0, |span| span.start);
+            CheckError::at(Input::World, text, at, error.message())
+        })?;
+        let reader = Reader(text);
+        let mut world = Self {
+            joints: None,
+            fixed: BTreeMap::new(),
+            limits: BTreeMap::new(),
+            start: None,
+            goal: None,
+            clearance: Decimal::whole(0),
+            obstacles: Vec::new(),
+        };
+        for (key, value) in table.get_ref() {
+            match &**key.get_ref() {
+                "robot" => reader.robot(value, &mut world)?,
+                "start" => world.start = Some(reader.configuration(value)?),
+                "goal" => world.goal = Some(reader.configuration(value)?),
+                "clearance" => world.clearance = reader.number(value)?,
+                "obstacle" => {
+                    let list: Read<Vec<Obstacle>> =
+                        reader.list(value)?.into_iter().map(|o| reader.obstacle(o)).collect();
+                    world.obstacles = list?;
+                }
+                "name" | "preference" | "sensor" => {}
+                other => return reader.error(value, &format!("the checker does not know worlds with {other} yet")),
+            }
+        }
+        Ok(world)
+    }
+}
+
+impl Obstacle {
+    /// A convex part of it, in its place: a disc all of it, of a polyline two points that follow one another, of a polygon
+    /// a convex polygon within. Corners are those of the file that are nearest to the ones given.
+    ///
+    /// # Errors
+    /// Why it is no such part.
+    pub fn part(&self, given: &[Corner]) -> Result<Shape, String> {
+        let (corners, radius) = match &self.outline {
+            Outline::Circle(center, radius) => (vec![center.clone()], radius.clone()),
+            Outline::Polyline(points) => {
+                let part = nearest(points.iter(), given);
+                let is_side =
+                    |pair: &[Corner]| part == pair || matches!(&part[..], [a, b] if *a == pair[1] && *b == pair[0]);
+                if !points.windows(2).any(is_side) {
+                    return Err("its corners are not two points that follow one another in the polyline".into());
+                }
+                (part, Decimal::whole(0))
+            }
+            Outline::Polygon(rings) => {
+                let part = nearest(rings.iter().flatten(), given);
+                if !polygon::holds(rings, &part) {
+                    return Err(
+                        "its corners are not those, turning left, of a convex polygon within the obstacle".into()
+                    );
+                }
+                (part, Decimal::whole(0))
+            }
+            Outline::Image => return Err("the obstacle is an image".into()),
+        };
+        let (at, turn) = (point(&self.at), self.angle.sin_cos());
+        let points = corners.iter().map(|corner| sum(&at, &turned(&point(corner), &turn))).collect();
+        Ok(Shape { points, radius: Interval::from(&radius) })
+    }
+}
+
+fn point(corner: &Corner) -> Point {
+    [0, 1].map(|k| Interval::from(&corner[k]))
+}
+
+/// To each given point the nearest of those that there are.
+fn nearest<'a>(corners: impl Iterator<Item = &'a Corner> + Clone, given: &[Corner]) -> Vec<Corner> {
+    let distance = |a: &Corner, b: &Corner| {
+        let [x, y] = [0, 1].map(|k| &a[k] - &b[k]);
+        &(&x * &x) + &(&y * &y)
+    };
+    let to = |point: &Corner| corners.clone().min_by_key(|corner| distance(corner, point)).cloned();
+    given.iter().filter_map(to).collect()
+}
