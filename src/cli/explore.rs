@@ -137,7 +137,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
                     files.push((path.clone(), text.into_bytes()));
                 }
             },
-            Sink::CSpace(..) => (),
+            Sink::CSpace(..) | Sink::Certificate(_) => (),
             Sink::Picture(format, path) => {
                 let view = || view(&world, &done);
                 let page = || {

@@ -2,7 +2,6 @@
 
 use super::args::{Files, PlanArgs};
 use super::failure::Failure;
-use super::print_args::PrintArgs;
 use super::result_files::ResultFiles;
 use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN, words};
@@ -25,7 +24,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
 /// # Errors
 /// Bad input and I/O.
 pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputError>) -> Result<u8, Failure> {
-    let sinks = sinks::sinks(&args.output, &args.picture)?;
+    let sinks = sinks::sinks_with(&args.output, &args.picture, args.certificate.as_deref())?;
     let options = words::options(args.planner, &args.options, &args.motion, &args.message)?;
     let options = Options { timings: args.timings, ..options };
     let begun = Instant::now();
@@ -43,7 +42,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     problem.robot().warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
     let begun = Instant::now();
-    let written = written(&plan, &sinks, &files, &args.print)?;
+    let written = written(&plan, &sinks, &files, args)?;
     let after = [("write", begun.elapsed())];
     let code = match plan.status() {
         Status::Found => DONE,
@@ -54,11 +53,11 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     Ok(code)
 }
 
-/// Writes results, then configuration spaces and pictures. The names of the files that are written, for people.
+/// Writes results, then configuration spaces, pictures and the certificate. The names of the files that are written, for people.
 ///
 /// # Errors
 /// I/O, or a picture that cannot be made of pixels.
-fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles, print: &PrintArgs) -> Result<Vec<String>, Failure> {
+fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles, args: &PlanArgs) -> Result<Vec<String>, Failure> {
     let mut written = files.write(plan)?;
     let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.plays()));
     let seen = || if plays { plan.view_with_replay() } else { plan.view() };
@@ -70,9 +69,16 @@ fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles, print: &PrintArgs) 
                 write_whole(path, format.text(spaces.get_or_insert_with(|| plan.cspaces())).as_bytes())?;
             }
             Sink::Picture(format, path) => {
-                let mut progress = sinks::pictures_done(path, print);
+                let mut progress = sinks::pictures_done(path, &args.print);
                 write_whole(path, &format.bytes_with(view.get_or_insert_with(seen), &mut progress)?)?;
             }
+            Sink::Certificate(path) => match plan.certificate(&args.query.overrides()) {
+                Ok(certificate) => write_whole(path, certificate.as_bytes())?,
+                Err(why) => {
+                    sinks::say(&format!("warning: {} is not written: {why}", path.display()));
+                    continue;
+                }
+            },
         }
         written.push(sink.path().display().to_string());
     }

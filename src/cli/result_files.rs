@@ -27,7 +27,7 @@ impl ResultFiles {
     pub fn new(sinks: &[Sink], per_step: bool, steps: usize) -> Result<Self, Failure> {
         let results = sinks.iter().filter_map(|sink| match sink {
             Sink::Result(format, path) => Some((*format, path.clone())),
-            Sink::CSpace(..) | Sink::Picture(..) => None,
+            Sink::CSpace(..) | Sink::Picture(..) | Sink::Certificate(_) => None,
         });
         let files = Self { results: results.collect(), per_step, steps };
         let parted: Vec<&Path> =

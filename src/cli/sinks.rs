@@ -23,13 +23,15 @@ pub enum Sink {
     CSpace(CSpaceFormat, PathBuf),
     /// A picture.
     Picture(PictureFormat, PathBuf),
+    /// The evidence for the answer.
+    Certificate(PathBuf),
 }
 
 impl Sink {
     /// The file.
     pub fn path(&self) -> &Path {
         match self {
-            Sink::Result(_, path) | Sink::CSpace(_, path) | Sink::Picture(_, path) => path,
+            Sink::Result(_, path) | Sink::CSpace(_, path) | Sink::Picture(_, path) | Sink::Certificate(path) => path,
         }
     }
 }
@@ -39,7 +41,15 @@ impl Sink {
 /// # Errors
 /// Extensions that are none of ours or not in this program, and files that cannot be written.
 pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Failure> {
-    let mut sinks = Vec::new();
+    sinks_with(results, pictures, None)
+}
+
+/// The same with a certificate.
+///
+/// # Errors
+/// As [`sinks`].
+pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option<&Path>) -> Result<Vec<Sink>, Failure> {
+    let mut sinks: Vec<Sink> = certificate.map(|path| Sink::Certificate(path.to_owned())).into_iter().collect();
     for path in results {
         sinks.push(match CSpaceFormat::from_path(path) {
             Some(format) => Sink::CSpace(format, path.clone()),

@@ -39,6 +39,7 @@
 mod admission;
 mod bound;
 mod cell_counts;
+mod certificate;
 mod clock;
 mod corners;
 pub mod explain;
@@ -68,6 +69,7 @@ mod thinned;
 
 pub use bound::{Bound, bound, checked_bound, percent};
 pub use cell_counts::CellCounts;
+pub use certificate::NoCertificate;
 pub use field_problem::FieldProblem;
 pub use grid_space::GridSpace;
 pub(crate) use kind::Kind;

@@ -11,8 +11,9 @@ const EVERYWHERE: [&str; 3] = ["cplan_interrupt", "text", "parallel"];
 const CRATE: &str = "cplan_";
 
 /// Who may import whom, besides [`EVERYWHERE`].
-const MAY_IMPORT: [(&str, &[&str]); 27] = [
+const MAY_IMPORT: [(&str, &[&str]); 28] = [
     (EVERYWHERE[0], &[]),
+    ("cplan_check", &[]),
     ("cplan_drawing", &[]),
     ("cplan_multigrid", &[]),
     ("cplan_gpu", &[]),

@@ -6,6 +6,7 @@ use crate::interval::{Interval, Point, sum, turned};
 use crate::overlap::Shape;
 use crate::polygon::{self, Corner};
 use crate::sweep::Range;
+use num_bigint::Sign;
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -231,49 +232,54 @@ impl World {
 
 impl Obstacle {
     /// A convex part of it, in its place: a disc all of it, of a polyline two points that follow one another, of a polygon
-    /// a convex polygon within. Corners are those of the file that are nearest to the ones given.
+    /// a convex polygon within. Its corners are the obstacle's that are nearest to the given points.
     ///
     /// # Errors
     /// Why it is no such part.
     pub fn part(&self, given: &[Corner]) -> Result<Shape, String> {
+        let turn = self.angle.sin_cos();
+        let placed = |corner: &Corner| sum(&point(&self.at), &turned(&point(corner), &turn));
+        let named = |corners: &[&Corner]| {
+            let places: Vec<Point> = corners.iter().map(|corner| placed(corner)).collect();
+            given.iter().filter_map(|at| Some(corners[nearest(&places, &point(at))?].clone())).collect::<Vec<Corner>>()
+        };
         let (corners, radius) = match &self.outline {
-            Outline::Circle(center, radius) => (vec![center.clone()], radius.clone()),
+            Outline::Circle(center, radius) => (vec![center.clone()], Interval::from(radius)),
             Outline::Polyline(points) => {
-                let part = nearest(points.iter(), given);
-                let is_side =
-                    |pair: &[Corner]| part == pair || matches!(&part[..], [a, b] if *a == pair[1] && *b == pair[0]);
+                let part = named(&points.iter().collect::<Vec<_>>());
+                let is_side = |side: &[Corner]| part == side || part.iter().rev().eq(side);
                 if !points.windows(2).any(is_side) {
                     return Err("its corners are not two points that follow one another in the polyline".into());
                 }
-                (part, Decimal::whole(0))
+                (part, Interval::whole(0))
             }
             Outline::Polygon(rings) => {
-                let part = nearest(rings.iter().flatten(), given);
+                let part = named(&rings.iter().flatten().collect::<Vec<_>>());
                 if !polygon::holds(rings, &part) {
                     return Err(
                         "its corners are not those, turning left, of a convex polygon within the obstacle".into()
                     );
                 }
-                (part, Decimal::whole(0))
+                (part, Interval::whole(0))
             }
-            Outline::Image => return Err("the obstacle is an image".into()),
+            Outline::Image => return Err("the obstacle is an image, which the checker does not know yet".into()),
         };
-        let (at, turn) = (point(&self.at), self.angle.sin_cos());
-        let points = corners.iter().map(|corner| sum(&at, &turned(&point(corner), &turn))).collect();
-        Ok(Shape { points, radius: Interval::from(&radius) })
+        if radius.lower.sign() == Sign::Minus {
+            return Err("its radius is negative".into());
+        }
+        Ok(Shape { points: corners.iter().map(placed).collect(), radius })
     }
 }
 
 fn point(corner: &Corner) -> Point {
-    [0, 1].map(|k| Interval::from(&corner[k]))
+    corner.each_ref().map(Interval::from)
 }
 
-/// To each given point the nearest of those that there are.
-fn nearest<'a>(corners: impl Iterator<Item = &'a Corner> + Clone, given: &[Corner]) -> Vec<Corner> {
-    let distance = |a: &Corner, b: &Corner| {
-        let [x, y] = [0, 1].map(|k| &a[k] - &b[k]);
-        &(&x * &x) + &(&y * &y)
+/// Which of the places is nearest, as the middles of their enclosures have it.
+fn nearest(places: &[Point], to: &Point) -> Option<usize> {
+    let distance = |place: &Point| {
+        let [x, y] = [0, 1].map(|k| (&place[k] - &to[k]).middle().0);
+        &x * &x + &y * &y
     };
-    let to = |point: &Corner| corners.clone().min_by_key(|corner| distance(corner, point)).cloned();
-    given.iter().filter_map(to).collect()
+    (0..places.len()).min_by_key(|i| distance(&places[*i]))
 }
