@@ -2,6 +2,7 @@
 
 mod as_written;
 mod batch;
+mod certificates;
 mod commands;
 mod compare;
 mod converge;
