@@ -101,7 +101,7 @@ fn compare_lists_both_paths_of_each_planner() {
             assert!(kind == "own" && of("own", "clearance") > of("taut", "clearance"), "{row}");
         }
     }
-    let table = place.run(&["compare", &urdf, &world], "--cells 48 --quiet").stdout;
+    let table = place.run(&["compare", &urdf, &world], "--cells 48 --quiet --wide").stdout;
     for column in ["own [rad]", "own [mm]", "taut [rad]", "taut [mm]"] {
         assert!(table.contains(column), "{column} is not in {table}");
     }
