@@ -473,10 +473,10 @@ class Learn {
         this.dot(context, panel, p, color, 4);
         const [[x, y], [u, v]] = [panel.at(p), panel.at(middle)];
         const away = Math.hypot(x - u, y - v) || 1;
-        return [`${letter}${i + 1}`, [x + (15 * (x - u)) / away, y + (15 * (y - v)) / away]];
+        return [`${letter}${i + 1}`, [x + (15 * (x - u)) / away, y + (15 * (y - v)) / away], Infinity];
       });
     };
-    Workspace.labels(context, panel, [...names('a', a, theme.ink), ...names('b', b, edge)]);
+    Labels.inside(context, panel, [], [...names('a', a, theme.ink), ...names('b', b, edge)]);
     this.dot(context, panel, at, theme.accent, 5);
     if (this.lesson === 'tests') this.drawTest(context, panel, a, b);
     if (this.lesson === 'sweep') this.drawStep(context, panel, a, b);
@@ -535,9 +535,9 @@ class Learn {
     line(context, there.map((p) => panel.at(p)));
     for (const p of there) this.dot(context, panel, p, edge, 4);
     if (this.lesson === 'sweep') {
-      Workspace.labels(context, panel, there.map((p, s) => {
+      Labels.inside(context, panel, [], there.map((p, s) => {
         const [x, y] = panel.at(p);
-        return [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, [x, y - 16]];
+        return [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, [x, y - 16], Infinity];
       }));
       this.dot(context, panel, there[there.length - 1], theme.barred, 6);
       this.drawDirections(context, panel, steps);
