@@ -50,7 +50,7 @@ impl Domain {
         let turn = Interval::pi() + Interval::pi();
         let turns = (&value.lower + &Interval::pi().lower) / &turn.lower;
         let candidates =
-            [-1, 0, 1].map(|more| &value - &(&turn * &(Interval::exactly(&turns + more << crate::interval::BITS))));
+            [-1, 0, 1].map(|more| &value - &(&turn * &(Interval::exactly((&turns + more) << crate::interval::BITS))));
         candidates.into_iter().map(|c| c.ends()).find(within)
     }
 }

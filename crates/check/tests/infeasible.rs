@@ -219,7 +219,7 @@ fn falsified_certificates_are_refused() {
     let edges: Vec<f64> = (0..=8).map(|k| -3.0 + f64::from(k) * 0.75).collect();
     // Up to 0.04994 each, in steps so that neighbours overlap at one value only.
     let boxes = |edges: &[f64]| -> Vec<[f64; 4]> {
-        let from = |k: usize| if k % 2 == 0 { -0.0499 } else { 0.0 };
+        let from = |k: usize| if k.is_multiple_of(2) { -0.0499 } else { 0.0 };
         edges.windows(2).enumerate().map(|(k, e)| [from(k), from(k) + 0.0499, e[0], e[1]]).collect()
     };
     let judged = |boxes: &[[f64; 4]]| {
@@ -237,8 +237,8 @@ fn falsified_certificates_are_refused() {
     }
     for (number, end) in (0..whole.len()).flat_map(|n| [2, 3].map(|e| (n, e))) {
         let mut shrunk = whole.clone();
-        let inwards = |x: f64| if end == 2 { x.next_up() } else { x.next_down() };
-        shrunk[number][end] = inwards(shrunk[number][end]);
+        let whole_end = shrunk[number][end];
+        shrunk[number][end] = if end == 2 { whole_end.next_up() } else { whole_end.next_down() };
         // Beyond the limits, at 2.9, there is nothing to close.
         let is_outermost = (number, end) == (0, 2) || (number, end) == (7, 3);
         assert_eq!(judged(&shrunk), if is_outermost { 0 } else { 3 }, "box {number}, end {end}");
