@@ -215,7 +215,7 @@ def explain(
     >>> world = World({"circle": {"center": [0.6, 0.0], "radius": 0.1}, "name": "post"}, start=[1.0, 0.2], goal=[-1.0, -0.2])
     >>> found = explain(arm, world)
     >>> found.status, found.blocking, [change.change for change in found.sets[0].blockers[0].changes]
-    ('infeasible', ('post',), ['moved', 'eroded'])
+    ('infeasible', ('post',), ['moved'])
     """
     asked = tuple(words(start=start, goal=goal, goal_tip=goal_tip, clearance=clearance))
     text, summary = _explain(arm, world, _options(asked))
