@@ -191,8 +191,7 @@ pub struct PlanArgs {
     /// Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
-    /// Write the evidence for the answer, which `cplan-check URDF WORLD FILE` checks in exact arithmetic. Of "infeasible" alone yet, for
-    /// goals that are joint values.
+    /// Write the evidence for the answer, which `cplan-check URDF WORLD FILE` checks in exact arithmetic. Of "infeasible" alone yet.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]

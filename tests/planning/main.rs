@@ -1,6 +1,7 @@
 //! Paths, proofs, bounds and tasks, against brute force, closed forms and published figures.
 
 mod bound;
+mod certificates;
 mod certify;
 mod checked_bounds;
 #[path = "../common/mod.rs"]

@@ -4,7 +4,7 @@ use crate::decimal::Decimal;
 use crate::interval::{Interval, Point, length, sum, times, turned};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Body, Motion};
-use crate::sweep::Rectangle;
+use crate::sweep::{Domain, Range, Rectangle};
 use num_bigint::BigInt;
 
 /// A box of configurations by its middle and half its sides.
@@ -81,6 +81,43 @@ impl Arm<'_> {
         bound.upper
     }
 }
+
+impl Arm<'_> {
+    /// Whether the tip may be at a place in some configuration of a region. The domain is cut in four, again and again; parts are
+    /// dropped that have nothing of the region, or in whose middle the tip is farther from the place than it can move within.
+    pub fn may_reach(&self, tip: &Body, place: &Point, domain: &Domain, region: impl Fn(&Rectangle) -> bool) -> bool {
+        let is_far = |rectangle: &Rectangle| {
+            let cell = Cell::from(rectangle);
+            let at = &self.placed(tip, &cell).points[0];
+            length(&[&at[0] - &place[0], &at[1] - &place[1]]).lower > self.farthest(tip, &cell)
+        };
+        let halves = |[low, high]: &Range| {
+            let middle = Decimal::middle(low, high);
+            [[low.clone(), middle.clone()], [middle, high.clone()]]
+        };
+        let (mut waiting, mut looked_at) = (vec![(domain.whole(), 0)], 0);
+        while let Some((rectangle, cuts)) = waiting.pop() {
+            looked_at += 1;
+            if !region(&rectangle) || is_far(&rectangle) {
+                continue;
+            }
+            if cuts == MOST_CUTS || looked_at > MOST_RECTANGLES {
+                return true;
+            }
+            let [first, second] = rectangle.each_ref().map(halves);
+            for a in &first {
+                waiting.extend(second.each_ref().map(|b| ([a.clone(), b.clone()], cuts + 1)));
+            }
+        }
+        false
+    }
+}
+
+/// How often the domain is cut where the tip may be at a place: a part in 10^12 of each range is left.
+const MOST_CUTS: u32 = 40;
+
+/// Parts of the domain that are looked at before the place counts as reached.
+const MOST_RECTANGLES: usize = 20_000;
 
 /// What a joint does at a value.
 enum Moved {

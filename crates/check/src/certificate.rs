@@ -17,6 +17,7 @@ pub struct Certificate {
     /// What was asked, where it was not the world's own.
     pub start: Option<[Decimal; 2]>,
     pub goal: Option<[Decimal; 2]>,
+    pub goal_tip: Option<Corner>,
     pub clearance: Option<Decimal>,
     pub shapes: Vec<ShapeName>,
     pub parts: Vec<PartName>,
@@ -30,13 +31,14 @@ pub enum Answer {
     Infeasible,
 }
 
-/// A collision shape of the URDF.
+/// A shape of the URDF: its number among those of its kind that the link has.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ShapeName {
     pub link: String,
-    /// Its number among those of the link.
-    pub collision: usize,
+    pub collision: Option<usize>,
+    pub visual: Option<usize>,
+    pub bar: Option<usize>,
 }
 
 /// A convex part of an obstacle.

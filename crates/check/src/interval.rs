@@ -113,6 +113,12 @@ impl Interval {
         Self { lower: &self.lower - by, upper: &self.upper + by }
     }
 
+    /// The part of it that is from -1 to 1.
+    fn within_one(self) -> Self {
+        let [least, most] = [-1, 1].map(|n| BigInt::from(n) << BITS);
+        Self { lower: self.lower.max(least), upper: self.upper.min(most) }
+    }
+
     /// Sine and cosine.
     ///
     /// Both change by no more than the angle does, so that those of the middle, widened, enclose all. Halved until it is
@@ -139,7 +145,8 @@ impl Interval {
         for _ in 0..halvings {
             let product = &sine * &cosine;
             let square = &cosine * &cosine;
-            (sine, cosine) = (&product + &product, &(&square + &square) - &Self::whole(1));
+            sine = (&product + &product).within_one();
+            cosine = (&(&square + &square) - &Self::whole(1)).within_one();
         }
         if middle.sign() == Sign::Minus {
             sine = -&sine;
@@ -147,7 +154,7 @@ impl Interval {
         if angle.sign() == Sign::NoSign {
             (sine, cosine) = (Self::whole(0), Self::whole(1));
         }
-        [sine.widened(&radius), cosine.widened(&radius)]
+        [sine, cosine].map(|value| value.widened(&radius).within_one())
     }
 
     /// Pi, by Machin's formula: `16 atan(1/5) - 4 atan(1/239)`.
@@ -273,6 +280,9 @@ mod tests {
         assert!(holds(&sine, "0") && holds(&cosine, "-1"));
         let [sine, cosine] = (-&pi.over(4)).sin_cos();
         assert!(holds(&(&sine * &cosine), "-0.5") && holds(&(&sine + &cosine), "0"));
+        // Nothing is known of angles without end, soon.
+        let [sine, _] = of("-1e1000").sin_cos();
+        assert_eq!(sine.abs().upper, Interval::whole(1).upper);
         let turns = &(pi * &Interval::whole(200)) + &pi.half();
         assert!(holds(&turns.sin_cos()[0], "1"));
         let [sine, cosine] = Interval::whole(0).sin_cos();

@@ -48,11 +48,11 @@ pub use error::{CheckError, Input};
 use arm::Cell;
 use certificate::{Answer, Certificate};
 use decimal::Decimal;
-use interval::Interval;
+use interval::{Interval, Point};
 use overlap::{Shape, overlap_by_more_than};
 use robot::{Arm, Body};
-use sweep::{Domain, Range, Rectangle};
-use world::World;
+use sweep::{Domain, Reached, Rectangle};
+use world::{Goal, World};
 
 /// Checks a certificate: the texts of the three files. What it proves is returned in words.
 ///
@@ -76,8 +76,14 @@ pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, Check
 /// That no motion leads from the start to the goal.
 fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
-    let start = place(arm, &domain, "start", certificate.start.as_ref(), world.start.as_ref())?;
-    let goal = place(arm, &domain, "goal", certificate.goal.as_ref(), world.goal.as_ref())?;
+    let start = match (&certificate.start, &world.start) {
+        (None, Some(Goal::Tip(_))) => {
+            let message = "the checker does not know starts that are places of the tip: give joint values";
+            return Err(CheckError::in_file(Input::World, message));
+        }
+        (own, given) => place(arm, &domain, "start", own.as_ref(), given.as_ref())?,
+    };
+    let goal = GoalRegion::of(arm, &domain, world, certificate)?;
     let clearance = certificate.clearance.as_ref().unwrap_or(&world.clearance);
     if *clearance < Decimal::whole(0) {
         return Err(CheckError::in_file(Input::World, "the clearance is negative"));
@@ -87,10 +93,18 @@ fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     if let Some(empty) = boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
         return CheckError::fails(format!("box {empty}: an upper end is below the lower one"));
     }
-    if sweep::connected(&domain, &boxes, &start, &[goal]).is_some() {
+    let Some(reached) = Reached::new(&domain, &boxes, &start) else {
+        return CheckError::fails("the boxes leave more gaps than the checker looks at");
+    };
+    if goal.may_meet(arm, &domain, &reached) {
         return CheckError::fails("the boxes do not separate the goal from the start");
     }
-    let bodies = certificate.shapes.iter().map(|name| arm.body(&name.link, name.collision));
+    let bodies = certificate.shapes.iter().map(|name| match (name.collision, name.visual, name.bar) {
+        (Some(number), None, None) => arm.body(&name.link, "collision", number),
+        (None, Some(number), None) => arm.body(&name.link, "visual", number),
+        (None, None, Some(0)) => arm.bar(&name.link),
+        _ => Err(CheckError::in_file(Input::Certificate, "a shape has one number, of a bar 0")),
+    });
     let bodies = bodies.collect::<Result<Vec<Body>, _>>()?;
     let parts = certificate.parts.iter().enumerate().map(|(number, name)| {
         let obstacle = world.obstacles.get(name.obstacle);
@@ -115,11 +129,47 @@ fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     }
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
     let shown = |own: Option<&[Decimal; 2]>| own.map_or_else(String::new, |[a, b]| format!(" ({a}, {b})"));
+    let tip = match &goal {
+        GoalRegion::Configuration(_) => String::new(),
+        GoalRegion::Tip { link, .. } => format!(", a place of the tip \"{link}\","),
+    };
     Ok(format!(
-        "no motion of \"{first}\" and \"{second}\" leads from the start{} to the goal{} with clearance {clearance}",
+        "no motion of \"{first}\" and \"{second}\" leads from the start{} to the goal{}{tip} with clearance {clearance}",
         shown(certificate.start.as_ref()),
-        shown(certificate.goal.as_ref())
+        shown(certificate.goal.as_ref().or(certificate.goal_tip.as_ref()))
     ))
+}
+
+/// The configurations that are to be reached.
+enum GoalRegion<'a> {
+    /// What encloses one.
+    Configuration(Rectangle),
+    /// All that put the tip, the origin of a link, at a place.
+    Tip { link: &'a str, tip: Box<Body>, place: Point },
+}
+
+impl<'a> GoalRegion<'a> {
+    /// The certificate's, else the world's.
+    fn of(arm: &Arm<'a>, domain: &Domain, world: &World, certificate: &Certificate) -> Result<Self, CheckError> {
+        let tip = match (&certificate.goal, &certificate.goal_tip, &world.goal) {
+            (Some(_), Some(_), _) => return Err(CheckError::in_file(Input::Certificate, "it has two goals")),
+            (None, Some(tip), _) | (None, None, Some(Goal::Tip(tip))) => tip,
+            (own, None, given) => {
+                return Ok(Self::Configuration(place(arm, domain, "goal", own.as_ref(), given.as_ref())?));
+            }
+        };
+        let place = tip.each_ref().map(Interval::from);
+        let (link, tip) = arm.tip()?;
+        Ok(Self::Tip { link, tip: Box::new(tip), place })
+    }
+
+    /// Whether some of it may be among what is reached.
+    fn may_meet(&self, arm: &Arm, domain: &Domain, reached: &Reached) -> bool {
+        match self {
+            Self::Configuration(goal) => reached.meets(goal),
+            Self::Tip { tip, place, .. } => arm.may_reach(tip, place, domain, |part| reached.meets(part)),
+        }
+    }
 }
 
 /// The start or the goal: the certificate's, else the world's.
@@ -128,10 +178,11 @@ fn place(
     domain: &Domain,
     what: &str,
     own: Option<&[Decimal; 2]>,
-    given: Option<&[Range; 2]>,
+    given: Option<&Goal>,
 ) -> Result<Rectangle, CheckError> {
     let own = own.map(|q| q.each_ref().map(|value| [value.clone(), value.clone()]));
-    let Some(values) = own.or_else(|| given.cloned()) else {
+    let given = given.and_then(|given| if let Goal::Joints(values) = given { Some(values.clone()) } else { None });
+    let Some(values) = own.or(given) else {
         return Err(CheckError::in_file(Input::World, format!("there is no {what}: [{what}] joints = [q1, q2]")));
     };
     let wrapped = |k: usize| {

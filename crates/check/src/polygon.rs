@@ -18,9 +18,10 @@ fn edges(ring: &[Corner]) -> impl Iterator<Item = (&Corner, &Corner)> {
     ring.iter().zip(ring.iter().cycle().skip(1))
 }
 
-/// Whether each side has all other corners on its left.
+/// Whether each side has all other corners on its left. A corner that comes twice is on the line of a side.
 fn is_convex(ring: &[Corner]) -> bool {
-    ring.len() > 2 && edges(ring).all(|(a, b)| ring.iter().all(|p| p == a || p == b || side(a, b, p) == Sign::Plus))
+    let others = |from: usize| (2..ring.len()).map(move |k| &ring[(from + k) % ring.len()]);
+    ring.len() > 2 && edges(ring).enumerate().all(|(from, (a, b))| others(from).all(|p| side(a, b, p) == Sign::Plus))
 }
 
 /// Whether a point that lies on no ring is surrounded by them an odd number of times.
@@ -75,9 +76,13 @@ mod tests {
             "0 0  3 0  3 0",
             "0 0  1 0  3 0",
             "5 5  6 5  6 6",
+            "0 0  3 0  3 1  0 0  3 0  3 1",
         ] {
             assert!(!holds(&l, &ring(outside)), "{outside}");
         }
+        // There and back between corners of two diamonds, through another corner and the room between them.
+        let diamonds = [ring("0 0  0.5 -1  1 0  0.5 1"), ring("2 0  2.5 -1  3 0  2.5 1")];
+        assert!(!holds(&diamonds, &ring("0 0  2 0  0 0  2 0")));
         assert!(!holds(&[ring("-9 -9  9 -9  9 9  -9 9")], &ring("0 3  -2 -3  3 1  -3 1  2 -3")));
     }
 

@@ -2,8 +2,9 @@
 
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::interval::{Interval, Point};
+use crate::interval::{BITS, Interval, Point, length};
 use crate::overlap::Shape;
+use crate::polygon::Corner;
 use crate::sweep::{Axis, Range};
 use crate::world::World;
 use num_bigint::Sign;
@@ -12,6 +13,12 @@ use std::collections::BTreeMap;
 
 /// Ranges of a joint that turns longer than this mean that it has none.
 const LONGEST_TURN: i32 = 1000;
+
+/// Steps along half of the ellipse that a cylinder's end is in the plane.
+const ELLIPSE_STEPS: i32 = 16;
+
+/// A cylinder whose axis is out of the plane by less than this power of a half counts as lying.
+const LYING: u64 = 44;
 
 /// Joints of the longest chain.
 const MOST_JOINTS: usize = 1000;
@@ -52,6 +59,9 @@ pub struct Arm<'a> {
     /// Links that the joints move, one by one.
     children: [&'a str; 2],
     plane: Plane,
+    /// The link whose origin is the tip, and the radius of bars, if the world has them.
+    tip: Option<String>,
+    bar: Option<Decimal>,
 }
 
 /// A collision shape in the plane, as seen from the origin of its joint.
@@ -70,10 +80,28 @@ struct Plane {
     normal: usize,
 }
 
+impl Plane {
+    /// The pose of a root frame that is turned in the plane by an angle and stands at a place there.
+    fn placed(self, at: &Corner, angle: &Interval) -> Pose {
+        // Of the three, the basis (x, z) with y is left-handed.
+        let along = if self.normal == 1 { -1 } else { 1 };
+        let axis = [0, 1, 2].map(|k| Interval::whole(if k == self.normal { along } else { 0 }));
+        let mut pose = Pose::turn(&axis, angle);
+        for (k, place) in self.across.into_iter().zip(at) {
+            pose.at[k] = Interval::from(place);
+        }
+        pose
+    }
+}
+
 /// Links and joints by name, and where the joints stand.
 struct Tree<'a> {
     document: &'a Document<'a>,
+    /// The root frame in the world.
+    root: Pose,
     links: BTreeMap<&'a str, Node<'a, 'a>>,
+    /// Names of links in the order of the file.
+    order: Vec<&'a str>,
     /// By the link that it carries.
     joints: BTreeMap<&'a str, Node<'a, 'a>>,
     values: BTreeMap<&'a str, Interval>,
@@ -188,15 +216,23 @@ impl<'a> Tree<'a> {
             _ => {
                 let axis = numbers.each_ref().map(Interval::from);
                 let length = dot(&axis, &axis).sqrt();
+                if length.lower.sign() != Sign::Plus {
+                    return self.error(joint, "the axis is too short");
+                }
                 Ok(axis.map(|c| c.divided(&length)))
             }
         }
     }
 
-    /// The pose of a link in the root frame.
+    /// The pose of a link in the world.
     fn pose(&self, link: &'a str) -> Read<Pose> {
-        let Some(&joint) = self.joints.get(link) else { return Ok(Pose::identity()) };
-        let above = self.pose(self.parent(joint)?)?.after(&self.origin(joint)?);
+        let below = |pose: Read<Pose>, joint: &Node<'a, 'a>| Ok(pose?.after(&self.step(*joint)?));
+        self.above(link)?.iter().rev().fold(Ok(self.root.clone()), below)
+    }
+
+    /// The pose of a joint's child in the frame of its parent.
+    fn step(&self, joint: Node<'a, 'a>) -> Read<Pose> {
+        let origin = self.origin(joint)?;
         let value = || {
             let zero = Interval::whole(0);
             let value = joint.attribute("name").and_then(|name| self.values.get(name));
@@ -206,11 +242,11 @@ impl<'a> Tree<'a> {
             }
         };
         match self.text(joint, "type")? {
-            "fixed" => Ok(above),
-            "revolute" | "continuous" => Ok(above.after(&Pose::turn(&self.axis(joint)?, &value()?))),
+            "fixed" => Ok(origin),
+            "revolute" | "continuous" => Ok(origin.after(&Pose::turn(&self.axis(joint)?, &value()?))),
             "prismatic" => {
                 let (axis, value) = (self.axis(joint)?, value()?);
-                Ok(above.after(&Pose { at: axis.map(|c| &c * &value), ..Pose::identity() }))
+                Ok(origin.after(&Pose { at: axis.map(|c| &c * &value), ..Pose::identity() }))
             }
             other => self.error(joint, format!("the checker does not know joints of type {other}")),
         }
@@ -255,7 +291,14 @@ impl<'a> Arm<'a> {
     /// # Errors
     /// What is no robot, or one that the checker does not know.
     pub fn read(document: &'a Document<'a>, world: &World) -> Read<Self> {
-        let mut tree = Tree { document, links: BTreeMap::new(), joints: BTreeMap::new(), values: BTreeMap::new() };
+        let mut tree = Tree {
+            document,
+            root: Pose::identity(),
+            links: BTreeMap::new(),
+            order: Vec::new(),
+            joints: BTreeMap::new(),
+            values: BTreeMap::new(),
+        };
         let root = document.root_element();
         if !root.has_tag_name("robot") {
             return tree.error(root, "this is not a URDF: it has no <robot>");
@@ -266,6 +309,7 @@ impl<'a> Arm<'a> {
             if tree.links.insert(tree.text(node, "name")?, node).is_some() {
                 return tree.error(node, "a second link of this name");
             }
+            tree.order.push(tree.text(node, "name")?);
         }
         for node in root.children().filter(|n| n.has_tag_name("joint")) {
             let name = tree.text(node, "name")?;
@@ -308,9 +352,16 @@ impl<'a> Arm<'a> {
         Self::of(tree, joints, joints.map(carried), world)
     }
 
-    fn of(tree: Tree<'a>, nodes: [Node<'a, 'a>; 2], children: [&'a str; 2], world: &World) -> Read<Self> {
-        let poses = [tree.pose(children[0])?, tree.pose(children[1])?];
-        let axes = [poses[0].direction(&tree.axis(nodes[0])?), poses[1].direction(&tree.axis(nodes[1])?)];
+    fn of(mut tree: Tree<'a>, nodes: [Node<'a, 'a>; 2], children: [&'a str; 2], world: &World) -> Read<Self> {
+        let seen = |tree: &Tree<'a>| -> Read<[(Pose, Vector); 2]> {
+            let of = |k: usize| {
+                let pose = tree.pose(children[k])?;
+                let axis = pose.direction(&tree.axis(nodes[k])?);
+                Ok((pose, axis))
+            };
+            Ok([of(0)?, of(1)?])
+        };
+        let axes = seen(&tree)?.map(|(_, axis)| axis);
         let slides = nodes.map(|node| node.attribute("type") == Some("prismatic"));
         // About z the plane is (x, y), about y (x, z), about x (y, z).
         let planes = [([0, 1], 2), ([0, 2], 1), ([1, 2], 0)].map(|(across, normal)| Plane { across, normal });
@@ -324,6 +375,9 @@ impl<'a> Arm<'a> {
             return tree
                 .error(nodes[1], "the joints do not move, exactly, in one plane of two of the root frame's axes");
         };
+        tree.root = plane.placed(&world.at, &world.angle);
+        let [(first, first_axis), (second, second_axis)] = seen(&tree)?;
+        let (poses, axes) = ([first, second], [first_axis, second_axis]);
         let in_plane = |v: &Vector| plane.across.map(|k| v[k].clone());
         let joint = |k: usize| {
             let turns_left = axes[k][plane.normal].lower.sign() == Sign::Plus;
@@ -335,35 +389,105 @@ impl<'a> Arm<'a> {
         let joints = [joint(0)?, joint(1)?];
         let [base, second] = [in_plane(&poses[0].at), in_plane(&poses[1].at)];
         let offset = [0, 1].map(|k| &second[k] - &base[k]);
-        Ok(Self { joints, base, offset, tree, children, plane })
+        let (tip, bar) = (world.tip.clone(), world.bar.clone());
+        Ok(Self { joints, base, offset, tree, children, plane, tip, bar })
     }
 
-    /// A collision shape, by its link and its number among those of the link that have a size.
+    /// A shape of a kind, `collision` or `visual`, by its link and its number among those of the link that have a size. Visual ones
+    /// count where nothing else that moves with the link has collision shapes.
     ///
     /// # Errors
     /// When there is none, or it is of a kind that the checker does not know.
-    pub fn body(&self, link: &str, collision: usize) -> Read<Body> {
-        let Some((&name, node)) = self.tree.links.get_key_value(link) else {
+    pub fn body(&self, link: &str, kind: &str, number: usize) -> Read<Body> {
+        let Some(&name) = self.tree.order.iter().find(|name| **name == link) else {
             return CheckError::fails(format!("the robot has no link \"{link}\""));
         };
-        let above = self.tree.above(name)?;
-        let is_moved_by = |k: usize| above.iter().any(|joint| self.tree.joints.get(self.children[k]) == Some(joint));
-        let Some(last) = [1, 0].into_iter().find(|k| is_moved_by(*k)) else {
+        let Some(last) = self.moved_by(name)? else {
             return CheckError::fails(format!("no joint moves link \"{link}\""));
         };
-        let mut left = collision;
-        for node in node.children().filter(|n| n.has_tag_name("collision")) {
-            let geometry = child(node, "geometry").and_then(|g| g.first_element_child());
-            let Some(geometry) = geometry else { return self.tree.error(node, "the collision has no geometry") };
-            let Some(solid) = self.solid(geometry)? else { continue };
-            if left > 0 {
-                left -= 1;
-                continue;
-            }
-            let pose = self.tree.pose(name)?.after(&self.tree.origin(node)?);
-            return self.project(last, &pose, &solid);
+        if kind == "visual" {
+            self.requires_none(last, "collision")?;
         }
-        CheckError::fails(format!("link \"{link}\" has no collision shape number {collision}"))
+        let solids = self.solids(name, kind)?;
+        let Some((node, solid)) = solids.get(number) else {
+            return CheckError::fails(format!("link \"{link}\" has no {kind} shape number {number}"));
+        };
+        self.project(last, &self.tree.pose(name)?.after(&self.tree.origin(*node)?), solid)
+    }
+
+    /// The bar that the world has in place of a link without geometry: all within its radius of the segment from the link's joint to
+    /// the next, or to the tip.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn bar(&self, link: &str) -> Read<Body> {
+        let (Some(radius), Some(last)) = (&self.bar, self.children.iter().position(|child| *child == link)) else {
+            return CheckError::fails(format!("link \"{link}\" has no bar"));
+        };
+        if radius.sign() != Sign::Plus {
+            return Err(CheckError::in_file(Input::World, "the radius of a bar is positive"));
+        }
+        self.requires_none(last, "collision")?;
+        self.requires_none(last, "visual")?;
+        let (next, end) = match last {
+            0 => (self.children[1], self.offset.clone()),
+            _ => self.tip().map(|(tip, Body { shape, .. })| (tip, shape.points[0].clone()))?,
+        };
+        let radius = Interval::from(radius);
+        let heights =
+            [self.tree.pose(self.children[last])?, self.tree.pose(next)?].map(|p| p.at[self.plane.normal].clone());
+        let least = heights.iter().min_by_key(|h| &h.upper).expect("two") - &radius;
+        let most = heights.iter().max_by_key(|h| &h.lower).expect("two") + &radius;
+        let shape = Shape { points: vec![[Interval::whole(0), Interval::whole(0)], end], radius };
+        Ok(Body { link: last, shape, heights: [least, most] })
+    }
+
+    /// That nothing that moves with a joint and not with the next has a shape of a kind.
+    fn requires_none(&self, last: usize, kind: &str) -> Read<()> {
+        for link in &self.tree.order {
+            if self.moved_by(link)? == Some(last) && !self.solids(link, kind)?.is_empty() {
+                return CheckError::fails(format!("link \"{link}\" has {kind} shapes, which are what counts"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The last of the two joints that moves a link.
+    fn moved_by(&self, link: &'a str) -> Read<Option<usize>> {
+        let above = self.tree.above(link)?;
+        let moves = |k: &usize| above.iter().any(|joint| self.tree.joints.get(self.children[*k]) == Some(joint));
+        Ok([1, 0].into_iter().find(moves))
+    }
+
+    /// The shapes of a kind that a link has, but for those without a size.
+    fn solids(&self, link: &'a str, kind: &str) -> Read<Vec<(Node<'a, 'a>, Solid)>> {
+        let mut solids = Vec::new();
+        for node in self.tree.links[link].children().filter(|n| n.has_tag_name(kind)) {
+            let geometry = child(node, "geometry").and_then(|g| g.first_element_child());
+            let Some(geometry) = geometry else { return self.tree.error(node, "it has no geometry") };
+            solids.extend(self.solid(geometry)?.map(|solid| (node, solid)));
+        }
+        Ok(solids)
+    }
+
+    /// The tip, and its link: a point, the origin of the link that the world names, else of the deepest that the second joint moves.
+    ///
+    /// # Errors
+    /// When the link is not moved by the second joint.
+    pub fn tip(&self) -> Read<(&'a str, Body)> {
+        let mut deepest = None;
+        for link in self.tree.order.iter().filter(|link| self.tip.as_deref().is_none_or(|named| named == **link)) {
+            let depth = self.tree.above(link)?.len();
+            if self.moved_by(link)? == Some(1) && deepest.is_none_or(|(deep, _)| deep < depth) {
+                deepest = Some((depth, *link));
+            }
+        }
+        let Some((_, link)) = deepest else {
+            return Err(CheckError::in_file(Input::World, "the second joint moves no link that can be the tip"));
+        };
+        let zero = Interval::whole(0);
+        let point = Solid::Capsule { radius: zero.clone(), half: zero };
+        Ok((link, self.project(1, &self.tree.pose(link)?, &point)?))
     }
 
     /// A solid of the URDF; none if it has no size.
@@ -428,20 +552,25 @@ impl<'a> Arm<'a> {
             }
             Solid::Cylinder { radius, half } => {
                 let end = along.each_ref().map(|c| c * half);
-                let flat = (&Interval::whole(1) - &(&tilt * &tilt)).sqrt();
+                let flat = length(&along);
                 let reach = &(half * &tilt) + &(radius * &flat);
                 if tilt.is_whole(1) {
                     (vec![center.clone()], radius.clone(), half.clone())
-                } else if tilt.half().lower > Interval::whole(1).over(4).upper {
+                } else if flat.lower.sign() != Sign::Plus {
                     // The ends are ellipses that hold discs of this radius.
                     (beside(&end).to_vec(), radius * &tilt, reach)
                 } else {
-                    // A plane through the axis cuts a rectangle out of the cylinder, of which this is a part.
-                    let side = [-&(&along[1] * radius), &along[0] * radius];
-                    let corners = beside(&end)
-                        .into_iter()
-                        .flat_map(|p| [[0, 1].map(|k| &p[k] + &side[k]), [0, 1].map(|k| &p[k] - &side[k])]);
-                    (corners.collect(), zero, reach)
+                    // Half an ellipse at each end, from side to side.
+                    let onward = along.each_ref().map(|c| c.divided(&flat));
+                    let across = [-&(&onward[1] * radius), &onward[0] * radius];
+                    let onward = onward.map(|c| &(&c * radius) * &tilt);
+                    let steps = if tilt.upper.bits() + LYING < u64::from(BITS) { 1 } else { ELLIPSE_STEPS };
+                    let around = (0..=steps).flat_map(|k| {
+                        let [sine, cosine] = (Interval::pi() * &Interval::whole(k)).over(steps as u32).sin_cos();
+                        let by = [0, 1].map(|i| &(&end[i] + &(&across[i] * &cosine)) + &(&onward[i] * &sine));
+                        beside(&by)
+                    });
+                    (around.collect(), zero, reach)
                 }
             }
         };
@@ -454,6 +583,10 @@ impl<'a> Tree<'a> {
     /// Where a joint is held of which nothing is said: at 0, or the limit next to it.
     fn rest(&self, joint: Node<'a, 'a>, world: &World) -> Read<Interval> {
         let has_limits = joint.attribute("type") != Some("continuous") && child(joint, "limit").is_some();
+        if child(joint, "safety_controller").is_some() {
+            return self
+                .error(joint, "the checker does not know where soft limits hold a joint: [robot] fixed says it");
+        }
         if !has_limits && !world.limits.contains_key(self.text(joint, "name")?) {
             return Ok(Interval::whole(0));
         }

@@ -2,6 +2,13 @@
 
 use crate::decimal::Decimal;
 use crate::interval::Interval;
+use std::collections::BTreeSet;
+
+/// More gaps are not looked at: they take some hundred megabytes.
+const MOST_GAPS: usize = 1 << 22;
+
+/// Strips within a seam's enclosure, of which each is held against each of those at the other end.
+const MOST_AT_A_SEAM: usize = 100;
 
 /// All values from the first to the second.
 pub type Range = [Decimal; 2];
@@ -39,6 +46,11 @@ impl Domain {
         }
     }
 
+    /// All of it.
+    pub fn whole(&self) -> Rectangle {
+        self.ranges.clone()
+    }
+
     /// A value's enclosure within the domain, whole turns taken off. None if it is outside, or too near a seam to say.
     pub fn wrapped(&self, axis: usize, value: &Range) -> Option<Range> {
         let within = |[low, high]: &Range| self.ranges[axis][0] <= *low && *high <= self.ranges[axis][1];
@@ -58,10 +70,11 @@ impl Domain {
 /// What closed boxes leave of a domain: strips of the first joint between the boxes' sides, and in each the open gaps of the
 /// second.
 struct Gaps {
-    /// Ends of the strips, ascending: first joint's values by rank.
+    /// One between each value of the first joint and the next.
     strips: Vec<Strip>,
-    /// Groups of gaps that belong together: each one's representative, or one nearer to it.
+    /// Groups of gaps that belong together: each one's representative; while they are joined, one nearer to it.
     group: Vec<usize>,
+    /// Where boxes or the domain end, ascending.
     values: [Vec<Decimal>; 2],
 }
 
@@ -72,7 +85,7 @@ struct Strip {
 }
 
 impl Gaps {
-    fn new(domain: &Domain, boxes: &[Rectangle]) -> Self {
+    fn new(domain: &Domain, boxes: &[Rectangle]) -> Option<Self> {
         let clipped: Vec<Rectangle> = boxes.iter().filter_map(|b| clipped(b, &domain.ranges)).collect();
         let values = [0, 1].map(|k| {
             let ends = clipped.iter().map(|b| &b[k]).chain([&domain.ranges[k]]).flatten();
@@ -103,10 +116,16 @@ impl Gaps {
             gaps.extend((from < top).then_some([from, top]));
             strips.push(Strip { first: count, gaps });
             count += strips[left].gaps.len();
+            if count > MOST_GAPS {
+                return None;
+            }
         }
         let mut gaps = Self { strips, group: (0..count).collect(), values };
+        if domain.seams[0].iter().flatten().any(|seam| gaps.strips_that_meet(seam).len() > MOST_AT_A_SEAM) {
+            return None;
+        }
         gaps.join(domain);
-        gaps
+        Some(gaps)
     }
 
     /// Puts gaps together between which a free motion may lead: those of strips side by side that overlap; and across a seam
@@ -127,11 +146,17 @@ impl Gaps {
             let (below, above) = (values.partition_point(|v| v <= low), values.partition_point(|v| v < high));
             for strip in 0..self.strips.len() {
                 let Strip { first, gaps } = &self.strips[strip];
-                let bottom = (0..gaps.len()).filter(|&g| gaps[g][0] < below).map(|g| first + g);
-                let top = (0..gaps.len()).filter(|&g| gaps[g][1] >= above).map(|g| first + g);
-                let pairs: Vec<_> = bottom.flat_map(|a| top.clone().map(move |b| (a, b))).collect();
-                pairs.into_iter().for_each(|(a, b)| self.unite(a, b));
+                let bottom = gaps.iter().filter(|[from, _]| *from < below).count();
+                let top = gaps.iter().filter(|[_, to]| *to >= above).count();
+                // Each of the lowest with each of the highest.
+                if bottom > 0 && top > 0 {
+                    let all = (*first..first + bottom).chain(first + gaps.len() - top..first + gaps.len());
+                    all.collect::<Vec<_>>().windows(2).for_each(|pair| self.unite(pair[0], pair[1]));
+                }
             }
+        }
+        for gap in 0..self.group.len() {
+            self.group[gap] = self.representative(gap);
         }
     }
 
@@ -154,8 +179,9 @@ impl Gaps {
         from..values.partition_point(|v| v <= high).min(self.strips.len())
     }
 
-    fn representative(&self, mut gap: usize) -> usize {
+    fn representative(&mut self, mut gap: usize) -> usize {
         while self.group[gap] != gap {
+            self.group[gap] = self.group[self.group[gap]];
             gap = self.group[gap];
         }
         gap
@@ -167,12 +193,15 @@ impl Gaps {
     }
 
     /// The groups of which some lies in a rectangle, borders included.
-    fn groups_that_meet(&self, [first, [low, high]]: &Rectangle) -> Vec<usize> {
+    fn groups_that_meet(&self, [first, [low, high]]: &Rectangle) -> impl Iterator<Item = usize> {
         let values = &self.values[1];
-        let meets = |[from, to]: &[usize; 2]| values[*from] <= *high && *low <= values[*to];
-        let strips = self.strips_that_meet(first).map(|s| &self.strips[s]);
-        let gaps = strips.flat_map(|s| (0..s.gaps.len()).filter(|&g| meets(&s.gaps[g])).map(|g| s.first + g));
-        gaps.map(|gap| self.representative(gap)).collect()
+        let (low, high) = (values.partition_point(|v| v < low), values.partition_point(|v| v <= high));
+        self.strips_that_meet(first).flat_map(move |s| {
+            let Strip { first, gaps } = &self.strips[s];
+            let below = gaps.partition_point(|[_, to]| *to < low);
+            let meet = gaps[below..].iter().take_while(move |[from, _]| *from < high).count();
+            (first + below..first + below + meet).map(|gap| self.group[gap])
+        })
     }
 }
 
@@ -182,11 +211,24 @@ fn clipped(stuck: &Rectangle, domain: &[Range; 2]) -> Option<Rectangle> {
     part.iter().all(|[low, high]| low < high).then_some(part)
 }
 
-/// The first of the goals that what the boxes leave may connect with the start; start and goals lie in the domain.
-pub fn connected(domain: &Domain, boxes: &[Rectangle], start: &Rectangle, goals: &[Rectangle]) -> Option<usize> {
-    let gaps = Gaps::new(domain, boxes);
-    let from = gaps.groups_that_meet(start);
-    goals.iter().position(|goal| gaps.groups_that_meet(goal).iter().any(|group| from.contains(group)))
+/// What boxes leave of a domain that a motion from the start may come to.
+pub struct Reached {
+    gaps: Gaps,
+    groups: BTreeSet<usize>,
+}
+
+impl Reached {
+    /// By a start in the domain. None if the boxes leave more gaps than can be looked at.
+    pub fn new(domain: &Domain, boxes: &[Rectangle], start: &Rectangle) -> Option<Self> {
+        let gaps = Gaps::new(domain, boxes)?;
+        let groups = gaps.groups_that_meet(start).collect();
+        Some(Self { gaps, groups })
+    }
+
+    /// Whether some of it lies in a rectangle of the domain, borders included.
+    pub fn meets(&self, rectangle: &Rectangle) -> bool {
+        self.gaps.groups_that_meet(rectangle).any(|group| self.groups.contains(&group))
+    }
 }
 
 #[cfg(test)]
@@ -211,7 +253,7 @@ mod tests {
 
     fn separates(axes: [Axis; 2], list: &[[&str; 4]]) -> bool {
         let (start, goal) = (point("-1", "0.5"), point("1", "0.5"));
-        connected(&Domain::new(&axes), &boxes(list), &start, &[goal]).is_none()
+        !Reached::new(&Domain::new(&axes), &boxes(list), &start).unwrap().meets(&goal)
     }
 
     fn line() -> Axis {

@@ -15,16 +15,31 @@ type Value<'a> = Spanned<DeValue<'a>>;
 
 /// What the checker knows of a world. Enclosures of what is in degrees, else the numbers themselves.
 pub struct World {
+    /// Where the root frame of the robot stands, and how it is turned.
+    pub at: Corner,
+    pub angle: Interval,
     /// The names of the two joints, if it says them.
     pub joints: Option<Vec<String>>,
     /// Values of other joints, by name.
     pub fixed: BTreeMap<String, Range>,
     /// Ranges of joints, by name.
     pub limits: BTreeMap<String, Range>,
-    pub start: Option<[Range; 2]>,
-    pub goal: Option<[Range; 2]>,
+    pub start: Option<Goal>,
+    pub goal: Option<Goal>,
+    /// The radius of bars in place of links without geometry, if it wants them.
+    pub bar: Option<Decimal>,
+    /// The link whose origin is the tip, if it says one.
+    pub tip: Option<String>,
     pub clearance: Decimal,
     pub obstacles: Vec<Obstacle>,
+}
+
+/// Where the arm is, or is to go.
+pub enum Goal {
+    /// Values of the joints.
+    Joints([Range; 2]),
+    /// A place of the tip, in whatever configuration.
+    Tip(Corner),
 }
 
 /// An obstacle, as it stands in the file.
@@ -119,11 +134,13 @@ impl Reader<'_> {
         self.table(value)?.iter().map(|(name, value)| Ok((name.get_ref().to_string(), read(value)?))).collect()
     }
 
-    /// Joint values of `[start]` or `[goal]`.
-    fn configuration(&self, value: &Value) -> Read<[Range; 2]> {
-        match self.table(value)?.get("joints") {
-            Some(joints) => self.two(joints, |q| self.quantity(q)),
-            None => self.error(value, "the checker does not know places of the tip yet: give joints = [q1, q2]"),
+    /// `[start]` or `[goal]`.
+    fn place(&self, value: &Value) -> Read<Goal> {
+        let table = self.table(value)?;
+        match (table.get("joints"), table.get("tip")) {
+            (Some(joints), None) if table.len() == 1 => Ok(Goal::Joints(self.two(joints, |q| self.quantity(q))?)),
+            (None, Some(tip)) if table.len() == 1 => Ok(Goal::Tip(self.two(tip, |n| self.number(n))?)),
+            _ => self.error(value, "give joints = [q1, q2] or tip = [x, y]"),
         }
     }
 
@@ -142,10 +159,12 @@ impl Reader<'_> {
                     };
                     world.limits = self.by_name(value, range)?;
                 }
+                "tip" => world.tip = Some(self.text(value)?),
+                "at" => world.at = self.two(value, |n| self.number(n))?,
+                "angle" => world.angle = Interval::around(&self.quantity(value)?),
                 // What does not concern where shapes are.
-                "tip" | "velocity" | "acceleration" | "jerk" | "wrist" | "stroke" | "payload" => {}
-                // Links have more shapes by it, never fewer.
-                "bar" => {}
+                "velocity" | "acceleration" | "jerk" | "wrist" | "stroke" | "payload" => {}
+                "bar" => world.bar = Some(self.number(value)?),
                 other => return self.error(value, &format!("the checker does not know [robot] {other}")),
             }
         }
@@ -162,7 +181,8 @@ impl Reader<'_> {
                 "polyline" => outlines.push(Outline::Polyline(self.corners(value)?)),
                 "circle" => {
                     let table = self.table(value)?;
-                    let (Some(center), Some(radius)) = (table.get("center"), table.get("radius")) else {
+                    let (Some(center), Some(radius), 2) = (table.get("center"), table.get("radius"), table.len())
+                    else {
                         return self.error(value, "a circle has a center and a radius");
                     };
                     outlines.push(Outline::Circle(self.two(center, |n| self.number(n))?, self.number(radius)?));
@@ -171,7 +191,13 @@ impl Reader<'_> {
                 "holes" => holes = self.rings(value)?,
                 "at" => at = self.two(value, |n| self.number(n))?,
                 "angle" => angle = Interval::around(&self.quantity(value)?),
-                "height" => heights = Some(self.two(value, |n| self.number(n))?),
+                "height" => {
+                    let [low, high] = self.two(value, |n| self.number(n))?;
+                    if low > high {
+                        return self.error(value, "its upper end is below the lower one");
+                    }
+                    heights = Some([low, high]);
+                }
                 "name" | "unknown" => {}
                 other => {
                     return self.error(value, &format!("the checker does not know the key {other} of an obstacle"));
@@ -203,19 +229,23 @@ impl World {
         })?;
         let reader = Reader(text);
         let mut world = Self {
+            at: [Decimal::whole(0), Decimal::whole(0)],
+            angle: Interval::whole(0),
             joints: None,
             fixed: BTreeMap::new(),
             limits: BTreeMap::new(),
             start: None,
             goal: None,
+            bar: None,
+            tip: None,
             clearance: Decimal::whole(0),
             obstacles: Vec::new(),
         };
         for (key, value) in table.get_ref() {
             match &**key.get_ref() {
                 "robot" => reader.robot(value, &mut world)?,
-                "start" => world.start = Some(reader.configuration(value)?),
-                "goal" => world.goal = Some(reader.configuration(value)?),
+                "start" => world.start = Some(reader.place(value)?),
+                "goal" => world.goal = Some(reader.place(value)?),
                 "clearance" => world.clearance = reader.number(value)?,
                 "obstacle" => {
                     let list: Read<Vec<Obstacle>> =

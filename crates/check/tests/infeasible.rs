@@ -23,6 +23,8 @@ fn robot(first: &str, second: &str) -> String {
   <link name="fore">
     <collision> <origin xyz="0.4 0 0"/> <geometry> <box size="0.8 0.1 0.1"/> </geometry> </collision>
   </link>
+  <joint name="t" type="fixed"> <parent link="fore"/> <child link="tool"/> <origin xyz="0.8 0 0"/> </joint>
+  <link name="tool"/>
 </robot>"#,
         if first == "prismatic" { "1 0 0" } else { "0 0 1" },
         if second == "prismatic" { "0 1 0" } else { "0 0 1" },
@@ -106,6 +108,16 @@ fn all_kinds_of_joints_and_shapes() {
     let corners = r#"{"obstacle": 0, "corners": [[0.3, -0.2], [0.9, -0.2], [0.9, 0.2], [0.3, 0.2]]}"#;
     let arm = robot("revolute", "revolute");
     assert_eq!(code(&arm, &world(polygon), &certificate("", UPPER, corners, &whole)), 0);
+    // A cylinder across the plane, at 45 degrees: 0.2 wide to each side, and 0.2 sqrt 2 along.
+    let oblique = arm
+        .replace("<box size=\"1.0 0.1 0.1\"/>", "<cylinder radius=\"0.2\" length=\"0.4\"/>")
+        .replace("<origin xyz=\"0.5 0 0\"/>", "<origin xyz=\"0.5 0 0\" rpy=\"0 0.78539816339744830962 0\"/>");
+    let beside = |center: &str, radius: &str| {
+        let post = format!("[[obstacle]]\ncircle = {{ center = [{center}], radius = {radius} }}\n");
+        code(&oblique, &world(&post), &certificate("", UPPER, disc, &[("-0.0001, -3", "0.0001, 3", 0, 0)]))
+    };
+    assert_eq!((beside("0.5, 0.3", "0.101"), beside("0.5, 0.3", "0.0999")), (0, 3));
+    assert_eq!((beside("1, 0", "0.218"), beside("1, 0", "0.217")), (0, 3));
     // The wrong way round, and a side alone.
     for wrong in [
         r#"{"obstacle": 0, "corners": [[0.3, 0.2], [0.9, 0.2], [0.9, -0.2], [0.3, -0.2]]}"#,
@@ -151,6 +163,135 @@ fn heights_that_do_not_meet_are_no_contact() {
     assert_eq!(at("[0.0, 0.2]", 2), 3);
 }
 
+/// Both elbows reach the place; behind the wall is neither.
+#[test]
+fn a_place_of_the_tip_is_all_configurations_that_reach_it() {
+    let arm = robot("revolute", "revolute");
+    let tip = |tip: &str, boxes: Boxes| {
+        let extra = format!(r#""goal_tip": {tip},"#);
+        let named = code(&arm, &world(WALL), &certificate(&extra, UPPER, WALL_PART, boxes));
+        let place = format!("start.joints = [-1, 0]\ngoal.tip = {tip}\n{WALL}");
+        assert_eq!(code(&arm, &place, &certificate("", UPPER, WALL_PART, boxes)), named);
+        named
+    };
+    let wall = [("-0.04, -3", "0.04, 3", 0, 0)];
+    // Elbows left and right: (1, 1), and some (1.88, -1).
+    assert_eq!(tip("[0.2073848661404736, 1.5689089262373]", &wall), 0);
+    assert_eq!(tip("[0.2073848661404736, 1.5689089262373]", &[("-0.04, -3", "0.04, 2", 0, 0)]), 3);
+    // One elbow on either side of the wall, and both on the start's.
+    assert_eq!((tip("[1.4, 0.1]", &wall), tip("[0.2, -1.5]", &wall)), (3, 3));
+    // Out of reach, and stretched out, beyond the wall and before it.
+    assert_eq!((tip("[0, 1.9]", &wall), tip("[0, 1.8]", &wall), tip("[0, -1.8]", &wall)), (0, 0, 3));
+    // What is said is about the tip that the world names.
+    let place = format!("start.joints = [-1, 0]\nrobot.tip = \"fore\"\n{WALL}");
+    let extra = r#""goal_tip": [0.6, 0.8],"#;
+    let said = check(&arm, &place, &certificate(extra, UPPER, WALL_PART, &wall)).unwrap();
+    assert!(said.contains("to the goal (0.6, 0.8), a place of the tip \"fore\","), "{said}");
+    let place = place.replace("fore", "upper");
+    assert_eq!(code(&arm, &place, &certificate(extra, UPPER, WALL_PART, &wall)), 1);
+    let both = r#""goal": [1, 0], "goal_tip": [0.6, 0.8],"#;
+    assert_eq!(code(&arm, &world(WALL), &certificate(both, UPPER, WALL_PART, &wall)), 1);
+}
+
+/// A goal that leaves a joint free is a curve: all of it has to be beyond the boxes.
+#[test]
+fn a_place_of_the_tip_that_leaves_a_joint_free() {
+    // The tip on the second axis, at q1 = 1, whatever q2.
+    let arm = robot("revolute", "revolute");
+    let elbow = |tip: &str, boxes: Boxes| {
+        let place = format!("start.joints = [-1, 0]\nrobot.tip = \"fore\"\ngoal.tip = {tip}\n{WALL}");
+        code(&arm, &place, &certificate("", UPPER, WALL_PART, boxes))
+    };
+    let wall = [("-0.04, -3", "0.04, 3", 0, 0)];
+    assert_eq!(elbow("[0.6, 0.8]", &wall), 0);
+    assert_eq!(elbow("[0.6, -0.8]", &wall), 3);
+    assert_eq!(elbow("[0.6, 0.8]", &[("-0.04, -3", "0.04, 2.8", 0, 0)]), 3);
+    // Bars alike, and the tip at the first axis: q2 is half a turn, which the limits exclude, or do not.
+    let alike = arm.replace("1 0 0\"/> <axis", "0.8 0 0\"/> <axis");
+    let folded = |limit: &str, boxes: Boxes| {
+        let place = format!("start.joints = [-1, 0]\ngoal.tip = [0, 0]\nrobot.limits.b = [-3, {limit}]\n{WALL}");
+        code(&alike, &place, &certificate("", UPPER, WALL_PART, boxes))
+    };
+    assert_eq!((folded("3.1", &wall), folded("3.2", &wall)), (0, 3));
+    // A carriage along x whose bar turns: from every place of the carriage in reach of the tip's place.
+    let cart = robot("prismatic", "revolute");
+    let disc = "[[obstacle]]\ncircle = { center = [1, 0], radius = 0.3 }\n";
+    let shut = [("-0.2, -3", "0.2, 3", 0, 0)];
+    let tip = |tip: &str| {
+        let place = format!("start.joints = [-1, 0]\ngoal.tip = {tip}\n{disc}");
+        code(&cart, &place, &certificate("", UPPER, r#"{"obstacle": 0}"#, &shut))
+    };
+    assert_eq!((tip("[2.5, 0.3]"), tip("[1.5, 0.3]"), tip("[0, 0.3]")), (0, 3, 3));
+}
+
+/// An arm that the world puts elsewhere, against the same arm in a world that is moved and turned the other way.
+#[test]
+fn a_robot_stands_where_the_world_puts_it() {
+    let disc = r#"{"obstacle": 0}"#;
+    for (first, second) in
+        [("revolute", "revolute"), ("revolute", "prismatic"), ("prismatic", "revolute"), ("prismatic", "prismatic")]
+    {
+        let arm = robot(first, second);
+        // As seen from the robot it is at (0.9, 0.02): at (2 - 0.02, 3 + 0.9) in the world.
+        let at = |center: &str| {
+            let place = "[robot]\nat = [2, 3]\nangle = \"90deg\"\n";
+            let place = format!("{place}[[obstacle]]\ncircle = {{ center = {center}, radius = 0.2 }}\n");
+            let boxes = [("-0.05, -3", "0.05, 3", 0, 0)];
+            code(&arm, &format!("{ENDS}{place}"), &certificate("", UPPER, disc, &boxes))
+        };
+        assert_eq!((at("[1.98, 3.9]"), at("[2.02, 2.1]"), at("[2.9, 3.02]")), (0, 3, 3), "{first} {second}");
+    }
+    // About y the plane is (x, z), and the turn from x to z.
+    let arm = robot("revolute", "revolute").replace("axis xyz=\"0 0 1\"", "axis xyz=\"0 -1 0\"");
+    let place = "[robot]\nangle = \"90deg\"\n[[obstacle]]\ncircle = { center = [-0.02, 0.9], radius = 0.2 }\n";
+    let boxes = [("-0.05, -3", "0.05, 3", 0, 0)];
+    assert_eq!(code(&arm, &format!("{ENDS}{place}"), &certificate("", UPPER, disc, &boxes)), 0);
+}
+
+/// Visual shapes stand in for collision shapes where a link has none, fixed children included.
+#[test]
+fn visual_shapes_count_where_there_are_no_others() {
+    let arm = robot("revolute", "revolute");
+    let seen = arm.replace("collision", "visual");
+    let visual = UPPER.replace("collision", "visual");
+    let wall = [("-0.04, -3", "0.04, 3", 0, 0)];
+    let at = |arm: &str, shape: &str| code(arm, &world(WALL), &certificate("", shape, WALL_PART, &wall));
+    assert_eq!((at(&arm, UPPER), at(&seen, &visual)), (0, 0));
+    assert_eq!((at(&arm, &visual), at(&seen, UPPER)), (3, 3));
+    // The second link's are another matter; what is fixed to the first is not.
+    let fore = "<collision> <geometry> <sphere radius=\"0.01\"/> </geometry> </collision>";
+    assert_eq!(at(&seen.replace("<link name=\"tool\"/>", &format!("<link name=\"tool\">{fore}</link>")), &visual), 0);
+    let fixed =
+        r#"<joint name="u" type="fixed"> <parent link="upper"/> <child link="rod"/> </joint> <link name="rod">"#;
+    let both = seen.replace("</robot>", &format!("{fixed}{fore}</link></robot>"));
+    assert_eq!(at(&both, &visual), 3);
+    // Bars stand in for what has neither.
+    let bare = arm.replace("collision", "lamp");
+    let bars = |arm: &str, robot: &str, shape: &str, obstacle: &str, part: &str| {
+        let place = format!("[robot]\n{robot}\n{obstacle}\n[start]\njoints = [-1, 0]\n[goal]\njoints = [1, 0]");
+        code(arm, &place, &certificate("", shape, part, &wall))
+    };
+    let (upper, fore) = (r#"{"link": "upper", "bar": 0}"#, r#"{"link": "fore", "bar": 0}"#);
+    let on_wall = |arm: &str, robot: &str, shape: &str| bars(arm, robot, shape, WALL, WALL_PART);
+    assert_eq!((on_wall(&bare, "bar = 0.05", upper), on_wall(&bare, "bar = 0.02", upper)), (0, 3));
+    assert_eq!(
+        (on_wall(&bare, "", upper), on_wall(&arm, "bar = 0.05", upper), on_wall(&seen, "bar = 0.05", upper)),
+        (3, 3, 3)
+    );
+    assert_eq!((on_wall(&bare, "bar = 0.05", &upper.replace('0', "1")), on_wall(&bare, "bar = -1", upper)), (1, 1));
+    // From the second joint to the tip, whatever the elbow; all at the height of the joints.
+    let disc = "[[obstacle]]\ncircle = { center = [1, 0], radius = 1.2 }\n";
+    let on_disc = |robot: &str, obstacle: &str| bars(&bare, robot, fore, obstacle, r#"{"obstacle": 0}"#);
+    assert_eq!((on_disc("bar = 0.1", disc), on_disc("bar = 0.1", &disc.replace("[1, 0]", "[5, 0]"))), (3, 3));
+    let large = disc.replace("1.2", "4");
+    assert_eq!(on_disc("bar = 0.1\ntip = \"fore\"", &disc), 0);
+    let low = format!("{large}height = [-1, -0.2]");
+    assert_eq!((on_disc("bar = 0.1", &large), on_disc("bar = 0.1", &low), on_disc("bar = 0.3", &low)), (0, 3, 0));
+    for wrong in [r#"{"link": "upper"}"#, r#"{"link": "upper", "visual": 0, "collision": 0}"#] {
+        assert_eq!(at(&seen, wrong), 1, "{wrong}");
+    }
+}
+
 /// What the reader of each file does not know or what is wrong there is bad input, with the file and the place.
 #[test]
 fn bad_input_is_named() {
@@ -189,7 +330,9 @@ fn bad_input_is_named() {
     let worlds = |text: &str, at, part| bad(&arm, text, &good, Input::World, at, part);
     worlds("start = 3", Some(1), "table");
     worlds("start.joints = [1]", Some(1), "two numbers");
-    worlds("start.tip = [1, 2]", Some(1), "tip");
+    worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "starts");
+    worlds("start = { joints = [1, 2], near = 3 }", Some(1), "joints");
+    worlds("goal.tip = [1, 2]\ngoal.joints = [1, 2]", Some(1), "joints");
     worlds("\nstart.joints = [1, inf]", Some(2), "decimal");
     worlds("start.joints = [1, 0x10]", Some(1), "decimal");
     worlds("goal.joints = [1, 2]", None, "no start");
@@ -197,7 +340,13 @@ fn bad_input_is_named() {
     worlds(&format!("{ENDS}[[obstacle]]"), Some(3), "one shape");
     worlds(&format!("{ENDS}[[obstacle]]\nsize = 3"), Some(4), "size");
     worlds("name = \"\n", Some(1), "");
-    worlds("[robot]\nat = [1, 2]", Some(2), "[robot] at");
+    worlds("[robot]\nstands = [1, 2]", Some(2), "[robot] stands");
+    worlds(&format!("{ENDS}[[obstacle]]\ncircle = {{ center = [0, 0], radius = 1, height = 2 }}"), Some(4), "circle");
+    worlds(
+        &format!("{ENDS}[[obstacle]]\nheight = [1, 0]\ncircle = {{ center = [0, 0], radius = 1 }}"),
+        Some(4),
+        "upper end",
+    );
     worlds(&format!("clearance = -1\n{place}"), None, "negative");
     let certificates = |from: &str, to: &str, part: &str| {
         assert!(good.contains(from), "{from}");
@@ -270,4 +419,71 @@ fn what_holds_is_true() {
         held += u64::from(code == 0);
     }
     assert!(held > random::times(20), "{held}");
+}
+
+/// Numbers and nests that are as large as they can be are refused in no time.
+#[test]
+fn hostile_input_is_refused_at_once() {
+    let begun = std::time::Instant::now();
+    let arm = robot("revolute", "revolute");
+    let wall = [("-0.04, -3", "0.04, 3", 0, 0)];
+    let good = certificate("", UPPER, WALL_PART, &wall);
+    let digits = format!("0.04{}", "1".repeat(2000));
+    for (number, answer) in [
+        ("1e1000", 3),
+        ("1e999999999", 1),
+        ("1e-999999999", 1),
+        ("1e99999999999999999999", 1),
+        (&digits, 1),
+        ("NaN", 1),
+        ("-1e1000", 3),
+        ("null", 1),
+        ("\"0.04\"", 1),
+        ("0.04e0", 0),
+        ("4E-2", 0),
+    ] {
+        let huge = good.replace("[0.04,", &format!("[{number},"));
+        assert!(huge != good && code(&arm, &world(WALL), &huge) == answer, "{number}");
+        let world = world(WALL).replace("2.5", number);
+        assert!([1, 3, answer].contains(&code(&arm, &world, &good)), "{number}");
+        for place in ["1.0 0.1 0.1", "1 0 0\"/> <axis xyz=\"0 0 1\"", "lower=\"-2.9\""] {
+            assert!(arm.contains(place));
+            code(&arm.replace(place, &place.replacen(['0', '1', '2'], number, 1)), &world, &good);
+        }
+        let angle = format!("xyz=\"0.5 0 0\" rpy=\"0 0 {number}\"");
+        assert_ne!(code(&arm.replace("xyz=\"0.5 0 0\"", &angle), &world, &good), 0, "{number}");
+    }
+    let nested = |open: &str, close: &str| [open.repeat(100_000), close.repeat(100_000)].concat();
+    for nest in [nested("[", "]"), nested("{\"a\":", "}"), nested("[", "")] {
+        assert_eq!(code(&arm, &world(WALL), &nest), 1);
+        assert_eq!(code(&arm, &world(WALL), &good.replace("[0.04, 3]", &format!("[{nest}, 3]"))), 1);
+        assert_eq!(code(&arm, &format!("name = {nest}"), &good), 1);
+    }
+    let twice = good.replace("\"answer\"", "\"answer\": \"infeasible\", \"answer\"");
+    assert_eq!(code(&arm, &world(WALL), &twice), 1);
+    assert_eq!(code(&arm, &format!("clearance = 0\nclearance = 0\n{}", world(WALL)), &good), 1);
+    assert_eq!(code(&arm.replace("0 0 1", "1e-300 1e-300 0"), &world(WALL), &good), 1);
+    // A long chain of links, and one that is too long.
+    for (links, answer) in [(900, 0), (1100, 1)] {
+        let link = |k: usize| {
+            format!(
+                r#"<link name="l{k}"/><joint name="f{k}" type="fixed"><parent link="l{}"/><child link="l{k}"/></joint>"#,
+                k + 1
+            )
+        };
+        let chain: String = (0..links).map(link).collect();
+        let ends = format!(r#"<link name="l{links}"/>"#);
+        let long = arm.replace("<link name=\"base\"/>", &format!("{chain}{ends}")).replace("\"base\"", "\"l0\"");
+        assert_eq!(code(&long, &world(WALL), &good), answer, "{links}");
+    }
+    // Strips times gaps.
+    let many: Vec<(String, String)> = (0..3000)
+        .flat_map(|k| {
+            let (at, to) = (0.0001 * f64::from(k), 0.0001 * (f64::from(k) + 0.5));
+            [(format!("-2, {at}"), format!("2, {to}")), (format!("{at}, 2.8"), format!("{to}, 2.9"))]
+        })
+        .collect();
+    let many: Vec<_> = many.iter().map(|(lower, upper)| (&lower[..], &upper[..], 0, 0)).collect();
+    assert_eq!(code(&arm, &world(WALL), &certificate("", UPPER, WALL_PART, &many)), 3);
+    assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
 }

@@ -32,6 +32,14 @@ pub struct StuckBox {
     pub pair: Pair,
 }
 
+impl StuckBox {
+    /// Whether it is what it says, with room for rounding.
+    #[must_use]
+    pub fn holds(&self, scene: &Scene, clearance: f64) -> bool {
+        is_stuck(scene, 0, self, clearance).is_ok()
+    }
+}
+
 /// The claim that no motion leads from the start to any goal: what the stuck boxes leave of the domain does not connect
 /// them.
 #[derive(Debug, Clone, PartialEq)]

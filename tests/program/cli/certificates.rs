@@ -62,6 +62,82 @@ fn what_is_asked_on_the_command_line_is_in_the_certificate() {
     }
 }
 
+/// What is asked in a shipped world, with the goal as a place of the tip: both elbows, two of a slide, a stretched arm.
+#[test]
+fn places_of_the_tip_that_are_shut_off_have_certificates_that_hold() {
+    let place = Place::new();
+    let read = |path: &String| std::fs::read_to_string(path).unwrap();
+    for (world, robot, tip) in [
+        ("no_path", "planar_2r_continuous", "1.2819,1.2350"),
+        ("torus_closed", "planar_2r_continuous", "1.1139,1.3429"),
+        ("limits_closed", "planar_2r", "-1.5424,0.9279"),
+        ("annulus_closed", "gantry", "0.2,0.2"),
+        ("thin_wall_closed", "polar", "0.7648,0.6442"),
+        ("slot_closed", "rail_arm", "1.0539,-0.3106"),
+    ] {
+        let files = [shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml"))];
+        let done = place.run(&files, &format!("--quiet --certificate c.json --goal-tip={tip}"));
+        assert_eq!(done.code, 3, "{world}: {}", done.stderr);
+        let certificate = place.read("c.json");
+        let said = check(&read(&files[0]), &read(&files[1]), &certificate).unwrap();
+        assert!(said.contains("a place of the tip \"tool0\""), "{said}");
+        // The start itself is on the start's side.
+        let mut other: Value = serde_json::from_str(&certificate).unwrap();
+        other.as_object_mut().unwrap().remove("goal_tip");
+        other["goal"] = start_of(&read(&files[1]));
+        let judged = check(&read(&files[0]), &read(&files[1]), &other.to_string());
+        assert!(matches!(judged, Err(CheckError::Fails(_))), "{world}: {judged:?}");
+    }
+}
+
+/// The joint values of the start.
+fn start_of(world: &str) -> Value {
+    let start = world.split("[start]").nth(1).and_then(|rest| rest.split("joints =").nth(1)).unwrap();
+    serde_json::from_str(start.lines().next().unwrap()).unwrap()
+}
+
+/// The same world elsewhere, with the robot where it stands there: all is turned to the left and moved by (2, -1).
+#[test]
+fn a_robot_that_stands_elsewhere_has_a_certificate_too() {
+    let place = Place::new();
+    place.write(
+        "world.toml",
+        "start.joints = [-0.8, 0.3]\ngoal.joints = [0.9, -0.3]\n[robot]\nat = [2, -1]\nangle = \"90deg\"\n\
+         [[obstacle]]\npolygon = [[2.04, -0.6], [2.04, 1.0], [1.96, 1.0], [1.96, -0.6]]\n\
+         [[obstacle]]\npolyline = [[2.0, -1.4], [2.0, -3.0]]\n",
+    );
+    let files = [shipped("robots/planar_2r_continuous.urdf"), "world.toml".to_owned()];
+    let done = place.run(&files, "--quiet --certificate c.json");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    let urdf = std::fs::read_to_string(&files[0]).unwrap();
+    let judged = |world: &str| check(&urdf, world, &place.read("c.json"));
+    let world = place.read("world.toml");
+    judged(&world).unwrap();
+    for other in ["at = [2, 1]", "at = [2.1, -1]"] {
+        assert!(matches!(judged(&world.replace("at = [2, -1]", other)), Err(CheckError::Fails(_))), "{other}");
+    }
+    assert!(matches!(judged(&world.replace("90deg", "100deg")), Err(CheckError::Fails(_))));
+}
+
+/// Links that are only to be seen, and bars in place of links without shapes.
+#[test]
+fn whatever_stands_for_a_link_is_named() {
+    let place = Place::new();
+    let whole = std::fs::read_to_string(shipped("robots/planar_2r_continuous.urdf")).unwrap();
+    let world = std::fs::read_to_string(shipped("workspaces/no_path.toml")).unwrap();
+    for (tag, robot, named) in [("visual", "", "\"visual\":0"), ("lamp", "[robot]\nbar = 0.05\n", "\"bar\":0")] {
+        place.write("arm.urdf", whole.replace("collision>", &format!("{tag}>")));
+        place.write("world.toml", world.replace("[start]", &format!("{robot}[start]")));
+        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
+        assert_eq!(done.code, 3, "{tag}: {}", done.stderr);
+        let certificate = place.read("c.json");
+        assert!(certificate.contains(named), "{certificate}");
+        let judged = |urdf: &str| check(urdf, &place.read("world.toml"), &certificate);
+        judged(&place.read("arm.urdf")).unwrap_or_else(|why| panic!("{tag}: {why}"));
+        assert!(matches!(judged(&whole), Err(CheckError::Fails(_))), "{tag}");
+    }
+}
+
 #[test]
 fn answers_that_have_no_certificate_yet_say_so() {
     let place = Place::new();

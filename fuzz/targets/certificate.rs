@@ -1,0 +1,32 @@
+//! Any bytes as a certificate: among obstacles that leave no way, and among others that leave one.
+#![no_main]
+
+#[path = "shipped.rs"]
+mod shipped;
+
+use cplan_check::{CheckError, check};
+use libfuzzer_sys::fuzz_target;
+use shipped::shipped;
+use std::sync::LazyLock;
+
+/// The texts of a robot and a world.
+fn texts(robot: &str, world: &str) -> [String; 2] {
+    [format!("robots/{robot}.urdf"), format!("workspaces/{world}.toml")]
+        .map(|file| std::fs::read_to_string(shipped(&file)).expect("shipped files are there"))
+}
+
+static CLOSED: LazyLock<[String; 2]> = LazyLock::new(|| texts("planar_2r_continuous", "no_path"));
+static OPEN: LazyLock<[String; 2]> = LazyLock::new(|| texts("planar_2r", "limits_open"));
+
+fuzz_target!(|text: &str| {
+    let judged = |[urdf, world]: &[String; 2]| match check(urdf, world, text) {
+        Ok(proven) => Some(proven),
+        Err(CheckError::Fails(why)) => Some(why).filter(String::is_empty),
+        Err(CheckError::Input { message, .. }) => Some(message).filter(String::is_empty),
+    };
+    assert_ne!(judged(&CLOSED), Some(String::new()), "no reason");
+    if let Some(proven) = judged(&OPEN) {
+        // Only with ends or a clearance of its own, which may be written with escapes.
+        assert!(["\"start\"", "\"goal", "\"clearance\"", "\\u"].iter().any(|own| text.contains(own)), "{proven:?}");
+    }
+});

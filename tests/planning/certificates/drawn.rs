@@ -1,0 +1,284 @@
+//! Random arms among few and large obstacles, as the numbers of which their files are written.
+
+use crate::common::dice::Dice;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::fmt::Write;
+
+pub type V = [f64; 2];
+
+/// Root axes of the plane's two coordinates and of its normal, and which way the normal points where the coordinates turn left.
+pub const PLANES: [([usize; 3], f64); 3] = [([0, 1, 2], 1.0), ([0, 2, 1], -1.0), ([1, 2, 0], 1.0)];
+
+/// A problem in numbers: lengths in metres.
+#[derive(Debug, Clone)]
+pub struct Drawn {
+    /// Into [`PLANES`].
+    pub plane: usize,
+    pub joints: [Joint; 2],
+    /// Origins of the joints in the plane, each as seen from the one before, and their heights.
+    pub origins: [V; 2],
+    pub heights: [f64; 2],
+    pub solids: [Vec<Solid>; 2],
+    /// Whether they are `<visual>`, for want of others.
+    pub visual: bool,
+    /// The tip as seen from the second joint; none: there.
+    pub tip: Option<V>,
+    /// Where the robot stands, and how it is turned.
+    pub at: V,
+    pub angle: f64,
+    pub obstacles: Vec<Obstacle>,
+    pub clearance: f64,
+    pub start: V,
+    pub goal: Goal,
+    /// What all lengths are multiples of.
+    pub scale: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Goal {
+    Joints(V),
+    Tip(V),
+}
+
+#[derive(Debug, Clone, Copy)]
+pub struct Joint {
+    pub slides: bool,
+    /// Of a joint that turns: 1 to the left, -1 to the right. Of one that slides the angle of its direction.
+    pub way: f64,
+    /// None: without end.
+    pub range: Option<V>,
+}
+
+/// A solid of the URDF, in its coordinates.
+#[derive(Debug, Clone, Copy)]
+pub struct Solid {
+    pub kind: Kind,
+    pub at: [f64; 3],
+    pub rpy: [f64; 3],
+}
+
+#[derive(Debug, Clone, Copy)]
+pub enum Kind {
+    Box([f64; 3]),
+    Cylinder(V),
+    Capsule(V),
+    Sphere(f64),
+}
+
+#[derive(Debug, Clone)]
+pub struct Obstacle {
+    pub outline: Outline,
+    pub at: V,
+    pub angle: f64,
+    pub height: Option<V>,
+}
+
+#[derive(Debug, Clone)]
+pub enum Outline {
+    Rings(Vec<Vec<V>>),
+    Polyline(Vec<V>),
+    Circle(V, f64),
+}
+
+impl Drawn {
+    /// An arm of a kind, 0 to 3: RR, RP, PR, PP. The start and the goal are yet to be chosen.
+    pub fn new(dice: &mut Dice, kind: u64) -> Self {
+        let scale = 10_f64.powf(dice.within(-3.0, 3.0));
+        let plane = dice.below(3);
+        let joint = |dice: &mut Dice, slides: bool| {
+            let (lower, upper) = (dice.within(-0.9, 0.1) * scale, dice.within(0.3, 1.2) * scale);
+            let turns = [dice.within(-3.3, -0.5), dice.within(0.5, 3.3)];
+            let way = if dice.chance(0.7) { 1.0 } else { -1.0 };
+            let direction = if dice.chance(0.3) { FRAC_PI_2 } else { dice.within(-PI, PI) };
+            match slides {
+                true => Joint { slides, way: direction, range: Some([lower, upper]) },
+                false => Joint { slides, way, range: dice.chance(0.6).then_some(turns) },
+            }
+        };
+        let joints = [joint(dice, kind >= 2), joint(dice, kind % 2 == 1)];
+        let length = dice.within(0.3, 1.0) * scale;
+        let aside = if dice.chance(0.5) { 0.0 } else { dice.within(-0.2, 0.2) * scale };
+        let base = if dice.chance(0.5) { [0.0; 2] } else { [dice.within(-1.0, 1.0) * scale, 0.3 * scale] };
+        let heights = [dice.within(-0.1, 0.1) * scale, dice.within(0.0, 0.2) * scale];
+        let solids = [0, 1].map(|_| (0..1 + dice.below(2)).map(|_| solid(dice, plane, length, scale)).collect());
+        let reach = 2.2 * length;
+        let obstacles = (0..1 + dice.below(5)).map(|_| obstacle(dice, base, reach, scale)).collect();
+        let is_placed = dice.chance(0.3);
+        let tip = [dice.within(0.2, 1.0) * length, if dice.chance(0.7) { 0.0 } else { 0.1 * length }];
+        Self {
+            plane,
+            joints,
+            origins: [base, [length, aside]],
+            heights,
+            solids,
+            visual: dice.chance(0.15),
+            tip: dice.chance(0.8).then_some(if dice.chance(0.2) { [length, 0.0] } else { tip }),
+            at: if is_placed { [dice.within(-3.0, 3.0) * scale, dice.within(-3.0, 3.0) * scale] } else { [0.0; 2] },
+            angle: if is_placed { dice.within(-4.0, 4.0) } else { 0.0 },
+            obstacles,
+            clearance: if dice.chance(0.25) { dice.within(0.0, 0.05) * scale } else { 0.0 },
+            start: [0.0; 2],
+            goal: Goal::Joints([0.0; 2]),
+            scale,
+        }
+    }
+
+    pub fn has_oblique_cylinder(&self) -> bool {
+        let is_oblique = |solid: &Solid| matches!(solid.kind, Kind::Cylinder(_)) && solid.rpy.iter().all(|a| *a != 0.0);
+        self.solids.iter().flatten().any(is_oblique)
+    }
+
+    /// A vector of the plane and a height in the coordinates of the URDF.
+    fn xyz(&self, [u, v]: V, n: f64) -> String {
+        let mut xyz = [0.0; 3];
+        for (axis, value) in PLANES[self.plane].0.into_iter().zip([u, v, n]) {
+            xyz[axis] = value;
+        }
+        spaced(&xyz)
+    }
+
+    pub fn urdf(&self) -> String {
+        let mut text = "<robot name=\"drawn\">\n<link name=\"base\"/>\n".to_owned();
+        let names = ["base", "upper", "fore"];
+        for k in 0..2 {
+            let Joint { slides, way, range } = self.joints[k];
+            let axis = if slides {
+                self.xyz([way.cos(), way.sin()], 0.0)
+            } else {
+                self.xyz([0.0; 2], way * PLANES[self.plane].1)
+            };
+            let kind = if slides { "prismatic" } else { range.map_or("continuous", |_| "revolute") };
+            let limit = range.map_or(String::new(), |[lower, upper]| {
+                format!("<limit lower=\"{lower:?}\" upper=\"{upper:?}\" velocity=\"1\" effort=\"1\"/>")
+            });
+            let origin = self.xyz(self.origins[k], self.heights[k]);
+            let (parent, child) = (names[k], names[k + 1]);
+            let _ = writeln!(
+                text,
+                "<joint name=\"j{k}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>\
+                 <origin xyz=\"{origin}\"/><axis xyz=\"{axis}\"/>{limit}</joint>\n<link name=\"{child}\">"
+            );
+            let tag = if self.visual { "visual" } else { "collision" };
+            for solid in &self.solids[k] {
+                let geometry = match solid.kind {
+                    Kind::Box(size) => format!("<box size=\"{}\"/>", spaced(&size)),
+                    Kind::Cylinder([radius, length]) => {
+                        format!("<cylinder radius=\"{radius:?}\" length=\"{length:?}\"/>")
+                    }
+                    Kind::Capsule([radius, length]) => {
+                        format!("<capsule radius=\"{radius:?}\" length=\"{length:?}\"/>")
+                    }
+                    Kind::Sphere(radius) => format!("<sphere radius=\"{radius:?}\"/>"),
+                };
+                let (xyz, rpy) = (spaced(&solid.at), spaced(&solid.rpy));
+                let _ = writeln!(
+                    text,
+                    "<{tag}><origin xyz=\"{xyz}\" rpy=\"{rpy}\"/><geometry>{geometry}</geometry></{tag}>"
+                );
+            }
+            text += "</link>\n";
+        }
+        if let Some(tip) = self.tip {
+            let xyz = self.xyz(tip, 0.0);
+            let _ = writeln!(
+                text,
+                "<link name=\"tool\"/><joint name=\"t\" type=\"fixed\"><parent link=\"fore\"/><child link=\"tool\"/>\
+                 <origin xyz=\"{xyz}\"/></joint>"
+            );
+        }
+        text + "</robot>\n"
+    }
+
+    /// The world file, with start and goal or without.
+    pub fn world(&self, has_ends: bool) -> String {
+        let mut text = format!("clearance = {:?}\n", self.clearance);
+        if has_ends {
+            let _ = writeln!(text, "start.joints = {:?}", self.start);
+            let _ = match self.goal {
+                Goal::Joints(goal) => writeln!(text, "goal.joints = {goal:?}"),
+                Goal::Tip(tip) => writeln!(text, "goal.tip = {tip:?}"),
+            };
+        }
+        if (self.at, self.angle) != ([0.0; 2], 0.0) {
+            let _ = writeln!(text, "[robot]\nat = {:?}\nangle = {:?}", self.at, self.angle);
+        }
+        for Obstacle { outline, at, angle, height } in &self.obstacles {
+            let _ = writeln!(text, "[[obstacle]]\nat = {at:?}\nangle = {angle:?}");
+            if let Some(height) = height {
+                let _ = writeln!(text, "height = {height:?}");
+            }
+            let _ = match outline {
+                Outline::Rings(rings) => writeln!(text, "polygon = {rings:?}"),
+                Outline::Polyline(points) => writeln!(text, "polyline = {points:?}"),
+                Outline::Circle(center, radius) => {
+                    writeln!(text, "circle = {{ center = {center:?}, radius = {radius:?} }}")
+                }
+            };
+        }
+        text
+    }
+}
+
+fn spaced(numbers: &[f64]) -> String {
+    numbers.iter().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(" ")
+}
+
+/// A bar along the plane's first coordinate, upright, oblique, or a ball.
+fn solid(dice: &mut Dice, plane: usize, length: f64, scale: f64) -> Solid {
+    let width = dice.within(0.02, 0.12) * scale;
+    let axes = PLANES[plane].0;
+    let mut at = [0.0; 3];
+    at[axes[0]] = length / 2.0;
+    if dice.chance(0.3) {
+        at[axes[1]] = dice.within(-0.2, 0.2) * scale;
+        at[axes[2]] = dice.within(-0.2, 0.2) * scale;
+    }
+    let along = if plane == 2 { [-FRAC_PI_2, 0.0, 0.0] } else { [0.0, FRAC_PI_2, 0.0] };
+    let any = [0, 1, 2].map(|_| dice.within(-2.0, 2.0));
+    match dice.below(8) {
+        0..=3 => {
+            let mut size = [width; 3];
+            size[axes[0]] = length;
+            let rpy = if dice.chance(0.3) { any.map(|angle| 0.2 * angle) } else { [0.0; 3] };
+            Solid { kind: Kind::Box(size), at, rpy }
+        }
+        4 => Solid { kind: Kind::Cylinder([width, length]), at, rpy: along },
+        5 => Solid { kind: Kind::Cylinder([2.0 * width, length]), at, rpy: any },
+        6 => Solid { kind: Kind::Capsule([width, length]), at, rpy: along },
+        _ => Solid { kind: Kind::Sphere(2.0 * width), at, rpy: [0.0; 3] },
+    }
+}
+
+fn obstacle(dice: &mut Dice, base: V, reach: f64, scale: f64) -> Obstacle {
+    let (angle, radius) = (dice.within(-PI, PI), reach * dice.within(0.05, 1.0).sqrt());
+    let place = [base[0] + radius * angle.cos(), base[1] + radius * angle.sin()];
+    let is_placed = dice.chance(0.3);
+    let (at, center) = if is_placed { (place, [0.0; 2]) } else { ([0.0; 2], place) };
+    let size = dice.within(0.05, 0.8) * scale;
+    let about = |x: f64, y: f64| [center[0] + x * size, center[1] + y * size];
+    let around = |n: u64, turn: f64, flat: f64| -> Vec<V> {
+        (0..n).map(|k| turn + TAU * k as f64 / n as f64).map(|t| about(t.cos(), flat * t.sin())).collect()
+    };
+    let outline = match dice.below(7) {
+        0 | 1 => {
+            let far = dice.within(1.0, 3.0);
+            let (s, c) = (angle + dice.within(-0.7, 0.7)).sin_cos();
+            Outline::Polyline(vec![about(-0.3 * c, -0.3 * s), about(far * c, far * s)])
+        }
+        2 => Outline::Polyline((0..4).map(|_| about(dice.within(-1.0, 1.0), dice.within(-1.0, 1.0))).collect()),
+        3 => Outline::Circle(center, size / 2.0),
+        4 => Outline::Rings(vec![around(3 + dice.below(5), dice.within(0.0, TAU), dice.within(0.2, 1.0))]),
+        5 => Outline::Rings(vec![
+            [[0, 0], [3, 0], [3, 1], [1, 1], [1, 3], [0, 3]]
+                .map(|[x, y]| about(f64::from(x) / 3.0, f64::from(y) / 3.0))
+                .to_vec(),
+        ]),
+        _ => {
+            let hole = around(4, 0.3, 1.0).into_iter();
+            let shrunk = |[x, y]: V| [center[0] + 0.6 * (x - center[0]), center[1] + 0.6 * (y - center[1])];
+            Outline::Rings(vec![around(5, 0.0, 1.0), hole.map(shrunk).collect()])
+        }
+    };
+    let height = dice.chance(0.2).then_some([-0.05 * scale, dice.within(0.0, 0.2) * scale]);
+    Obstacle { outline, at, angle: if is_placed { dice.within(-PI, PI) } else { 0.0 }, height }
+}

@@ -1,0 +1,359 @@
+//! Whether a certificate is true, as far as samples in floating point show: with kinematics, projections, distances, inverse kinematics
+//! and a flood fill of its own.
+
+use super::drawn::{Drawn, Goal, Joint, Kind, Outline, PLANES, Solid, V};
+use serde_json::Value;
+use std::f64::consts::{PI, TAU};
+
+/// Rounding, as a share of lengths and angles.
+const ROUNDING: f64 = 1e-9;
+
+/// A configuration is said to lie in a cell if it is farther than this from its sides, as a share of the domain.
+const INSIDE: f64 = 1e-6;
+
+/// The tip is at a place if it is no farther from there, as a share of lengths: less than the checker tells apart.
+const REACHED: f64 = 1e-13;
+
+/// Samples of a box along each joint.
+const SAMPLES: usize = 3;
+
+fn turned([x, y]: V, angle: f64) -> V {
+    let (s, c) = angle.sin_cos();
+    [c * x - s * y, s * x + c * y]
+}
+
+fn plus(a: V, b: V) -> V {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn minus(a: V, b: V) -> V {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn cross(a: V, b: V) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn dot(a: V, b: V) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+impl Joint {
+    fn moved(&self, p: V, value: f64) -> V {
+        if self.slides {
+            plus(p, [value * self.way.cos(), value * self.way.sin()])
+        } else {
+            turned(p, self.way * value)
+        }
+    }
+
+    fn domain(&self) -> V {
+        self.range.unwrap_or([-PI, PI])
+    }
+}
+
+impl Drawn {
+    /// Where a point that link 0 or 1 carries is in the world.
+    fn carried(&self, link: usize, p: V, q: V) -> V {
+        let p = if link == 1 { plus(self.origins[1], self.joints[1].moved(p, q[1])) } else { p };
+        let root = plus(self.origins[0], self.joints[0].moved(p, q[0]));
+        plus(self.at, turned(root, self.angle))
+    }
+
+    pub fn tip(&self, q: V) -> V {
+        self.carried(1, self.tip.unwrap_or_default(), q)
+    }
+}
+
+/// All within a radius of the convex hull of some points; heights of the whole.
+struct Body {
+    points: Vec<V>,
+    radius: f64,
+    heights: V,
+}
+
+/// What a solid covers, or a little more, as seen from its joint.
+fn body(drawn: &Drawn, link: usize, Solid { kind, at, rpy }: &Solid) -> Body {
+    let [roll, pitch, yaw] = rpy.map(f64::sin_cos);
+    let placed = |[x, y, z]: [f64; 3]| {
+        let (y, z) = (roll.1 * y - roll.0 * z, roll.0 * y + roll.1 * z);
+        let (x, z) = (pitch.1 * x + pitch.0 * z, -pitch.0 * x + pitch.1 * z);
+        let (x, y) = (yaw.1 * x - yaw.0 * y, yaw.0 * x + yaw.1 * y);
+        [x + at[0], y + at[1], z + at[2]]
+    };
+    let sides = [-0.5, 0.5];
+    let (points, radius): (Vec<[f64; 3]>, f64) = match kind {
+        Kind::Box([x, y, z]) => {
+            let corners =
+                sides.iter().flat_map(|i| sides.iter().flat_map(move |j| sides.map(|k| [i * x, j * y, k * z])));
+            (corners.collect(), 0.0)
+        }
+        Kind::Cylinder([radius, length]) => {
+            const CORNERS: u32 = 64;
+            let around = |k: u32| TAU * f64::from(k) / f64::from(CORNERS);
+            let out = radius / (PI / f64::from(CORNERS)).cos();
+            let circle = |z: f64| (0..CORNERS).map(move |k| [out * around(k).cos(), out * around(k).sin(), z]);
+            (sides.iter().flat_map(|side| circle(side * length)).collect(), 0.0)
+        }
+        Kind::Capsule([radius, length]) => (sides.iter().map(|side| [0.0, 0.0, side * length]).collect(), *radius),
+        Kind::Sphere(radius) => (vec![[0.0; 3]], *radius),
+    };
+    let [u, v, n] = PLANES[drawn.plane].0;
+    let points: Vec<[f64; 3]> = points.into_iter().map(placed).collect();
+    let height: f64 = drawn.heights[..=link].iter().sum();
+    let [low, high] = [f64::min, f64::max].map(|most| points.iter().map(|p| p[n]).reduce(most).unwrap());
+    let heights = [height + low - radius, height + high + radius];
+    Body { points: hull(points.iter().map(|p| [p[u], p[v]]).collect()), radius, heights }
+}
+
+fn hull(mut points: Vec<V>) -> Vec<V> {
+    points.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    points.dedup();
+    if points.len() < 3 {
+        return points;
+    }
+    let half = |points: &mut dyn Iterator<Item = &V>| {
+        let mut chain: Vec<V> = Vec::new();
+        for &p in points {
+            while let [.., a, b] = chain[..]
+                && cross(minus(b, a), minus(p, a)) <= 0.0
+            {
+                chain.pop();
+            }
+            chain.push(p);
+        }
+        chain.pop();
+        chain
+    };
+    let mut ring = half(&mut points.iter());
+    ring.extend(half(&mut points.iter().rev()));
+    ring
+}
+
+fn edges(ring: &[V]) -> impl Iterator<Item = (V, V)> + '_ {
+    (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()]))
+}
+
+fn distance_to(p: V, (a, b): (V, V)) -> f64 {
+    let along = minus(b, a);
+    let square = dot(along, along);
+    let share = if square > 0.0 { (dot(minus(p, a), along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    let off = minus(p, plus(a, [share * along[0], share * along[1]]));
+    off[0].hypot(off[1])
+}
+
+/// The distance of two convex polygons, 0 where they overlap.
+fn distance(a: &[V], b: &[V]) -> f64 {
+    let holds = |ring: &[V], p: V| ring.len() > 2 && edges(ring).all(|(u, v)| cross(minus(v, u), minus(p, u)) >= 0.0);
+    let crosses = |(a, b): (V, V), (c, d): (V, V)| {
+        let side = |u: V, v: V, p: V| cross(minus(v, u), minus(p, u));
+        side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+    };
+    if holds(a, b[0]) || holds(b, a[0]) || edges(a).any(|e| edges(b).any(|f| crosses(e, f))) {
+        return 0.0;
+    }
+    let corners =
+        |a: &[V], b: &[V]| a.iter().flat_map(|p| edges(b).map(|e| distance_to(*p, e))).fold(f64::INFINITY, f64::min);
+    corners(a, b).min(corners(b, a))
+}
+
+/// Two numbers, of which squares are finite.
+fn pair(value: &Value) -> Option<V> {
+    Some([value.get(0)?.as_f64()?, value.get(1)?.as_f64()?].map(|x| x.clamp(-1e100, 1e100)))
+}
+
+/// What is wrong with a certificate, if anything. It is of the form that the checker takes.
+pub fn lie(drawn: &Drawn, certificate: &Value) -> Option<String> {
+    let clearance = certificate["clearance"].as_f64().unwrap_or(drawn.clearance);
+    let boxes: Vec<[V; 2]> = certificate["boxes"]
+        .as_array()?
+        .iter()
+        .map(|b| [pair(&b["lower"]).unwrap(), pair(&b["upper"]).unwrap()])
+        .collect();
+    for (number, (entry, [lower, upper])) in certificate["boxes"].as_array()?.iter().zip(&boxes).enumerate() {
+        let shape = &certificate["shapes"][entry["shape"].as_u64()? as usize];
+        let part = &certificate["parts"][entry["part"].as_u64()? as usize];
+        let link = match shape["link"].as_str() {
+            Some("upper") => 0,
+            Some("fore") => 1,
+            _ => return Some(format!("box {number}: {shape} is no link")),
+        };
+        let named = shape[if drawn.visual { "visual" } else { "collision" }].as_u64();
+        let Some(solid) = named.and_then(|n| drawn.solids[link].get(n as usize)) else {
+            return Some(format!("box {number}: there is no {shape}"));
+        };
+        let body = body(drawn, link, solid);
+        let (corners, radius) = match part_of(drawn, part) {
+            Ok(part) => part,
+            Err(why) => return Some(format!("box {number}: {part} {why}")),
+        };
+        let heights = drawn.obstacles[part["obstacle"].as_u64()? as usize].height;
+        let room = ROUNDING * drawn.scale;
+        if heights.is_some_and(|[low, high]| body.heights[1] < low - room || high < body.heights[0] - room) {
+            return Some(format!("box {number}: at other heights"));
+        }
+        for [i, j] in (0..SAMPLES * SAMPLES).map(|n| [n % SAMPLES, n / SAMPLES]) {
+            let at = |k: usize, n: usize| lower[k] + (upper[k] - lower[k]) * n as f64 / (SAMPLES - 1) as f64;
+            let q = [at(0, i), at(1, j)];
+            let points: Vec<V> = body.points.iter().map(|p| drawn.carried(link, *p, q)).collect();
+            let apart = distance(&points, &corners) - body.radius - radius - clearance;
+            // Far from the origin coordinates lose more.
+            let size = points.iter().chain(&corners).flatten().fold(drawn.scale, |most, x| most.max(x.abs()));
+            if apart > ROUNDING * size {
+                return Some(format!("box {number}: apart by {apart} at {q:?}"));
+            }
+        }
+    }
+    connection(drawn, certificate, &boxes)
+}
+
+/// A part of an obstacle in its place, if it is one.
+fn part_of(drawn: &Drawn, part: &Value) -> Result<(Vec<V>, f64), &'static str> {
+    let number = part["obstacle"].as_u64().ok_or("names no obstacle")? as usize;
+    let obstacle = drawn.obstacles.get(number).ok_or("is of an obstacle that is not there")?;
+    let placed = |p: &V| plus(obstacle.at, turned(*p, obstacle.angle));
+    let given: Vec<V> = part["corners"].as_array().map_or(Vec::new(), |c| c.iter().filter_map(pair).collect());
+    let nearest = |corners: Vec<V>| -> Vec<V> {
+        let off = |p: &V, c: &V| (p[0] - c[0]).hypot(p[1] - c[1]);
+        let near = |p: &V| *corners.iter().min_by(|a, b| off(p, a).total_cmp(&off(p, b))).unwrap();
+        given.iter().map(near).collect()
+    };
+    match &obstacle.outline {
+        Outline::Circle(center, radius) => Ok((vec![placed(center)], *radius)),
+        Outline::Polyline(points) => {
+            let points: Vec<V> = points.iter().map(placed).collect();
+            let named = nearest(points.clone());
+            let is_side = points.windows(2).any(|side| named == side || named.iter().rev().eq(side));
+            if is_side { Ok((named, 0.0)) } else { Err("is no side") }
+        }
+        Outline::Rings(rings) => {
+            let rings: Vec<Vec<V>> = rings.iter().map(|ring| ring.iter().map(placed).collect()).collect();
+            let named = hull(nearest(rings.concat()));
+            if named.len() < 3 {
+                return Err("has no area");
+            }
+            // Points of all its triangles are in the polygon, or on its border.
+            let is_in = |p: V| {
+                let crosses = |(a, b): &(V, V)| {
+                    (a[1] <= p[1]) != (b[1] <= p[1]) && (cross(minus(*b, *a), minus(p, *a)) > 0.0) == (b[1] > a[1])
+                };
+                let sides = || rings.iter().flat_map(|ring| edges(ring));
+                let size = named.iter().flatten().fold(drawn.scale, |most, x| most.max(x.abs()));
+                sides().filter(crosses).count() % 2 == 1 || sides().any(|e| distance_to(p, e) < ROUNDING * size)
+            };
+            let inner = (2..named.len()).flat_map(|k| {
+                let [a, b, c] = [named[0], named[k - 1], named[k]];
+                (0..=8).flat_map(move |i| {
+                    (0..=8 - i).map(move |j| {
+                        let [s, t] = [i, j].map(|n| f64::from(n) / 8.0);
+                        [0, 1].map(|x| a[x] + s * (b[x] - a[x]) + t * (c[x] - a[x]))
+                    })
+                })
+            });
+            let all = inner.collect::<Vec<V>>();
+            if all.into_iter().all(is_in) { Ok((named, 0.0)) } else { Err("is not within the obstacle") }
+        }
+    }
+}
+
+/// How the boxes leave the start connected with a goal, if they do.
+fn connection(drawn: &Drawn, certificate: &Value, boxes: &[[V; 2]]) -> Option<String> {
+    let domain = drawn.joints.map(|joint| joint.domain());
+    let ends = [0, 1].map(|k| {
+        let inside = |x: &f64| domain[k][0] < *x && *x < domain[k][1];
+        let mut ends: Vec<f64> = boxes.iter().flat_map(|b| [b[0][k], b[1][k]]).filter(inside).collect();
+        ends.extend(domain[k]);
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        ends
+    });
+    let counts = ends.each_ref().map(|e| e.len() - 1);
+    let is_free = |[i, j]: [usize; 2]| {
+        let covers = |b: &[V; 2]| {
+            [i, j].into_iter().enumerate().all(|(k, c)| b[0][k] <= ends[k][c] && ends[k][c + 1] <= b[1][k])
+        };
+        !boxes.iter().any(covers)
+    };
+    // The cell well within which a configuration lies, if there is one.
+    let cell = |q: V| {
+        let found = [0, 1].map(|k| {
+            let value = match drawn.joints[k].range {
+                None => (q[k] + PI).rem_euclid(TAU) - PI,
+                Some(_) => q[k],
+            };
+            let at = ends[k].partition_point(|e| *e <= value);
+            let room = INSIDE * (domain[k][1] - domain[k][0]);
+            let is_inside = at > 0 && at <= counts[k] && value - ends[k][at - 1] > room && ends[k][at] - value > room;
+            is_inside.then(|| at - 1)
+        });
+        Some([found[0]?, found[1]?])
+    };
+    let start = cell(pair(&certificate["start"]).unwrap_or(drawn.start))?;
+    let mut seen = vec![false; counts[0] * counts[1]];
+    let mut waiting = vec![start];
+    while let Some([i, j]) = waiting.pop() {
+        if seen[i * counts[1] + j] || !is_free([i, j]) {
+            continue;
+        }
+        seen[i * counts[1] + j] = true;
+        for (k, step) in [(0, 1), (0, -1), (1, 1), (1, -1)] {
+            let mut next = [i as isize, j as isize];
+            next[k] += step;
+            if drawn.joints[k].range.is_none() {
+                next[k] = next[k].rem_euclid(counts[k] as isize);
+            }
+            if next.iter().zip(counts).all(|(n, count)| (0..count as isize).contains(n)) {
+                waiting.push(next.map(|n| n as usize));
+            }
+        }
+    }
+    let given = match (pair(&certificate["goal"]), pair(&certificate["goal_tip"])) {
+        (Some(goal), _) => Goal::Joints(goal),
+        (None, Some(tip)) => Goal::Tip(tip),
+        (None, None) => drawn.goal,
+    };
+    let goals = match given {
+        Goal::Joints(goal) => vec![goal],
+        Goal::Tip(tip) => reaching(drawn, tip),
+    };
+    let reached = goals.into_iter().find(|goal| cell(*goal).is_some_and(|[i, j]| seen[i * counts[1] + j]));
+    reached.map(|goal| format!("the goal {goal:?} is connected with the start"))
+}
+
+/// Configurations that put the tip at a place, by Newton's method from many sides, damped where joints are of no use.
+fn reaching(drawn: &Drawn, tip: V) -> Vec<V> {
+    const SEEDS: usize = 12;
+    let domain = drawn.joints.map(|joint| joint.domain());
+    let units = drawn.joints.map(|joint| if joint.slides { drawn.scale } else { 1.0 });
+    let mut found = Vec::new();
+    for [i, j] in (0..SEEDS * SEEDS).map(|n| [n % SEEDS, n / SEEDS]) {
+        let mut q = [0, 1].map(|k| {
+            let share = ([i, j][k] as f64 + 0.5) / SEEDS as f64;
+            domain[k][0] + (domain[k][1] - domain[k][0]) * share
+        });
+        for _ in 0..60 {
+            let off = minus(tip, drawn.tip(q));
+            let step = 1e-6;
+            let column = |k: usize| {
+                let [mut more, mut less] = [q, q];
+                more[k] += step * units[k];
+                less[k] -= step * units[k];
+                minus(drawn.tip(more), drawn.tip(less)).map(|d| d / (2.0 * step))
+            };
+            let [a, b] = [column(0), column(1)];
+            // (J^T J + damping) d = J^T off.
+            let damping = 1e-12 * drawn.scale * drawn.scale;
+            let (aa, ab, bb) = (dot(a, a) + damping, dot(a, b), dot(b, b) + damping);
+            let right = [dot(a, off), dot(b, off)];
+            let determinant = aa * bb - ab * ab;
+            q[0] += (right[0] * bb - right[1] * ab) / determinant * units[0];
+            q[1] += (aa * right[1] - ab * right[0]) / determinant * units[1];
+        }
+        let off = minus(tip, drawn.tip(q));
+        let is_within = (0..2).all(|k| drawn.joints[k].range.is_none_or(|[low, high]| low <= q[k] && q[k] <= high));
+        if q.iter().all(|v| v.is_finite()) && is_within && off[0].hypot(off[1]) < REACHED * drawn.scale {
+            found.push(q);
+        }
+    }
+    found
+}
