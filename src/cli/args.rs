@@ -191,7 +191,7 @@ pub struct PlanArgs {
     /// Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
-    /// Write the evidence for the answer, which `cplan-check URDF WORLD FILE` checks in exact arithmetic. Of "infeasible" alone yet.
+    /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact arithmetic.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]
@@ -341,6 +341,9 @@ pub struct VerifyArgs {
     /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
+    /// Write the evidence that an accepted motion is free, which `cplan-check URDF WORLD FILE` checks in exact arithmetic.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub certificate: Option<PathBuf>,
     #[command(flatten)]
     pub print: PrintArgs,
 }

@@ -1,5 +1,9 @@
 //! Evidence for an answer that a checker of its own can hold against the two files: `docs/certificates.md`.
 
+mod motion;
+
+pub use motion::recorded as certificate_of_recording;
+
 use super::Plan;
 use crate::check::{Cell, StuckBox};
 use crate::geometry::Point;
@@ -14,8 +18,8 @@ use thiserror::Error;
 /// Why an answer has no certificate.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum NoCertificate {
-    /// Another answer than "infeasible".
-    #[error("only \"infeasible\" has a certificate yet, and the answer is \"{}\"", .0.name())]
+    /// Neither a motion nor a proof.
+    #[error("the answer is \"{}\", which claims nothing", .0.name())]
     Answer(Status),
     /// The answer to a task.
     #[error("tasks have no certificates yet")]
@@ -38,6 +42,9 @@ impl Plan {
     /// [`NoCertificate`].
     pub fn certificate(&self, asked: &Overrides) -> Result<String, NoCertificate> {
         let plan = self.motion().ok_or(NoCertificate::Task)?;
+        if let Some(trajectory) = self.trajectory() {
+            return Ok(motion::certificate(&plan.problem, trajectory, asked));
+        }
         let proof = plan.answer.verdict.proof().ok_or(NoCertificate::Answer(self.status()))?;
         let problem = &plan.problem;
         let scene = problem.scene();

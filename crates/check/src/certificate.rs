@@ -8,12 +8,14 @@ use serde::Deserialize;
 /// What certificates of this form begin with.
 pub const FORMAT: &str = "cplan certificate 1";
 
-/// A certificate. Numbers are exact.
+/// A certificate that there is no motion. Numbers are exact.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
-    pub format: String,
-    pub answer: Answer,
+    #[serde(rename = "format")]
+    _format: String,
+    #[serde(rename = "answer")]
+    _answer: String,
     /// What was asked, where it was not the world's own.
     pub start: Option<[Decimal; 2]>,
     pub goal: Option<[Decimal; 2]>,
@@ -28,7 +30,39 @@ pub struct Certificate {
 #[derive(Deserialize, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
+    Found,
     Infeasible,
+}
+
+/// What all certificates have.
+#[derive(Deserialize)]
+struct Header {
+    format: String,
+    answer: Answer,
+}
+
+/// Reads a certificate's text.
+///
+/// # Errors
+/// What is none of this kind.
+pub fn read<'t, T: Deserialize<'t>>(text: &'t str) -> Result<T, CheckError> {
+    serde_json::from_str(text).map_err(|error| {
+        let message = format!("this is no certificate: {error}");
+        CheckError::Input { input: Input::Certificate, line: Some(error.line()), message }
+    })
+}
+
+/// Which answer a text certifies.
+///
+/// # Errors
+/// What is no certificate, or of another form.
+pub fn answer(text: &str) -> Result<Answer, CheckError> {
+    let Header { format, answer } = read(text)?;
+    if format != FORMAT {
+        let message = format!("its format is \"{format}\": the checker knows \"{FORMAT}\"");
+        return Err(CheckError::in_file(Input::Certificate, message));
+    }
+    Ok(answer)
 }
 
 /// A shape of the URDF: its number among those of its kind that the link has.
@@ -62,22 +96,4 @@ pub struct StuckBox {
     pub shape: usize,
     /// Into the parts.
     pub part: usize,
-}
-
-impl Certificate {
-    /// Reads a certificate.
-    ///
-    /// # Errors
-    /// What is none, or of another form.
-    pub fn read(text: &str) -> Result<Self, CheckError> {
-        let certificate: Self = serde_json::from_str(text).map_err(|error| {
-            let message = format!("this is no certificate: {error}");
-            CheckError::Input { input: Input::Certificate, line: Some(error.line()), message }
-        })?;
-        if certificate.format != FORMAT {
-            let message = format!("its format is \"{}\": the checker knows \"{FORMAT}\"", certificate.format);
-            return Err(CheckError::in_file(Input::Certificate, message));
-        }
-        Ok(certificate)
-    }
 }

@@ -36,6 +36,11 @@ impl Decimal {
         Self { mantissa: mantissa * 5, scale: scale + 1 }
     }
 
+    /// `10^-digits`.
+    pub fn power_of_ten(digits: u32) -> Self {
+        Self { mantissa: 1.into(), scale: digits }
+    }
+
     /// Whether it is greater than 0, 0 or less.
     pub fn sign(&self) -> Sign {
         self.mantissa.sign()

@@ -34,9 +34,12 @@
 
 mod arm;
 mod certificate;
+mod curve;
 mod decimal;
 mod error;
+mod free;
 mod interval;
+mod motion;
 mod overlap;
 mod polygon;
 mod robot;
@@ -60,7 +63,7 @@ use world::{Goal, World};
 /// [`CheckError::Fails`] with the first part that does not hold, [`CheckError::Input`] for files that are wrong or that say
 /// what the checker does not know.
 pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, CheckError> {
-    let certificate = Certificate::read(certificate)?;
+    let answer = certificate::answer(certificate)?;
     let world = World::read(world)?;
     let document = roxmltree::Document::parse(urdf).map_err(|error| CheckError::Input {
         input: Input::Urdf,
@@ -68,8 +71,9 @@ pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, Check
         message: error.to_string(),
     })?;
     let arm = Arm::read(&document, &world)?;
-    match certificate.answer {
-        Answer::Infeasible => infeasible(&arm, &world, &certificate),
+    match answer {
+        Answer::Found => motion::found(&arm, &world, certificate),
+        Answer::Infeasible => infeasible(&arm, &world, &certificate::read(certificate)?),
     }
 }
 

@@ -14,7 +14,7 @@ fn side(a: &Corner, b: &Corner, p: &Corner) -> Sign {
 }
 
 /// Corner and next corner, all round.
-fn edges(ring: &[Corner]) -> impl Iterator<Item = (&Corner, &Corner)> {
+pub fn edges(ring: &[Corner]) -> impl Iterator<Item = (&Corner, &Corner)> {
     ring.iter().zip(ring.iter().cycle().skip(1))
 }
 
@@ -25,7 +25,7 @@ fn is_convex(ring: &[Corner]) -> bool {
 }
 
 /// Whether a point that lies on no ring is surrounded by them an odd number of times.
-fn surrounds(rings: &[Vec<Corner>], point: &Corner) -> bool {
+pub fn surrounds(rings: &[Vec<Corner>], point: &Corner) -> bool {
     let crosses = |&(a, b): &(&Corner, &Corner)| match (a[1] <= point[1], b[1] <= point[1]) {
         (true, false) => side(a, b, point) == Sign::Plus,
         (false, true) => side(b, a, point) == Sign::Plus,

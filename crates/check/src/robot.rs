@@ -11,6 +11,8 @@ use num_bigint::Sign;
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
 
+mod cover;
+
 /// Ranges of a joint that turns longer than this mean that it has none.
 const LONGEST_TURN: i32 = 1000;
 
@@ -273,7 +275,7 @@ impl<'a> Tree<'a> {
     fn range(&self, joint: Node<'a, 'a>, world: &World) -> Read<Axis> {
         let turns = joint.attribute("type") != Some("prismatic");
         let range = match (world.limits.get(self.text(joint, "name")?), child(joint, "limit")) {
-            (Some(range), _) => range.clone(),
+            (Some([[low, _], [_, high]]), _) => [low.clone(), high.clone()],
             (None, _) if joint.attribute("type") == Some("continuous") => return Ok(Axis::Circle),
             (None, None) => return self.error(joint, "the joint has no <limit>"),
             (None, Some(limit)) => [self.number(limit, "lower")?, self.number(limit, "upper")?],
@@ -436,10 +438,12 @@ impl<'a> Arm<'a> {
         let radius = Interval::from(radius);
         let heights =
             [self.tree.pose(self.children[last])?, self.tree.pose(next)?].map(|p| p.at[self.plane.normal].clone());
-        let least = heights.iter().min_by_key(|h| &h.upper).expect("two") - &radius;
-        let most = heights.iter().max_by_key(|h| &h.lower).expect("two") + &radius;
+        let [a, b] = heights;
+        let least = Interval { lower: (&a.lower).min(&b.lower).clone(), upper: (&a.upper).min(&b.upper).clone() };
+        let most = Interval { lower: a.lower.max(b.lower), upper: a.upper.max(b.upper) };
+        let heights = [&least - &radius, &most + &radius];
         let shape = Shape { points: vec![[Interval::whole(0), Interval::whole(0)], end], radius };
-        Ok(Body { link: last, shape, heights: [least, most] })
+        Ok(Body { link: last, shape, heights })
     }
 
     /// That nothing that moves with a joint and not with the next has a shape of a kind.

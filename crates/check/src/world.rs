@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+mod sides;
+
 type Value<'a> = Spanned<DeValue<'a>>;
 
 /// What the checker knows of a world. Enclosures of what is in degrees, else the numbers themselves.
@@ -22,8 +24,8 @@ pub struct World {
     pub joints: Option<Vec<String>>,
     /// Values of other joints, by name.
     pub fixed: BTreeMap<String, Range>,
-    /// Ranges of joints, by name.
-    pub limits: BTreeMap<String, Range>,
+    /// Enclosures of the least and the greatest value of joints, by name.
+    pub limits: BTreeMap<String, [Range; 2]>,
     pub start: Option<Goal>,
     pub goal: Option<Goal>,
     /// The radius of bars in place of links without geometry, if it wants them.
@@ -153,10 +155,7 @@ impl Reader<'_> {
                 }
                 "fixed" => world.fixed = self.by_name(value, |q| self.quantity(q))?,
                 "limits" => {
-                    let range = |limits: &Value| {
-                        let [[low, _], [_, high]] = self.two(limits, |q| self.quantity(q))?;
-                        Ok([low, high])
-                    };
+                    let range = |limits: &Value| self.two(limits, |q| self.quantity(q));
                     world.limits = self.by_name(value, range)?;
                 }
                 "tip" => world.tip = Some(self.text(value)?),

@@ -352,7 +352,8 @@ fn bad_input_is_named() {
         assert!(good.contains(from), "{from}");
         bad(&arm, &place, &good.replace(from, to), Input::Certificate, Some(1), part);
     };
-    certificates("infeasible", "found", "found");
+    certificates("infeasible", "found", "shapes");
+    certificates("infeasible", "unknown", "unknown");
     certificates("\"boxes\"", "\"box\"", "box");
     certificates("-0.01", "\"-0.01\"", "decimal");
     certificates("-0.01", "1e9999", "digits");

@@ -8,9 +8,11 @@ use super::failure::Failure;
 use super::sinks::{self, Sink};
 use super::{DONE, REFUTED, UNKNOWN};
 use crate::draw::{Picture, View};
+use crate::engine::certificate_of_recording;
 use crate::engine::findings::{MotionFindings, Verdict, verify};
 use crate::input::{self, Overrides};
 use crate::model::Scene;
+use crate::motion::write_whole;
 use crate::output::{PictureFormat, contours, title_of};
 use crate::space::Recording;
 
@@ -20,7 +22,7 @@ use crate::space::Recording;
 /// Bad input and I/O, and options that do not go with what is judged. A motion that collides is no error: finding that out
 /// is the job.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
-    let sinks = sinks::sinks(&[], &args.picture)?;
+    let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
     let loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
     loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let mut recorded = input::load_recording(&args.trajectory, &loaded)?;
@@ -36,11 +38,23 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     if recorded.steps.is_some() && args.anywhere {
         return Err(Failure::Usage("--anywhere is for motions; a task begins at its start".into()));
     }
+    if recorded.steps.is_some() && args.certificate.is_some() {
+        return Err(Failure::Usage("--certificate is for one motion; tasks have no certificates yet".into()));
+    }
     let findings = verify(&loaded, &recorded, &overrides(args), args.anywhere)?;
     let recording = &recorded.recording;
     for sink in &sinks {
-        if let Sink::Picture(format, path) = sink {
-            draw(scene, recording, &findings, *format, path)?;
+        match sink {
+            Sink::Picture(format, path) => draw(scene, recording, &findings, *format, path)?,
+            Sink::Certificate(path) if matches!(findings.verdict, Verdict::Free) => {
+                let (start, goal) = if args.anywhere { (None, None) } else { loaded.ends(&overrides(args))? };
+                let certificate = certificate_of_recording(recording, &overrides(args), [start, goal]);
+                write_whole(path, certificate.as_bytes())?;
+            }
+            Sink::Certificate(path) => {
+                sinks::say(&format!("warning: {} is not written: the motion is not accepted", path.display()));
+            }
+            Sink::Result(..) | Sink::CSpace(..) => {}
         }
     }
     let code = match findings.verdict {

@@ -11,6 +11,7 @@
 //! ```
 
 mod drawn;
+mod motions;
 mod oracle;
 
 use crate::common::dice::Dice;

@@ -3,6 +3,7 @@
 mod as_written;
 mod batch;
 mod certificates;
+mod certified_motions;
 mod commands;
 mod compare;
 mod converge;

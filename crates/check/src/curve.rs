@@ -1,0 +1,154 @@
+//! Curves of joint values in Bezier form, and what holds a stretch of them.
+
+use crate::interval::{BITS, Interval, Point};
+use num_bigint::BigInt;
+
+/// Joint values are multiples of `2^-FINE` here, ...
+pub const FINE: u32 = 72;
+
+/// ... and below `2^LARGEST`, so that no sum or product below overflows.
+pub const LARGEST: u32 = 28;
+
+/// Shares of a chord are multiples of `2^-SHARE`.
+const SHARE: u32 = 20;
+
+/// Curves are halved no more often than this.
+pub const HALVINGS: u32 = 40;
+
+/// What rounding does to a control point: at first less than two units, in each halving at most one unit a step, five in all, and less than
+/// one in what is computed of it here.
+const ROUNDED: i128 = 3 + 5 * HALVINGS as i128;
+
+/// Both joints' values.
+pub type Values = [i128; 2];
+
+/// What is played between two knots, by its control points: a curve for each way to read the knots.
+#[derive(Clone)]
+pub struct Piece {
+    /// The knot at which it begins.
+    pub knot: usize,
+    pub curves: Vec<Vec<Values>>,
+}
+
+impl Piece {
+    /// Both halves of it (de Casteljau).
+    pub fn halves(&self) -> [Self; 2] {
+        let halves: Vec<[Vec<Values>; 2]> = self.curves.iter().map(|curve| halves(curve)).collect();
+        [0, 1].map(|k| Self { knot: self.knot, curves: halves.iter().map(|both| both[k].clone()).collect() })
+    }
+}
+
+fn halves(curve: &[Values]) -> [Vec<Values>; 2] {
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    let mut points = curve.to_vec();
+    while let [from, .., to] = points[..] {
+        first.push(from);
+        second.push(to);
+        points = points.windows(2).map(|p| [0, 1].map(|k| (p[0][k] + p[1][k]) >> 1)).collect();
+    }
+    first.extend(&points);
+    second.extend(&points);
+    second.reverse();
+    [first, second]
+}
+
+/// All configurations `middle + t half + b` with `t` from -1 to 1 and `b` in neither joint more than `beside` from 0.
+pub struct Tube {
+    pub middle: Point,
+    half: Point,
+    beside: Point,
+}
+
+impl Tube {
+    /// One that holds pieces that follow one another: their control points, and so their convex hull. That it holds these is made
+    /// sure of; the chord and the place beside it of which each counts are chosen, well or not.
+    pub fn around(pieces: &[Piece]) -> Self {
+        let points = || pieces.iter().flat_map(|piece| piece.curves.iter().flatten());
+        let end = |curve: &Vec<Values>| *curve.last().expect("a curve has points");
+        let (from, to) = (pieces[0].curves[0][0], end(&pieces[pieces.len() - 1].curves[0]));
+        let middle = [0, 1].map(|k| (from[k] + to[k]) >> 1);
+        let half = [0, 1].map(|k| (to[k] - from[k]) >> 1);
+        let [h1, h2] = half.map(|h| h as f64);
+        let square = h1 * h1 + h2 * h2;
+        let mut beside = [0; 2];
+        for point in points() {
+            let off = [0, 1].map(|k| point[k] - middle[k]);
+            let share = if square > 0.0 { (off[0] as f64 * h1 + off[1] as f64 * h2) / square } else { 0.0 };
+            let share = (share.clamp(-1.0, 1.0) * f64::from(1 << SHARE)) as i128;
+            for k in 0..2 {
+                beside[k] = beside[k].max((off[k] - ((half[k] * share) >> SHARE)).abs());
+            }
+        }
+        let exactly = |values: Values| values.map(|n| Interval::exactly(BigInt::from(n) << (BITS - FINE)));
+        Self { middle: exactly(middle), half: exactly(half), beside: exactly(beside.map(|b| b + ROUNDED)) }
+    }
+
+    /// A single configuration.
+    pub fn still(middle: Point) -> Self {
+        let zero = || [0, 0].map(Interval::whole);
+        Self { middle, half: zero(), beside: zero() }
+    }
+
+    /// The greatest `abs(g1 d1 + g2 d2)` for deviations `d` from the middle.
+    pub fn greatest(&self, g: &Point) -> Interval {
+        let along = &(&g[0] * &self.half[0]) + &(&g[1] * &self.half[1]);
+        let beside = &(&g[0].abs() * &self.beside[0]) + &(&g[1].abs() * &self.beside[1]);
+        &along.abs() + &beside
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The value of a curve at a share of it, in floating point.
+    fn at(curve: &[Values], t: f64) -> [f64; 2] {
+        let mut points: Vec<[f64; 2]> = curve.iter().map(|p| p.map(|c| c as f64 / 2f64.powi(FINE as i32))).collect();
+        while points.len() > 1 {
+            points = points.windows(2).map(|p| [0, 1].map(|k| p[0][k] + t * (p[1][k] - p[0][k]))).collect();
+        }
+        points[0]
+    }
+
+    fn piece() -> Piece {
+        let unit = |n: [i128; 2]| n.map(|c| c << (FINE - 4));
+        let cubic = [[0, 0], [9, 3], [-4, 20], [30, 7]].map(unit).to_vec();
+        let quartic = [[0, 0], [5, 5], [-1, 2], [9, 9], [30, 7]].map(unit).to_vec();
+        Piece { knot: 3, curves: vec![cubic, quartic] }
+    }
+
+    #[test]
+    fn halves_are_the_curve() {
+        let whole = piece();
+        let [first, second] = whole.halves();
+        for k in 0..2 {
+            for step in 0..=8 {
+                let t = f64::from(step) / 8.0;
+                for (part, from) in [(&first, 0.0), (&second, 0.5)] {
+                    let (is, should) = (at(&part.curves[k], t), at(&whole.curves[k], from + t / 2.0));
+                    assert!((0..2).all(|c| (is[c] - should[c]).abs() < 1e-12), "{is:?} {should:?}");
+                }
+            }
+        }
+        assert_eq!((first.knot, second.knot), (3, 3));
+    }
+
+    #[test]
+    fn a_tube_holds_its_pieces() {
+        let whole = piece();
+        let [first, second] = whole.halves();
+        for pieces in [vec![whole], vec![first.clone()], vec![first, second]] {
+            let tube = Tube::around(&pieces);
+            let number = |i: &Interval| i.lower.to_string().parse::<f64>().unwrap() / 2f64.powi(BITS as i32);
+            for g in [[1, 0], [0, 1], [1, 1], [1, -1], [-2, 3]] {
+                let bound = number(&tube.greatest(&g.map(Interval::whole)));
+                let of =
+                    |q: [f64; 2]| (0..2).map(|k| f64::from(g[k]) * (q[k] - number(&tube.middle[k]))).sum::<f64>().abs();
+                let samples =
+                    pieces.iter().flat_map(|p| &p.curves).flat_map(|c| (0..=50).map(|i| at(c, f64::from(i) / 50.0)));
+                let most = samples.map(of).fold(0.0, f64::max);
+                assert!(most <= bound + 1e-12 && bound < 3.0 * most + 1.0, "{g:?}: {most} {bound}");
+            }
+        }
+    }
+}

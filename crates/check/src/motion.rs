@@ -1,0 +1,333 @@
+//! Certificates of motions: "found".
+
+use crate::curve::{FINE, LARGEST, Piece, Values};
+use crate::decimal::Decimal;
+use crate::error::{CheckError, Input};
+use crate::free::{Open, Side, Solid, guard, keep_off};
+use crate::interval::{Interval, length};
+use crate::robot::Arm;
+use crate::sweep::{Axis, Range};
+use crate::world::{Goal, World};
+use num_bigint::BigInt;
+use serde::Deserialize;
+
+/// By how much a motion may miss its start or goal, radians or metres: `10^-5`.
+const MISSED: i32 = 5;
+
+/// How often a piece is halved to see whether it keeps the limits.
+const HALVINGS: u32 = 40;
+
+/// A certificate of a motion. Numbers are exact.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Certificate {
+    #[serde(rename = "format")]
+    _format: String,
+    #[serde(rename = "answer")]
+    _answer: String,
+    start: Option<[Decimal; 2]>,
+    goal: Option<[Decimal; 2]>,
+    goal_tip: Option<[Decimal; 2]>,
+    clearance: Option<Decimal>,
+    motion: Motion,
+}
+
+/// What is played.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Motion {
+    /// The ways in which it can be read: it is free in each.
+    interpolation: Vec<Interpolation>,
+    /// Time, both joints' values, and as far as an interpolation needs them their velocities and accelerations.
+    knots: Vec<Vec<Decimal>>,
+}
+
+/// How knots are joined.
+#[derive(Deserialize, Clone, Copy, PartialEq, PartialOrd)]
+#[serde(rename_all = "snake_case")]
+enum Interpolation {
+    /// Straight.
+    Linear,
+    /// By the cubic with the values and velocities of both.
+    Cubic,
+    /// By the polynomial of the fourth degree with value, velocity and acceleration of the first, value and velocity of the second.
+    Quartic,
+    /// By the polynomial of the fifth degree with the values, velocities and accelerations of both.
+    Quintic,
+}
+
+/// Control points are given times this, so that they are decimals.
+const SIXTY: i32 = 60;
+
+impl Interpolation {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Cubic => "cubic",
+            Self::Quartic => "quartic",
+            Self::Quintic => "quintic",
+        }
+    }
+
+    /// Numbers of a knot that it needs.
+    fn columns(self) -> usize {
+        match self {
+            Self::Linear => 3,
+            Self::Cubic => 5,
+            Self::Quartic | Self::Quintic => 7,
+        }
+    }
+
+    /// Sixty times the control points of a joint between two knots.
+    fn control(self, a: &[Decimal], b: &[Decimal], joint: usize) -> Vec<Decimal> {
+        let h = &b[0] - &a[0];
+        let value = |knot: &[Decimal]| &knot[1 + joint] * &Decimal::whole(SIXTY);
+        let speed = |knot: &[Decimal], by: i32| &(&knot[3 + joint] * &h) * &Decimal::whole(by);
+        let bend = |knot: &[Decimal], by: i32| &(&(&knot[5 + joint] * &h) * &h) * &Decimal::whole(by);
+        let (from, to) = (value(a), value(b));
+        match self {
+            Self::Linear => vec![from, to],
+            Self::Cubic => vec![from.clone(), &from + &speed(a, 20), &to - &speed(b, 20), to],
+            Self::Quartic => {
+                let third = &(&from + &speed(a, 30)) + &bend(a, 5);
+                vec![from.clone(), &from + &speed(a, 15), third, &to - &speed(b, 15), to]
+            }
+            Self::Quintic => {
+                let third = &(&from + &speed(a, 24)) + &bend(a, 3);
+                let fourth = &(&to - &speed(b, 24)) + &bend(b, 3);
+                vec![from.clone(), &from + &speed(a, 12), third, fourth, &to - &speed(b, 12), to]
+            }
+        }
+    }
+}
+
+/// That a motion leads from the start to the goal within the limits, and keeps farther than the clearance from all obstacles.
+pub fn found(arm: &Arm, world: &World, text: &str) -> Result<String, CheckError> {
+    let certificate: Certificate = crate::certificate::read(text)?;
+    let clearance = certificate.clearance.as_ref().unwrap_or(&world.clearance);
+    if *clearance < Decimal::whole(0) {
+        return Err(CheckError::in_file(Input::World, "the clearance is negative"));
+    }
+    let Motion { interpolation, knots } = &certificate.motion;
+    well_formed(interpolation, knots)?;
+    let (own_start, own_goal) = (certificate.start.as_ref(), Own::of(&certificate)?);
+    let start = arm.reached("start", &knots[0], own_start.map(Own::Joints), world)?;
+    let goal = arm.reached("goal", &knots[knots.len() - 1], own_goal, world)?;
+    let limits = arm.limits(world)?;
+    let pieces = (0..knots.len().max(2) - 1).map(|knot| piece(arm, interpolation, knots, knot, &limits));
+    let pieces = pieces.collect::<Result<Vec<Piece>, CheckError>>()?;
+    stays_off(arm, world, &pieces, [&knots[0][1], &knots[0][2]], clearance)?;
+    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
+    let read: Vec<&str> = interpolation.iter().map(|way| way.name()).collect();
+    Ok(format!(
+        "a motion of \"{first}\" and \"{second}\" leads from the start{start} to the goal{goal} with clearance {clearance} \
+         ({} knots, read as {})",
+        knots.len(),
+        read.join(" or ")
+    ))
+}
+
+/// What can be seen of the knots by themselves.
+fn well_formed(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> Result<(), CheckError> {
+    let bad = |message: String| Err(CheckError::in_file(Input::Certificate, message));
+    let Some(columns) = interpolation.iter().map(|way| way.columns()).max() else {
+        return bad("the motion has no interpolation: nobody can play it".into());
+    };
+    if knots.is_empty() {
+        return bad("the motion has no knots".into());
+    }
+    if let Some(odd) = knots.iter().position(|knot| knot.len() != columns) {
+        return bad(format!("knot {odd} has {} numbers, and its interpolation needs {columns}", knots[odd].len()));
+    }
+    match knots.windows(2).position(|k| k[0][0] >= k[1][0]) {
+        Some(late) => CheckError::fails(format!("knot {} is no later than the one before", late + 1)),
+        None => Ok(()),
+    }
+}
+
+/// What was asked in place of the world's start or goal.
+enum Own<'a> {
+    Joints(&'a [Decimal; 2]),
+    Tip(&'a [Decimal; 2]),
+}
+
+impl<'a> Own<'a> {
+    fn of(certificate: &'a Certificate) -> Result<Option<Self>, CheckError> {
+        match (&certificate.goal, &certificate.goal_tip) {
+            (Some(_), Some(_)) => Err(CheckError::in_file(Input::Certificate, "it has two goals")),
+            (Some(joints), None) => Ok(Some(Self::Joints(joints))),
+            (None, tip) => Ok(tip.as_ref().map(Self::Tip)),
+        }
+    }
+}
+
+/// By how much an end is missed, in words.
+///
+/// # Errors
+/// If it is too much.
+fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
+    let is_within = |digits: u32| Interval::from(&Decimal::power_of_ten(digits)).lower >= *off;
+    let Some(digits) = (MISSED as u32..50).rev().find(|digits| is_within(*digits)) else {
+        return CheckError::fails(format!("the motion misses the {what} by more than 1e-{MISSED}"));
+    };
+    Ok(format!(", within 1e-{digits},"))
+}
+
+impl Arm<'_> {
+    /// How the start or the goal is reached by a knot, in words.
+    fn reached(&self, what: &str, knot: &[Decimal], own: Option<Own>, world: &World) -> Result<String, CheckError> {
+        let at = [&knot[1], &knot[2]];
+        let given = if what == "start" { &world.start } else { &world.goal };
+        let exactly = |[a, b]: &[Decimal; 2]| [[a.clone(), a.clone()], [b.clone(), b.clone()]];
+        let (mut words, wanted) = match (own, given) {
+            (Some(Own::Joints(q)), _) => (format!(" ({}, {})", q[0], q[1]), Goal::Joints(exactly(q))),
+            (Some(Own::Tip(place)), _) => (format!(" ({}, {})", place[0], place[1]), Goal::Tip(place.clone())),
+            (None, Some(Goal::Joints(ranges))) => (String::new(), Goal::Joints(ranges.clone())),
+            (None, Some(Goal::Tip(place))) => (String::new(), Goal::Tip(place.clone())),
+            (None, None) => {
+                let message = format!("there is no {what}: [{what}] joints = [q1, q2]");
+                return Err(CheckError::in_file(Input::World, message));
+            }
+        };
+        let off = match &wanted {
+            Goal::Joints(ranges) => {
+                if (0..2).all(|k| *at[k] == ranges[k][0] && *at[k] == ranges[k][1]) {
+                    return Ok(words);
+                }
+                (0..2).map(|k| self.off(k, at[k], &ranges[k])).max().expect("two joints")
+            }
+            Goal::Tip(place) => {
+                let (link, tip) = self.tip()?;
+                words += &format!(", a place of the tip \"{link}\"");
+                let is = self.point_at(tip.link, &tip.shape.points[0], &at.map(Interval::from));
+                length(&[0, 1].map(|k| &is[k] - &Interval::from(&place[k]))).upper
+            }
+        };
+        Ok(words + &missed(what, &off)?)
+    }
+
+    /// A bound on how far a value of a joint is from another, whole turns of a joint that turns without end not counted.
+    fn off(&self, joint: usize, is: &Decimal, should: &Range) -> BigInt {
+        let apart = &Interval::from(is) - &Interval::around(should);
+        if !matches!(self.joints[joint].axis, Axis::Circle) {
+            return apart.magnitude();
+        }
+        let turn = Interval::pi() + Interval::pi();
+        let turns = &apart.lower / &turn.lower;
+        let without = |more: i32| {
+            let turns = Interval::exactly((&turns + more) << crate::interval::BITS);
+            (&apart - &(&turn * &turns)).magnitude()
+        };
+        (-1..=1).map(without).min().expect("three")
+    }
+}
+
+/// What is played after a knot; with one knot alone, that.
+fn piece(
+    arm: &Arm,
+    interpolation: &[Interpolation],
+    knots: &[Vec<Decimal>],
+    knot: usize,
+    limits: &[Option<Range>; 2],
+) -> Result<Piece, CheckError> {
+    let mut curves = Vec::new();
+    for way in interpolation {
+        let control = |joint: usize| match &knots.get(knot + 1) {
+            Some(next) => way.control(&knots[knot], next, joint),
+            None => Interpolation::Linear.control(&knots[knot], &knots[knot], joint),
+        };
+        let control = [control(0), control(1)];
+        for (joint, limits) in limits.iter().enumerate() {
+            let Some([low, high]) =
+                limits.as_ref().map(|range| range.each_ref().map(|end| end * &Decimal::whole(SIXTY)))
+            else {
+                continue;
+            };
+            if !stays_within(&control[joint], &low, &high, HALVINGS) {
+                let name = &arm.joints[joint].name;
+                let way = way.name();
+                return CheckError::fails(format!("after knot {knot} ({way}) joint \"{name}\" leaves its limits"));
+            }
+        }
+        let [first, second] = &control;
+        let curve = first.iter().zip(second).map(|(a, b)| Some([fine(a)?, fine(b)?])).collect::<Option<Vec<Values>>>();
+        let Some(curve) = curve else { return CheckError::fails(format!("after knot {knot} values are too large")) };
+        curves.push(curve);
+    }
+    Ok(Piece { knot, curves })
+}
+
+/// A sixtieth of a number in units of curves, to within less than two; none if it is too large.
+fn fine(sixty: &Decimal) -> Option<i128> {
+    let fine = sixty.floor(FINE) / SIXTY;
+    (fine.bits() < u64::from(FINE + LARGEST)).then(|| i128::try_from(fine).ok()).flatten()
+}
+
+/// Whether a curve stays between two numbers, ends included: its control points do, or those of its halves.
+fn stays_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u32) -> bool {
+    let is_within = |value: &Decimal| low <= value && value <= high;
+    if control.iter().all(is_within) {
+        return true;
+    }
+    let ends = [&control[0], &control[control.len() - 1]];
+    if halvings == 0 || !ends.into_iter().all(is_within) {
+        return false;
+    }
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    let mut points = control.to_vec();
+    loop {
+        first.push(points[0].clone());
+        second.push(points[points.len() - 1].clone());
+        if points.len() == 1 {
+            break;
+        }
+        points = points.windows(2).map(|p| Decimal::middle(&p[0], &p[1])).collect();
+    }
+    second.reverse();
+    [first, second].iter().all(|half| stays_within(half, low, high, halvings - 1))
+}
+
+/// That all shapes keep off all obstacles.
+fn stays_off(
+    arm: &Arm,
+    world: &World,
+    pieces: &[Piece],
+    start: [&Decimal; 2],
+    clearance: &Decimal,
+) -> Result<(), CheckError> {
+    let shapes = arm.covered(world)?;
+    let mut sides = Vec::new();
+    // Of each side its obstacle.
+    let mut sided = Vec::new();
+    for (number, obstacle) in world.obstacles.iter().enumerate() {
+        for side in obstacle.sides()? {
+            sides.push(Side::new(arm, &side));
+            sided.push(number);
+        }
+    }
+    let meets = |shape: usize, obstacle: usize| !shapes[shape].body.passes(world.obstacles[obstacle].heights.as_ref());
+    let mut pairs = Vec::new();
+    for shape in 0..shapes.len() {
+        pairs.extend((0..sides.len()).filter(|side| meets(shape, sided[*side])).map(|side| [shape, side]));
+    }
+    let solids: Vec<Solid> = shapes.iter().map(|shape| Solid::new(arm, shape.body.link, &shape.body.shape)).collect();
+    let kept = Interval::from(clearance).upper + guard();
+    keep_off(arm, pieces, (&solids, &sides), pairs, &kept).map_err(|Open { knot, solid, side }| {
+        CheckError::Fails(format!(
+            "from knot {knot} to the next {} is not shown to stay farther than {clearance} from obstacle {}",
+            shapes[solid].name, sided[side]
+        ))
+    })?;
+    // Off all borders all the time, it is inside an obstacle if it is at first.
+    let values = start.map(Interval::from);
+    for (shape, obstacle) in (0..shapes.len()).flat_map(|s| (0..world.obstacles.len()).map(move |o| (s, o))) {
+        if meets(shape, obstacle) {
+            let body = &shapes[shape].body;
+            let corner = arm.point_at(body.link, &body.shape.points[0], &values);
+            if world.obstacles[obstacle].surrounds(&corner, &guard()) != Some(false) {
+                return CheckError::fails(format!("{} is inside obstacle {obstacle}", shapes[shape].name));
+            }
+        }
+    }
+    Ok(())
+}

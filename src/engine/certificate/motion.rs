@@ -1,0 +1,67 @@
+//! Evidence for a motion: what its consumers play, which is all that it takes to check it.
+
+use super::{lines, said};
+use crate::input::{Overrides, TipPoint};
+use crate::model::{Goal, MotionProblem};
+use crate::motion::Trajectory;
+use crate::space::{Configuration, Interpolation, Recording};
+use serde_json::{Value, json};
+
+/// Members of a certificate, by name.
+type Said = Vec<(&'static str, Value)>;
+
+/// The certificate of a planned motion: as readers of tables and of ROS 2's messages join its samples, and as its JSON says.
+pub(super) fn certificate(problem: &MotionProblem, trajectory: &Trajectory, asked: &Overrides) -> String {
+    let arm = problem.scene().arm();
+    // With a limit on the jerk the samples' JSON says the same cubics.
+    let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
+    let Trajectory { time, position, velocity, acceleration } = trajectory;
+    if is_smooth {
+        written(said(problem, asked), &["cubic"], time, &[position, velocity])
+    } else {
+        written(said(problem, asked), &["cubic", "quartic"], time, &[position, velocity, acceleration])
+    }
+}
+
+/// The certificate of a recorded motion, as its format joins samples: from the world's start to its goal, or those that are
+/// `asked` for; where there are none (`ends`), from and to where it leads.
+pub fn recorded(recording: &Recording, asked: &Overrides, ends: [Option<Goal>; 2]) -> String {
+    let q = recording.positions();
+    let own = [q[0], q[q.len() - 1]];
+    let mut said = Said::new();
+    for (k, (end, is_asked)) in ends.iter().zip([asked.start.is_some(), asked.goal.is_some()]).enumerate() {
+        let name = ["start", "goal"][k];
+        match end {
+            Some(Goal::Joints(q)) if is_asked => said.push((name, json!(q))),
+            Some(_) => {}
+            None => said.push((name, json!(own[k]))),
+        }
+    }
+    said.extend(asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y]))));
+    said.extend(asked.clearance.map(|clearance| ("clearance", json!(clearance))));
+    let counted: Vec<f64> = (0..q.len()).map(|k| k as f64).collect();
+    let rows = |values: &[Configuration]| values.iter().map(|&q| q.into()).collect::<Vec<[f64; 2]>>();
+    let [velocities, accelerations] =
+        [recording.velocities(), recording.accelerations()].map(|values| values.map(rows).unwrap_or_default());
+    let (reading, columns) = match recording.interpolation() {
+        Interpolation::Linear => ("linear", 1),
+        Interpolation::Cubic => ("cubic", 2),
+        Interpolation::Quartic => ("quartic", 3),
+        Interpolation::Quintic => ("quintic", 3),
+    };
+    let all = [&rows(q), &velocities, &accelerations];
+    written(said, &[reading], recording.times().unwrap_or(&counted), &all[..columns])
+}
+
+/// Knots of a time and the rows of some columns.
+fn written(said: Said, readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> String {
+    let knot =
+        |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());
+    let knots: Vec<Value> = (0..times.len()).map(knot).collect();
+    let mut text = "{\n  \"format\": \"cplan certificate 1\",\n  \"answer\": \"found\",\n".to_owned();
+    for (name, value) in said {
+        text += &format!("  \"{name}\": {value},\n");
+    }
+    text += &format!("  \"motion\": {{ \"interpolation\": {}, \"knots\": {} }}\n", json!(readings), lines(&knots));
+    text + "}\n"
+}

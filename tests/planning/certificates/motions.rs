@@ -1,0 +1,82 @@
+//! Every motion that is found in a random world has a certificate that holds.
+//!
+//! ```sh
+//! CPLAN_TIMES=100 cargo test --profile quick --test planning certificates::motions -- --nocapture
+//! ```
+
+use super::drawn::{Drawn, Goal};
+use super::{ENDS, KINDS, TRIES};
+use crate::common::dice::Dice;
+use crate::common::random::{seeds, usual};
+use cplan::engine::Method;
+use cplan::input::{self, Overrides, Source};
+use cplan::model::Status;
+use cplan::space::Configuration;
+use cplan::{Options, Planner, Problem, plan};
+use cplan_check::check;
+use std::time::{Duration, Instant};
+
+#[derive(Debug, Default)]
+struct Tally {
+    found: [usize; KINDS as usize],
+    tips: usize,
+    largest: usize,
+    checking: Duration,
+    longest: Duration,
+}
+
+/// Plans in a world of this seed, by the shortest path, the first and one far from obstacles in turn.
+fn ways(seed: u64, tally: &mut Tally) {
+    let mut dice = Dice::new(seed.wrapping_mul(0x9e6c_63d0_876a_1b1d));
+    let kind = seed % KINDS;
+    let mut drawn = Drawn::new(&mut dice, kind);
+    let urdf = drawn.urdf();
+    let source = |name: &str, text: &str| Source::in_memory(name, text);
+    let scene = |world: &str| input::scene_from(source("arm.urdf", &urdf), source("world.toml", world));
+    // Slides along one line, and the like.
+    let Ok(loaded) = scene(&drawn.world(false)) else { return };
+    for turn in 0..ENDS {
+        let mut free = || {
+            (0..TRIES).find_map(|_| {
+                let q = drawn.joints.map(|joint| {
+                    let [low, high] = joint.range.unwrap_or([-3.2, 3.2]);
+                    dice.within(low, high)
+                });
+                let at = Configuration::from(q);
+                (loaded.scene.clearance(at) > loaded.scene.workspace().clearance + 1e-9 * drawn.scale).then_some(q)
+            })
+        };
+        let (Some(start), Some(goal)) = (free(), free()) else { continue };
+        drawn.start = start;
+        drawn.goal = if dice.chance(0.7) { Goal::Joints(goal) } else { Goal::Tip(drawn.tip(goal)) };
+        let world = drawn.world(true);
+        let Ok(problem) = scene(&world).and_then(|scene| Problem::of_scene(scene, &Overrides::default())) else {
+            continue;
+        };
+        let options = [Options::default(), Planner::First.into(), Planner::named(Method::Voronoi).into()][turn % 3];
+        let answer = plan(&problem, &options).unwrap();
+        if answer.status() != Status::Found {
+            continue;
+        }
+        let certificate = answer.certificate(&Overrides::default()).unwrap();
+        let begun = Instant::now();
+        let judged = check(&urdf, &world, &certificate);
+        let took = begun.elapsed();
+        assert!(judged.is_ok(), "seed {seed}, {turn}: {judged:?}\n{urdf}\n{world}");
+        tally.found[kind as usize] += 1;
+        tally.tips += usize::from(matches!(drawn.goal, Goal::Tip(_)));
+        tally.largest = tally.largest.max(certificate.len());
+        tally.checking += took;
+        tally.longest = tally.longest.max(took);
+    }
+}
+
+#[test]
+fn certificates_of_random_motions_hold() {
+    let mut tally = Tally::default();
+    for seed in seeds(40) {
+        ways(seed, &mut tally);
+    }
+    println!("{tally:?}");
+    assert!(!usual() || tally.found.iter().all(|count| *count > 3) && tally.tips > 3, "{tally:?}");
+}

@@ -1,0 +1,147 @@
+//! Certificates of motions, and what the checker, which shares no code with the program, says of them.
+
+use super::{FREE, Place, shelf, shipped};
+use cplan_check::{CheckError, Input, check};
+use serde_json::Value;
+use std::path::Path;
+
+/// Shipped worlds with a way, by name, and their robots.
+fn open() -> Vec<(String, String)> {
+    let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces")).unwrap();
+    let mut found = Vec::new();
+    for path in folder.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "toml")) {
+        let text = read(&path.display().to_string());
+        let robot = text.lines().find_map(|line| line.strip_prefix("# robot: "));
+        if let Some(robot) = robot.filter(|_| text.contains("# expect: found")) {
+            found.push((path.display().to_string(), shipped(&format!("robots/{robot}.urdf"))));
+        }
+    }
+    found.sort();
+    found
+}
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// The certificate with something else for its motion.
+fn altered(certificate: &str, alter: impl FnOnce(&mut Vec<Value>)) -> String {
+    let mut whole: Value = serde_json::from_str(certificate).unwrap();
+    alter(whole["motion"]["knots"].as_array_mut().unwrap());
+    whole.to_string()
+}
+
+#[test]
+fn every_shipped_world_with_a_way_has_a_certificate_that_holds() {
+    let open = open();
+    assert!(open.len() >= 20, "{open:?}");
+    let mut unknown = 0;
+    for (world, robot) in open {
+        let place = Place::new();
+        let done = place.run(&[&robot, &world], "--quiet --certificate c.json");
+        assert_eq!(done.code, 0, "{world}: {}", done.stderr);
+        let certificate = place.read("c.json");
+        assert!(certificate.len() < 1 << 20, "{world}: {} bytes", certificate.len());
+        let judged = |world: &str, certificate: &str| check(&read(&robot), world, certificate);
+        let begun = std::time::Instant::now();
+        let verdict = judged(&read(&world), &certificate);
+        eprintln!("{world}: {} bytes, {:.3} s", certificate.len(), begun.elapsed().as_secs_f64());
+        // Images and line maps the checker does not know, and says so.
+        if let Err(CheckError::Input { input: Input::World, .. }) = verdict {
+            assert!(world.ends_with("den.toml") || world.ends_with("store_room.toml"), "{world}: {verdict:?}");
+            unknown += 1;
+            continue;
+        }
+        verdict.unwrap_or_else(|why| panic!("{world}: {why}"));
+        let fails = |world: &str, certificate: &str| matches!(judged(world, certificate), Err(CheckError::Fails(_)));
+        // Without its end it leads nowhere; farther from everything than anything is it is not.
+        assert!(fails(&read(&world), &altered(&certificate, |knots| knots.truncate(knots.len() / 2))), "{world}");
+        let farther = certificate.replacen("\"motion\"", "\"clearance\": 100.0,\n  \"motion\"", 1);
+        assert!(fails(&read(&world), &farther), "{world}");
+        if let Some(twin) = world.strip_suffix("_open.toml") {
+            let closed = read(&format!("{twin}_closed.toml"));
+            assert!(fails(&closed, &certificate), "{twin}");
+        }
+    }
+    assert_eq!(unknown, 2);
+}
+
+#[test]
+fn what_is_played_and_what_is_asked_is_in_the_certificate() {
+    let place = Place::new();
+    let files = shelf();
+    let said = |options: &str| {
+        let done = place.run(&files, &format!("--quiet --certificate c.json --output plan.json {options}"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let [certificate, plan] =
+            ["c.json", "plan.json"].map(|file| serde_json::from_str::<Value>(&place.read(file)).unwrap());
+        // The samples are the trajectory's, number by number.
+        let knots = certificate["motion"]["knots"].as_array().unwrap();
+        let times = plan["trajectory"]["time"].as_array().unwrap();
+        assert!(knots.len() == times.len() && (0..knots.len()).all(|k| knots[k][0] == times[k]));
+        let rows = ["position", "velocity"].map(|name| plan["trajectory"][name].as_array().unwrap());
+        for (k, knot) in knots.iter().enumerate() {
+            assert!((0..2).all(|j| knot[1 + j] == rows[0][k][j] && knot[3 + j] == rows[1][k][j]), "knot {k}");
+        }
+        check(&read(&files[0]), &read(&files[1]), &place.read("c.json")).unwrap()
+    };
+    let plain = said("");
+    assert!(plain.contains("read as cubic or quartic") && !plain.contains("within"), "{plain}");
+    assert!(said("--jerk 100,100").contains("read as cubic)"));
+    let asked = said("--start -0.9,10deg --goal 1.5,-0.3 --clearance 0.0005");
+    for part in ["start (-0.9, 0.17453292519943295)", "goal (1.5, -0.3)", "clearance 0.0005"] {
+        assert!(asked.contains(part), "{asked}");
+    }
+    let tip = said("--goal-tip 0.35,0.5");
+    assert!(tip.contains("goal (0.35, 0.5), a place of the tip") && tip.contains("within 1e-1"), "{tip}");
+}
+
+/// The other planners' motions, and one that takes its corners sharp.
+#[test]
+fn motions_of_every_planner_hold() {
+    let place = Place::new();
+    let files = shelf();
+    for options in ["--planner visibility", "--planner voronoi", "--planner prm", "--planner harmonic", "--blend none"]
+    {
+        let done = place.run(&files, &format!("--quiet --certificate c.json {options}"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let verdict = check(&read(&files[0]), &read(&files[1]), &place.read("c.json"));
+        verdict.unwrap_or_else(|why| panic!("{options}: {why}"));
+    }
+}
+
+#[test]
+fn a_motion_where_nothing_is_in_the_way() {
+    let place = Place::new();
+    let done = place.plan(FREE, "--quiet --certificate c.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    check(&read(&shipped("robots/planar_2r.urdf")), FREE, &place.read("c.json")).unwrap();
+}
+
+#[test]
+fn verify_writes_certificates_of_motions_that_it_accepts() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    assert_eq!(place.run(&[&urdf, &world], "--quiet --output m.csv --output m.json --output m.yaml").code, 0);
+    place.write("path.csv", "shoulder,elbow\n-0.9,0.4\n-0.9,0.5\n");
+    let judged = |file: &str, options: &str| {
+        let files = ["verify", &urdf, &world, file];
+        let done = place.run(&files, &format!("--quiet --certificate {file}.c {options}"));
+        (done.code, place.path(&format!("{file}.c")).exists(), done.stderr)
+    };
+    for (file, options, part) in [
+        ("m.csv", "", "read as cubic)"),
+        ("m.yaml", "", "read as cubic)"),
+        ("m.json", "--clearance 0.000001", "clearance 0.000001"),
+        ("path.csv", "--anywhere", "start (-0.9, 0.4) to the goal (-0.9, 0.5) with"),
+        ("path.csv", "--start -0.9,0.400001 --goal -0.9,0.5", "start (-0.9, 0.400001), within 1e-5,"),
+    ] {
+        let (code, exists, why) = judged(file, options);
+        assert!(code == 0 && exists, "{file}: {code} {why}");
+        let said = check(&read(&urdf), &read(&world), &place.read(&format!("{file}.c"))).unwrap();
+        assert!(said.contains(part), "{file}: {said}");
+    }
+    place.write("through.csv", "shoulder,elbow\n-0.9,0.4\n1.55,-0.35\n");
+    let (code, exists, why) = judged("through.csv", "");
+    assert!(code == 3 && !exists && why.contains("not accepted"), "{code} {why}");
+}
