@@ -87,11 +87,14 @@ fn clearance(answer: &TaskAnswer, report: &Report) -> Option<Line> {
     let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
     let (step, cycle) = (least.step.number, least.step.cycle);
     let cycle = if cycle > 1 { format!(" of cycle {cycle}") } else { String::new() };
+    // Pictures count steps as they are done.
+    let is_in_order = answer.legs.is_sorted_by_key(|leg| (leg.step.cycle, leg.step.number));
+    let file = if is_in_order { "" } else { " of the file" };
     let curve = &least.timed.curve;
     let closest = match (least.turn, curve.nearest()) {
         (Some((turn, _)), _) if turn.clearance < curve.clearance() => "the object that is turned".to_owned(),
         (_, Some(nearest)) => least.scene.describe(nearest.contact.pair),
         (_, None) => return Some(("clearance", "nothing can be hit".into())),
     };
-    Some(("clearance", format!("{:.6} m proven; closest: {closest} in step {step}{cycle}", least.clearance())))
+    Some(("clearance", format!("{:.6} m proven; closest: {closest} in step {step}{file}{cycle}", least.clearance())))
 }
