@@ -46,7 +46,7 @@ pub struct ReachArgs {
     /// Write the cells and their solutions: .json, .csv (a line a solution). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Vec<PathBuf>,
-    /// Draw them in the workspace, and the solutions in the configuration space: .svg, .png. Can be repeated.
+    /// Draw them in the workspace, and the solutions in the configuration space: .svg, .png, .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
@@ -61,8 +61,8 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     let tables =
         args.output.iter().map(|path| Ok((path.clone(), is_json(path)?))).collect::<Result<Vec<_>, Failure>>()?;
     let pictures = args.picture.iter().map(|path| match PictureFormat::from_path(path)? {
-        format if format.plays() => {
-            Err(Failure::Usage(format!("{}: a reach is drawn as .svg or .png", path.display())))
+        format if format.plays() && format != PictureFormat::Html => {
+            Err(Failure::Usage(format!("{}: a reach is drawn as .svg, .png or .html", path.display())))
         }
         format => Ok((path.clone(), format)),
     });

@@ -2,7 +2,7 @@
 
 use super::color::{self, BARRED, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
-use super::view::{NAMED, ObstacleView, PathView, View};
+use super::view::{NAMED, ObstacleView, PathView, TraceView, View};
 use super::{boxes, cspace, preferences, reach, shapes, stuck, trace};
 use serde::Serialize;
 
@@ -51,10 +51,19 @@ pub struct KeyView {
     #[serde(skip_serializing_if = "Option::is_none")]
     part: Option<f64>,
     text: String,
+    /// Of which layers it is: those of a page can be hidden. None of what is always there.
+    #[serde(skip_serializing_if = "<[&str]>::is_empty")]
+    layers: &'static [&'static str],
+    /// Whether it is there only while it is told how the planner came to it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    think: bool,
 }
 
+/// A key, and the layers that it is of.
+type Layered = (Key, &'static [&'static str]);
+
 impl KeyView {
-    fn new((sign, text): Key) -> Self {
+    fn new(((sign, text), layers): Layered, think: bool) -> Self {
         let name = match sign {
             Sign::Start => "start",
             Sign::Goal => "goal",
@@ -65,7 +74,7 @@ impl KeyView {
             Sign::Dashed(_) => "dashed",
             Sign::Hatched => "hatched",
         };
-        let bare = Self { sign: name, color: None, width: None, dash: &[], part: None, text };
+        let bare = Self { sign: name, color: None, width: None, dash: &[], part: None, text, layers, think };
         match sign {
             Sign::Line(Pen { color, width, dash }) => {
                 Self { color: Some(color::tint(color)), width: Some(width), dash, ..bare }
@@ -80,38 +89,60 @@ impl KeyView {
 /// Everything that a picture needs explained.
 #[must_use]
 pub fn keys(view: &View) -> Vec<Key> {
-    all(view, true)
+    all(view, true).into_iter().map(|(key, _)| key).collect()
 }
 
 /// Everything that a page needs explained, which shows one world after the other, and not all that pictures do.
 #[must_use]
 pub fn on_pages(view: &View) -> Vec<KeyView> {
-    all(view, false).into_iter().map(KeyView::new).collect()
+    let mut keys: Vec<KeyView> = all(view, false).into_iter().map(|key| KeyView::new(key, false)).collect();
+    for key in view.traces_of_steps().flat_map(of_trace).map(|key| KeyView::new(key, true)) {
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    keys
 }
 
-fn all(view: &View, still: bool) -> Vec<Key> {
+/// What a planner saw.
+fn of_trace(seen: &TraceView) -> Vec<Layered> {
+    let layers: &[&str] = match seen {
+        TraceView::Roadmap { .. } => &["roadmap"],
+        TraceView::Slices { .. } => &["rows"],
+        TraceView::Channel { .. } => &["channel", "cells", "expanded"],
+        TraceView::Roads { .. } => &["roads", "expanded"],
+        TraceView::Boxes { .. } => &["boxes"],
+        TraceView::Wavefront(_) => &["wavefront"],
+        TraceView::Field { .. } => &["equipotentials", "flow"],
+    };
+    trace::keys(seen).into_iter().map(|key| (key, layers)).collect()
+}
+
+fn all(view: &View, still: bool) -> Vec<Layered> {
     let world = view.first_world();
     let goal = if view.is_task() { "end of a step" } else { "goal" };
-    let mut keys = vec![(Sign::Start, "start".to_owned()), (Sign::Goal, goal.to_owned())];
-    keys.extend(paths(view));
+    let always = |key: Key| -> Layered { (key, &[]) };
+    let mut keys = vec![always((Sign::Start, "start".to_owned())), always((Sign::Goal, goal.to_owned()))];
+    keys.extend(paths(view).into_iter().map(|key| -> Layered { (key, &["path", "trace"]) }));
     if still && view.worlds.iter().any(|world| !world.open.is_empty()) {
-        keys.push((Sign::Dashed(GREY), "open to link 2 (picked or placed)".to_owned()));
+        keys.push(always((Sign::Dashed(GREY), "open to link 2 (picked or placed)".to_owned())));
     }
     if view.unreached().next().is_some() {
-        keys.push((Sign::Unreached, "not reached".to_owned()));
+        keys.push(always((Sign::Unreached, "not reached".to_owned())));
         let pen = Pen { color: BARRED, width: 1.2, dash: &[] };
-        keys.push((Sign::Line(pen), "the arm there".to_owned()));
+        keys.push(((Sign::Line(pen), "the arm there".to_owned()), &["poses"]));
     }
-    keys.extend(world.trace.as_ref().map_or_else(Vec::new, trace::keys));
-    keys.extend(view.worlds.iter().any(|world| !world.proof.0.is_empty()).then(boxes::proof_key));
-    keys.extend(preferences::keys(&world.regions));
-    if still {
-        keys.extend(view.still.reach.as_ref().map_or_else(Vec::new, reach::keys));
-    }
-    keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, stuck::keys));
-    keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
-    keys.extend(obstacles(world.obstacles.iter().filter(|obstacle| obstacle.lies())));
-    keys.extend(world.payload.iter().map(|held| (Sign::Swatch(held.color), format!("{}, carried", held.object))));
+    keys.extend(world.trace.as_ref().map_or_else(Vec::new, of_trace));
+    let proof = view.worlds.iter().any(|world| !world.proof.0.is_empty());
+    keys.extend(proof.then(|| -> Layered { (boxes::proof_key(), &["proof"]) }));
+    keys.extend(preferences::keys(&world.regions).into_iter().map(|key| -> Layered { (key, &["regions"]) }));
+    let reach = view.still.reach.as_ref().map_or_else(Vec::new, reach::keys);
+    keys.extend(reach.into_iter().map(|key| -> Layered { (key, &["access"]) }));
+    keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, stuck::keys).into_iter().map(always));
+    keys.push(always((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned())));
+    keys.extend(obstacles(world.obstacles.iter().filter(|obstacle| obstacle.lies())).into_iter().map(always));
+    let payload = world.payload.iter().map(|held| (Sign::Swatch(held.color), format!("{}, carried", held.object)));
+    keys.extend(payload.map(always));
     keys
 }
 

@@ -5,7 +5,9 @@ use super::chart::Chart;
 use super::color::Rgb;
 use super::figure::{Item, Raster, Rect, Style};
 use super::legend::{Key, Sign};
-use crate::engine::{Access, Reach};
+use super::view::{Chain, Grain};
+use crate::engine::{Access, Reach, Solution};
+use serde::Serialize;
 
 /// With one solution, with several, proven that none can be reached, blocked, unknown.
 const LOOKS: [(Rgb, &str); 5] = [
@@ -44,12 +46,56 @@ pub fn in_workspace(reach: &Reach, frame: &Frame) -> Item {
 /// The solutions that are free, as dots.
 #[must_use]
 pub fn in_cspace(reach: &Reach, chart: &Chart) -> Vec<Item> {
-    let free = reach.places.iter().flatten().filter(|solution| solution.access != Access::Blocked);
-    let dot = |solution: &crate::engine::Solution| {
+    let dot = |solution: &Solution| {
         let (color, _) = LOOKS[look(solution.access, 2)];
         Item::Disc(chart.place(solution.joints), 1.1, Style::fill(color))
     };
-    free.map(dot).collect()
+    free(reach).map(dot).collect()
+}
+
+fn free(reach: &Reach) -> impl Iterator<Item = &Solution> {
+    reach.places.iter().flatten().filter(|solution| solution.access != Access::Blocked)
+}
+
+/// What pages draw.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReachView {
+    /// Least coordinates of the first cell, metres.
+    corner: [f64; 2],
+    /// Side of the cells, metres.
+    cell: f64,
+    /// Cells along x, and along y.
+    size: [usize; 2],
+    /// Of each kind of cell the colour, and the solutions that are free and that it stands for in the configuration space.
+    kinds: Vec<KindView>,
+    /// The kind of each cell, row by row from below; a dot where the tip is out of reach.
+    cells: String,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct KindView {
+    color: Rgb,
+    solutions: Chain,
+}
+
+impl ReachView {
+    pub fn new(reach: &Reach, grain: Grain) -> Self {
+        let mut cells = vec![b'.'; reach.places.len()];
+        for (place, access, count) in reach.best() {
+            cells[place] = b'0' + look(access, count) as u8;
+        }
+        let kind = |(number, &(color, _)): (usize, &(Rgb, &str))| {
+            let solutions = free(reach).filter(|solution| look(solution.access, 2) == number);
+            KindView { color, solutions: grain.configurations(solutions.map(|solution| &solution.joints)) }
+        };
+        Self {
+            corner: reach.corner,
+            cell: reach.cell,
+            size: reach.size,
+            kinds: LOOKS.iter().enumerate().map(kind).collect(),
+            cells: cells.into_iter().map(char::from).collect(),
+        }
+    }
 }
 
 /// What the colours mean.

@@ -5,7 +5,7 @@ use super::motion_plan::MotionPlan;
 use super::options::Options;
 use super::problem::{Asked, Problem};
 use super::result::Report;
-use super::task::{FailedStep, MessageError, TaskAnswer, plan as plan_task};
+use super::task::{FailedStep, MessageError, TaskAnswer, TaskReplay, plan as plan_task};
 use super::{Answer, GridSpace, Kind, Replay, percent, solve};
 use crate::check::CheckedProof;
 use crate::model::{Arm, MotionProblem, Outcome, RobotJoints, Status, Task};
@@ -216,6 +216,12 @@ impl Plan {
     #[must_use]
     pub fn replay(&self) -> Option<Replay> {
         self.motion().map(|plan| Replay::new(&plan.problem, &self.options, &plan.answer))
+    }
+
+    /// How the planner came to the motions of a task, which are planned again for this.
+    #[must_use]
+    pub fn task_replay(&self) -> Option<TaskReplay> {
+        self.task().map(|plan| TaskReplay::new(&plan.task, &self.options, &plan.answer))
     }
 
     /// Steps and their motions, of a task.

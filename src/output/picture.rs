@@ -133,10 +133,13 @@ impl Plan {
     /// The same with how the planner came to its answer, for pictures and pages that play.
     #[must_use]
     pub fn view_with_replay(&self) -> View {
-        match self.replay() {
-            Some(replay) => self.view().with_replay(&replay),
-            None => self.view(),
-        }
+        self.replayed(self.view())
+    }
+
+    /// A view of it with how the planner came to its answer.
+    pub(crate) fn replayed(&self, view: View) -> View {
+        let view = if let Some(replay) = self.replay() { view.with_replay(&replay) } else { view };
+        if let Some(replay) = self.task_replay() { view.with_task_replay(&replay) } else { view }
     }
 
     /// Workspace and configuration space side by side, as an SVG document; of a task also its steps.

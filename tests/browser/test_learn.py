@@ -289,3 +289,18 @@ def test_an_address_says_what_is_looked_at_first(program, show):
     for address, mode, lesson in (("", "move", "slice"), ("#think", "think", "slice"), ("#learn/sweep", "learn", "sweep"), ("#learn/x", "learn", "slice")):
         seen = show(page.as_uri() + address)
         assert (seen.do("cplan.mode"), seen.do("cplan.learn.lesson")) == (mode, lesson)
+
+
+def test_the_legend_names_what_lessons_draw(program, show_file):
+    page, _ = program.plan("planar_2r", "workbench", "--planner", "visibility")
+    seen = show_file(page)
+    legend = lambda: seen.page.locator(".legend li").all_inner_texts()
+    moves = legend()
+    assert {"path, and trace of the tip", "visibility graph", "start", "goal"} <= set(moves)
+    learn(seen)
+    assert set(moves) - set(legend()) == {"path, and trace of the tip", "visibility graph"}
+    seen.page.get_by_role("button", name="Move", exact=True).click()
+    assert legend() == moves
+    # As do layers.
+    seen.page.get_by_role("checkbox", name="visibility graph").uncheck()
+    assert set(moves) - set(legend()) == {"visibility graph"}

@@ -252,3 +252,23 @@ def test_other_commands_make_pages_too(program, show_file):
     assert show_file(folder / "compare.html").do("cplan.model.paths.length") == 10
     assert show_file(folder / "inspect.html").do("cplan.model.frames.length") == 3
     assert show_file(folder / "verify.html").do("cplan.model.paths.length") == 1
+
+
+def test_where_the_tip_can_get_is_seen_as_in_the_picture(program, show_file):
+    files = [ROOT / "robots/polar.urdf", ROOT / "workspaces/polar_gate.toml"]
+    page, picture = program.folder / "reach.html", program.folder / "reach.svg"
+    told = json.loads(program.run("reach", *files, "--cell", "0.05", "--json", "--picture", page, "--picture", picture))
+    seen = show_file(page)
+    reach = seen.do("cplan.model.reach")
+    assert reach["size"] == told["reach"]["size"]
+    kinds = {"reachable": "01", "unreachable": "2", "blocked": "3", "unknown": "4"}
+    for access, letters in kinds.items():
+        assert sum(letter in letters for letter in reach["cells"]) == told["cells"][access], access
+    # The cell under a place has its colour, on paper of another.
+    full = pixels(seen, "workspace"), pixels(seen, "cspace")
+    legend = seen.page.locator(".legend li").all_inner_texts()
+    assert "the tip can get there, one way" in legend and all(text in picture.read_text() for text in legend)
+    seen.shoot("reach")
+    seen.page.get_by_role("checkbox", name="where the tip can get").uncheck()
+    assert pixels(seen, "workspace") != full[0] and pixels(seen, "cspace") != full[1]
+    assert "the tip can get there, one way" not in seen.page.locator(".legend li").all_inner_texts()

@@ -1,5 +1,7 @@
 """How the planner came to its answer, played on the page."""
 
+import json
+
 import pytest
 from test_page import pixels
 
@@ -84,12 +86,52 @@ def test_what_is_proven_impossible_is_told_at_once_and_ends_with_the_proof(progr
     seen.shoot("think_proof")
 
 
-def test_a_task_has_a_motion_alone(program, show_file):
+def test_each_motion_of_a_task_is_told(program, show_file):
     page, _ = program.plan("rrbot_vertical", "tasks/tower")
     seen = show_file(page)
-    assert seen.page.get_by_role("button", name="Think", exact=True).is_hidden()
+    still = pixels(seen, "cspace")
+    # That which is under way is told first.
+    third = seen.do("cplan.model.motions[2].from")
+    seen.do("(t) => cplan.seek(t + 0.01)", third)
+    think(seen)
+    steps = seen.page.locator(".steps button")
+    current = lambda: [text.split(".")[0] for text in seen.page.locator(".steps [aria-current=step]").all_inner_texts()]
+    assert current() == ["3"] and seen.do("cplan.time") == 0
+    told = set()
+    for number in range(1, seen.do("cplan.model.motions.length")):
+        steps.nth(number - 1).click()
+        assert current() == [str(number)]
+        phases = seen.do("cplan.replay")
+        assert seen.do("cplan.duration") == pytest.approx(sum(phase["seconds"] for phase in phases))
+        label = seen.do("(k) => cplan.model.motions[k].label", number - 1)
+        seen.do("cplan.seek(cplan.duration)")
+        assert seen.page.locator(".step").inner_text() == f"{label}. {len(phases)} of {len(phases)}: {phases[-1]['caption']}"
+        # In the end that motion's path is there, and no other.
+        path = seen.do("(k) => cplan.model.paths[cplan.model.motions[k].path].points", number - 1)
+        assert seen.do("Think.paths(cplan, cplan.pathsHere()).map(({ points }) => points)") == [pytest.approx(path)]
+        whole = pixels(seen, "cspace")
+        seen.do("cplan.seek(0.3 * cplan.duration)")
+        assert pixels(seen, "cspace") != whole
+        told.add(tuple(phase["kind"] for phase in phases))
+    assert {("path",), ("slabs", "slices", "path")} <= told, "straight ones, and some that had to be found"
+    seen.shoot("think_task")
+    # What is left when all is done nobody planned.
+    assert steps.last.is_disabled()
     seen.page.keyboard.press("t")
-    assert seen.do("cplan.mode") == "move"
+    assert seen.do("cplan.mode") == "move" and seen.do("cplan.time") == pytest.approx(third + 0.01)
+    seen.do("cplan.seek(0)")
+    assert pixels(seen, "cspace") == still
+    steps.nth(1).click()
+    assert seen.do("cplan.time") == pytest.approx(seen.do("cplan.model.motions[1].from"))
+
+
+def test_a_cell_of_many_steps_stays_small(program):
+    page, _ = program.plan("scara", "tasks/kitting_cell")
+    text = page.read_text()
+    begin = text.index(">", text.index('<script id="view"')) + 1
+    view = json.loads(text[begin : text.index("</script>", begin)])
+    assert len(json.dumps(view["replays"], separators=(",", ":"))) <= 200_000
+    assert all("replay" in motion for motion in view["motions"][:-1]) and len(view["motions"]) == 25
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

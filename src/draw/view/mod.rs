@@ -36,7 +36,7 @@ pub(super) use extent::around;
 pub(super) use motion::PathView;
 pub(super) use names::NameView;
 pub(super) use numbers::{Chain, Grain};
-use replay::PhaseView;
+use replay::{MotionReplayView, PhaseView};
 pub(super) use states::ranges;
 pub(super) use steps::Row;
 pub(super) use trace::{ScaleView, TraceView};
@@ -44,6 +44,7 @@ pub(super) use waves::{LEVELS, Waves};
 pub(super) use world::{ContourView, NAMED, ObstacleView, PayloadView, RegionView, WorldView};
 
 use super::legend::{self, KeyView};
+use super::reach::ReachView;
 use super::stuck::Stuck;
 use crate::engine::Reach;
 use crate::model::{Arm, Status};
@@ -86,11 +87,14 @@ pub struct View {
     /// How the planner came to its answer: phases, one after the other.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) replay: Vec<PhaseView>,
+    /// The same of a task's motions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    replays: Vec<MotionReplayView>,
     #[serde(skip)]
     pub(super) still: Still,
 }
 
-/// A view, what its signs mean, and what is in the way of the motion that is not there.
+/// A view, what its signs mean, what is in the way of the motion that is not there, and where the tip can get.
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
@@ -98,6 +102,8 @@ struct Document<'a> {
     legend: Vec<KeyView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     stuck: Option<&'a Stuck>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reach: Option<ReachView>,
 }
 
 /// A frame, drawn by its axes: see [`AxesFrame`].
@@ -146,6 +152,11 @@ impl View {
     /// Whether it is that of a task, whose steps have numbers.
     pub(super) fn is_task(&self) -> bool {
         !self.still.steps.is_empty()
+    }
+
+    /// What the planner saw on its way to each motion of a task, as far as that is told.
+    pub(super) fn traces_of_steps(&self) -> impl Iterator<Item = &TraceView> {
+        self.replays.iter().filter_map(|replay| replay.trace.as_ref())
     }
 
     /// The same with the places that the tip can get to.
@@ -208,7 +219,9 @@ impl View {
     /// Never: all keys are strings.
     #[must_use]
     pub fn json(&self) -> String {
-        let document = Document { view: self, legend: legend::on_pages(self), stuck: self.still.stuck.as_ref() };
+        let reach = self.still.reach.as_ref().map(|reach| ReachView::new(reach, Grain::of(&self.arm)));
+        let stuck = self.still.stuck.as_ref();
+        let document = Document { view: self, legend: legend::on_pages(self), stuck, reach };
         serde_json::to_string(&document).expect("numbers and strings")
     }
 }

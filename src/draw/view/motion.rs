@@ -123,12 +123,15 @@ pub struct MotionView {
     pub from: f64,
     /// What it does, in words.
     pub label: String,
+    /// How the planner came to it: which of the replays.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replay: Option<usize>,
 }
 
 impl MotionView {
     /// The only motion of a plan.
     pub fn only(duration: f64) -> Self {
-        Self { world: 0, path: Some(0), from: 0.0, label: format!("{duration:.3} s") }
+        Self { world: 0, path: Some(0), from: 0.0, label: format!("{duration:.3} s"), replay: None }
     }
 }
 

@@ -117,6 +117,7 @@ impl View {
             clock: picture.trajectory.map(|trajectory| Clock::new(trajectory, grain)),
             frames: Vec::new(),
             replay: Vec::new(),
+            replays: Vec::new(),
             still: Still {
                 panels: vec![PanelView {
                     title: "Configuration space".to_owned(),

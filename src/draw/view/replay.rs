@@ -1,9 +1,10 @@
 //! How the planner came to its answer, to be played.
 
 use super::numbers::{Chain, Grain};
-use super::trace::TraceView;
+use super::trace::{ScaleView, TraceView};
 use super::waves::{self, Waves};
 use super::{View, WorldView};
+use crate::engine::task::TaskReplay;
 use crate::engine::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 use crate::space::{Configuration, Topology};
 use serde::Serialize;
@@ -14,6 +15,25 @@ const A_ROOT: f64 = 0.1;
 
 /// All phases together take this long at most, seconds: what takes longer nobody watches.
 const MOST: f64 = 6.0;
+
+/// A page holds so much of how a task's motions came about, bytes; motions beyond go without.
+const MOST_BYTES: usize = 200_000;
+
+/// So many boxes of slabs at most, of all motions of a task together.
+const MOST_BOXES: usize = 5_000;
+
+/// Boxes narrower than this share of a joint's range are left out where there are too many: the first share that will do.
+const NARROW: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
+
+/// How the planner came to a motion of a task, and what it saw.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MotionReplayView {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trace: Option<TraceView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scale: Option<ScaleView>,
+    pub phases: Vec<PhaseView>,
+}
 
 /// A phase of a run; without data of its own it shows a part of the trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -109,6 +129,26 @@ impl PhaseView {
     }
 }
 
+/// The replay with no more than so many boxes of slabs: the finest are left out.
+fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
+    let extents = topology.ranges.map(|axis| axis.extent());
+    let mut replay = replay.clone();
+    for phase in &mut replay.phases {
+        let Shows::Slabs(SlabBoxes { free, stuck, mixed }) = &mut phase.shows else { continue };
+        for narrow in NARROW {
+            if free.len() + stuck.len() + mixed.len() <= most {
+                break;
+            }
+            let is_wide =
+                |[lower, upper]: &[Configuration; 2]| (0..2).all(|k| upper[k] - lower[k] >= narrow * extents[k]);
+            for boxes in [&mut *free, &mut *stuck, &mut *mixed] {
+                boxes.retain(is_wide);
+            }
+        }
+    }
+    replay
+}
+
 /// The places of boxes by how often their sides were halved, which weigh this much, and from left to right.
 fn coarse_to_fine(kinds: [&Chain; 3], topology: &Topology, weights: [f64; 2]) -> Vec<usize> {
     let extents = topology.ranges.map(|axis| axis.extent());
@@ -136,6 +176,29 @@ fn frames(sweeps: &Sweeps) -> Vec<(usize, Waves)> {
 }
 
 impl View {
+    /// The same with how the planner came to each motion of a task, as far as there is room.
+    #[must_use]
+    pub fn with_task_replay(mut self, replay: &TaskReplay) -> Self {
+        let (grain, topology) = (Grain::of(&self.arm), self.arm.topology());
+        let most = MOST_BOXES / replay.motions.len().max(1);
+        let mut left = MOST_BYTES;
+        for told in &replay.motions {
+            let trace = told.trace.as_ref().and_then(|trace| TraceView::new(trace, &topology, grain));
+            let phases = PhaseView::all(&thinned(&told.replay, &topology, most), &topology, trace.as_ref(), grain);
+            let scale = trace.as_ref().and_then(TraceView::scale);
+            let view = MotionReplayView { trace, scale, phases };
+            // Numbers and strings.
+            let bytes = serde_json::to_string(&view).map_or(usize::MAX, |json| json.len());
+            let Some(room) = left.checked_sub(bytes) else { break };
+            left = room;
+            self.replays.push(view);
+        }
+        for (motion, &told) in self.motions.iter_mut().zip(&replay.legs) {
+            motion.replay = Some(told).filter(|&told| told < self.replays.len());
+        }
+        self
+    }
+
     /// The same with how the planner came to its answer.
     #[must_use]
     pub fn with_replay(mut self, replay: &Replay) -> Self {

@@ -1,5 +1,6 @@
 //! Which motions share a panel.
 
+use super::steps::Order;
 use crate::engine::task::Leg;
 use crate::space::{Configuration, Topology};
 use std::sync::Arc;
@@ -61,9 +62,9 @@ fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
 impl PayloadState<'_> {
     /// The numbers of the steps, in the order of the motions, each once.
     #[must_use]
-    pub fn numbers(&self) -> Vec<usize> {
+    pub fn numbers(&self, order: &Order) -> Vec<usize> {
         let mut numbers: Vec<usize> = Vec::new();
-        for number in self.motions.iter().map(|(_, leg)| leg.step.number) {
+        for number in self.motions.iter().map(|(_, leg)| order.number(&leg.step)) {
             if !numbers.contains(&number) {
                 numbers.push(number);
             }
@@ -74,7 +75,7 @@ impl PayloadState<'_> {
     /// Steps, payload and repetitions: `1–2 empty-handed`, `3 carrying "part" (×100)`; in a task of several `rounds` also
     /// `4 empty-handed, round 2`.
     #[must_use]
-    pub fn title(&self, rounds: usize) -> String {
+    pub fn title(&self, rounds: usize, order: &Order) -> String {
         let first = self.motions.first().map(|(_, leg)| leg);
         let payload = first.and_then(|leg| leg.scene.payload()).map(|payload| payload.object.as_str());
         let times = match first {
@@ -82,7 +83,7 @@ impl PayloadState<'_> {
             Some(leg) if rounds > 1 => format!(", round {}", leg.step.cycle),
             _ => String::new(),
         };
-        format!("{} {}{times}", ranges(&self.numbers()), describe(payload))
+        format!("{} {}{times}", ranges(&self.numbers(order)), describe(payload))
     }
 }
 

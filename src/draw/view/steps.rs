@@ -3,7 +3,8 @@
 use super::TaskPicture;
 use super::states::rounds;
 use crate::draw::color::{BARRED, GREY, INK, Rgb};
-use crate::engine::task::TaskVerdict;
+use crate::engine::task::{TaskAnswer, TaskVerdict};
+use crate::model::{Object, Step};
 
 /// More rows than this are not shown.
 const MOST: usize = 26;
@@ -25,17 +26,49 @@ impl Row {
     }
 }
 
+/// The numbers of steps in pictures: in the order in which they are done the first time, which need not be the file's.
+pub struct Order(Vec<usize>);
+
+impl Order {
+    pub fn of(answer: &TaskAnswer) -> Self {
+        let done = answer.legs.iter().map(|leg| leg.step.number);
+        let mut order: Vec<usize> = Vec::new();
+        for number in done.chain(answer.impossible().map(|fails| fails.step.number)) {
+            if !order.contains(&number) {
+                order.push(number);
+            }
+        }
+        Self(order)
+    }
+
+    /// The number of a step.
+    pub fn number(&self, step: &Step) -> usize {
+        self.0.iter().position(|&number| number == step.number).map_or(step.number, |place| place + 1)
+    }
+
+    /// What it does, and its number in the file where that is another one.
+    pub fn describe(&self, step: &Step, objects: &[Object]) -> String {
+        let what = step.action.describe(objects);
+        if self.number(step) == step.number { what } else { format!("{what} ({} in the file)", step.number) }
+    }
+
+    /// Number and description: `3. pick "part"`.
+    pub fn named(&self, step: &Step, objects: &[Object]) -> String {
+        format!("{}. {}", self.number(step), self.describe(step, objects))
+    }
+}
+
 /// What the columns are called, then each step once, as it is done the first time; then the one that fails.
 #[must_use]
 pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     let objects = &picture.task.objects;
-    let rounds = rounds(&picture.answer.legs);
+    let (order, rounds) = (Order::of(picture.answer), rounds(&picture.answer.legs));
     let which = if rounds > 1 { format!("end, first of {rounds} rounds") } else { "end".to_owned() };
     let mut seen = std::collections::BTreeSet::new();
     let mut rows = vec![Row::new("", "step", which, GREY)];
     for leg in picture.answer.legs.iter().filter(|leg| seen.insert(leg.step.number)) {
-        let (text, time) = (leg.step.action.describe(objects), format!("{:.2} s", leg.end()));
-        rows.push(Row::new(leg.step.number, text, time, INK));
+        let (text, time) = (order.describe(&leg.step, objects), format!("{:.2} s", leg.end()));
+        rows.push(Row::new(order.number(&leg.step), text, time, INK));
     }
     if rows.len() > 1 + MOST {
         let text = format!("and {} further steps", rows.len() - 1 - MOST);
@@ -48,7 +81,7 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
             _ => "unknown",
         };
         let step = &impossible.step;
-        rows.push(Row::new(step.number, step.action.describe(objects), time, BARRED));
+        rows.push(Row::new(order.number(step), order.describe(step, objects), time, BARRED));
     }
     rows
 }
@@ -58,11 +91,11 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
 pub fn words(picture: &TaskPicture) -> (Vec<String>, String) {
     let mut lines = picture.title.clone();
     let Some(impossible) = picture.answer.impossible() else { return (lines, picture.status.clone()) };
-    let step = &impossible.step;
+    let (order, step) = (Order::of(picture.answer), &impossible.step);
+    let number = order.number(step);
     let round = if step.cycle > 1 { format!(", round {}", step.cycle) } else { String::new() };
-    let status = format!("step {}{round} fails: {}", step.number, picture.status);
-    let what = step.action.describe(&picture.task.objects);
-    let heading = format!("step {}, {what}:", step.number);
+    let status = format!("step {number}{round} fails: {}", picture.status);
+    let heading = format!("step {number}, {}:", order.describe(step, &picture.task.objects));
     let reasons = &impossible.reasons;
     if let [reason] = &reasons[..] {
         lines.push(format!("{heading} {reason}"));

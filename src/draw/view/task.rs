@@ -4,7 +4,7 @@ use super::arm;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::Grain;
 use super::states::{PayloadState, describe, payload_states, rounds};
-use super::steps::{rows, words};
+use super::steps::{Order, rows, words};
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use super::{PanelView, Still, View, extent};
 use crate::cspace::CObstacle;
@@ -42,22 +42,22 @@ impl View {
     #[must_use]
     pub fn of_task(picture: &TaskPicture) -> Self {
         let (task, legs) = (picture.task, &picture.answer.legs);
-        let grain = Grain::of(&task.arm);
+        let (grain, order) = (Grain::of(&task.arm), Order::of(picture.answer));
         let mut worlds = Worlds { picture, grain, scenes: Vec::new(), views: Vec::new() };
         let (mut paths, mut motions) = (Vec::new(), Vec::new());
         let mut from = 0.0;
         for leg in legs {
-            let name = format!("{}. {}", leg.step.number, leg.step.action.describe(&task.objects));
+            let name = order.named(&leg.step, &task.objects);
             let world = worlds.of(&leg.scene);
-            motions.push(MotionView { world, path: Some(paths.len()), from, label: name.clone() });
+            motions.push(MotionView { world, path: Some(paths.len()), from, label: name.clone(), replay: None });
             let carried = leg.carried.map(|object| color::obstacle(task.obstacle_number(object)));
             let outline = leg.timed.curve.curve().outline();
-            paths.push(PathView::of_step(name, &outline, world, leg.step.number, carried, grain));
+            paths.push(PathView::of_step(name, &outline, world, order.number(&leg.step), carried, grain));
             from = leg.event_time().unwrap_or_else(|| leg.end());
         }
         let (world, label) = match picture.answer.impossible() {
             Some(fails) => {
-                let label = format!("{}. {} fails", fails.step.number, fails.step.action.describe(&task.objects));
+                let label = format!("{} fails", order.named(&fails.step, &task.objects));
                 (worlds.failing(fails), label)
             }
             None => {
@@ -65,7 +65,7 @@ impl View {
                 (worlds.of(&Arc::new(scene)), "done".to_owned())
             }
         };
-        motions.push(MotionView { world, path: None, from, label });
+        motions.push(MotionView { world, path: None, from, label, replay: None });
         let placed = placed(task, legs);
         let at_first: Vec<_> = task.objects.iter().map(|object| Some(object.at)).collect();
         let mut everything = task.obstacles(&at_first);
@@ -79,7 +79,7 @@ impl View {
             now: None,
             reach: None,
             stuck: None,
-            panels: panels(picture, &paths, world, grain),
+            panels: panels(picture, &order, &paths, world, grain),
             placed: placed.collect(),
             // What was let go of at the end lies there.
             end: last
@@ -104,13 +104,14 @@ impl View {
             clock: Sequence::of(legs).map(|sequence| Clock::new(&sequence.trajectory, grain)),
             frames: Vec::new(),
             replay: Vec::new(),
+            replays: Vec::new(),
             still,
         }
     }
 }
 
 /// A configuration space for each payload state, then that of the step that fails, in the world `last`.
-fn panels(picture: &TaskPicture, paths: &[PathView], last: usize, grain: Grain) -> Vec<PanelView> {
+fn panels(picture: &TaskPicture, order: &Order, paths: &[PathView], last: usize, grain: Grain) -> Vec<PanelView> {
     let (task, legs) = (picture.task, &picture.answer.legs);
     let states = payload_states(legs, &task.arm.topology());
     let rounds = rounds(legs);
@@ -118,13 +119,13 @@ fn panels(picture: &TaskPicture, paths: &[PathView], last: usize, grain: Grain) 
         let numbers: Vec<usize> = state.motions.iter().map(|(index, _)| *index).collect();
         let worlds = numbers.iter().map(|&index| paths[index].world).collect();
         let start = paths[numbers[0]].start().into();
-        PanelView { title: state.title(rounds), worlds, paths: numbers, start, fails: None }
+        PanelView { title: state.title(rounds, order), worlds, paths: numbers, start, fails: None }
     };
     let mut panels: Vec<PanelView> = states.iter().map(panel).collect();
     let fails = picture.answer.impossible();
     if let Some(fails) = fails {
         let payload = describe(fails.scene.payload().map(|payload| payload.object.as_str()));
-        let (number, cycle) = (fails.step.number, fails.step.cycle);
+        let (number, cycle) = (order.number(&fails.step), fails.step.cycle);
         let round = if cycle > 1 { format!(", round {cycle}") } else { String::new() };
         let title = format!("{number} fails: {payload}{round}");
         let start = grain.configuration(fails.from);

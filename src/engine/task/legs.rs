@@ -5,8 +5,8 @@ use super::state::{Candidate, Held, State};
 use super::stroke::{ToolStroke, stroke};
 use crate::check::{CertifiedPath, CheckedProof, WristTurn, certify, wrist_turn};
 use crate::engine::settle::LARGE_PROOF;
-use crate::engine::{Options, Verdict, solve};
-use crate::geometry::Pose;
+use crate::engine::{Answer, Options, Verdict, solve};
+use crate::geometry::{Convex, Pose};
 use crate::model::{Grip, MotionProblem, Scene, Step, Task};
 use crate::motion::{Timed, single};
 use crate::search::{Connectivity, slab_connectivity};
@@ -120,10 +120,8 @@ pub(super) struct Legs {
 
 impl Legs {
     pub fn new(options: &Options) -> Self {
-        // Tasks bound times, not the lengths of paths: what is somewhat longer leaves room for faster motions.
-        let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
         Self {
-            options: Options { planner, bounded: false, ..*options },
+            options: of_legs(options),
             numbers: BTreeMap::new(),
             ways: BTreeMap::new(),
             fewer: BTreeMap::new(),
@@ -191,37 +189,17 @@ impl Legs {
     ) -> Result<CertifiedPath, Refusal> {
         let (q, to, picked) = (from.q, candidate.to, candidate.step.action.picked());
         let ends = [q[0], q[1], to[0], to[1]].map(f64::to_bits);
-        let hit_at = |q: Configuration| {
-            let hits = scene.obstructions(q).into_iter().map(|hit| hit.contact.pair.obstacle);
-            hits.filter_map(|obstacle| obstacle.checked_sub(task.workspace.obstacles.len())).collect::<Vec<_>>()
-        };
-        let mut among: BTreeSet<usize> = BTreeSet::new();
-        for _ in 0..TRIES {
+        let own = task.workspace.obstacles.len();
+        let found = among_few(scene, own, |among| {
             let lies = |(object, pose): (usize, &Option<Pose>)| pose.filter(|_| among.contains(&object));
             let poses = from.poses.iter().enumerate().map(lies).collect();
             let fewer = State { poses, ..from.clone() };
             let key = (scene_key(&fewer, candidate.step, |object| among.contains(&object)), ends);
             let options = &self.options;
             let plan = || path(&fewer.scene(task, picked), q, to, options);
-            let found = match self.fewer.entry(key).or_insert_with(plan) {
-                Ok(found) => found.path(),
-                Err(refusal) if refusal.proven => return Err(refusal.clone()),
-                Err(_) => break,
-            };
-            if let Ok(path) = certify(scene, found.clone(), scene.workspace().clearance) {
-                return Ok(path);
-            }
-            let before = among.len();
-            for ends in found.waypoints().windows(2) {
-                for part in 0..=LOOKS {
-                    among.extend(hit_at(ends[0].lerp(&ends[1], f64::from(part) / f64::from(LOOKS))));
-                }
-            }
-            if among.len() == before {
-                break;
-            }
-        }
-        path(scene, q, to, &self.options)
+            self.fewer.entry(key).or_insert_with(plan).clone()
+        });
+        found.unwrap_or_else(|| path(scene, q, to, &self.options))
     }
 
     /// Whether nothing is known that rules the motion to a candidate's target out, and the turn there: most of what can, and
@@ -290,6 +268,13 @@ impl Legs {
     }
 }
 
+/// How motions of a task are planned. Tasks bound times, not the lengths of paths: what is somewhat longer leaves room for faster
+/// motions.
+pub(super) fn of_legs(options: &Options) -> Options {
+    let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
+    Options { planner, bounded: false, ..*options }
+}
+
 /// Refuses a configuration in which something is hit; `when` is when the arm is there, in words.
 pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
     let hits = scene.obstructions(q);
@@ -301,6 +286,85 @@ pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Resul
     Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", words.join("; ")), true) })
 }
 
+/// A path that is free among all objects, found among few of them, which are those that a path among fewer hits; a proof that there is
+/// none even so; or nothing, where it is to be planned among all. `own` obstacles are no objects; `plan` plans among some.
+fn among_few(
+    scene: &Scene,
+    own: usize,
+    mut plan: impl FnMut(&BTreeSet<usize>) -> Result<CertifiedPath, Refusal>,
+) -> Option<Result<CertifiedPath, Refusal>> {
+    let hit_at = |q: Configuration| {
+        let hits = scene.obstructions(q).into_iter().map(|hit| hit.contact.pair.obstacle);
+        hits.filter_map(|obstacle| obstacle.checked_sub(own)).collect::<Vec<_>>()
+    };
+    let mut among: BTreeSet<usize> = BTreeSet::new();
+    for _ in 0..TRIES {
+        let found = match plan(&among) {
+            Ok(found) => found.path().clone(),
+            Err(refusal) if refusal.proven => return Some(Err(refusal)),
+            Err(_) => return None,
+        };
+        if let Ok(path) = certify(scene, found.clone(), scene.workspace().clearance) {
+            return Some(Ok(path));
+        }
+        let before = among.len();
+        for ends in found.waypoints().windows(2) {
+            for part in 0..=LOOKS {
+                among.extend(hit_at(ends[0].lerp(&ends[1], f64::from(part) / f64::from(LOOKS))));
+            }
+        }
+        if among.len() == before {
+            return None;
+        }
+    }
+    None
+}
+
+/// What a motion was planned in, and the planner's answer, planned again as [`Legs`] does; none of one that is straight.
+pub(super) fn planned_again(
+    scene: &Scene,
+    own: usize,
+    [from, to]: [Configuration; 2],
+    options: &Options,
+) -> Option<(MotionProblem, Answer)> {
+    let asked = |scene: Scene| {
+        let problem = MotionProblem::trusted(scene, from, to);
+        let answer = solve(&problem, options, &mut |_| {});
+        (problem, answer)
+    };
+    if !options.planner.method().optimises() {
+        return Some(asked(scene.clone()));
+    }
+    if straight(scene, from, to).is_some() {
+        return None;
+    }
+    let mut last = None;
+    let found = among_few(scene, own, |among| {
+        let (_, answer) = last.insert(asked(only(scene, own, among)));
+        found(answer.verdict.clone())
+    });
+    match found {
+        Some(Ok(_)) => last,
+        _ => Some(asked(scene.clone())),
+    }
+}
+
+/// The scene with some of its objects alone; the others keep their numbers.
+fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
+    let mut number = 0;
+    scene.reshaped(Convex::clone, |obstacle| {
+        number += 1;
+        let stays = number <= own || among.contains(&(number - 1 - own));
+        if stays { obstacle.pieces.clone() } else { Vec::new() }
+    })
+}
+
+/// The straight way from one configuration to another, if it is free.
+fn straight(scene: &Scene, from: Configuration, to: Configuration) -> Option<CertifiedPath> {
+    let straight = Path::new(vec![from, scene.arm().topology().lift(to, from)]);
+    certify(scene, straight, scene.workspace().clearance).ok()
+}
+
 /// What cheap questions tell of the way from one configuration to another.
 fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
     let ends = unobstructed(scene, from, "at its beginning")
@@ -310,8 +374,7 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
         return Way::Barred(refusal);
     }
     let clearance = scene.workspace().clearance;
-    let straight = Path::new(vec![from, scene.arm().topology().lift(to, from)]);
-    if let Ok(path) = certify(scene, straight, clearance) {
+    if let Some(path) = straight(scene, from, to) {
         return Way::Straight(path);
     }
     let goal = to.into();
@@ -326,7 +389,12 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
 /// The planner's path from one configuration to another.
 fn path(scene: &Scene, from: Configuration, to: Configuration, options: &Options) -> Result<CertifiedPath, Refusal> {
     let problem = MotionProblem::trusted(scene.clone(), from, to);
-    match solve(&problem, options, &mut |_| {}).verdict {
+    found(solve(&problem, options, &mut |_| {}).verdict)
+}
+
+/// The path that was found, or why there is none.
+fn found(verdict: Verdict) -> Result<CertifiedPath, Refusal> {
+    match verdict {
         Verdict::Found(path) => Ok(path),
         Verdict::Infeasible(proof) => Err(Refusal::barred(proof)),
         Verdict::Unknown(reason) => Err(Refusal::new(reason, false)),

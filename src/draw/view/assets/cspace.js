@@ -275,13 +275,25 @@ const CSpace = (() => {
     Labels.inside(context, panel, markers(panel, view), shown.map(({ obstacle, at, area }) => [view.called(obstacle), panel.at(at), area * room]));
   }
 
+  /** Solutions with the tip at the centres of cells, by whether a motion leads there. */
+  function solutions(context, panel, view, { kinds }) {
+    for (const { color, solutions: flat } of kinds) {
+      context.fillStyle = panel.theme.obstacle(color).line;
+      for (let i = 0; i < flat.length; i += 2) {
+        const [x, y] = place(view, panel, flat.slice(i, i + 2));
+        context.fillRect(x - 1, y - 1, 2, 2);
+      }
+    }
+  }
+
   /** What stays while the arm moves. */
   function still(context, panel, view) {
     const { world } = view;
-    const seen = Think.seen(view, world.trace);
+    const seen = Think.seen(view, view.trace);
     if (seen) below(context, panel, view, seen);
     if (view.shows('c-obstacles')) cObstacles(context, panel, view, world);
     if (seen) above(context, panel, view, seen);
+    if (view.model.reach && view.shows('access')) solutions(context, panel, view, view.model.reach);
     if (view.shows('regions')) regions(context, panel, view, world);
     if (view.shows('proof') && world.proof.length) proof(context, panel, Think.begun(world.proof, 4, Think.part(view, 'proof')));
     if (view.shows('names') && view.shows('c-obstacles') && !view.isCrowded) names(context, panel, view, world);
@@ -371,7 +383,7 @@ const CSpace = (() => {
 
   /** The scale of colours, to the right of the panel. */
   function beside(context, panel, view) {
-    const { scale, trace: seen } = view.world;
+    const { scale, trace: seen } = view;
     if (!scale || !view.shows(seen.kind === 'field' ? 'equipotentials' : seen.kind)) return;
     const { rect, theme } = panel;
     const height = Math.min(200, rect.height);

@@ -22,7 +22,7 @@ const Think = (() => {
   /** How much is there of what phases of this kind show. */
   function part(view, kind) {
     const { moment: now } = view;
-    const at = now ? view.model.replay.findIndex((phase) => phase.kind === kind) : -1;
+    const at = now ? view.replay.findIndex((phase) => phase.kind === kind) : -1;
     if (at < 0 || at < now.index) return 1;
     return at > now.index ? 0 : now.part;
   }
@@ -113,7 +113,7 @@ const Think = (() => {
   function paths(view, all) {
     const { moment: now } = view;
     if (!now) return all;
-    const own = view.model.replay.find((phase) => phase.kind === 'own');
+    const own = view.replay.find((phase) => phase.kind === 'own');
     const begins = own ? part(view, 'own') : 0;
     const before = begins > 0 ? [{ color: view.panels.cspace.theme.grey, width: 1.6, dash: [], points: gone(own.points, begins) }] : [];
     const share = part(view, 'path');
@@ -126,12 +126,12 @@ const Think = (() => {
     const { phase, part: share } = view.moment;
     const looks = Math.max(1, Math.round(phase.seconds * LOOKS));
     const now = { ...view.moment, part: Math.floor(share * looks) / looks };
-    const there = { model: view.model, panels: view.panels, moment: now };
+    const there = { replay: view.replay, panels: view.panels, moment: now };
     if (phase.kind === 'path' || phase.kind === 'own') {
       const all = paths({ ...there, moment: view.moment }, view.pathsHere());
       return all.length ? all[all.length - 1].points.slice(-2) : null;
     }
-    const trace = seen(there, view.world.trace);
+    const trace = seen(there, view.trace);
     const middle = (flat) => [0, 1].map((k) => flat.filter((_, i) => i % 2 === k).reduce((sum, x) => sum + x, 0) / (flat.length / 2));
     const last = (flat, each) => (flat?.length ? middle(flat.slice(-each)) : null);
     switch (phase.kind) {

@@ -15,6 +15,7 @@ function element(tag, attributes = {}, ...children) {
 /** Names of layers, and whether they are shown at first. Which of them there are depends on what is shown. */
 const LAYERS = [
   ['c-obstacles', 'C-obstacles', true],
+  ['access', 'where the tip can get', true],
   ['path', 'path', true],
   ['roadmap', 'visibility graph', true],
   ['roads', 'roadmap', true],
@@ -50,8 +51,8 @@ const [MAGNIFIES, A_PIXEL] = [1.5, 0.002];
 const SCROLLING = 300;
 
 class View {
-  /** A view of `model` within `root`. */
-  constructor(root, model) {
+  /** A view of `model` within `root`. `recall` asks how the planner came to it, where somebody can be asked. */
+  constructor(root, model, recall = null) {
     this.root = root;
     this.layers = new Map(LAYERS.map(([name, , shown]) => [name, shown]));
     this.hidden = new Set();
@@ -59,6 +60,11 @@ class View {
     /** What is played: 'move', the motion, 'think', how the planner came to it, or 'learn', a lesson. Each keeps its time. */
     this.mode = 'move';
     this.times = { move: 0, think: 0, learn: 0 };
+    /** Of a task the motion that is told of in 'think'. */
+    this.told = 0;
+    this.recall = recall;
+    /** What somebody has chosen, which comes back when it can be played again. */
+    this.chosen = 'move';
     this.learn = new Learn(this);
     this.speed = 1;
     this.probe = null;
@@ -90,7 +96,6 @@ class View {
     this.hovered = null;
     this.headings();
     this.choices();
-    if (!this.light) this.explain();
     this.enumerate();
     const { workspace, cspace } = this.panels;
     const { joints, plane, one_scale: alike } = model.arm;
@@ -102,35 +107,62 @@ class View {
     cspace.titles = joints.map((joint) => `${joint.name}${joint.unit === 'm' ? ' (m)' : ''}${joint.circle ? ', wraps around' : ''}`);
     cspace.scale = alike ? 'fit' : 'free';
     // Beside it stands a scale of colours.
-    cspace.margins = model.worlds.some((world) => world.scale) ? [48, 56, 8, 40] : undefined;
+    const hasScale = [...model.worlds, ...(model.replays ?? [])].some(({ scale }) => scale);
+    cspace.margins = hasScale ? [48, 56, 8, 40] : undefined;
     for (const panel of [workspace, cspace]) panel.layout();
     for (const plot of this.plots) plot.fit();
     this.learn.update(model);
-    const [moves, thinks, learns] = [Boolean(model.clock), Boolean(model.replay), this.learn.lessons.length > 0];
+    if (!this.hasReplay(model.motions[this.told])) this.told = 0;
+    const [moves, thinks, learns] = [Boolean(model.clock), this.thinks, this.learn.lessons.length > 0];
     const there = { move: moves || !thinks, think: thinks, learn: learns };
-    for (const button of this.parts.modes.children) button.hidden = !there[button.dataset.mode];
-    this.parts.modes.hidden = Object.values(there).filter(Boolean).length < 2;
-    this.parts.transport.hidden = !moves && !thinks && (this.light || !learns);
+    for (const button of this.parts.modes.children) button.hidden = !(there[button.dataset.mode] || (button.dataset.mode === 'think' && this.recall));
+    const choices = [...this.parts.modes.children].filter((button) => !button.hidden).length;
+    this.parts.modes.hidden = choices < 2;
+    this.parts.transport.hidden = !moves && !thinks && (this.light || choices < 2);
     if (!moves && !thinks) this.pause();
     if (!there[this.mode]) {
       // All that was found is seen at first.
+      this.times[this.mode] = this.time;
       this.mode = moves || !thinks ? 'move' : 'think';
-      this.time = this.mode === 'think' ? this.duration : 0;
-    }
+      this.time = this.mode === 'think' ? this.duration : this.times.move;
+    } else if (this.chosen === 'think' && this.mode === 'move' && thinks) this.enter('think');
     this.ready();
   }
 
   /** Plays the motion, how the planner came to it, or a lesson. */
   switchTo(mode) {
     const button = [...this.parts.modes.children].find((one) => one.dataset.mode === mode);
-    if (mode === this.mode || this.parts.modes.hidden || button.hidden) return;
+    if (this.parts.modes.hidden || button.hidden) return;
+    this.chosen = mode;
+    if (mode === this.mode) return;
     this.pause();
-    this.times[this.mode] = this.time;
-    this.mode = mode;
-    this.time = this.times[mode];
+    if (mode === 'think' && !this.thinks) {
+      this.recall();
+      return;
+    }
+    this.enter(mode);
     if (mode === 'learn') this.examine(null);
     if (mode === 'learn' && !this.time) this.learn.start(this.learn.lesson);
     else this.ready();
+  }
+
+  enter(mode) {
+    this.times[this.mode] = this.time;
+    // Of a task that motion is told of which is under way.
+    const told = mode === 'think' && this.hasReplay(this.motion) ? this.model.motions.indexOf(this.motion) : this.told;
+    if (told !== this.told) [this.told, this.times.think] = [told, 0];
+    this.mode = mode;
+    this.time = this.times[mode];
+  }
+
+  /** Whether it is told how the planner came to a motion of a task. */
+  hasReplay(motion) {
+    return motion?.replay !== undefined;
+  }
+
+  /** Whether it is told how the planner came to anything. */
+  get thinks() {
+    return Boolean(this.model.replay ?? this.model.replays);
   }
 
   /** The controls of what is played. */
@@ -151,19 +183,39 @@ class View {
 
   get duration() {
     if (this.mode === 'learn') return this.learn.duration;
-    if (this.mode === 'think') return Think.duration(this.model.replay);
+    if (this.mode === 'think') return Think.duration(this.replay);
     return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
   }
 
   /** The phase of the replay, and how much of it has been shown; none while the motion is played. */
   get moment() {
-    return this.mode === 'think' && this.model.replay ? Think.moment(this.model.replay, this.time) : null;
+    return this.mode === 'think' && this.replay ? Think.moment(this.replay, this.time) : null;
+  }
+
+  /** What is told of the motion of a task: its phases, and what the planner saw. */
+  get account() {
+    return this.mode === 'think' ? this.model.replays?.[this.model.motions[this.told].replay] : undefined;
+  }
+
+  /** How the planner came to it, phase by phase. */
+  get replay() {
+    return this.model.replay ?? this.account?.phases;
+  }
+
+  /** What the planner saw. */
+  get trace() {
+    return (this.account ?? this.world).trace;
+  }
+
+  /** What its colours are values of. */
+  get scale() {
+    return (this.account ?? this.world).scale;
   }
 
   /** The motion that is under way. */
   get motion() {
     const { motions } = this.model;
-    if (this.mode === 'think') return motions[0];
+    if (this.mode === 'think') return motions[this.told];
     const time = this.mode === 'move' ? this.time : this.times.move;
     let found = 0;
     for (let i = 1; i < motions.length && motions[i].from <= time + 1e-6; i += 1) found = i;
@@ -187,15 +239,16 @@ class View {
 
   /** The paths in the world that is shown. */
   pathsHere() {
+    if (this.account) return [this.model.paths[this.motion.path]];
     const world = this.motion?.world ?? 0;
     return this.model.paths.filter((path) => path.world === world);
   }
 
   /** Where the arm is when what is shown begins. */
   beginning() {
-    const { clock, start, paths } = this.model;
+    const { clock, start } = this.model;
     const { motion } = this;
-    const [first] = paths.filter((path) => path.world === motion?.world);
+    const [first] = this.pathsHere();
     if (first) return first.points.slice(0, 2);
     return motion && clock ? Geometry.moving(clock, motion.from).position : start;
   }
@@ -341,13 +394,15 @@ class View {
     status.replaceChildren(element('span', { 'aria-hidden': 'true' }, SYMBOLS[ending]), ` ${words}`);
   }
 
-  /** What the signs mean. */
+  /** What the signs mean that are drawn. */
   explain() {
+    if (this.light) return;
     const { theme } = this.panels.workspace;
-    const signature = JSON.stringify([this.model.legend, theme.dark]);
+    const keys = this.model.legend.filter(({ layers = [], think }) => (!layers.length || layers.some((layer) => this.shows(layer))) && (!think || this.mode === 'think'));
+    const signature = JSON.stringify([keys, theme.dark]);
     if (signature === this.explained) return;
     this.explained = signature;
-    this.parts.legend.replaceChildren(...Legend.items(theme, this.model.legend));
+    this.parts.legend.replaceChildren(...Legend.items(theme, keys));
   }
 
   /** The steps of a task, to be gone to, and marks where each begins. */
@@ -356,16 +411,27 @@ class View {
     const isTask = motions.length > 1;
     this.parts.steps.parentElement.hidden = !isTask;
     const steps = isTask ? motions : [];
-    this.parts.steps.replaceChildren(...steps.map(({ label, from }) => {
-      const go = element('button', { type: 'button', onclick: () => this.seek(from) }, element('span', {}, label), element('span', { class: 'at' }, `${from.toFixed(2)} s`));
+    this.parts.steps.replaceChildren(...steps.map((motion) => {
+      const { label, from } = motion;
+      const go = element('button', { type: 'button', onclick: () => this.go(motion) }, element('span', {}, label), element('span', { class: 'at' }, `${from.toFixed(2)} s`));
       return element('li', {}, go);
     }));
+  }
+
+  /** Goes to a step: to its time, or to how the planner came to it. */
+  go(motion) {
+    if (this.mode !== 'think') this.seek(motion.from);
+    else if (this.hasReplay(motion)) {
+      this.told = this.model.motions.indexOf(motion);
+      this.time = 0;
+      this.ready();
+    }
   }
 
   /** Marks on the scrubber: where steps or phases begin. */
   tick() {
     let begin = 0;
-    const phases = this.mode === 'think' ? this.model.replay.map(({ seconds }) => (begin += seconds) - seconds) : this.model.motions.map(({ from }) => from);
+    const phases = this.mode === 'think' ? this.replay.map(({ seconds }) => (begin += seconds) - seconds) : this.model.motions.map(({ from }) => from);
     const marks = phases.filter((at) => at > 0 && at < this.duration);
     this.parts.ticks.replaceChildren(...marks.map((at) => {
       const mark = element('i');
@@ -392,11 +458,12 @@ class View {
   /** Layers that there are, and obstacles. */
   choices() {
     const { worlds, paths } = this.model;
-    const kinds = new Set(worlds.map((world) => world.trace?.kind));
+    const seen = [...worlds, ...(this.model.replays ?? [])].map(({ trace }) => trace);
+    const kinds = new Set(seen.map((trace) => trace?.kind));
     const any = (key) => worlds.some((world) => world[key].length > 0);
     const there = {
-      'c-obstacles': any('c_obstacles'), path: paths.length > 0, roadmap: kinds.has('roadmap'), rows: kinds.has('rows'),
-      roads: kinds.has('roads'), expanded: worlds.some((world) => world.trace?.expanded?.length > 0),
+      'c-obstacles': any('c_obstacles'), access: Boolean(this.model.reach), path: paths.length > 0, roadmap: kinds.has('roadmap'), rows: kinds.has('rows'),
+      roads: kinds.has('roads'), expanded: seen.some((trace) => trace?.expanded?.length > 0),
       channel: kinds.has('channel'), cells: kinds.has('channel'), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'),
       flow: kinds.has('field'), boxes: kinds.has('boxes'), proof: any('proof'), regions: any('regions'), poses: true,
       trace: paths.length > 0, names: any('obstacles'), frames: this.model.frames.length > 0,
@@ -438,7 +505,6 @@ class View {
     const theme = new Theme(document.documentElement);
     for (const panel of [...this.allPanels(), ...Object.values(this.learn.panels)]) panel.theme = theme;
     if (!this.model) return;
-    if (!this.light) this.explain();
     this.ready();
   }
 
@@ -449,6 +515,7 @@ class View {
   /** Draws everything anew. */
   refresh() {
     if (!this.model) return;
+    this.explain();
     for (const panel of this.allPanels()) {
       panel.dirty = true;
       panel.draw();
@@ -473,7 +540,8 @@ class View {
     }
     parts.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(2)} s`;
     parts.scrubber.setAttribute('aria-valuetext', `${this.time.toFixed(2)} seconds`);
-    const told = moment && `${moment.index + 1} of ${this.model.replay.length}: ${moment.phase.caption}`;
+    const whose = moment && this.account ? `${motion.label}. ` : '';
+    const told = moment && `${whose}${moment.index + 1} of ${this.replay.length}: ${moment.phase.caption}`;
     const step = told ?? (this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '');
     if (parts.step.textContent !== step) parts.step.textContent = step;
     if (motion !== before || moment) {
@@ -482,8 +550,11 @@ class View {
     if (motion !== before) {
       if (this.probe) this.examine(this.probe.q);
     }
-    const now = this.mode === 'move' ? this.model.motions.indexOf(motion) : -1;
-    [...parts.steps.children].forEach((item, k) => item.firstChild.setAttribute('aria-current', k === now ? 'step' : 'false'));
+    const now = this.mode === 'learn' ? -1 : this.model.motions.indexOf(motion);
+    [...parts.steps.children].forEach((item, k) => {
+      item.firstChild.setAttribute('aria-current', k === now ? 'step' : 'false');
+      item.firstChild.disabled = this.mode === 'think' && !this.hasReplay(this.model.motions[k]);
+    });
     this.tell();
     for (const panel of this.allPanels()) panel.draw();
   }

@@ -180,6 +180,19 @@ const Workspace = (() => {
     context.setLineDash([]);
   }
 
+  /** Cells, by how the tip can get there. */
+  function cells(context, panel, { corner, cell, size: [columns], kinds, cells: all }) {
+    const { theme } = panel;
+    const colors = kinds.map(({ color }) => theme.obstacle(color).fill);
+    for (const [place, kind] of [...all].entries()) {
+      if (kind === '.') continue;
+      const low = [corner[0] + cell * (place % columns), corner[1] + cell * Math.floor(place / columns)];
+      const [[left, bottom], [right, top]] = [low, low.map((x) => x + cell)].map((p) => panel.at(p).map(Math.round));
+      context.fillStyle = colors[Number(kind)];
+      context.fillRect(left, top, right - left, bottom - top);
+    }
+  }
+
   /** What stays while the arm moves. */
   function still(context, panel, view) {
     const { model, world } = view;
@@ -187,6 +200,7 @@ const Workspace = (() => {
     context.beginPath();
     rounded(context, panel, model.arm.reach);
     dashed(context, [2, 4], 1, theme.pale);
+    if (model.reach && view.shows('access')) cells(context, panel, model.reach);
     obstacles(context, panel, view, world);
     if (view.shows('regions')) regions(context, panel, world);
     if (view.shows('poses')) {
