@@ -104,9 +104,8 @@ fn export(args: &ServeArgs, [urdf, world]: [Source; 2], page: &Path, engine: &Pa
         return Err(wrong("is no program packed by gzip".into()));
     }
     let text = |source: &Source| source.text().to_owned();
-    let seconds = args.time_limit.as_secs_f64();
-    let files = Files { urdf: text(&urdf), world: text(&world), options: args.with.clone(), seconds };
-    write_whole(page, page_alone(files, &program).as_bytes())?;
+    let files = Files { urdf: text(&urdf), world: text(&world), options: args.with.clone() };
+    write_whole(page, page_alone(files, args.time_limit, &program).as_bytes())?;
     sinks::say(&format!("{} written", page.display()));
     Ok(DONE)
 }

@@ -1,7 +1,6 @@
 //! What answers a page that has the program within it: without server, threads, files, or a way to stop what runs.
 
-use super::{Desk, Host, Message, Reply, Request, Spent};
-use crate::input::{Source, scene_from};
+use super::{Desk, Files, Host, Message, Reply, Request, Spent};
 use crate::interrupt::Interrupt;
 use serde::Deserialize;
 use std::sync::Arc;
@@ -11,11 +10,11 @@ use std::time::Duration;
 #[derive(Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 enum Order {
-    /// The files to begin with, and planner and options; the page is told the world.
+    /// The files to begin with; the page is told the world.
     Open {
-        urdf: String,
-        world: String,
-        options: String,
+        /// Number of the request.
+        id: u64,
+        files: Files,
         /// Time that a plan may take.
         seconds: f64,
         /// What the page works on already, which then is told nothing.
@@ -51,16 +50,16 @@ impl Alone {
             (Err(error), _) => tell(failed(format!("no order: {error}"))),
             (Ok(Order::Take { request, spent }), Some(desk)) => desk.take(&request, &Interrupt::new(), spent, tell),
             (Ok(Order::Take { .. }), None) => tell(failed("nothing is open".into())),
-            (Ok(Order::Open { urdf, world, options, seconds, held }), place) => {
+            (Ok(Order::Open { id, files, seconds, held }), place) => {
                 let is_new = held.is_none();
-                match opened(urdf, world, options, seconds, held) {
+                match opened(files, seconds, held) {
                     Ok(desk) => {
                         if is_new {
-                            tell(Message::from(&desk.world(None)));
+                            tell(Message::from(&desk.world(id, true)));
                         }
                         *place = Some(desk);
                     }
-                    Err(error) => tell(failed(error)),
+                    Err(error) => tell(Message::from(&Reply::Failed { id, error })),
                 }
             }
         }
@@ -71,11 +70,9 @@ impl Alone {
 ///
 /// # Errors
 /// What is wrong with the files, in words.
-fn opened(urdf: String, world: String, options: String, seconds: f64, held: Option<Held>) -> Result<Desk, String> {
-    let (urdf, world) = (Source::in_memory("robot.urdf", urdf), Source::in_memory("world.toml", world));
-    let scene = scene_from(urdf.clone(), world.clone()).map_err(|error| error.to_string())?;
+fn opened(files: Files, seconds: f64, held: Option<Held>) -> Result<Desk, String> {
     let time = Duration::try_from_secs_f64(seconds).map_err(|error| format!("seconds: {error}"))?;
-    let host = Host::new(urdf, world, scene, options, time).ok_or("the world is no TOML")?;
+    let host = Host::brought(files, time)?;
     let mut desk = Desk::new(Arc::new(host));
     held.map_or(Ok(()), |Held { base, text }| desk.hold(base, &text))?;
     Ok(desk)
@@ -100,7 +97,8 @@ mod tests {
     }
 
     fn open(held: Value) -> Value {
-        json!({ "do": "open", "urdf": URDF, "world": WORLD, "options": "shortest", "seconds": 3600, "held": held })
+        let files = json!({ "urdf": URDF, "world": WORLD, "options": "shortest" });
+        json!({ "do": "open", "id": 1, "files": files, "seconds": 3600, "held": held })
     }
 
     fn plan(base: u64, spent: &str) -> Value {
@@ -148,7 +146,7 @@ mod tests {
         assert_eq!(error(told(&mut alone, &plan(1, "nothing"))), "nothing is open");
         assert!(error(told(&mut alone, &json!({ "do": "sing" }))).starts_with("no order: "));
         let mut wrong = open(Value::Null);
-        wrong["world"] = json!("image = \"den.yaml\"");
+        wrong["files"]["world"] = json!("image = \"den.yaml\"");
         assert!(error(told(&mut alone, &wrong)).contains("world.toml"));
     }
 }

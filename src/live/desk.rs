@@ -8,7 +8,7 @@ use super::files;
 use super::menus;
 use super::options::Options;
 use super::protocol::{
-    About, AnswerReply, Ask, Begin, JointReply, Message, Pair, PieceReply, Reply, Request, WorldReply,
+    About, AnswerReply, Ask, Begin, Files, JointReply, Message, Pair, PieceReply, Reply, Request, WorldReply,
 };
 use super::result;
 use crate::engine::{Method, Problem};
@@ -73,6 +73,9 @@ impl Spent {
 
 /// A page's text and what it says.
 pub struct Desk {
+    /// What the program was started with.
+    own: Arc<Host>,
+    /// What the page began with.
     host: Arc<Host>,
     /// Number of the text.
     base: u64,
@@ -108,7 +111,15 @@ impl Desk {
     #[must_use]
     pub fn new(host: Arc<Host>) -> Self {
         let (document, scene) = (host.document.clone(), host.scene.clone());
-        Self { host, base: 1, document, scene, contours: Contours::default(), pace: Pace::default() }
+        Self {
+            own: Arc::clone(&host),
+            host,
+            base: 1,
+            document,
+            scene,
+            contours: Contours::default(),
+            pace: Pace::default(),
+        }
     }
 
     /// Goes on with the text that a page works on, which has this number.
@@ -125,6 +136,10 @@ impl Desk {
     pub fn take(&mut self, request: &Request, interrupt: &Interrupt, spent: Spent, tell: &mut dyn FnMut(Message)) {
         let mut reply = |reply: Reply| tell(Message::from(&reply));
         match request {
+            Request::Open { id, files } => reply(match self.open(files.as_ref(), spent) {
+                Ok(()) => self.world(*id, true),
+                Err(error) => Reply::Failed { id: *id, error },
+            }),
             Request::Plan(ask) => self.plan(ask, interrupt, spent, &mut reply),
             Request::Load { id, text, options } => self.load(*id, text, options, (interrupt, spent), &mut reply),
             Request::Download { ask, format } => match self.download(ask, format, interrupt, spent) {
@@ -134,8 +149,8 @@ impl Desk {
         }
     }
 
-    /// The world, for the page to change.
-    pub fn world(&self, id: Option<u64>) -> Reply {
+    /// The world, for the page to change, or to begin with.
+    pub fn world(&self, id: u64, begins: bool) -> Reply {
         let arm = self.scene.scene.arm();
         let names = self.scene.scene.workspace().obstacles.iter().map(|obstacle| obstacle.name.clone());
         let pieces = names.zip(self.document.forms());
@@ -161,9 +176,28 @@ impl Desk {
             reach: arm.reach(),
             planners: Method::ALL.iter().map(|method| method.name()).collect(),
             menus: menus::planners(),
-            options: id.is_none().then(|| self.host.options.clone()),
+            options: begins.then(|| self.host.options.clone()),
+            urdf: (begins && self.host.is_whole).then(|| self.host.urdf.text().to_owned()),
             toml: self.document.text().to_owned(),
         }))
+    }
+
+    /// Begins anew, with what the page brings along or with what the program was started with.
+    ///
+    /// # Errors
+    /// In words, with the place.
+    fn open(&mut self, files: Option<&Files>, spent: Spent) -> Result<(), String> {
+        let own = Arc::clone(&self.own);
+        let host = match files {
+            None => Arc::clone(&own),
+            Some(files) => {
+                let limited = Interrupt::new().by(Instant::now() + spent.left(own.time).plan);
+                let brought = limited.run(|| Host::brought(files.clone(), own.time));
+                Arc::new(brought.unwrap_or_else(|_| Err(time_up(own.time)))?)
+            }
+        };
+        *self = Self { own, ..Self::new(host) };
+        Ok(())
     }
 
     /// Takes another text, if it is a world, and plans in it.
@@ -182,8 +216,9 @@ impl Desk {
             Ok((document, scene)) => {
                 (self.document, self.scene) = (document, scene);
                 self.base += 1;
-                tell(self.world(Some(id)));
-                let ask = Ask { id, base: self.base, is_final: true, state: None, options: options.to_owned() };
+                tell(self.world(id, false));
+                let ask =
+                    Ask { id, base: self.base, is_final: true, state: None, options: options.to_owned(), think: false };
                 self.plan(&ask, interrupt, spent, tell);
             }
             Err(error) => tell(Reply::Failed { id, error }),
@@ -244,7 +279,7 @@ impl Desk {
                 Ok(problem) => problem,
                 Err(error) => return refused(About::World, error.to_string()),
             };
-            return match limited.run(|| result::in_full(&problem, options, &self.contours)) {
+            return match limited.run(|| result::in_full(&problem, options, &self.contours, ask.think)) {
                 Ok(Ok(answer)) => Ok(AnswerReply { toml, ..answer }),
                 Ok(Err(error)) => refused(About::Options, error),
                 Err(stopped) => Ok(AnswerReply { toml, ..or_late(stopped, late)? }),
@@ -295,7 +330,7 @@ impl Desk {
             Err(Interrupted::TimeUp) => {}
             Err(Interrupted::Set) => return Err(Interrupted::Set),
         }
-        match limited.run(|| result::in_full(&problem, options, &self.contours)) {
+        match limited.run(|| result::in_full(&problem, options, &self.contours, ask.think)) {
             Ok(Ok(answer)) => Ok(AnswerReply { toml, ..places(answer) }),
             Ok(Err(error)) => refused(About::Options, error),
             Err(stopped) => {

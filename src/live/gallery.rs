@@ -1,7 +1,9 @@
-//! Worlds and puzzles that a page without a server has to open.
+//! Worlds and puzzles that a page has to open.
 
+use super::Files;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 /// A world to open.
 #[derive(Debug, Serialize)]
@@ -138,31 +140,20 @@ impl Puzzle {
     }
 }
 
-/// The files that a page begins with.
-#[derive(Debug, Clone, Serialize)]
-pub struct Files {
-    /// The arm.
-    pub urdf: String,
-    /// The world.
-    pub world: String,
-    /// Planner and options.
-    pub options: String,
-    /// Time that a plan may take.
-    pub seconds: f64,
-}
-
 /// All of it, for the page.
 #[derive(Debug, Serialize)]
 pub struct Gallery {
-    files: Files,
+    /// What a page begins with that has the program within it, and the time that a plan may take there, seconds.
+    alone: Option<(Files, f64)>,
     robots: BTreeMap<&'static str, &'static str>,
     choices: [Choice; 14],
 }
 
 impl Gallery {
-    /// That of a page that begins with these files.
-    pub fn new(files: Files) -> Self {
-        Self { files, robots: BTreeMap::from(ROBOTS), choices: CHOICES }
+    /// That of a page with the program within it, or of one that a server serves.
+    pub fn new(alone: Option<(Files, Duration)>) -> Self {
+        let alone = alone.map(|(files, time)| (files, time.as_secs_f64()));
+        Self { alone, robots: BTreeMap::from(ROBOTS), choices: CHOICES }
     }
 }
 

@@ -19,8 +19,11 @@
 //! - Each change gives the page's world a new number (`edition`), and an answer belongs to the number it was asked with.
 //!   The badge says certified only of the final answer to the present number, on a line that is up. Edits are kept in the
 //!   browser (`keep`), under the text that the program began with.
-//! - Worlds that name files which the program was not started with are refused (`Host::read`).
-//! - The page's code (`assets`) adds to that of `draw::shell`: `link` (one request under way, the latest next), `keep`,
+//! - The page speaks first: it opens what the program began with, or what its address names (`gallery`): arm, world and options,
+//!   which it brings along as text (`Host::brought`). Worlds that name files which the program was not started with are refused
+//!   (`Host::read`).
+//! - The page's code (`assets`) adds to that of `draw::shell`: `alone` (the program within the page, where there is no server),
+//!   `link` (one request under way, the latest next), `gallery` (what can be opened, and links), `keep`,
 //!   `notices` (what is wrong, where one looks), `scene` (state and history), `edit` (pointer and keys), `controls`,
 //!   `live`.
 
@@ -39,12 +42,11 @@ mod result;
 
 pub use alone::Alone;
 pub use desk::{Desk, Spent};
-pub use gallery::Files;
 pub use options::Options;
 pub use page::{page, page_alone};
-pub use protocol::{Ask, Message, Reply, Request};
+pub use protocol::{Ask, Files, Message, Reply, Request};
 
-use crate::input::{LoadedScene, Source};
+use crate::input::{LoadedScene, Source, scene_from};
 use document::Document;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -62,13 +64,28 @@ pub struct Host {
     options: String,
     /// Time that a plan may take.
     time: Duration,
+    /// Whether arm and world name no files beside them, so that a link can hold them.
+    is_whole: bool,
 }
 
 impl Host {
     /// A world to begin with, planned in as `options` say, for at most `time` a plan. None if it is no TOML.
     pub fn new(urdf: Source, world: Source, scene: LoadedScene, options: String, time: Duration) -> Option<Self> {
         let document = Document::parse(world.text())?;
-        Some(Self { files: document.files(), urdf, world, document, scene, options, time })
+        let in_memory = |source: &Source| Source::in_memory(source.name(), source.text());
+        let is_whole = scene_from(in_memory(&urdf), in_memory(&world)).is_ok();
+        Some(Self { files: document.files(), urdf, world, document, scene, options, time, is_whole })
+    }
+
+    /// What a page brings along, which can name no other files.
+    ///
+    /// # Errors
+    /// In words, with the place.
+    fn brought(Files { urdf, world, options }: Files, time: Duration) -> Result<Self, String> {
+        let [urdf, world] =
+            [("robot.urdf", urdf), ("world.toml", world)].map(|(name, text)| Source::in_memory(name, text));
+        let scene = scene_from(urdf.clone(), world.clone()).map_err(|error| error.to_string())?;
+        Self::new(urdf, world, scene, options, time).ok_or_else(|| "the world is no TOML".into())
     }
 
     /// Reads a world from a page.

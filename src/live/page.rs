@@ -1,8 +1,10 @@
 //! The page.
 
-use super::gallery::{Files, Gallery};
+use super::Files;
+use super::gallery::Gallery;
 use crate::draw::{drawing, shell};
 use crate::text::base64;
+use std::time::Duration;
 
 /// What moves things in the page, in the order in which one part needs the other.
 const CODE: [&str; 9] = [
@@ -24,23 +26,27 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsaf
 /// The page with its scripts and styles in one document, for a browser that has been led to a server.
 #[must_use]
 pub fn page() -> String {
-    live("", "")
+    live("", &data(&Gallery::new(None)))
 }
 
-/// The page with the program within it, WebAssembly packed by gzip: one file, which needs no server and loads nothing.
+/// The page with the program within it, WebAssembly packed by gzip: one file, which needs no server and loads nothing. A plan may
+/// take that much time.
 #[must_use]
-pub fn page_alone(files: Files, program: &[u8]) -> String {
+pub fn page_alone(files: Files, time: Duration, program: &[u8]) -> String {
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
-    // Texts and numbers: there is nothing that JSON cannot say. Within a script only the less-than sign could end it.
-    let gallery = serde_json::to_string(&Gallery::new(files)).unwrap_or_default().replace('<', "\\u003c");
-    let within = [
-        ("gallery", "application/json", gallery.as_str()),
-        ("worker", "text/plain", include_str!("assets/worker.js")),
-        ("program", "text/plain", &base64(program)),
-    ];
-    let element =
-        |(id, kind, text): (&str, &str, &str)| format!("<script id=\"{id}\" type=\"{kind}\">{text}</script>\n");
-    live(&policy, &within.map(element).concat())
+    let worker = element("worker", "text/plain", include_str!("assets/worker.js"));
+    let program = element("program", "text/plain", &base64(program));
+    live(&policy, &(data(&Gallery::new(Some((files, time)))) + &worker + &program))
+}
+
+/// What the page reads. Texts and numbers: there is nothing that JSON cannot say. Within a script only the less-than sign could end it.
+fn data(gallery: &Gallery) -> String {
+    let json = serde_json::to_string(gallery).unwrap_or_default().replace('<', "\\u003c");
+    element("gallery", "application/json", &json)
+}
+
+fn element(id: &str, kind: &str, text: &str) -> String {
+    format!("<script id=\"{id}\" type=\"{kind}\">{text}</script>\n")
 }
 
 fn live(head: &str, before: &str) -> String {

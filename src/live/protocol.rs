@@ -16,6 +16,13 @@ pub type Pair = [f64; 2];
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Request {
+    /// Begin with these files, or with what the program was started with; the page is told the world.
+    Open {
+        /// Number of the request.
+        id: u64,
+        /// None for those of the program.
+        files: Option<Files>,
+    },
     /// Plan in the world that the page shows.
     Plan(Ask),
     /// Take another text for the world, and plan in it.
@@ -41,9 +48,21 @@ impl Request {
     pub fn id(&self) -> u64 {
         match self {
             Self::Plan(ask) | Self::Download { ask, .. } => ask.id,
-            Self::Load { id, .. } => *id,
+            Self::Open { id, .. } | Self::Load { id, .. } => *id,
         }
     }
+}
+
+/// The files that a page begins with.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Files {
+    /// The arm.
+    pub urdf: String,
+    /// The world.
+    pub world: String,
+    /// Planner and options.
+    pub options: String,
 }
 
 /// A plan that is asked for.
@@ -61,6 +80,9 @@ pub struct Ask {
     pub state: Option<State>,
     /// Planner and options, as on the command line: `visibility --gap 0.001`.
     pub options: String,
+    /// Whether how the planner came to its answer is to be told, too, in a final answer.
+    #[serde(default)]
+    pub think: bool,
 }
 
 /// The part of a world that the page can change, as a whole.
@@ -190,8 +212,8 @@ impl Message {
 /// A world as the page draws and edits it.
 #[derive(Debug, Serialize)]
 pub struct WorldReply {
-    /// The request that loaded it; none for the first.
-    pub id: Option<u64>,
+    /// The request that opened or loaded it.
+    pub id: u64,
     /// Number of the text: states are changes of one text.
     pub base: u64,
     /// The title that stands above the picture.
@@ -218,6 +240,8 @@ pub struct WorldReply {
     pub menus: Vec<PlannerReply>,
     /// Planner and options to begin with; none with a world that was loaded.
     pub options: Option<String>,
+    /// The arm, for a link that holds it with the world; none with a world that was loaded, and where either names files beside it.
+    pub urdf: Option<String>,
     /// The world file's text, as it is now.
     pub toml: String,
 }

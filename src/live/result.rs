@@ -70,14 +70,15 @@ fn drawn(view: &View) -> Option<Box<RawValue>> {
     RawValue::from_string(view.json()).ok()
 }
 
-/// All that can be known of a problem.
+/// All that can be known of a problem; how the planner came to it, if somebody wants to know.
 ///
 /// # Errors
 /// A trajectory that cannot be made as asked, in words.
-pub fn in_full(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
+pub fn in_full(problem: &Problem, options: &Options, contours: &Contours, think: bool) -> Result<AnswerReply, String> {
     let plan = plan(problem, options).map_err(|error| error.to_string())?;
     let report = plan.report();
     let view = plan.view_with(|scene| contours.of(scene));
+    let view = if think { plan.replayed(view) } else { view };
     let figures = if let Some(MotionPlan { answer, .. }) = plan.motion() {
         Figures {
             length: answer.bound.map(|bound| bound.upper).or(report.length),

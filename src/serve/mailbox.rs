@@ -85,7 +85,7 @@ mod tests {
     use crate::live::Ask;
 
     fn ask(id: u64) -> Ask {
-        Ask { id, base: 1, is_final: false, state: None, options: "visibility".into() }
+        Ask { id, base: 1, is_final: false, state: None, options: "visibility".into(), think: false }
     }
 
     fn load(id: u64) -> Request {

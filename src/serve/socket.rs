@@ -102,7 +102,6 @@ fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
     // A page that is gone closes the mailbox, too.
     let tell = |message: Message| drop(send.blocking_send(message));
     let mut desk = Desk::new(host);
-    tell(carried(live::Message::from(&desk.world(None))));
     while let Some((request, interrupt)) = mailbox.take() {
         let work = || desk.take(&request, &interrupt, Spent::Nothing, &mut |message| tell(carried(message)));
         if let Some(message) = guarded(request.id(), work) {

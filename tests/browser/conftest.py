@@ -2,14 +2,17 @@
 
     pytest tests/browser
 
-CPLAN names the program (target/debug/cplan without it), CPLAN_BROWSER the browser (chromium), CPLAN_SCREENSHOTS a folder for
-pictures of what was seen (target/browser).
+CPLAN names the program (target/debug/cplan without it), CPLAN_PAGE the page with the program within it (target/page/index.html),
+CPLAN_BROWSER the browser (chromium), CPLAN_SCREENSHOTS a folder for pictures of what was seen (target/browser).
 """
 
+import functools
+import http.server
 import json
 import os
 import shutil
 import subprocess
+import threading
 import time
 from pathlib import Path
 
@@ -18,6 +21,7 @@ from playwright.sync_api import sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("CPLAN", ROOT / "target/debug/cplan"))
+PAGE = Path(os.environ.get("CPLAN_PAGE", ROOT / "target/page/index.html"))
 SCREENSHOTS = Path(os.environ.get("CPLAN_SCREENSHOTS", ROOT / "target/browser"))
 
 
@@ -133,4 +137,55 @@ def serve(show):
 
     yield start
     for server in running:
+        server.end()
+
+
+class Files(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture(scope="session")
+def host(tmp_path_factory):
+    """The live page with the program within it, below a path of a host of files."""
+    if not PAGE.exists():
+        pytest.skip("the page without a server is not built (.ci/page): is the target wasm32-unknown-unknown installed?")
+    root = tmp_path_factory.mktemp("host")
+    folder = root / "some/where"
+    folder.mkdir(parents=True)
+    (folder / "index.html").write_bytes(PAGE.read_bytes())
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Files, directory=root))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/some/where/"
+    server.shutdown()
+
+
+@pytest.fixture
+def alone(show, host):
+    """Opens that page once a plan is shown."""
+    from live import settled
+
+    def open_(fragment="", **options):
+        seen = show(host + fragment, **options)
+        settled(seen)
+        return seen
+
+    return open_
+
+
+@pytest.fixture(params=["server", "page"])
+def either(request, show):
+    """Opens the live page, of a server or with the program within it, once a plan is shown."""
+    from live import PLANAR, Server, settled
+
+    server = Server(PLANAR) if request.param == "server" else None
+    address = server.address if server else request.getfixturevalue("host")
+
+    def open_(fragment="", **options):
+        seen = show(address + fragment, **options)
+        settled(seen)
+        return seen
+
+    yield open_
+    if server:
         server.end()

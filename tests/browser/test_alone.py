@@ -1,55 +1,14 @@
 """The live page with the program within it: no server but one of files, below a path, or none at all."""
 
-import functools
-import http.server
 import itertools
 import json
-import os
 import re
-import threading
-from pathlib import Path
 
 import pytest
-from conftest import ROOT
-from live import PLANAR, drag, path, settled
-
-PAGE = Path(os.environ.get("CPLAN_PAGE", ROOT / "target/page/index.html"))
+from conftest import PAGE, ROOT
+from live import drag, path, settled
 
 pytestmark = pytest.mark.skipif(not PAGE.exists(), reason="the page without a server is not built (.ci/page): is the target wasm32-unknown-unknown installed?")
-
-
-class Files(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *_):
-        pass
-
-
-@pytest.fixture(scope="module")
-def host(tmp_path_factory):
-    """The page below a path of a host of files."""
-    root = tmp_path_factory.mktemp("host")
-    folder = root / "some/where"
-    folder.mkdir(parents=True)
-    (folder / "index.html").write_bytes(PAGE.read_bytes())
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Files, directory=root))
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_port}/some/where/"
-    server.shutdown()
-
-
-@pytest.fixture
-def alone(show, host):
-    """Opens the page once a plan is shown."""
-
-    def open_(fragment="", **options):
-        seen = show(host + fragment, **options)
-        settled(seen)
-        return seen
-
-    return open_
-
-
-def crate(seen):
-    return seen.do("cplan.scene.obstacles[1].shape.polygon")
 
 
 def test_it_plans_what_is_dragged_and_asks_for_nothing(show, host):
@@ -76,62 +35,6 @@ def test_a_file_by_itself_plans(show):
     assert settled(seen)["certified"]
 
 
-def test_undo_survives_a_reload(alone):
-    seen = alone()
-    drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
-    settled(seen)
-    moved = crate(seen)
-    seen.page.reload()
-    assert settled(seen)["certified"] and crate(seen) == moved
-    seen.page.get_by_label("undo").click()
-    settled(seen)
-    assert crate(seen)[0] == [0.5, -1.6]
-
-
-def test_a_link_holds_arm_world_and_options(alone):
-    seen = alone("#cell", permissions=["clipboard-read", "clipboard-write"])
-    seen.page.get_by_role("button", name="add a circle").click()
-    settled(seen)
-    seen.page.get_by_label("planner", exact=True).select_option("trapezoid")
-    answer = settled(seen)
-    seen.page.get_by_role("button", name="Copy link").click()
-    seen.until("cplan.remarked?.includes('link')")
-    link = seen.do("navigator.clipboard.readText()")
-    assert re.search(r"/some/where/#w=[\w-]+$", link)
-    again = alone(link[link.index("#"):])
-    assert again.do("cplan.answered.verdict") == answer["verdict"] and path(again) == path(seen)
-    assert again.do("cplan.words") == "trapezoid" and "scara" in again.page.locator("h1, .lines").first.inner_text().lower()
-    assert [again.do("cplan.toml"), again.do("cplan.gallery.now.urdf")] == [seen.do("cplan.toml"), seen.do("cplan.gallery.now.urdf")]
-
-
-def test_a_puzzle_is_judged_by_the_verdict(alone):
-    seen = alone("#close")
-    task = seen.page.locator(".task")
-    assert "Close the gap" in task.inner_text() and "Solved" not in task.inner_text()
-    # Another obstacle is against the rules.
-    seen.page.get_by_role("button", name="add a circle").click()
-    settled(seen)
-    assert "may come or go" in task.inner_text()
-    seen.page.get_by_label("undo").click()
-    settled(seen)
-    # Half way there is still a path.
-    drag(seen, "workspace", [0.01, -0.6], [0.01, -0.55])
-    assert settled(seen)["verdict"] == "found" and "Solved" not in task.inner_text()
-    drag(seen, "workspace", [0.01, -0.6], [0.01, -0.5])
-    assert settled(seen)["verdict"] == "infeasible"
-    assert "Solved" in task.inner_text() and seen.do("cplan.view.world.proof.length") > 0
-    seen.shoot("alone-puzzle")
-
-
-def test_worlds_are_opened_by_name(alone):
-    seen = alone()
-    for name, verdict in [("no_path", "infeasible"), ("maze", "found"), ("ring", "infeasible")]:
-        seen.page.get_by_label("world to open").select_option(name)
-        seen.until(f"cplan.gallery.choice?.name === '{name}' && cplan.isCurrent")
-        assert settled(seen)["verdict"] == verdict, name
-        assert seen.do("location.hash") == f"#{name}"
-
-
 def test_something_newer_ends_what_takes_long(alone):
     seen = alone("#crowd")
     # A field that takes long to relax: the next plan does not wait for it.
@@ -147,7 +50,7 @@ def test_something_newer_ends_what_takes_long(alone):
 
 def test_what_takes_too_long_is_shown_without_a_plan(alone):
     seen = alone("#crowd")
-    seen.do("cplan.gallery.files.seconds = 0.5; cplan.gallery.open()")
+    seen.do("cplan.gallery.seconds = 0.5; cplan.gallery.open()")
     seen.until("cplan.isCurrent")
     seen.do("cplan.choose('harmonic --cells 1024')")
     answer = settled(seen, 30)
@@ -161,7 +64,7 @@ def test_what_takes_too_long_is_shown_without_a_plan(alone):
 WORDS = ["shortest", "visibility --gap 0.001", "trapezoid", "voronoi", "wavefront", "harmonic --cells 64", "prm", "subdivision", "fastest"]
 
 TALK = """async (requests) => {
-  const socket = cplan.gallery?.dial() ?? Link.server();
+  const socket = cplan.gallery.dial();
   socket.binaryType = 'arraybuffer';
   const messages = [];
   let heard = () => {};
@@ -169,6 +72,7 @@ TALK = """async (requests) => {
   await new Promise((open) => { socket.onopen = open; });
   const isOver = (text) => text[0] !== '{' || /^.{0,80}"done":true|^{"kind":"failed"/.test(text);
   const wait = async (until) => { while (!until()) await new Promise((next) => { heard = next; }); };
+  socket.send(JSON.stringify({ do: 'open', id: 1, files: cplan.gallery.files }));
   await wait(() => messages.length === 1);
   const answers = [];
   for (const request of requests) {
@@ -213,7 +117,7 @@ def test_both_engines_give_the_same_answers(serve, alone, robot, world):
         ask = {"id": i, "base": 2, "final": True, "state": None, "options": "shortest"}
         requests.append({"do": "download", "ask": ask, "format": format_})
     here, there = serve(*files, "--time-limit", "600"), alone()
-    there.do("(files) => Object.assign(cplan.gallery.files, files)", {"urdf": files[0].read_text(), "world": text, "seconds": 600})
+    there.do("(files) => Object.assign(cplan.gallery, { files, seconds: 600 })", {"urdf": files[0].read_text(), "world": text, "options": "shortest"})
     for ours, theirs in zip(told(there, requests), told(here, requests), strict=True):
         theirs = theirs.replace(str(files[1]), "world.toml")
         # Each platform's sines and cosines are its own, to the last digit.

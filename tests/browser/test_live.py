@@ -257,3 +257,32 @@ def test_three_hundred_obstacles_are_followed_ten_times_a_second(serve, tmp_path
     mouse.up()
     settled(seen)
     print(f"\n300 obstacles: {rate:.1f} updates a second, ten in {seen.do(shortest):.0f} ms")
+
+
+def test_how_a_plan_was_found_is_told_when_somebody_asks(serve):
+    seen = serve(*PLANAR)
+    assert seen.do("cplan.view.model.replay") is None, "nobody has asked"
+    seen.page.get_by_role("button", name="Think", exact=True).click()
+    assert settled(seen)["certified"]
+    seen.until("cplan.view.mode === 'think'")
+    phases = seen.do("cplan.view.replay")
+    assert len(phases) > 1 and seen.page.locator(".step").inner_text() == f"1 of {len(phases)}: {phases[0]['caption']}"
+    seen.do("cplan.view.seek(0.5 * cplan.view.duration)")
+    seen.shoot("live_think")
+    # Of each plan that follows, too, until somebody looks at the motion again.
+    drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
+    assert settled(seen)["certified"]
+    assert seen.do("cplan.view.mode") == "think" and seen.do("cplan.view.replay") != phases
+    seen.page.get_by_role("button", name="Move", exact=True).click()
+    drag(seen, "workspace", [1.15, -0.75], [0.7, -1.5])
+    assert settled(seen)["certified"]
+    assert seen.do("cplan.view.mode") == "move" and seen.do("cplan.view.model.replay") is None
+
+
+def test_a_proof_is_told_too(serve):
+    seen = serve(ROOT / "robots/planar_2r_continuous.urdf", ROOT / "workspaces/no_path.toml")
+    seen.page.get_by_role("button", name="Think", exact=True).click()
+    settled(seen)
+    seen.until("cplan.view.mode === 'think'")
+    seen.do("cplan.view.seek(cplan.view.duration)")
+    assert "there is no path" in seen.page.locator(".step").inner_text()

@@ -22,36 +22,51 @@ class Alone {
     return Alone.address;
   }
 
-  /** With a promise of the files to begin with: `urdf`, `world`, `options`, `seconds`. */
-  constructor(files) {
-    this.files = files;
+  /** `limit` is asked for the time that a plan may take, seconds. */
+  constructor(limit) {
+    this.limit = limit;
     this.waiting = [];
     this.running = null;
     this.readyState = WebSocket.CONNECTING;
-    this.start();
+    this.compile();
   }
 
-  async start() {
-    let module;
+  async compile() {
     try {
-      module = await Alone.module;
-      this.open ??= { do: 'open', held: null, ...(await this.files) };
+      this.module = await Alone.module;
     } catch (error) {
       this.refuse({ id: 0 }, `This browser cannot run cplan: ${error.message ?? error}`);
       return;
     }
     if (this.readyState === WebSocket.CLOSED) return;
-    this.worker = new Worker(Alone.script);
-    this.worker.onmessage = ({ data }) => this.hear(data);
-    this.running = { do: 'open' };
-    this.worker.postMessage({ module, open: this.open });
-    if (this.readyState === WebSocket.OPEN) return;
     this.readyState = WebSocket.OPEN;
     this.onopen();
   }
 
+  /** A worker with what is open. */
+  start() {
+    this.worker = new Worker(Alone.script);
+    this.worker.onmessage = ({ data }) => this.hear(data);
+    this.running = { do: 'open' };
+    this.worker.postMessage({ module: this.module, open: this.open });
+  }
+
+  /** Ends the worker, and what it is at. */
+  end() {
+    if (!this.worker) return;
+    this.worker.onmessage = null;
+    this.worker.terminate();
+  }
+
   send(text) {
     const request = JSON.parse(text);
+    if (request.do === 'open') {
+      this.end();
+      this.waiting = [];
+      this.open = { ...request, seconds: this.limit(), held: null };
+      this.start();
+      return;
+    }
     if (request.do === 'plan') this.waiting = this.waiting.filter((one) => one.do !== 'plan');
     if (this.waiting.length >= MOST_WAITING) this.refuse(request, 'too many requests wait');
     else this.waiting.push(request);
@@ -79,8 +94,7 @@ class Alone {
   }
 
   restart(running) {
-    this.worker.onmessage = null;
-    this.worker.terminate();
+    this.end();
     if (running.do === 'download') this.refuse(running, 'the file is not made: the page has changed since');
     this.start();
   }
@@ -98,7 +112,7 @@ class Alone {
 
   close() {
     this.readyState = WebSocket.CLOSED;
-    this.worker?.terminate();
+    this.end();
     this.onclose();
   }
 }

@@ -70,7 +70,7 @@ class Controls {
     const { live } = this;
     const button = (text, action, label) => element('button', { type: 'button', class: 'button', title: label, onclick: action }, text);
     this.file = element('input', { type: 'file', accept: '.toml', hidden: true, onchange: () => this.open() });
-    this.format = element('select', { 'aria-label': 'file to save', autocomplete: 'off' }, ...entries(live.gallery ? FILES.filter(([name]) => name !== 'png') : FILES));
+    this.format = element('select', { 'aria-label': 'file to save', autocomplete: 'off' }, ...entries(live.gallery.isAlone ? FILES.filter(([name]) => name !== 'png') : FILES));
     this.remarks = element('span', { class: 'remark', role: 'status' }, live.remarked ?? '');
     return element(
       'div', { class: 'group files' }, button('Open world\u2026', () => this.file.click()), this.file, this.format,

@@ -1,4 +1,4 @@
-// What a page without a server has in place of one: worlds and puzzles to open, and links that hold a world.
+// What can be opened, worlds and puzzles, and links that hold a world.
 'use strict';
 
 /** Text in an address, packed: deflated, in letters that an address may have. */
@@ -53,46 +53,74 @@ const Puzzles = {
 };
 
 class Gallery {
-  /** None for a page that a server serves. */
-  static of(live) {
-    const data = document.getElementById('gallery');
-    return data && new Gallery(live, JSON.parse(data.textContent));
-  }
-
-  constructor(live, { files, robots, choices }) {
-    Object.assign(this, { live, files, robots, choices, now: files });
+  constructor(live) {
+    const { alone, robots, choices } = JSON.parse(document.getElementById('gallery').textContent);
+    /** What the page began with: its own files, where the program is within it; else a server has them. */
+    [this.files, this.seconds] = alone ?? [null, null];
+    Object.assign(this, { live, robots, choices, choice: null });
     const groups = [['worlds', (one) => !one.puzzle], ['puzzles', (one) => one.puzzle]].map(([label, isOf]) => (
       element('optgroup', { label }, ...choices.filter(isOf).map(({ name, title }) => element('option', { value: name }, title)))
     ));
     this.select = element('select', { 'aria-label': 'world to open', autocomplete: 'off', onchange: () => this.go(this.select.value) }, element('option', { value: '' }, 'this page\u2019s'), ...groups);
-    this.copy = element('button', { type: 'button', class: 'button', title: 'copy an address that holds arm, world and options', onclick: () => this.link() }, 'Copy link');
+    this.copy = element('button', { type: 'button', class: 'button', onclick: () => this.link() }, 'Copy link');
     this.task = element('span', { class: 'task', role: 'status' });
     this.root = element('div', { class: 'group gallery' }, element('label', {}, 'open ', this.select), this.copy, this.task);
-    window.addEventListener('hashchange', () => this.open());
+    window.addEventListener('hashchange', () => {
+      if (location.hash === this.linked) return;
+      live.remark('');
+      this.open();
+    });
   }
 
-  /** A line to the program, with the files that the address names. */
+  /** Whether the program is within the page. */
+  get isAlone() {
+    return Boolean(this.files);
+  }
+
+  /** A line to the program. */
   dial() {
-    return new Alone(this.read());
+    return this.isAlone ? new Alone(() => this.seconds) : Link.server();
   }
 
-  /** Files of the address: a choice by its name, or those packed in it; else the page's own. */
+  /** Opens what the address names. */
+  async open() {
+    const { live } = this;
+    live.keepEdits();
+    const { socket } = live.link;
+    const { hash } = location;
+    const files = await this.read();
+    // Whatever came in between opens by itself.
+    if (hash !== location.hash || socket !== live.link.socket || !live.link.isUp) return;
+    live.link.open(files);
+    live.mark();
+  }
+
+  /** Files of the address: a choice by its name, or those packed in it; else what the page began with. */
   async read() {
     const [, name] = /^#(.*)$/.exec(location.hash) ?? [];
-    const choice = this.choices.find((one) => one.name === name);
-    Object.assign(this, { choice: choice ?? null, fault: null, isSolved: false });
-    this.now = this.files;
-    if (choice) this.now = { ...this.files, urdf: this.robots[choice.robot], world: choice.world, options: 'shortest' };
-    else if (name?.startsWith('w=')) {
-      try {
-        this.now = { ...this.files, ...JSON.parse(await Packed.read(name.slice(2))) };
-      } catch {
-        this.live.remark('The address holds no world that can be read: this is the page\u2019s own.');
-      }
+    Object.assign(this, { hasMoved: this.name !== undefined && this.name !== (name ?? ''), name: name ?? '', fault: null, isSolved: false, isOwn: false });
+    this.choice = this.choices.find((one) => one.name === name) ?? null;
+    this.select.value = this.choice?.name ?? '';
+    if (this.choice) return { urdf: this.robots[this.choice.robot], world: this.choice.world, options: 'shortest' };
+    if (!name?.startsWith('w=')) return this.own();
+    try {
+      const { urdf, world, options } = JSON.parse(await Packed.read(name.slice(2)));
+      return { urdf, world, options };
+    } catch {
+      return this.instead();
     }
-    this.select.value = choice?.name ?? '';
-    this.say();
-    return this.now;
+  }
+
+  /** What the page began with. */
+  own() {
+    this.isOwn = true;
+    return this.files;
+  }
+
+  /** The same, where the address names nothing that could be opened. */
+  instead() {
+    this.live.remark('The address holds no world that can be read: this is the page\u2019s own.');
+    return this.own();
   }
 
   /** Another world, by the name of a choice. */
@@ -100,19 +128,9 @@ class Gallery {
     location.hash = name;
   }
 
-  /** What the address names now. */
-  open() {
-    if (location.hash === this.linked) return;
-    this.live.remark('');
-    this.live.keepEdits();
-    this.live.link.socket.close();
-    this.live.link.retry();
-  }
-
   /** The address of what is seen, into the clipboard, or into the address bar where there is none. */
   async link() {
-    const { urdf } = this.now;
-    const { toml, words } = this.live;
+    const { toml, words, first: { urdf } } = this.live;
     const packed = `#w=${await Packed.write(JSON.stringify({ urdf, world: toml, options: words }))}`;
     try {
       await navigator.clipboard.writeText(`${location.href.split('#', 1)[0]}${packed}`);
@@ -126,7 +144,9 @@ class Gallery {
 
   /** Says what is to be done, and whether it is. */
   say() {
-    this.copy.disabled = !this.live.isCurrent;
+    const isWhole = Boolean(this.live.first?.urdf);
+    this.copy.disabled = !isWhole || !this.live.isCurrent;
+    this.copy.title = isWhole ? 'copy an address that holds arm, world and options' : 'arm or world name files beside them, which no address holds';
     const { puzzle } = this.choice ?? {};
     const { scene, answered } = this.live;
     if (!puzzle || !scene) {

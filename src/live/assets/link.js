@@ -10,11 +10,14 @@ class Link {
     return new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live`);
   }
 
-  /** `dial` makes a line; `hear` is called with each message, `file` with the head and content of each file, `state` when the line is up or down. */
+  /**
+   * `dial` makes a line; `hear` is called with each message, `file` with the head and content of each file, `state` when the line is
+   * up or down. Whoever hears that it is up opens something.
+   */
   constructor({ dial, hear, file, state }) {
     Object.assign(this, { dial, hear, file, state });
     this.id = 0;
-    /** The request whose answer is awaited: its number, what it is (plan, load, download), whether it is final, and what it is about. */
+    /** The request whose answer is awaited: its number, what it is (open, plan, load, download), whether it is final, and what it is about. */
     this.awaited = null;
     /** What is to be asked next: a function that makes the request, and whether it is final. */
     this.next = null;
@@ -65,9 +68,9 @@ class Link {
   pump() {
     if (!this.next || !this.isUp) return;
     const { awaited } = this;
-    // A text that is loaded has to be there first. On the way from place to place the server answers as soon as it can: to ask
+    // What is opened or loaded has to be there first. On the way from place to place the server answers as soon as it can: to ask
     // before it has would only stop it. What the user stopped at is asked at once; so is whatever follows something left.
-    if (awaited?.kind === 'load') return;
+    if (awaited?.kind === 'open' || awaited?.kind === 'load') return;
     if (awaited && !this.next.final && !awaited.final) return;
     const { make, final } = this.next;
     this.next = null;
@@ -78,6 +81,14 @@ class Link {
   ask(body, final) {
     this.id += 1;
     return { id: this.id, final, ...body };
+  }
+
+  /** Begins with these files, or with what the program was started with. */
+  open(files) {
+    this.id += 1;
+    this.next = null;
+    this.send('open', { do: 'open', id: this.id, files }, { final: true });
+    this.owed = false;
   }
 
   /** Takes another text for the world. */
@@ -105,9 +116,11 @@ class Link {
     const isLast = message.kind === 'failed' || message.done;
     const { awaited } = this;
     const isAwaited = Boolean(awaited && (message.id === awaited.id || message.id === 0));
+    // Of what was open before nobody wants to hear any more.
+    if (awaited?.kind === 'open' && !isAwaited) return;
     // Once a text is loaded, what follows is its plan.
-    if (isAwaited && message.kind === 'world') Object.assign(awaited, { kind: 'plan' });
-    if (isLast && isAwaited) this.awaited = null;
+    if (isAwaited && message.kind === 'world' && awaited.kind === 'load') Object.assign(awaited, { kind: 'plan' });
+    else if (isAwaited && (isLast || message.kind === 'world')) this.awaited = null;
     // The next plan is made while this one is drawn.
     this.pump();
     this.hear(message, { ...awaited, isAwaited });

@@ -22,10 +22,10 @@ class Live {
     this.notices = new Notices();
     /** For whoever watches the page from outside. */
     this.answered = { id: 0, verdict: null, certified: false, final: false, error: null };
-    /** None where there is a server. */
-    this.gallery = Gallery.of(this);
+    /** What can be opened, and how. */
+    this.gallery = new Gallery(this);
     this.link = new Link({
-      dial: () => this.gallery?.dial() ?? Link.server(),
+      dial: () => this.gallery.dial(),
       hear: (message, about) => this.hear(message, about),
       file: (head, content) => this.hand(head, content),
       state: (isUp) => this.lineIs(isUp),
@@ -44,7 +44,7 @@ class Live {
 
   build(model) {
     this.waiting.remove();
-    this.view = new View(this.root, model);
+    this.view = new View(this.root, model, () => this.plan(true));
     this.view.judged = true;
     this.editor = new Editor(this.view, {
       changed: (final) => this.changed(final),
@@ -58,7 +58,7 @@ class Live {
     this.figures = element('p', { class: 'figures' });
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
     const { places } = this.notices;
-    this.root.querySelector('header').after(...(this.gallery ? [this.gallery.root] : []), this.controls.root, places.options);
+    this.root.querySelector('header').after(this.gallery.root, this.controls.root, places.options);
     this.root.querySelector('.panels').after(this.figures, this.spoken, this.controls.files, places.files);
     this.root.querySelector('.help').before(this.controls.world);
     this.notices.over(this.view.panels.workspace);
@@ -121,7 +121,7 @@ class Live {
     else Keep.forget(this.origin);
   }
 
-  /** The server's first words, on a line that is new. */
+  /** What was opened, on a line that is new or by another address. */
   greeted(world) {
     const origin = `${world.robot}\n${world.toml}`;
     if (origin !== this.origin) {
@@ -131,7 +131,7 @@ class Live {
       this.words = record?.words ?? world.options;
       this.takeUp(world, record);
       if (record) this.remark('Your edits of last time are back.');
-      else if (hadAnother && !this.gallery) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
+      else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
     } else if (this.scene) {
       // What was edited while there was no line is sent now.
       this.continued = true;
@@ -186,7 +186,7 @@ class Live {
   }
 
   takeWorld(world) {
-    if (world.id === null) {
+    if (world.options !== null) {
       this.greeted(world);
       return;
     }
@@ -204,6 +204,10 @@ class Live {
   /** What was asked is not done; the page keeps what it has. */
   fail({ id, error }, about) {
     this.answered = { ...this.answered, id, error };
+    if (about.kind === 'open' && !this.gallery.isOwn) {
+      this.link.open(this.gallery.instead());
+      return;
+    }
     if (about.kind === 'load') {
       if (this.restoring) {
         // What was kept is of no use to this server.
@@ -344,6 +348,7 @@ class Live {
     const lost = 'The connection to cplan is lost. You can go on editing: your changes are kept and sent as soon as it answers again.';
     this.line.firstChild.textContent = this.line.hidden ? '' : lost;
     if (!this.view) this.waiting.textContent = isUp ? 'Connecting\u2026' : 'cplan does not answer; trying again\u2026';
+    if (isUp) this.gallery.open();
     this.mark();
   }
 
@@ -351,7 +356,7 @@ class Live {
 
   /** Whether the picture is the last word on what the page shows now. */
   get isCurrent() {
-    return Boolean(this.isUp && this.shown?.final && this.shown.edition === this.edition && this.link.awaited?.kind !== 'load' && !this.restoring);
+    return Boolean(this.isUp && this.shown?.final && this.shown.edition === this.edition && !['open', 'load'].includes(this.link.awaited?.kind) && !this.restoring);
   }
 
   /** The badge: colour and words. */
@@ -366,7 +371,7 @@ class Live {
   mark() {
     if (!this.view) return;
     clearTimeout(this.late);
-    this.gallery?.say();
+    this.gallery.say();
     this.view.say(...this.badge);
     const { classList } = this.root;
     const { isCurrent } = this;
@@ -394,7 +399,7 @@ class Live {
 
   get body() {
     const state = this.changedSince && !this.world.has_steps ? this.scene.request() : null;
-    return { base: this.world.base, state, options: this.words };
+    return { base: this.world.base, state, options: this.words, think: this.view?.chosen === 'think' };
   }
 
   plan(final) {

@@ -76,6 +76,7 @@ self.onmessage = ({ data: { module, open, request } }) => {
     } catch (error) {
       program.exports = null;
       console.warn(program.panic ?? error);
+      if (!open.held) tell(JSON.stringify({ kind: 'failed', id: open.id, error: FAULT }));
     }
   } else take(request);
   self.postMessage({ isFree: true });

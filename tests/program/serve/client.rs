@@ -13,7 +13,7 @@ pub struct Page {
     id: u64,
     /// The text that states are changes of.
     pub base: u64,
-    /// What the server said first.
+    /// What the server said of it.
     pub world: Value,
 }
 
@@ -33,10 +33,22 @@ impl Page {
             other => panic!("{other}"),
         })?;
         let mut page = Self { socket, id: 0, base: 0, world: Value::Null };
-        page.world = page.next();
-        assert_eq!(page.world["kind"], "world", "{}", page.world);
-        page.base = page.world["base"].as_u64().unwrap();
+        let world = page.begin(&Value::Null);
+        assert_eq!(world["kind"], "world", "{world}");
         Ok(page)
+    }
+
+    /// Begins with files that the page brings along, or with the server's own; what it is told.
+    pub fn begin(&mut self, files: &Value) -> Value {
+        self.id += 1;
+        self.send(&json!({ "do": "open", "id": self.id, "files": files }).to_string());
+        let told = self.next();
+        assert_eq!(told["id"], self.id, "{told}");
+        if told["kind"] == "world" {
+            self.base = told["base"].as_u64().unwrap();
+            self.world = told.clone();
+        }
+        told
     }
 
     pub fn send(&mut self, message: &str) {

@@ -2,6 +2,7 @@
 
 mod client;
 mod endurance;
+mod opening;
 mod pace;
 mod pages;
 mod plans;
