@@ -288,7 +288,9 @@ class Live {
   /** Takes an answer for what is seen. */
   take(message) {
     if (message.start) {
-      this.places = { start: message.start, goals: message.goals };
+      // Where the start is blocked nothing is said of the goals: they are where they were.
+      const goals = message.about === 'start' ? this.places?.goals ?? [] : message.goals;
+      this.places = { start: message.start, goals };
       // Where the tip was dragged to, the arm is now.
       const { scene } = this;
       if (scene?.start?.tip && message.final && message.done && !this.editor?.held) {
