@@ -3,6 +3,7 @@
 import json
 import math
 import random
+import re
 
 import pytest
 from conftest import ROOT
@@ -272,3 +273,16 @@ def test_where_the_tip_can_get_is_seen_as_in_the_picture(program, show_file):
     seen.page.get_by_role("checkbox", name="where the tip can get").uncheck()
     assert pixels(seen, "workspace") != full[0] and pixels(seen, "cspace") != full[1]
     assert "the tip can get there, one way" not in seen.page.locator(".legend li").all_inner_texts()
+
+
+def test_steps_are_numbered_as_they_are_done(program, show_file):
+    page, result = program.plan("scara", "tasks/kitting_cell")
+    seen = show_file(page)
+    labels = seen.do("cplan.model.motions.map(({ label }) => label)")[:-1]
+    assert [int(label.split(".")[0]) for label in labels] == list(range(1, 25))
+    # The file's number is said where it is another one.
+    named = [re.search(r"\((\d+) in the file\)$", label) for label in labels]
+    filed = [int(found[1]) if found else number for number, found in enumerate(named, 1)]
+    assert filed == [step["step"] for step in result["steps"]] and filed != sorted(filed)
+    assert seen.do("cplan.model.paths.map(({ step }) => step)") == list(range(1, 25))
+    assert any("of the file" in text for _, text in seen.do("cplan.model.facts"))

@@ -59,8 +59,9 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
 fn faults(problem: &MotionProblem, set: &BlockingSet) -> Vec<String> {
     let mut faults = Vec::new();
     let elements = set.elements();
-    if decide(&among(problem, &elements), Options::default().boxes).status() != Status::Infeasible {
-        faults.push(format!("{elements:?} leave a way"));
+    let truth = decide(&among(problem, &elements), Options::default().boxes).status();
+    if truth != Status::Infeasible {
+        faults.push(format!("{elements:?} are not known to be enough: {truth}"));
     }
     for element in &elements {
         let others: Vec<Element> = elements.iter().filter(|other| *other != element).copied().collect();
