@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 const SHELF: &str = "workspaces/shelf.toml";
 const GANTRY: &str = include_str!("../../../robots/gantry.urdf");
 const RING: &str = include_str!("../../../workspaces/annulus_closed.toml");
+const OPEN_RING: &str = include_str!("../../../workspaces/annulus_open.toml");
 
 fn ring() -> Value {
     json!({ "urdf": GANTRY, "world": RING, "options": "trapezoid" })
@@ -61,7 +62,5 @@ fn what_it_brings_along_names_no_files() {
 fn it_has_no_more_time_than_the_server_gives() {
     let server = Server::planar(SHELF, &["--time-limit", "0.05"]);
     let mut page = Page::open(&server);
-    page.begin(&ring());
-    let answer = page.plan(None, "harmonic --cells 1024");
-    assert!(answer["verdict"] == "unknown" && answer["reason"].as_str().unwrap().contains("0.05 s"), "{answer}");
+XX && answer["reason"].as_str().unwrap().contains("0.05 s"), "{answer}");
 }
