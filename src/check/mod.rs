@@ -45,7 +45,7 @@ mod vicinity;
 mod wrist;
 
 pub use blends::{CertifiedCurve, blend};
-pub use bound::{Barrier, CheckedBound, LengthClaim, Slice, Wall};
+pub use bound::{Barrier, CheckedBound, ClosedSegment, LengthClaim, Slice, Wall};
 pub use cell::Cell;
 pub use claims::{FalseClaim, claims_kept, step_claims_kept, task_claims_kept};
 pub use collision::{CollisionCheck, Encounter, Moment, check_collision};

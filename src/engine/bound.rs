@@ -1,7 +1,7 @@
 //! How far a path is from the optimum, at the most.
 
 use super::rungs::extent;
-use crate::check::CheckedBound;
+use crate::check::{CheckedBound, LengthClaim};
 use crate::cspace::inner_regions;
 use crate::model::MotionProblem;
 use crate::planner::{Planner as _, Proposal, Query, Visibility};
@@ -80,9 +80,13 @@ fn past_polygons(motions: &Motions, gap: f64) -> Option<f64> {
 #[must_use]
 pub fn checked_bound(problem: &MotionProblem, stated: &Bound) -> CheckedBound {
     let motions = motions(problem, stated.metric);
+    claim(&motions, stated).checked(motions.scene, motions.start, motions.goals, motions.clearance, motions.metric)
+}
+
+/// What closes ways that are shorter than was stated, found anew.
+pub(super) fn claim(motions: &Motions, stated: &Bound) -> LengthClaim {
     let gap = (stated.gap() * FINER).clamp(LEAST_GAP, 1.0);
-    let claim = claimed_length(&motions, stated.upper.max(stated.lower), gap, &[]);
-    claim.checked(motions.scene, motions.start, motions.goals, motions.clearance, motions.metric)
+    claimed_length(motions, stated.upper.max(stated.lower), gap, &[])
 }
 
 /// Share of the stated gap that the evidence may leave open: it is found in another way than the bound was, from fewer slices that

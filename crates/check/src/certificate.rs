@@ -2,28 +2,50 @@
 
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
+use crate::motion::Motion;
 use crate::polygon::Corner;
+use crate::world::World;
 use serde::Deserialize;
 
 /// What certificates of this form begin with.
 pub const FORMAT: &str = "cplan certificate 1";
 
-/// A certificate that there is no motion. Numbers are exact.
+/// A certificate: what was asked, and the evidence for the answer. Numbers are exact.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {
-    #[serde(rename = "format")]
-    _format: String,
-    #[serde(rename = "answer")]
-    _answer: String,
+    format: String,
+    pub answer: Answer,
     /// What was asked, where it was not the world's own.
     pub start: Option<[Decimal; 2]>,
     pub goal: Option<[Decimal; 2]>,
     pub goal_tip: Option<Corner>,
     pub clearance: Option<Decimal>,
+    /// That there is a motion.
+    pub motion: Option<Motion>,
+    /// What evidence names.
+    #[serde(default)]
     pub shapes: Vec<ShapeName>,
+    #[serde(default)]
     pub parts: Vec<PartName>,
-    pub boxes: Vec<StuckBox>,
+    /// That there is no motion.
+    pub boxes: Option<Vec<StuckBox>>,
+    /// That none is shorter.
+    pub bound: Option<Bound>,
+}
+
+impl Certificate {
+    /// The clearance that is asked for.
+    ///
+    /// # Errors
+    /// A negative one.
+    pub fn clearance<'a>(&'a self, world: &'a World) -> Result<&'a Decimal, CheckError> {
+        let clearance = self.clearance.as_ref().unwrap_or(&world.clearance);
+        if *clearance < Decimal::whole(0) {
+            return Err(CheckError::in_file(Input::World, "the clearance is negative"));
+        }
+        Ok(clearance)
+    }
 }
 
 /// What is certified.
@@ -32,37 +54,35 @@ pub struct Certificate {
 pub enum Answer {
     Found,
     Infeasible,
+    NoShorter,
 }
 
-/// What all certificates have.
-#[derive(Deserialize)]
-struct Header {
-    format: String,
-    answer: Answer,
-}
-
-/// Reads a certificate's text.
+/// Reads a certificate.
 ///
 /// # Errors
-/// What is none of this kind.
-pub fn read<'t, T: Deserialize<'t>>(text: &'t str) -> Result<T, CheckError> {
-    serde_json::from_str(text).map_err(|error| {
+/// What is none, or of another form.
+pub fn read(text: &str) -> Result<Certificate, CheckError> {
+    let read: Result<Certificate, _> = serde_json::from_str(text);
+    let certificate = read.map_err(|error| {
         let message = format!("this is no certificate: {error}");
         CheckError::Input { input: Input::Certificate, line: Some(error.line()), message }
-    })
-}
-
-/// Which answer a text certifies.
-///
-/// # Errors
-/// What is no certificate, or of another form.
-pub fn answer(text: &str) -> Result<Answer, CheckError> {
-    let Header { format, answer } = read(text)?;
-    if format != FORMAT {
-        let message = format!("its format is \"{format}\": the checker knows \"{FORMAT}\"");
+    })?;
+    if certificate.format != FORMAT {
+        let message = format!("its format is \"{}\": the checker knows \"{FORMAT}\"", certificate.format);
         return Err(CheckError::in_file(Input::Certificate, message));
     }
-    Ok(answer)
+    let Certificate { answer, motion, boxes, bound, .. } = &certificate;
+    let evidence = [motion.is_some(), boxes.is_some(), bound.is_some()];
+    let fits = match answer {
+        Answer::Found => evidence[..2] == [true, false],
+        Answer::Infeasible => evidence == [false, true, false],
+        Answer::NoShorter => evidence == [false, false, true],
+    };
+    if !fits {
+        let message = "\"found\" has a motion, and may have a bound; \"infeasible\" has boxes; \"no_shorter\" a bound";
+        return Err(CheckError::in_file(Input::Certificate, message));
+    }
+    Ok(certificate)
 }
 
 /// A shape of the URDF: its number among those of its kind that the link has.
@@ -96,4 +116,56 @@ pub struct StuckBox {
     pub shape: usize,
     /// Into the parts.
     pub part: usize,
+}
+
+/// That no motion is shorter than a length.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bound {
+    /// Where to.
+    pub to: [Decimal; 2],
+    pub length: Decimal,
+    #[serde(default)]
+    pub metric: Metric,
+    pub walls: Vec<Wall>,
+    pub potentials: Vec<Potential>,
+}
+
+/// How lengths of displacements are measured.
+#[derive(Deserialize, Default)]
+#[serde(rename_all = "snake_case")]
+pub enum Metric {
+    /// The root of the sum of squares, ...
+    #[default]
+    Euclidean,
+    /// ... each entry times a factor before, ...
+    Weights([Decimal; 2]),
+    /// ... or the greater of the quotients by two speeds.
+    Speeds([Decimal; 2]),
+}
+
+/// A straight segment of configurations in all of which a shape and a part overlap.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    pub from: [Decimal; 2],
+    pub to: [Decimal; 2],
+    /// Into the shapes.
+    pub shape: usize,
+    /// Into the parts.
+    pub part: usize,
+}
+
+/// A length that no way from the start to an end of a wall falls short of.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Potential {
+    /// Into the walls.
+    pub wall: usize,
+    /// 0 where it begins, 1 where it ends.
+    pub end: usize,
+    /// Whole turns of each joint from where the wall is written to where it is meant.
+    #[serde(default)]
+    pub turns: [i64; 2],
+    pub value: Decimal,
 }

@@ -33,6 +33,7 @@
 #![forbid(unsafe_code)]
 
 mod arm;
+mod bound;
 mod certificate;
 mod curve;
 mod decimal;
@@ -54,7 +55,7 @@ use decimal::Decimal;
 use interval::{Interval, Point};
 use overlap::{Shape, overlap_by_more_than};
 use robot::{Arm, Body};
-use sweep::{Domain, Reached, Rectangle};
+use sweep::{Domain, Range, Reached, Rectangle};
 use world::{Goal, World};
 
 /// Checks a certificate: the texts of the three files. What it proves is returned in words.
@@ -63,7 +64,7 @@ use world::{Goal, World};
 /// [`CheckError::Fails`] with the first part that does not hold, [`CheckError::Input`] for files that are wrong or that say
 /// what the checker does not know.
 pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, CheckError> {
-    let answer = certificate::answer(certificate)?;
+    let certificate = certificate::read(certificate)?;
     let world = World::read(world)?;
     let document = roxmltree::Document::parse(urdf).map_err(|error| CheckError::Input {
         input: Input::Urdf,
@@ -71,29 +72,28 @@ pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, Check
         message: error.to_string(),
     })?;
     let arm = Arm::read(&document, &world)?;
-    match answer {
-        Answer::Found => motion::found(&arm, &world, certificate),
-        Answer::Infeasible => infeasible(&arm, &world, &certificate::read(certificate)?),
+    match certificate.answer {
+        Answer::Found => {
+            let found = motion::found(&arm, &world, &certificate)?;
+            match &certificate.bound {
+                Some(_) => Ok(format!("{found}; {}", no_shorter(&arm, &world, &certificate)?)),
+                None => Ok(found),
+            }
+        }
+        Answer::Infeasible => infeasible(&arm, &world, &certificate),
+        Answer::NoShorter => no_shorter(&arm, &world, &certificate),
     }
 }
 
 /// That no motion leads from the start to the goal.
 fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
-    let start = match (&certificate.start, &world.start) {
-        (None, Some(Goal::Tip(_))) => {
-            let message = "the checker does not know starts that are places of the tip: give joint values";
-            return Err(CheckError::in_file(Input::World, message));
-        }
-        (own, given) => place(arm, &domain, "start", own.as_ref(), given.as_ref())?,
-    };
+    let start = start(arm, &domain, world, certificate)?;
     let goal = GoalRegion::of(arm, &domain, world, certificate)?;
-    let clearance = certificate.clearance.as_ref().unwrap_or(&world.clearance);
-    if *clearance < Decimal::whole(0) {
-        return Err(CheckError::in_file(Input::World, "the clearance is negative"));
-    }
+    let clearance = certificate.clearance(world)?;
+    let stuck = certificate.boxes.as_deref().unwrap_or_default();
     let boxes: Vec<Rectangle> =
-        certificate.boxes.iter().map(|b| [0, 1].map(|k| [b.lower[k].clone(), b.upper[k].clone()])).collect();
+        stuck.iter().map(|b| [0, 1].map(|k| [b.lower[k].clone(), b.upper[k].clone()])).collect();
     if let Some(empty) = boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
         return CheckError::fails(format!("box {empty}: an upper end is below the lower one"));
     }
@@ -103,36 +103,15 @@ fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     if goal.may_meet(arm, &domain, &reached) {
         return CheckError::fails("the boxes do not separate the goal from the start");
     }
-    let bodies = certificate.shapes.iter().map(|name| match (name.collision, name.visual, name.bar) {
-        (Some(number), None, None) => arm.body(&name.link, "collision", number),
-        (None, Some(number), None) => arm.body(&name.link, "visual", number),
-        (None, None, Some(0)) => arm.bar(&name.link),
-        _ => Err(CheckError::in_file(Input::Certificate, "a shape has one number, of a bar 0")),
-    });
-    let bodies = bodies.collect::<Result<Vec<Body>, _>>()?;
-    let parts = certificate.parts.iter().enumerate().map(|(number, name)| {
-        let obstacle = world.obstacles.get(name.obstacle);
-        let mut part = obstacle.map_or_else(|| Err("there is no such obstacle".into()), |o| o.part(&name.corners));
-        if let Ok(part) = &mut part {
-            part.radius = &part.radius + &Interval::from(clearance);
-        }
-        part.map_err(|why| CheckError::Fails(format!("part {number}, of obstacle {}: {why}", name.obstacle)))
-    });
-    let parts = parts.collect::<Result<Vec<Shape>, _>>()?;
-    for (number, (stuck, ranges)) in certificate.boxes.iter().zip(&boxes).enumerate() {
-        let (Some(body), Some(part)) = (bodies.get(stuck.shape), parts.get(stuck.part)) else {
-            return CheckError::fails(format!("box {number} names a shape or a part that is not there"));
-        };
-        if !body.is_at(world.obstacles[certificate.parts[stuck.part].obstacle].heights.as_ref()) {
-            return CheckError::fails(format!("box {number}: the shape passes over or under the obstacle"));
-        }
+    let contacts = Contacts::new(arm, world, certificate, clearance)?;
+    for (number, (stuck, ranges)) in stuck.iter().zip(&boxes).enumerate() {
+        let (body, part) = contacts.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
         let cell = Cell::from(ranges);
         if !overlap_by_more_than(&arm.placed(body, &cell), part, &arm.farthest(body, &cell)) {
             return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
         }
     }
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
-    let shown = |own: Option<&[Decimal; 2]>| own.map_or_else(String::new, |[a, b]| format!(" ({a}, {b})"));
     let tip = match &goal {
         GoalRegion::Configuration(_) => String::new(),
         GoalRegion::Tip { link, .. } => format!(", a place of the tip \"{link}\","),
@@ -173,6 +152,79 @@ impl<'a> GoalRegion<'a> {
             Self::Configuration(goal) => reached.meets(goal),
             Self::Tip { tip, place, .. } => arm.may_reach(tip, place, domain, |part| reached.meets(part)),
         }
+    }
+}
+
+/// That no motion from the start to a configuration is shorter than a length.
+fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
+    let Some(bound) = &certificate.bound else {
+        return Err(CheckError::in_file(Input::Certificate, "it has no bound"));
+    };
+    let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
+    let start = start(arm, &domain, world, certificate)?;
+    let goal = place(arm, &domain, "bound", Some(&bound.to), None)?;
+    bound::holds(arm, bound, &start, &[goal])?;
+    let contacts = Contacts::new(arm, world, certificate, certificate.clearance(world)?)?;
+    for (number, wall) in bound.walls.iter().enumerate() {
+        let (body, part) = contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?;
+        if !bound::closes(arm, wall, body, part) {
+            return CheckError::fails(format!("wall {number}: along it the shape can come off the part"));
+        }
+    }
+    let [from, to] = [certificate.start.as_ref(), Some(&bound.to)].map(shown);
+    Ok(format!("no motion from the start{from} to{to} is shorter than {}", bound.length))
+}
+
+/// The shapes and the parts of obstacles that a certificate names, parts grown by the clearance.
+struct Contacts<'a> {
+    bodies: Vec<Body>,
+    parts: Vec<(Shape, Option<&'a Range>)>,
+}
+
+impl<'a> Contacts<'a> {
+    fn new(arm: &Arm, world: &'a World, certificate: &Certificate, clearance: &Decimal) -> Result<Self, CheckError> {
+        let bodies = certificate.shapes.iter().map(|name| match (name.collision, name.visual, name.bar) {
+            (Some(number), None, None) => arm.body(&name.link, "collision", number),
+            (None, Some(number), None) => arm.body(&name.link, "visual", number),
+            (None, None, Some(0)) => arm.bar(&name.link),
+            _ => Err(CheckError::in_file(Input::Certificate, "a shape has one number, of a bar 0")),
+        });
+        let parts = certificate.parts.iter().enumerate().map(|(number, name)| {
+            let part = world.obstacles.get(name.obstacle).ok_or_else(|| "there is no such obstacle".to_owned());
+            let part = part.and_then(|obstacle| {
+                let Shape { points, radius } = obstacle.part(&name.corners)?;
+                Ok((Shape { points, radius: &radius + &Interval::from(clearance) }, obstacle.heights.as_ref()))
+            });
+            part.map_err(|why| CheckError::Fails(format!("part {number}, of obstacle {}: {why}", name.obstacle)))
+        });
+        Ok(Self { bodies: bodies.collect::<Result<_, _>>()?, parts: parts.collect::<Result<_, _>>()? })
+    }
+
+    /// A shape and a part that can meet.
+    fn pair(&self, shape: usize, part: usize, who: impl Fn() -> String) -> Result<(&Body, &Shape), CheckError> {
+        let (Some(body), Some((part, heights))) = (self.bodies.get(shape), self.parts.get(part)) else {
+            return CheckError::fails(format!("{} names a shape or a part that is not there", who()));
+        };
+        if !body.is_at(*heights) {
+            return CheckError::fails(format!("{}: the shape passes over or under the obstacle", who()));
+        }
+        Ok((body, part))
+    }
+}
+
+/// What was asked in place of the world's, in words.
+fn shown(own: Option<&[Decimal; 2]>) -> String {
+    own.map_or_else(String::new, |[a, b]| format!(" ({a}, {b})"))
+}
+
+/// The start.
+fn start(arm: &Arm, domain: &Domain, world: &World, certificate: &Certificate) -> Result<Rectangle, CheckError> {
+    match (&certificate.start, &world.start) {
+        (None, Some(Goal::Tip(_))) => {
+            let message = "the checker does not know starts that are places of the tip: give joint values";
+            Err(CheckError::in_file(Input::World, message))
+        }
+        (own, given) => place(arm, domain, "start", own.as_ref(), given.as_ref()),
     }
 }
 

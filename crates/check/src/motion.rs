@@ -1,5 +1,6 @@
 //! Certificates of motions: "found".
 
+use crate::certificate::Certificate;
 use crate::curve::{FINE, LARGEST, Piece, Values};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
@@ -17,25 +18,10 @@ const MISSED: i32 = 5;
 /// How often a piece is halved to see whether it keeps the limits.
 const HALVINGS: u32 = 40;
 
-/// A certificate of a motion. Numbers are exact.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Certificate {
-    #[serde(rename = "format")]
-    _format: String,
-    #[serde(rename = "answer")]
-    _answer: String,
-    start: Option<[Decimal; 2]>,
-    goal: Option<[Decimal; 2]>,
-    goal_tip: Option<[Decimal; 2]>,
-    clearance: Option<Decimal>,
-    motion: Motion,
-}
-
 /// What is played.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Motion {
+pub struct Motion {
     /// The ways in which it can be read: it is free in each.
     interpolation: Vec<Interpolation>,
     /// Time, both joints' values, and as far as an interpolation needs them their velocities and accelerations.
@@ -102,15 +88,13 @@ impl Interpolation {
 }
 
 /// That a motion leads from the start to the goal within the limits, and keeps farther than the clearance from all obstacles.
-pub fn found(arm: &Arm, world: &World, text: &str) -> Result<String, CheckError> {
-    let certificate: Certificate = crate::certificate::read(text)?;
-    let clearance = certificate.clearance.as_ref().unwrap_or(&world.clearance);
-    if *clearance < Decimal::whole(0) {
-        return Err(CheckError::in_file(Input::World, "the clearance is negative"));
-    }
-    let Motion { interpolation, knots } = &certificate.motion;
+pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
+    let clearance = certificate.clearance(world)?;
+    let Some(Motion { interpolation, knots }) = &certificate.motion else {
+        return Err(CheckError::in_file(Input::Certificate, "it has no motion"));
+    };
     well_formed(interpolation, knots)?;
-    let (own_start, own_goal) = (certificate.start.as_ref(), Own::of(&certificate)?);
+    let (own_start, own_goal) = (certificate.start.as_ref(), Own::of(certificate)?);
     let start = arm.reached("start", &knots[0], own_start.map(Own::Joints), world)?;
     let goal = arm.reached("goal", &knots[knots.len() - 1], own_goal, world)?;
     let limits = arm.limits(world)?;

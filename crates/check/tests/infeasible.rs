@@ -284,7 +284,7 @@ fn visual_shapes_count_where_there_are_no_others() {
     let on_disc = |robot: &str, obstacle: &str| bars(&bare, robot, fore, obstacle, r#"{"obstacle": 0}"#);
     assert_eq!((on_disc("bar = 0.1", disc), on_disc("bar = 0.1", &disc.replace("[1, 0]", "[5, 0]"))), (3, 3));
     let large = disc.replace("1.2", "4");
-    assert_eq!(on_disc("bar = 0.1\ntip = \"fore\"", &disc), 0);
+    assert_eq!(on_disc("bar = 0.1\ntip = \"fore\"", disc), 0);
     let low = format!("{large}height = [-1, -0.2]");
     assert_eq!((on_disc("bar = 0.1", &large), on_disc("bar = 0.1", &low), on_disc("bar = 0.3", &low)), (0, 3, 0));
     for wrong in [r#"{"link": "upper"}"#, r#"{"link": "upper", "visual": 0, "collision": 0}"#] {
@@ -352,12 +352,15 @@ fn bad_input_is_named() {
         assert!(good.contains(from), "{from}");
         bad(&arm, &place, &good.replace(from, to), Input::Certificate, Some(1), part);
     };
-    certificates("infeasible", "found", "shapes");
     certificates("infeasible", "unknown", "unknown");
     certificates("\"boxes\"", "\"box\"", "box");
     certificates("-0.01", "\"-0.01\"", "decimal");
     certificates("-0.01", "1e9999", "digits");
-    bad(&arm, &place, &good.replace("certificate 1", "certificate 2"), Input::Certificate, None, "certificate 2");
+    for (from, to, part) in
+        [("certificate 1", "certificate 2", "certificate 2"), ("infeasible", "found", "has a motion")]
+    {
+        bad(&arm, &place, &good.replace(from, to), Input::Certificate, None, part);
+    }
 }
 
 /// A wall of boxes that all are as wide as they may be. Whatever is done to one of them opens a way or makes a box too large: what

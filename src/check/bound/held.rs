@@ -9,18 +9,18 @@ use crate::space::Configuration;
 const ROUNDING: f64 = 1e-12;
 
 /// Looks in each of the two directions from the middle at most: where shapes hardly overlap all along each covers little.
-const MOST_LOOKS: usize = 100_000;
+pub(super) const MOST_LOOKS: usize = 100_000;
 
 /// A look that covers less than this share of the segment is the last: towards its end shapes come apart.
 const LEAST: f64 = 1e-12;
 
 /// The part of the motion between two configurations, about its middle, along which a pair is proven nearer than `clearance`,
-/// or to overlap: from a share of the way to another. Both are one half if there is none.
+/// or to overlap: from a share of the way to another, with so many looks in either direction. Both are one half if there is none.
 ///
 /// Shapes that overlap by a depth do so until a point has moved as far: so each look covers some of the motion, and the next
 /// one looks at the end of that. Where the part slides without turning, its places relative to the piece are a straight
 /// segment, and those that overlap are a convex set, the Minkowski difference: what overlaps at both ends does so between.
-pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearance: f64) -> [f64; 2] {
+pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearance: f64, looks: usize) -> [f64; 2] {
     if scene.pairs().binary_search(&pair).is_err() {
         return [0.5; 2];
     }
@@ -37,7 +37,7 @@ pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearanc
     }
     let along = |direction: f64| {
         let mut covered = 0.0;
-        for _ in 0..MOST_LOOKS {
+        for _ in 0..looks {
             let (room, posture) = looked(ends[0] + (ends[1] - ends[0]) * (0.5 + direction * covered));
             if room <= 0.0 {
                 break;

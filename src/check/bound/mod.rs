@@ -16,7 +16,7 @@ use crate::interrupt::checkpoint;
 use crate::model::{Pair, Scene};
 use crate::space::{Configuration, GoalSet, JointRange, Measure, Metric, Segment};
 use cover::{Cover, HeldSlice};
-use held::held;
+use held::{MOST_LOOKS, held};
 
 /// Values of joint 2 at a slice that a pair closes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +47,15 @@ pub struct Slice {
     pub walls: Vec<Wall>,
     /// What is closed across the strip after it.
     pub barriers: Vec<Barrier>,
+}
+
+/// A straight segment of configurations along all of which a pair is seen too near.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClosedSegment {
+    /// Its ends; on a circle beyond its domain, if it leads across the seam.
+    pub ends: [Configuration; 2],
+    /// Which shapes are too near.
+    pub pair: Pair,
 }
 
 /// The claim that no motion is shorter, with what closes shorter ways.
@@ -92,7 +101,52 @@ impl CheckedBound {
 /// legs, and places a hair apart.
 const ROUNDING: [f64; 2] = [1e-9, 1e-12];
 
+/// Looks along a wall in either direction, where a checker is to look as well that takes longer.
+const FEW_LOOKS: usize = 60;
+
+/// How much farther inside barriers may be than they were found, either way, radians or metres.
+const INSIDE: [f64; 9] = [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4];
+
+/// By how much barriers and walls go past a seam, radians, so that they overlap what goes on beyond it, however that is rounded.
+const SEAM: f64 = 1e-7;
+
 impl LengthClaim {
+    /// The walls as far as they are seen closed, and the barriers that are, with few looks: these a little farther inside what is
+    /// closed, where they hardly are. What ends at a seam goes a little past it.
+    #[must_use]
+    pub fn closed(&self, scene: &Scene, clearance: f64) -> Vec<ClosedSegment> {
+        let mut closed = Vec::new();
+        let seen = |ends: [Configuration; 2], pair: Pair| {
+            checkpoint();
+            held(scene, pair, ends, clearance, FEW_LOOKS)
+        };
+        let circle = scene.arm().topology().ranges[0].is_circle();
+        for (number, slice) in self.slices.iter().enumerate() {
+            for wall in &slice.walls {
+                let ends = past_seam(scene, wall).map(|q2| Configuration::new(slice.q1, q2));
+                let [from, to] = seen(ends, wall.pair);
+                let at = |share: f64| if share == 1.0 { ends[1] } else { ends[0] + (ends[1] - ends[0]) * share };
+                if from < to {
+                    closed.push(ClosedSegment { ends: [at(from), at(to)], pair: wall.pair });
+                }
+            }
+            let next = match self.slices.get(number + 1) {
+                Some(next) => next.q1,
+                None if circle => (self.slices[0].q1 + std::f64::consts::TAU) + SEAM,
+                None => continue,
+            };
+            for barrier in &slice.barriers {
+                let at = |inside: f64| {
+                    let [from, to] = barrier.ends;
+                    [Configuration::new(slice.q1, from + inside), Configuration::new(next, to + inside)]
+                };
+                let ends = INSIDE.into_iter().map(at).find(|ends| seen(*ends, barrier.pair) == [0.0, 1.0]);
+                closed.extend(ends.map(|ends| ClosedSegment { ends, pair: barrier.pair }));
+            }
+        }
+        closed
+    }
+
     /// Checks the claim, wherever it comes from: what of it is true, which may be a lower bound that is lower. Some hundred
     /// looks at a pair of shapes for each wall, and ways from each end of a wall that shorter ways come by: tenths of a second
     /// for a claim that took milliseconds to find.
@@ -127,7 +181,7 @@ impl LengthClaim {
                 checkpoint();
                 let ends = [slice.q1, self.slices[next].q1 + beyond];
                 let [from, to] = [0, 1].map(|k| Configuration::new(ends[k], barrier.ends[k]));
-                if held(scene, barrier.pair, [from, to], clearance) == [0.0, 1.0] {
+                if held(scene, barrier.pair, [from, to], clearance, MOST_LOOKS) == [0.0, 1.0] {
                     slices[number].barriers.push(barrier.ends);
                 } else {
                     refused += 1;
@@ -153,6 +207,14 @@ impl LengthClaim {
     }
 }
 
+/// The ends of a wall, a little farther where it ends at a seam.
+fn past_seam(scene: &Scene, wall: &Wall) -> [f64; 2] {
+    let range = scene.arm().topology().ranges[1];
+    let (lower, upper) = range.domain();
+    let by = |is_there: bool| if range.is_circle() && is_there { SEAM } else { 0.0 };
+    [wall.lower - by(wall.lower <= lower), wall.upper + by(wall.upper >= upper)]
+}
+
 /// Whether slices reach from end to end of a domain that has ends: or else ways could lead round them.
 fn spans(range: JointRange, slices: &[HeldSlice]) -> bool {
     let ends = [slices.first(), slices.last()].map(|slice| slice.map(|slice| slice.q1));
@@ -165,7 +227,7 @@ fn held_slice(scene: &Scene, slice: &Slice, clearance: f64, refused: &mut usize)
     for wall in &slice.walls {
         checkpoint();
         let ends = [wall.lower, wall.upper].map(|q2| Configuration::new(slice.q1, q2));
-        let [from, to] = held(scene, wall.pair, ends, clearance);
+        let [from, to] = held(scene, wall.pair, ends, clearance, MOST_LOOKS);
         let at = |share: f64| if share == 1.0 { wall.upper } else { wall.lower + (wall.upper - wall.lower) * share };
         // A wall of no width, or the wrong way round, closes nothing.
         if from < to && wall.lower < wall.upper { walls.push([at(from), at(to)]) } else { *refused += 1 }

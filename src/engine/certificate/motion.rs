@@ -1,25 +1,22 @@
 //! Evidence for a motion: what its consumers play, which is all that it takes to check it.
 
-use super::{lines, said};
+use super::{Said, lines, written};
 use crate::input::{Overrides, TipPoint};
 use crate::model::{Goal, MotionProblem};
 use crate::motion::Trajectory;
 use crate::space::{Configuration, Interpolation, Recording};
 use serde_json::{Value, json};
 
-/// Members of a certificate, by name.
-type Said = Vec<(&'static str, Value)>;
-
-/// The certificate of a planned motion: as readers of tables and of ROS 2's messages join its samples, and as its JSON says.
-pub(super) fn certificate(problem: &MotionProblem, trajectory: &Trajectory, asked: &Overrides) -> String {
+/// The evidence of a planned motion: as readers of tables and of ROS 2's messages join its samples, and as its JSON says.
+pub(super) fn evidence(problem: &MotionProblem, trajectory: &Trajectory) -> (&'static str, String) {
     let arm = problem.scene().arm();
     // With a limit on the jerk the samples' JSON says the same cubics.
     let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
     let Trajectory { time, position, velocity, acceleration } = trajectory;
     if is_smooth {
-        written(said(problem, asked), &["cubic"], time, &[position, velocity])
+        played(&["cubic"], time, &[position, velocity])
     } else {
-        written(said(problem, asked), &["cubic", "quartic"], time, &[position, velocity, acceleration])
+        played(&["cubic", "quartic"], time, &[position, velocity, acceleration])
     }
 }
 
@@ -50,18 +47,13 @@ pub fn recorded(recording: &Recording, asked: &Overrides, ends: [Option<Goal>; 2
         Interpolation::Quintic => ("quintic", 3),
     };
     let all = [&rows(q), &velocities, &accelerations];
-    written(said, &[reading], recording.times().unwrap_or(&counted), &all[..columns])
+    written("found", said, [played(&[reading], recording.times().unwrap_or(&counted), &all[..columns])])
 }
 
 /// Knots of a time and the rows of some columns.
-fn written(said: Said, readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> String {
+fn played(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
     let knot =
         |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());
     let knots: Vec<Value> = (0..times.len()).map(knot).collect();
-    let mut text = "{\n  \"format\": \"cplan certificate 1\",\n  \"answer\": \"found\",\n".to_owned();
-    for (name, value) in said {
-        text += &format!("  \"{name}\": {value},\n");
-    }
-    text += &format!("  \"motion\": {{ \"interpolation\": {}, \"knots\": {} }}\n", json!(readings), lines(&knots));
-    text + "}\n"
+    ("motion", format!("{{ \"interpolation\": {}, \"knots\": {} }}", json!(readings), lines(&knots)))
 }

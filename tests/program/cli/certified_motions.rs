@@ -35,10 +35,10 @@ fn altered(certificate: &str, alter: impl FnOnce(&mut Vec<Value>)) -> String {
 fn every_shipped_world_with_a_way_has_a_certificate_that_holds() {
     let open = open();
     assert!(open.len() >= 20, "{open:?}");
-    let mut unknown = 0;
+    let (mut unknown, mut bounds) = (0, 0);
     for (world, robot) in open {
         let place = Place::new();
-        let done = place.run(&[&robot, &world], "--quiet --certificate c.json");
+        let done = place.run(&[&robot, &world], "--quiet --certificate c.json --output plan.json");
         assert_eq!(done.code, 0, "{world}: {}", done.stderr);
         let certificate = place.read("c.json");
         assert!(certificate.len() < 1 << 20, "{world}: {} bytes", certificate.len());
@@ -52,7 +52,20 @@ fn every_shipped_world_with_a_way_has_a_certificate_that_holds() {
             unknown += 1;
             continue;
         }
-        verdict.unwrap_or_else(|why| panic!("{world}: {why}"));
+        let said = verdict.unwrap_or_else(|why| panic!("{world}: {why}"));
+        // The bound that was told, up to what walls lose that a checker is to look along.
+        let plan: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+        let [told, length] = ["lower_bound", "length"].map(|of| plan["optimum"][of].as_f64().unwrap());
+        match said.split_once("is shorter than ") {
+            Some((_, proven)) => {
+                let proven: f64 = proven.parse().unwrap();
+                assert!((0.99 * told..=length).contains(&proven), "{world}: {proven}, {told} told of {length}");
+                eprintln!("  bound {proven:.6}: {:.1e} below {told:.6}", 1.0 - proven / told);
+                bounds += 1;
+            }
+            // Several configurations put the tip where it is to be.
+            None => assert!(said.contains("a place of the tip"), "{world}: {said}"),
+        }
         let fails = |world: &str, certificate: &str| matches!(judged(world, certificate), Err(CheckError::Fails(_)));
         // Without its end it leads nowhere; farther from everything than anything is it is not.
         assert!(fails(&read(&world), &altered(&certificate, |knots| knots.truncate(knots.len() / 2))), "{world}");
@@ -64,6 +77,7 @@ fn every_shipped_world_with_a_way_has_a_certificate_that_holds() {
         }
     }
     assert_eq!(unknown, 2);
+    assert!(bounds >= 15, "{bounds}");
 }
 
 #[test]

@@ -1,15 +1,19 @@
 //! Evidence for an answer that a checker of its own can hold against the two files: `docs/certificates.md`.
 
+mod bound;
 mod motion;
 
 pub use motion::recorded as certificate_of_recording;
 
 use super::Plan;
-use crate::check::{Cell, StuckBox};
+use super::bound::{claim, motions};
+use super::motion_plan::MotionPlan;
+use crate::check::{Cell, ClosedSegment, StuckBox};
 use crate::geometry::Point;
 use crate::input::{Overrides, TipPoint};
 use crate::model::{MotionProblem, OutlineSource, Pair, Scene, Shape, Status, inverse};
-use crate::space::Segment;
+use crate::space::{Metric, Segment};
+use bound::{LeastLength, Ways};
 use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -42,26 +46,81 @@ impl Plan {
     /// [`NoCertificate`].
     pub fn certificate(&self, asked: &Overrides) -> Result<String, NoCertificate> {
         let plan = self.motion().ok_or(NoCertificate::Task)?;
-        if let Some(trajectory) = self.trajectory() {
-            return Ok(motion::certificate(&plan.problem, trajectory, asked));
-        }
-        let proof = plan.answer.verdict.proof().ok_or(NoCertificate::Answer(self.status()))?;
         let problem = &plan.problem;
-        let scene = problem.scene();
-        let (shapes, parts, boxes) = tables(scene, &[proof.stuck(), &ruled_out(problem)].concat());
-        let mut text = "{\n  \"format\": \"cplan certificate 1\",\n  \"answer\": \"infeasible\",\n".to_owned();
-        for (name, value) in said(problem, asked) {
-            text += &format!("  \"{name}\": {value},\n");
-        }
-        text += &format!(
-            "  \"shapes\": {},\n  \"parts\": {},\n  \"boxes\": {}\n",
-            lines(&shapes),
-            lines(&parts),
-            lines(&boxes)
-        );
-        Ok(text + "}\n")
+        let mut contacts = Contacts::new(problem.scene());
+        let (answer, evidence) = match (self.trajectory(), plan.answer.verdict.proof()) {
+            (Some(trajectory), _) => {
+                let mut evidence = vec![motion::evidence(problem, trajectory)];
+                evidence.extend(least_length(plan, &mut contacts));
+                ("found", evidence)
+            }
+            (None, Some(proof)) => {
+                let stuck = [proof.stuck(), &ruled_out(problem)].concat();
+                let boxes: Vec<Stuck> = stuck.iter().map(|stuck| contacts.stuck(stuck)).collect();
+                ("infeasible", vec![("boxes", lines(&boxes))])
+            }
+            (None, None) => return Err(NoCertificate::Answer(self.status())),
+        };
+        let named = if contacts.shapes.is_empty() {
+            Vec::new()
+        } else {
+            vec![("shapes", lines(&contacts.shapes)), ("parts", lines(&contacts.parts))]
+        };
+        Ok(written(answer, said(problem, asked), named.into_iter().chain(evidence)))
     }
 }
+
+/// That no motion is shorter than the bound, up to a hair; none where nothing is known of that, or there are several goals.
+fn least_length(plan: &MotionPlan, contacts: &mut Contacts) -> Option<(&'static str, String)> {
+    let (problem, stated) = (&plan.problem, plan.answer.bound.as_ref()?);
+    let motions = motions(problem, stated.metric);
+    let topology = problem.scene().arm().topology();
+    let [goal] = problem.goals().pieces() else { return None };
+    let goal = goal.is_point().then(|| goal.ends()[0])?;
+    let ways = Ways {
+        topology: &topology,
+        metric: stated.metric,
+        start: topology.wrap(motions.start),
+        goals: &[goal],
+        limit: stated.upper,
+    };
+    let closed = claim(&motions, stated).closed(motions.scene, motions.clearance);
+    let least = LeastLength::new(&ways, closed)?;
+    let wall = |wall: &ClosedSegment| {
+        let (shape, part) = contacts.numbers(wall.pair);
+        let [from, to] = wall.ends.map(<[f64; 2]>::from);
+        json!({ "from": from, "to": to, "shape": shape, "part": part })
+    };
+    let walls: Vec<_> = least.walls.iter().map(wall).collect();
+    let potential = |p: &bound::Potential| match p.turns {
+        [0, 0] => json!({ "wall": p.wall, "end": p.end, "value": p.value }),
+        turns => json!({ "wall": p.wall, "end": p.end, "turns": turns, "value": p.value }),
+    };
+    let potentials: Vec<_> = least.potentials.iter().map(potential).collect();
+    let metric = match stated.metric {
+        Metric::Euclidean => json!("euclidean"),
+        Metric::Weighted { weights } => json!({ "weights": weights }),
+        Metric::Time { speeds } => json!({ "speeds": speeds }),
+    };
+    let (to, length) = (json!(goal), least.length);
+    let (walls, potentials) = (lines(&walls), lines(&potentials));
+    let members =
+        format!(r#""to": {to}, "length": {length}, "metric": {metric}, "walls": {walls}, "potentials": {potentials}"#);
+    Some(("bound", format!("{{ {members} }}")))
+}
+
+/// The text of a certificate, a member a line.
+fn written(answer: &str, said: Said, evidence: impl IntoIterator<Item = (&'static str, String)>) -> String {
+    let mut text = format!("{{\n  \"format\": \"cplan certificate 1\",\n  \"answer\": \"{answer}\"");
+    let said = said.into_iter().map(|(name, value)| (name, value.to_string()));
+    for (name, value) in said.chain(evidence) {
+        text += &format!(",\n  \"{name}\": {value}");
+    }
+    text + "\n}\n"
+}
+
+/// Members of a certificate, by name.
+type Said = Vec<(&'static str, serde_json::Value)>;
 
 /// A list in JSON, a line an entry.
 fn lines(entries: &[impl Serialize]) -> String {
@@ -70,7 +129,7 @@ fn lines(entries: &[impl Serialize]) -> String {
 }
 
 /// What was said in place of the world file.
-fn said(problem: &MotionProblem, asked: &Overrides) -> Vec<(&'static str, serde_json::Value)> {
+fn said(problem: &MotionProblem, asked: &Overrides) -> Said {
     let start = asked.start.map(|_| ("start", json!(problem.start())));
     let goal = asked.goal.map(|_| ("goal", json!(problem.goals().pieces()[0].ends()[0])));
     let tip = asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y])));
@@ -123,26 +182,40 @@ fn stuck_about(scene: &Scene, piece: &Segment) -> Option<StuckBox> {
     })
 }
 
-type Tables = (Vec<serde_json::Value>, Vec<serde_json::Value>, Vec<Stuck>);
+/// The shapes and the parts of obstacles that evidence names, each once.
+struct Contacts<'a> {
+    scene: &'a Scene,
+    shapes: Vec<serde_json::Value>,
+    parts: Vec<serde_json::Value>,
+    shape_numbers: BTreeMap<(usize, usize), usize>,
+    part_numbers: BTreeMap<(usize, usize), usize>,
+}
 
-/// The shapes and the parts of obstacles that the boxes name, each once, and the boxes.
-fn tables(scene: &Scene, stuck: &[StuckBox]) -> Tables {
-    let (mut shapes, mut parts, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut shape_numbers, mut part_numbers) = (BTreeMap::new(), BTreeMap::new());
-    for stuck in stuck {
-        let Pair { link, part, obstacle, piece } = stuck.pair;
-        let shape = *shape_numbers.entry((link, part)).or_insert_with(|| {
-            shapes.push(shape(scene, link, part));
-            shapes.len() - 1
-        });
-        let part = *part_numbers.entry((obstacle, piece)).or_insert_with(|| {
-            parts.push(part_of(scene, stuck.pair));
-            parts.len() - 1
-        });
-        let [lower, upper] = reaching_out(scene, stuck);
-        boxes.push(Stuck { lower, upper, shape, part });
+impl<'a> Contacts<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        Self { scene, shapes: vec![], parts: vec![], shape_numbers: BTreeMap::new(), part_numbers: BTreeMap::new() }
     }
-    (shapes, parts, boxes)
+
+    /// The numbers of a pair's shape and part.
+    fn numbers(&mut self, pair: Pair) -> (usize, usize) {
+        let Pair { link, part, obstacle, piece } = pair;
+        let shape = *self.shape_numbers.entry((link, part)).or_insert_with(|| {
+            self.shapes.push(shape(self.scene, link, part));
+            self.shapes.len() - 1
+        });
+        let part = *self.part_numbers.entry((obstacle, piece)).or_insert_with(|| {
+            self.parts.push(part_of(self.scene, pair));
+            self.parts.len() - 1
+        });
+        (shape, part)
+    }
+
+    /// A box as it is written.
+    fn stuck(&mut self, stuck: &StuckBox) -> Stuck {
+        let (shape, part) = self.numbers(stuck.pair);
+        let [lower, upper] = reaching_out(self.scene, stuck);
+        Stuck { lower, upper, shape, part }
+    }
 }
 
 /// A part of a link by its URDF link and its number among the shapes there. A bar is the last of a link's parts.

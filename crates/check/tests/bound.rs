@@ -1,0 +1,191 @@
+//! Lower bounds written by hand, and falsified ones.
+
+#[path = "../../../tests/common/random.rs"]
+mod random;
+
+use cplan_check::{CheckError, check};
+use std::fmt::Write as _;
+
+/// A square of 1 m that slides over 10 m by 10 m.
+const GANTRY: &str = r#"<robot name="g">
+  <link name="base"/>
+  <joint name="x" type="prismatic">
+    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="0" upper="10"/>
+  </joint>
+  <link name="bridge"/>
+  <joint name="y" type="prismatic">
+    <parent link="bridge"/> <child link="tool"/> <axis xyz="0 1 0"/> <limit lower="0" upper="10"/>
+  </joint>
+  <link name="tool"> <collision> <geometry> <box size="1 1 1"/> </geometry> </collision> </link>
+</robot>"#;
+
+/// A wall from below the floor up to y = 7: the square passes it where y >= 7.5, from x = 3.5 to 6.5.
+const WORLD: &str = "start.joints = [1, 1]\ngoal.joints = [9, 1]\n\
+                     obstacle = [{ polygon = [[4, -1], [6, -1], [6, 7], [4, 7]] }]";
+
+/// A wall of configurations, and what it has been given as potential at its upper end.
+type Walls = Vec<([f64; 2], [f64; 2], Option<f64>)>;
+
+fn certificate(length: f64, metric: &str, walls: &Walls) -> String {
+    let (mut closed, mut potentials) = (String::new(), String::new());
+    for (wall, (from, to, potential)) in walls.iter().enumerate() {
+        let comma = if wall == 0 { "" } else { ", " };
+        write!(closed, r#"{comma}{{"from": {from:?}, "to": {to:?}, "shape": 0, "part": 0}}"#).unwrap();
+        if let Some(value) = potential {
+            let comma = if potentials.is_empty() { "" } else { ", " };
+            write!(potentials, r#"{comma}{{"wall": {wall}, "end": 1, "value": {value}}}"#).unwrap();
+        }
+    }
+    format!(
+        r#"{{"format": "cplan certificate 1", "answer": "no_shorter",
+             "shapes": [{{"link": "tool", "collision": 0}}],
+             "parts": [{{"obstacle": 0, "corners": [[4, -1], [6, -1], [6, 7], [4, 7]]}}],
+             "bound": {{"to": [9, 1], "length": {length}, "metric": {metric}, "walls": [{closed}], "potentials": [{potentials}]}}}}"#
+    )
+}
+
+const EUCLIDEAN: &str = r#""euclidean""#;
+
+/// Over the corners (3.6, 7.4) and (6.4, 7.4), shorter by a hair.
+fn over_the_wall() -> (f64, Walls) {
+    let rise = 2.6_f64.hypot(6.4);
+    let walls = vec![([3.6, -1.0], [3.6, 7.4], Some(rise - 1e-9)), ([6.4, -1.0], [6.4, 7.4], Some(rise + 2.8 - 2e-9))];
+    (2.0 * rise + 2.8 - 3e-9, walls)
+}
+
+fn code(urdf: &str, world: &str, certificate: &str) -> i32 {
+    match check(urdf, world, certificate) {
+        Ok(_) => 0,
+        Err(CheckError::Fails(_)) => 3,
+        Err(CheckError::Input { .. }) => 1,
+    }
+}
+
+#[test]
+fn the_way_over_a_wall_is_no_shorter_than_its_corners_make_it() {
+    let (length, walls) = over_the_wall();
+    let of = |length: f64, walls: &Walls| code(GANTRY, WORLD, &certificate(length, EUCLIDEAN, walls));
+    assert_eq!(
+        check(GANTRY, WORLD, &certificate(16.5, EUCLIDEAN, &walls)).unwrap(),
+        "no motion from the start to (9, 1) is shorter than 16.5"
+    );
+    assert_eq!(of(length, &walls), 0);
+    assert_eq!(of(length + 1e-8, &walls), 3, "the last leg is no longer than that");
+    // Without walls only the straight way is known; with one the way past that.
+    assert_eq!((of(8.0, &vec![]), of(8.001, &vec![])), (0, 3));
+    let past = 2.6_f64.hypot(6.4);
+    let one = vec![([3.6, -1.0], [3.6, 7.4], Some(past - 1e-9))];
+    let shorter = past + 5.4_f64.hypot(6.4) - 1e-8;
+    assert_eq!((of(shorter, &one), of(shorter + 1e-7, &one)), (0, 3));
+    // A potential that is too high; one that is no less than the length leaves says nothing, and need not.
+    for change in [1e-6, 1.0] {
+        for (k, code) in [(0, 3), (1, 0)] {
+            let mut other = walls.clone();
+            other[k].2 = other[k].2.map(|value| value + change);
+            assert_eq!(of(length, &other), code, "{k} {change}");
+        }
+    }
+    // A wall that goes where the square is free.
+    for (k, x, y) in [(0, 3.6, 7.51), (0, 3.49, 7.4), (1, 6.51, 7.4)] {
+        let mut other = walls.clone();
+        (other[k].0[0], other[k].1) = (x, [x, y]);
+        let message = check(GANTRY, WORLD, &certificate(1.0, EUCLIDEAN, &other)).unwrap_err().to_string();
+        assert_eq!(message, format!("wall {k}: along it the shape can come off the part"));
+    }
+    // The way below the floor is barred by the limit of y alone.
+    let higher = GANTRY.replacen(r#"lower="0""#, r#"lower="-9""#, 2);
+    assert_eq!(code(&higher, WORLD, &certificate(length, EUCLIDEAN, &walls)), 3);
+}
+
+#[test]
+fn other_metrics_measure_their_own_lengths() {
+    let (_, mut walls) = over_the_wall();
+    // With y counting half: 2.6 and 3.2, and so on.
+    let rise = 2.6_f64.hypot(3.2);
+    (walls[0].2, walls[1].2) = (Some(rise - 1e-9), Some(rise + 2.8 - 2e-9));
+    let of = |length: f64, metric: &str, walls: &Walls| code(GANTRY, WORLD, &certificate(length, metric, walls));
+    let length = 2.0 * rise + 2.8 - 3e-9;
+    let weights = r#"{"weights": [1, 0.5]}"#;
+    assert_eq!((of(length, weights, &walls), of(length + 1e-8, weights, &walls)), (0, 3));
+    assert_eq!(of(length, EUCLIDEAN, &walls), 0, "Euclidean ways are longer still");
+    // Seconds at 1 and 2 m/s: 3.2, 2.8 and 3.2.
+    (walls[0].2, walls[1].2) = (Some(3.2 - 1e-9), Some(6.0 - 2e-9));
+    let speeds = r#"{"speeds": [1, 2]}"#;
+    assert_eq!((of(9.2 - 3e-9, speeds, &walls), of(9.2 + 1e-8, speeds, &walls)), (0, 3));
+    for wrong in [r#"{"weights": [1, 0]}"#, r#"{"speeds": [-1, 2]}"#] {
+        assert_eq!(of(1.0, wrong, &walls), 3, "{wrong}");
+    }
+    assert_eq!(of(1.0, r#""taxi""#, &walls), 1);
+}
+
+/// A bar of 1 m that turns without end, and a rod that slides out of its end: on the circle ways lead round both sides.
+#[test]
+fn on_a_circle_ways_lead_round_both_sides() {
+    let arm = r#"<robot name="p">
+  <link name="base"/>
+  <joint name="q" type="continuous"> <parent link="base"/> <child link="bar"/> <axis xyz="0 0 1"/> </joint>
+  <link name="bar"> <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1 0.2 0.1"/> </geometry> </collision> </link>
+  <joint name="d" type="prismatic">
+    <parent link="bar"/> <child link="rod"/> <axis xyz="1 0 0"/> <limit lower="-1" upper="1"/>
+  </joint>
+  <link name="rod"/>
+</robot>"#;
+    // A post that the bar cannot pass: at q = 0, and for the other way round at q = 3.
+    let world = |posts: &str| format!("start.joints = [-1, 0]\ngoal.joints = [1.5, 0]\nobstacle = [{posts}]");
+    let post = "{ circle = { center = [0.9, 0.0], radius = 0.05 } }";
+    let certificate = |length: f64| {
+        format!(
+            r#"{{"format": "cplan certificate 1", "answer": "no_shorter", "shapes": [{{"link": "bar", "collision": 0}}],
+                 "parts": [{{"obstacle": 0}}],
+                 "bound": {{"to": [1.5, 0], "length": {length}, "walls": [{{"from": [0, -1], "to": [0, 1], "shape": 0, "part": 0}}], "potentials": []}}}}"#
+        )
+    };
+    let round = std::f64::consts::TAU - 2.5;
+    assert_eq!(code(arm, &world(post), &certificate(round - 1e-9)), 0);
+    assert_eq!(code(arm, &world(post), &certificate(round + 1e-9)), 3);
+    // The same wall, written a turn on.
+    let turned = certificate(round - 1e-9)
+        .replace("[0, -1]", "[6.283185307179586, -1]")
+        .replace("[0, 1]", "[6.283185307179586, 1]");
+    assert_eq!(code(arm, &world(post), &turned), 0);
+    // No length is too long to be refused.
+    for length in ["1e9", "1e300", "-1"] {
+        let of = certificate(1.0).replace(r#""length": 1,"#, &format!(r#""length": {length},"#));
+        assert_eq!(code(arm, &world(post), &of), if length == "-1" { 0 } else { 3 }, "{length}");
+    }
+}
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Walls, potentials and lengths at random: what holds is no more than the true optimum, over the two corners of the C-obstacle.
+#[test]
+fn nothing_that_is_longer_than_the_optimum_holds() {
+    let optimum = 2.0 * 2.5_f64.hypot(6.5) + 3.0;
+    let (mut held, mut longest) = (0, 0.0_f64);
+    for seed in random::seeds(300) {
+        let mut random = Random(seed);
+        let (length, mut walls) = over_the_wall();
+        let length = length * random.between(0.9, 1.1);
+        for (from, to, potential) in &mut walls {
+            let x = from[0] + random.between(-0.2, 0.2);
+            (from[0], *to) = (x, [x + random.between(-0.1, 0.1), 7.4 + random.between(-0.3, 0.2)]);
+            *potential =
+                potential.map(|value| value * random.between(0.9, 1.05)).filter(|_| random.between(0.0, 1.0) < 0.9);
+        }
+        if code(GANTRY, WORLD, &certificate(length, EUCLIDEAN, &walls)) == 0 {
+            assert!(length <= optimum, "{length}: {walls:?}");
+            (held, longest) = (held + 1, longest.max(length));
+        }
+    }
+    assert!(held > random::times(10) && longest > 0.9 * optimum, "{held} {longest}");
+}
