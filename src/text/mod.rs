@@ -10,9 +10,7 @@ mod wrapped;
 
 #[cfg(feature = "live")]
 pub use base64::base64;
-pub use columns::Columns;
-#[cfg(feature = "program")]
-pub use columns::INDENT;
+pub use columns::{Columns, INDENT};
 pub use markup::markup;
 #[cfg(feature = "program")]
 pub use plain::plain_json;
