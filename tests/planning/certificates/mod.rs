@@ -351,10 +351,9 @@ fn judged(urdf: &str, world: &str, certificate: &str, seed: u64) -> Result<(), b
 fn falsified_certificates_are_refused_or_true() {
     let (mut tally, mut pool) = (Tally::default(), Vec::new());
     // Some worlds have no way: more of them until there is enough to falsify.
-    let usual = seeds(24);
-    for seed in usual.start.. {
-        let drawn = seed - usual.start;
-        if drawn >= (MOST_SEEDS as u64).min(usual.end - usual.start) && pool.len() >= FEWEST {
+    let drawn = seeds(24);
+    for seed in drawn.start.. {
+        if seed - drawn.start >= (MOST_SEEDS as u64).min(drawn.end - drawn.start) && pool.len() >= FEWEST {
             break;
         }
         pool.extend(
