@@ -8,7 +8,7 @@ use crate::arm::Cell;
 use crate::certificate::{Bound, Metric, Wall};
 use crate::decimal::Decimal;
 use crate::error::CheckError;
-use crate::interval::{Interval, Point};
+use crate::interval::{BITS, Interval, Point};
 use crate::overlap::{Shape, overlap_by_more_than};
 use crate::robot::{Arm, Body, Motion};
 use crate::sweep::{Axis, Rectangle};
@@ -22,7 +22,7 @@ const MOST_LOOKS: usize = 20_000;
 /// Copies of walls, on all turns that a way of the length can reach, at the most.
 const MOST_COPIES: usize = 200_000;
 
-/// Whether two shapes overlap wherever the joints are between two configurations, with the number of looks that are left.
+/// Whether a shape and a part are seen to overlap all along a wall: it is halved until each piece is, as a box, or there were too many looks.
 ///
 /// A shape that only slides along the wall overlaps another at a convex set of places: then its ends are enough.
 pub fn closes(arm: &Arm, wall: &Wall, body: &Body, part: &Shape) -> bool {
@@ -64,8 +64,8 @@ type Line = (Decimal, i64);
 /// Places are at most so far from the origin, in coarse units: products of differences are exact in 128 bits.
 const FARTHEST: i64 = 1 << 58;
 
-/// Coarse units are so many times as long.
-const COARSER: u32 = 192 - 40;
+/// Coarse units, of `2^-40`, are `2^COARSER` times as long.
+const COARSER: u32 = BITS - 40;
 
 /// A wall as it is met on some turn of each joint.
 struct Copy {
@@ -315,7 +315,7 @@ impl Place {
     /// The copy of a rectangle on some turns; none where that is too far away.
     fn new(metric: &Metric, rectangle: &Rectangle, turns: [i64; 2]) -> Option<Self> {
         let at = [0, 1].map(|k| {
-            let turns = Interval::exactly(BigInt::from(2 * turns[k]) << crate::interval::BITS);
+            let turns = Interval::exactly(BigInt::from(2 * turns[k]) << BITS);
             metric.scaled(k, &(&Interval::around(&rectangle[k]) + &(Interval::pi() * &turns)))
         });
         let coarse = |n: BigInt| i64::try_from(n).ok().filter(|n| n.abs() < FARTHEST);
@@ -328,7 +328,7 @@ impl Place {
 
     /// On which side of the line through two others it certainly is; 0 if neither.
     fn side(&self, a: &Self, b: &Self) -> i8 {
-        // Differences of coarse middles are off by less than two units each.
+        // Coarse middles are off by less than two units, so differences by less than four.
         let middle = |place: &Self| place.coarse.map(|[low, high]| (i128::from(low) + i128::from(high)) / 2);
         let wide = |place: &Self| place.coarse.iter().any(|[low, high]| high - low > 2);
         let ([ax, ay], [bx, by], [px, py]) = (middle(a), middle(b), middle(self));
