@@ -14,7 +14,7 @@ pub enum Subject {
 }
 
 /// All, with the names of their files.
-pub const PICTURES: [(&str, Subject); 11] = [
+pub const PICTURES: [(&str, Subject); 12] = [
     ("shortest", Subject::Answer("planar_2r", "workbench", Method::Shortest)),
     ("visibility", Subject::Answer("planar_2r", "workbench", Method::Visibility)),
     ("trapezoid", Subject::Answer("planar_2r", "workbench", Method::Trapezoid)),
@@ -24,6 +24,7 @@ pub const PICTURES: [(&str, Subject); 11] = [
     ("subdivision", Subject::Answer("planar_2r", "workbench", Method::Subdivision)),
     ("no_path", Subject::Answer("planar_2r_continuous", "no_path", Method::Wavefront)),
     ("scara_cell", Subject::Answer("scara", "scara_cell", Method::Shortest)),
+    ("upright", Subject::Answer("rrbot_vertical", "upright", Method::Shortest)),
     ("tower", Subject::Task("rrbot_vertical", "tower")),
     ("board_and_gate", Subject::Task("gantry", "board_and_gate")),
 ];

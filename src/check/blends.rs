@@ -3,7 +3,7 @@
 use super::motion::{CertifiedPath, Nearest, Search};
 use super::vicinity::Vicinity;
 use crate::model::Scene;
-use crate::space::{Blend, BlendedPath};
+use crate::space::{Blend, BlendedPath, Path, Piece};
 
 /// Share of the clearance beyond what is to be kept that stays when corners are cut: half, so that a motion on
 /// blends is proven to keep at least half the distance of the straight path.
@@ -27,20 +27,22 @@ const REFINEMENTS: u32 = 2;
 const LOOKS: usize = 64;
 
 /// A path with blended corners whose whole motion is proven: it is within the joint limits and keeps its clearance, on
-/// the straight legs up to their corners and on the blends and anywhere up to [`crate::space::HAIR`] off these.
-/// Only [`blend`] makes blends.
+/// the straight legs up to their corners and on the blends and anywhere up to [`crate::space::HAIR`] off these; or, where a motion rounds
+/// the corners by another curve, on that curve. Only [`blend`] and [`super::Rounding`] make either.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedCurve {
     curve: BlendedPath,
     clearance: f64,
     nearest: Option<Nearest>,
+    /// What rounds the corners, where it is not parabolas: how far they reach, and a polyline for pictures.
+    driven: Option<(Vec<f64>, Path)>,
 }
 
 impl From<CertifiedPath> for CertifiedCurve {
     /// The straight path, without blends.
     fn from(path: CertifiedPath) -> Self {
         let (clearance, nearest) = (path.clearance(), path.nearest());
-        Self { curve: path.into_path().into(), clearance, nearest }
+        Self { curve: path.into_path().into(), clearance, nearest, driven: None }
     }
 }
 
@@ -49,6 +51,13 @@ impl CertifiedCurve {
     #[must_use]
     pub fn curve(&self) -> &BlendedPath {
         &self.curve
+    }
+
+    /// How far the rounding of each waypoint's corner reaches, in joint units: the radius of its blend, or of a parabola that leaves the path
+    /// as far as the motion does; 0 where the motion turns on the spot.
+    #[must_use]
+    pub fn radii(&self) -> &[f64] {
+        self.driven.as_ref().map_or_else(|| self.curve.radii(), |(radii, _)| radii)
     }
 
     /// Proven lower bound on the distance between arm and obstacles, metres, along the blends and along the straight
@@ -62,6 +71,18 @@ impl CertifiedCurve {
     #[must_use]
     pub fn nearest(&self) -> Option<Nearest> {
         self.nearest
+    }
+
+    /// The straight path, which is proven up to its corners.
+    #[must_use]
+    pub fn straight(&self) -> CertifiedPath {
+        CertifiedPath::part_of(self)
+    }
+
+    /// A polyline for pictures.
+    #[must_use]
+    pub fn outline(&self) -> Path {
+        self.driven.as_ref().map_or_else(|| self.curve.outline(), |(_, outline)| outline.clone())
     }
 
     /// The same without the blend at an inner waypoint: the legs are proven up to the corner.
@@ -82,7 +103,7 @@ impl CertifiedCurve {
 #[must_use]
 pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64) -> CertifiedCurve {
     let q = path.path().waypoints();
-    let required = clearance + KEPT * (path.clearance() - clearance);
+    let required = required(path, clearance);
     let mut blended = CertifiedCurve::from(path.clone());
     if path.clearance() <= clearance {
         return blended;
@@ -105,10 +126,58 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
             Some((radius, search.proven, search.nearest))
         };
         if let Some((radius, clearance, nearest)) = largest(most, judge) {
-            blended = CertifiedCurve { curve: blended.curve.with(waypoint, radius), clearance, nearest };
+            blended = CertifiedCurve { curve: blended.curve.with(waypoint, radius), clearance, nearest, driven: None };
         }
     }
     blended
+}
+
+/// What motions are to keep that leave a path at its corners.
+fn required(path: &CertifiedPath, clearance: f64) -> f64 {
+    clearance + KEPT * (path.clearance() - clearance)
+}
+
+/// Looks per pair of shapes before a piece of a motion counts as not certified: a straight one may slide along an obstacle at a hair's
+/// distance.
+const LOOKS_OF_A_PIECE: usize = 2048;
+
+/// Judges motions that round the corners of a path by whatever curve.
+pub struct Rounding<'a> {
+    scene: &'a Scene,
+    vicinity: Vicinity<'a>,
+    path: &'a CertifiedPath,
+    required: f64,
+}
+
+impl<'a> Rounding<'a> {
+    /// Motions are to keep more than half of what the path's clearance exceeds `clearance` by, as blends are.
+    #[must_use]
+    pub fn new(scene: &'a Scene, path: &'a CertifiedPath, clearance: f64) -> Self {
+        Self { scene, vicinity: Vicinity::new(scene), path, required: required(path, clearance) }
+    }
+
+    /// The pieces of a motion that are not shown to be free, by their numbers. Joint limits are not looked at.
+    #[must_use]
+    pub fn open(&self, pieces: &[Piece]) -> Vec<usize> {
+        let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len();
+        let is_open = |piece: &Piece| {
+            Search::deciding(self.scene, self.required, budget).piece(&self.vicinity, piece, 0.0).is_err()
+        };
+        (0..pieces.len()).filter(|&i| is_open(&pieces[i])).collect()
+    }
+
+    /// The path with a motion that rounds its corners, so far each (see [`CertifiedCurve::radii`]); none if the motion is not shown to be
+    /// free. Joint limits are not looked at.
+    #[must_use]
+    pub fn certified(&self, radii: Vec<f64>, pieces: &[Piece]) -> Option<CertifiedCurve> {
+        let known = CertifiedCurve::from(self.path.clone());
+        let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len() * pieces.len();
+        let mut search = Search::beside(&known, self.scene, self.required, budget);
+        pieces.iter().try_for_each(|piece| search.piece(&self.vicinity, piece, 0.0)).ok()?;
+        let Search { proven, nearest, .. } = search;
+        let knots = pieces.iter().map(|piece| piece.at(0.0)).chain(pieces.last().map(|piece| piece.at(1.0)));
+        Some(CertifiedCurve { clearance: proven, nearest, driven: Some((radii, Path::new(knots.collect()))), ..known })
+    }
 }
 
 /// What comes of the largest radius up to `most` that is accepted, as far as was tried.

@@ -8,7 +8,7 @@
 //! bound counts. Both are far better than "no point moves farther than" (Schwarzer, Saha, Latombe 2005) when a link
 //! slides along an obstacle, which shortest paths do; that one is the third bound, and the best one far away.
 
-use crate::geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, separation};
+use crate::geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, reach, separation_at};
 use crate::model::{Arm, JointType, Pair, Scene};
 use crate::space::Configuration;
 
@@ -97,28 +97,38 @@ impl<'a> Posture<'a> {
         Self { scene, q, poses, elbow: poses[0] * Point::from(scene.arm().offset) }
     }
 
+    /// The configuration.
+    pub(crate) fn configuration(&self) -> Configuration {
+        self.q
+    }
+
     /// Distance of a pair here.
     pub(crate) fn here(&self, pair: Pair) -> Separation {
-        separation(&self.scene.part(pair).at(&self.poses[pair.link]), self.scene.piece(pair))
+        separation_at(self.scene.part(pair), &self.poses[pair.link], self.scene.piece(pair), |_, here| here)
     }
 
     /// Distance of a pair here and a lower bound on it over `deviation`.
     #[must_use]
     pub fn bound(&self, pair: Pair, deviation: Deviation) -> Bounded {
+        self.bound_up_to(pair, deviation, |_| f64::INFINITY)
+    }
+
+    /// The same, but for the trouble of a better bound than one that is enough for the distance here.
+    pub(crate) fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> Bounded {
         let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
-        let part = local.at(&self.poses[pair.link]);
-        let here = separation(&part, piece);
-        let anywhere = here.distance - self.farthest_motion(pair, deviation);
-        let radii = part.radius() + piece.radius();
-        let least = self.least_in_plane(pair, &part, local, piece, here.direction, deviation).max(self.least_in_link(
-            pair,
-            &part,
-            piece,
-            here.direction,
-            deviation,
-        )) - radii;
-        let scale = self.scale(&part, piece);
-        Bounded { here, least: least.max(anywhere) - ROUNDING * scale }
+        separation_at(local, &self.poses[pair.link], piece, |corners, here| {
+            let rounding = ROUNDING * self.scale(corners, local.radius(), piece);
+            let enough = enough(here.distance) + rounding;
+            let mut least = here.distance - self.farthest_motion(pair, deviation);
+            let radii = local.radius() + piece.radius();
+            if least < enough {
+                least = least.max(self.least_in_plane(pair, corners, here.direction, deviation) - radii);
+            }
+            if least < enough {
+                least = least.max(self.least_in_link(pair, corners, here.direction, deviation) - radii);
+            }
+            Bounded { here, least: least - rounding }
+        })
     }
 
     /// A lower bound on the distance of a pair over `deviation` from discs around the shapes: far below
@@ -144,31 +154,25 @@ impl<'a> Posture<'a> {
     #[must_use]
     pub fn greatest(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
-        let part = local.at(&self.poses[pair.link]);
-        let room = separation(&part, piece).distance + self.farthest_motion(pair, deviation);
-        room + STUCK_ROUNDING * self.scale(&part, piece)
+        separation_at(local, &self.poses[pair.link], piece, |corners, here| {
+            let room = here.distance + self.farthest_motion(pair, deviation);
+            room + STUCK_ROUNDING * self.scale(corners, local.radius(), piece)
+        })
     }
 
     /// Magnitude of the coordinates that enter a distance.
-    pub(crate) fn scale(&self, part: &Convex, piece: &Convex) -> f64 {
+    pub(crate) fn scale(&self, corners: &[Point], radius: f64, piece: &Convex) -> f64 {
         let base = self.scene.arm().base;
-        base.coords.norm() + part.reach_from(base) + piece.reach_from(base)
+        base.coords.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)
     }
 
     /// Bound with the separating direction fixed in the plane: the link's corners move.
-    fn least_in_plane(
-        &self,
-        pair: Pair,
-        part: &Convex,
-        local: &Convex,
-        piece: &Convex,
-        n: Vector,
-        deviation: Deviation,
-    ) -> f64 {
+    fn least_in_plane(&self, pair: Pair, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
+        let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
         let line = piece.core().iter().map(|p| n.dot(&p.coords)).fold(f64::INFINITY, f64::min);
         let mut least = f64::INFINITY;
         let curvature = self.curvature_in_plane(pair.link, deviation);
-        for (x, a) in part.core().iter().zip(local.core()) {
+        for (x, a) in corners.iter().zip(local.core()) {
             let gap = line - n.dot(&x.coords);
             let toward = deviation.linear(self.rates(pair.link, *x, n));
             least = least.min(gap - toward - curvature.of(*a) / 2.0);
@@ -178,11 +182,11 @@ impl<'a> Posture<'a> {
 
     /// Bound with the separating direction fixed in the link: the obstacle's corners move, with the opposite of the
     /// velocity that a point of the link has in their place.
-    fn least_in_link(&self, pair: Pair, part: &Convex, piece: &Convex, n: Vector, deviation: Deviation) -> f64 {
-        let line = part.core().iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
+    fn least_in_link(&self, pair: Pair, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
+        let line = corners.iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
         let mut least = f64::INFINITY;
         let curvature = self.curvature_in_link(pair.link, deviation);
-        for p in piece.core() {
+        for p in self.scene.piece(pair).core() {
             let gap = n.dot(&p.coords) - line;
             let toward = deviation.linear(self.rates(pair.link, *p, n));
             least = least.min(gap - toward - curvature.of(*p) / 2.0);

@@ -1,7 +1,8 @@
 //! Whether a recorded motion keeps the joints' limits, between its samples too.
 
 use super::collision::Moment;
-use crate::model::Joint;
+use super::torque::torque_looks;
+use crate::model::{Joint, Scene};
 use crate::space::{Configuration, Derivative, JointRange, Piece, Recording};
 
 /// Share of a limit by which it may be exceeded: programs that plan up to a limit exceed it by what their arithmetic
@@ -34,6 +35,8 @@ pub enum Limit {
     Acceleration,
     /// Its greatest jerk.
     Jerk,
+    /// The greatest torque or force that moves it.
+    Torque,
     /// Its acceleration does not jump if its jerk has a limit.
     AccelerationJump,
     /// A motion starts at rest.
@@ -104,6 +107,39 @@ pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
         found.extend(judge.worst.into_iter().map(|(_, excess)| excess));
     }
     found
+}
+
+/// Share of an effort by which a torque may be greater between two looks at it.
+const FINE: f64 = 1e-4;
+
+/// Where the motion takes more torque than the joints' efforts, if motions of the scene's arm have to keep within them: of each joint the place
+/// where it is exceeded most. As accelerations are judged: where there are velocities, by what the format's consumer makes of the samples,
+/// beyond what rounding explains. Between the moments that are looked at a torque may be a ten-thousandth of the effort greater than there.
+#[must_use]
+pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
+    let Some(dynamics) = scene.limiting_dynamics().filter(|_| recording.velocities().is_some()) else {
+        return Vec::new();
+    };
+    let (arm, precision, pieces) = (scene.arm(), Precision::of(recording), recording.pieces());
+    let inertia = dynamics.greatest_inertia(arm);
+    let mut judges = [0, 1].map(|k| {
+        let joint = &arm.joints[k];
+        Judge { joint, k, pieces: &pieces, precision: precision.of_joint(k), worst: Vec::new() }
+    });
+    for (index, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from) {
+        let explained =
+            judges.each_ref().map(|judge| judge.explained(piece, &Sensitivity::of(piece, Derivative::Acceleration)));
+        for look in torque_looks(&dynamics, arm, piece, FINE) {
+            for judge in &mut judges {
+                let (k, value, allowed) = (judge.k, look.torque[judge.k], dynamics.effort[judge.k]);
+                let may = inertia[k][0] * explained[0] + inertia[k][1] * explained[1] + TOLERANCE * allowed;
+                if value.abs() - allowed > may {
+                    judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.moment(index, look.u));
+                }
+            }
+        }
+    }
+    judges.into_iter().flat_map(|judge| judge.worst).map(|(_, excess)| excess).collect()
 }
 
 /// One joint's limits, and how they are exceeded most.

@@ -6,7 +6,7 @@ use super::deviation::{Deviation, Posture};
 use super::vicinity::Vicinity;
 use crate::interrupt::checkpoint;
 use crate::model::{Contact, Pair, Scene};
-use crate::space::{Blend, Configuration, HAIR, Path};
+use crate::space::{Blend, Configuration, HAIR, Path, Piece};
 
 /// The proven clearance is at least this share of the true one: below it, pieces of the path are looked at again in
 /// halves. Nearer to 1 costs more evaluations, a few more for every halving of the gap.
@@ -20,6 +20,9 @@ const EVALUATIONS_PER_PIECE: usize = 500;
 /// Rounding of a configuration on a segment, relative to the larger of its ends: three operations. It matters where joints on
 /// circles are many turns from zero, where doubles lie far apart.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Parts of a curve whose postures all pairs share: its halves' halves' halves, and the three before.
+const SHARED: usize = 16;
 
 /// A pair that keeps more than so many times the least distance seen is not looked at: the clearance proven is that of a
 /// nearer one. Above the inverse of [`TIGHTNESS`], with room for rounding.
@@ -48,6 +51,11 @@ impl CertifiedPath {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// The straight path of a curve, whose clearance is that of the legs up to their corners, too.
+    pub(super) fn part_of(curve: &CertifiedCurve) -> Self {
+        Self { path: curve.curve().path().clone(), clearance: curve.clearance(), nearest: curve.nearest() }
     }
 
     pub(super) fn into_path(self) -> Path {
@@ -118,9 +126,7 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     // A path that stays where it is has no segment, yet a clearance.
     let rest = path.waypoints().len() == 1;
     for (from, to) in path.segments().chain(rest.then(|| (path.start(), path.start()))) {
-        let middle = Posture::new(scene, from + (to - from) * 0.5);
-        let along = part_of(from, to, 0.5);
-        vicinity.near(&middle, along, BEYOND * search.target(), |pair| search.segment(pair, from, to))?;
+        search.segment(&vicinity, from, to)?;
     }
     Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
 }
@@ -145,10 +151,8 @@ impl<'a> StraightMotions<'a> {
     pub fn is_free(&self, from: Configuration, to: Configuration) -> bool {
         let topology = self.scene.arm().topology();
         let within = [from, to].iter().all(|q| (0..2).all(|k| topology.ranges[k].contains(q[k])));
-        let mut search = Search { tightness: 0.0, ..Search::new(self.scene, self.clearance, MAX_EVALUATIONS) };
-        let middle = Posture::new(self.scene, from + (to - from) * 0.5);
-        let along = part_of(from, to, 0.5);
-        within && self.vicinity.near(&middle, along, self.clearance, |pair| search.segment(pair, from, to)).is_ok()
+        within
+            && Search::deciding(self.scene, self.clearance, MAX_EVALUATIONS).segment(&self.vicinity, from, to).is_ok()
     }
 }
 
@@ -171,17 +175,25 @@ pub(super) struct Search<'a> {
     pub(super) nearest: Option<Nearest>,
     /// Looks that are left.
     budget: usize,
+    /// Parts of a curve as (number, middle, half width) of the parameter, the first one on top. The whole has number 1, the halves of `n` have
+    /// `2 n` and `2 n + 1`.
+    open: Vec<(usize, f64, f64)>,
 }
 
 impl<'a> Search<'a> {
     pub(super) fn new(scene: &'a Scene, required: f64, budget: usize) -> Self {
-        Self { scene, required, tightness: TIGHTNESS, proven: f64::INFINITY, nearest: None, budget }
+        Self { scene, required, tightness: TIGHTNESS, proven: f64::INFINITY, nearest: None, budget, open: Vec::new() }
+    }
+
+    /// A search that asks only whether the distance required is kept, not how much more.
+    pub(super) fn deciding(scene: &'a Scene, required: f64, budget: usize) -> Self {
+        Self { tightness: 0.0, ..Self::new(scene, required, budget) }
     }
 
     /// A search that goes on from what is known of a motion.
     pub(super) fn beside(known: &CertifiedCurve, scene: &'a Scene, required: f64, budget: usize) -> Self {
         let (proven, nearest) = (known.clearance(), known.nearest());
-        Self { scene, required, tightness: TIGHTNESS, proven, nearest, budget }
+        Self { scene, required, tightness: TIGHTNESS, proven, nearest, budget, open: Vec::new() }
     }
 
     /// Takes note of a distance on the path.
@@ -201,50 +213,91 @@ impl<'a> Search<'a> {
         self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
     }
 
-    /// What a bound has to reach to be accepted.
-    fn target(&self) -> f64 {
-        if self.tightness > 0.0 { (self.tightness * self.seen()).max(self.required) } else { self.required }
+    /// What a bound has to reach to be accepted, once this distance is seen, too.
+    fn target(&self, distance: f64) -> f64 {
+        if self.tightness > 0.0 {
+            (self.tightness * self.seen().min(distance)).max(self.required)
+        } else {
+            self.required
+        }
     }
 
-    fn segment(&mut self, pair: Pair, from: Configuration, to: Configuration) -> Result<(), Rejection> {
-        self.curve(pair, |middle, half| (from + (to - from) * middle, part_of(from, to, half)))
+    /// Pairs that keep more than this need no look.
+    fn matters(&self) -> f64 {
+        if self.tightness > 0.0 { BEYOND * self.target(f64::INFINITY) } else { self.required }
+    }
+
+    fn segment(&mut self, vicinity: &Vicinity, from: Configuration, to: Configuration) -> Result<(), Rejection> {
+        self.curve(vicinity, |middle, half| (from + (to - from) * middle, part_of(from, to, half)))
     }
 
     /// A blend and all that is no farther off it than a hair.
     pub(super) fn blend(&mut self, vicinity: &Vicinity, blend: &Blend) -> Result<(), Rejection> {
-        let (piece, hair) = (blend.piece(), HAIR * blend.radius());
-        let part = |middle: f64, half: f64| along(&piece, middle - half, middle + half, hair);
-        let (middle, deviation) = part(0.5, 0.5);
-        let posture = Posture::new(self.scene, middle);
-        vicinity.near(&posture, deviation, BEYOND * self.target(), |pair| self.curve(pair, part))
+        self.piece(vicinity, &blend.piece(), HAIR * blend.radius())
+    }
+
+    /// A piece of a motion and all that is in each joint no more than `beside` off it.
+    pub(super) fn piece(&mut self, vicinity: &Vicinity, piece: &Piece, beside: f64) -> Result<(), Rejection> {
+        self.curve(vicinity, |middle: f64, half: f64| along(piece, middle - half, middle + half, beside))
     }
 
     /// A curve given by what its part about a middle, so and so much to either side, is: a configuration, and the
     /// deviations from it. The parameter goes from 0 to 1.
-    fn curve(&mut self, pair: Pair, part: impl Fn(f64, f64) -> (Configuration, Deviation)) -> Result<(), Rejection> {
-        // Parts of the curve as (middle, half width) of the parameter, the first one on top.
-        let mut open = vec![(0.5, 0.5)];
-        while let Some((middle, half)) = open.pop() {
-            checkpoint();
+    fn curve(
+        &mut self,
+        vicinity: &Vicinity,
+        part: impl Fn(f64, f64) -> (Configuration, Deviation),
+    ) -> Result<(), Rejection> {
+        let scene = self.scene;
+        let posed = |middle: f64, half: f64| {
             let (at, deviation) = part(middle, half);
-            let posture = Posture::new(self.scene, at);
+            (Posture::new(scene, at), deviation)
+        };
+        let whole = posed(0.5, 0.5);
+        let mut shared = [const { None }; SHARED];
+        vicinity.near(&whole.0, whole.1, self.matters(), |pair| self.pair(pair, &whole, &mut shared, posed))
+    }
+
+    /// One pair along a curve. Its first parts' postures are those of other pairs, too.
+    fn pair(
+        &mut self,
+        pair: Pair,
+        whole: &(Posture<'a>, Deviation),
+        shared: &mut [Option<(Posture<'a>, Deviation)>; SHARED],
+        posed: impl Fn(f64, f64) -> (Posture<'a>, Deviation),
+    ) -> Result<(), Rejection> {
+        self.open.clear();
+        self.open.push((1, 0.5, 0.5));
+        while let Some((number, middle, half)) = self.open.pop() {
+            checkpoint();
+            let own;
+            let (posture, deviation) = match shared.get_mut(number) {
+                _ if number == 1 => whole,
+                Some(known) => known.get_or_insert_with(|| posed(middle, half)),
+                None => {
+                    own = posed(middle, half);
+                    &own
+                }
+            };
+            let (at, deviation) = (posture.configuration(), *deviation);
             self.budget = self.budget.saturating_sub(1);
             let apart = posture.apart(pair, deviation);
-            if apart > 0.0 && apart >= self.target() {
+            if apart > 0.0 && apart >= self.target(f64::INFINITY) {
                 self.proven = self.proven.min(apart);
                 continue;
             }
-            let bounded = posture.bound(pair, deviation);
+            let bounded = posture.bound_up_to(pair, deviation, |distance| self.target(distance));
             let contact = Contact { pair, separation: bounded.here };
             self.see(at, contact)?;
-            if bounded.least > 0.0 && bounded.least >= self.target() {
+            if bounded.least > 0.0 && bounded.least >= self.target(f64::INFINITY) {
                 self.proven = self.proven.min(bounded.least);
             } else if self.budget == 0 || half < f64::EPSILON {
                 return Err(Rejection::Undecided(Nearest { at, contact }));
             } else {
                 let quarter = half / 2.0;
-                open.push((middle + quarter, quarter));
-                open.push((middle - quarter, quarter));
+                let first = number.saturating_mul(2);
+                self.open.push((first.saturating_add(1), middle + quarter, quarter));
+                self.open.push((first, middle - quarter, quarter));
             }
         }
         Ok(())

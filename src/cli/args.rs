@@ -338,6 +338,10 @@ pub struct VerifyArgs {
     /// Let joints without limits go the short way from sample to sample: for angles recorded within one turn.
     #[arg(long)]
     pub unwrap: bool,
+    /// Hold the joints' torques to the efforts that the URDF or the world gives, though the world does not say so; what has torques in it is
+    /// held to them anyway.
+    #[arg(long)]
+    pub torque: bool,
     /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,

@@ -256,6 +256,7 @@ mod tests {
             tip: Point::origin(),
             tip_name: "tip".into(),
             plane,
+            dynamics: None,
         }
     }
 

@@ -43,6 +43,7 @@ mod certificate;
 mod clock;
 mod corners;
 pub mod explain;
+mod fastest;
 mod field_problem;
 mod field_report;
 pub mod findings;

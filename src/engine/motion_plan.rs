@@ -1,11 +1,12 @@
 //! What became of a single motion.
 
+use super::fastest::fastest;
 use super::field_report::field_report;
 use super::options::Options;
-use super::{Answer, Report, Verdict};
+use super::{Answer, Bound, Report, Verdict};
 use crate::check::CertifiedCurve;
 use crate::model::MotionProblem;
-use crate::motion::{Optimum, Timed, TimingError};
+use crate::motion::{Objective, Optimum, Timed, TimingError};
 
 /// A verdict, and the motion that follows from it.
 #[derive(Debug, Clone)]
@@ -25,7 +26,7 @@ impl MotionPlan {
     /// A motion that lasts too long, or has too many samples.
     pub(super) fn timed(
         problem: MotionProblem,
-        answer: Answer,
+        mut answer: Answer,
         options: &Options,
     ) -> Result<(Self, Report), TimingError> {
         let joints = &problem.scene().arm().joints;
@@ -33,9 +34,19 @@ impl MotionPlan {
         let mut followed = None;
         let mut report = match &answer.verdict {
             Verdict::Found(certified) => {
-                let Timed { curve, trajectory } = options.drive.along(problem.scene(), certified, 1.0)?;
+                let (Timed { curve, trajectory }, fastest) = match options.drive.optimize {
+                    Objective::Length => (options.drive.along(problem.scene(), certified, 1.0)?, None),
+                    Objective::Time => fastest(&problem, &answer, certified, options)?,
+                };
                 let mut report = Report::found(planner, joints, &curve, trajectory);
+                // What is told of the path is told of the one that the motion takes.
+                if curve.curve().path() != certified.path() {
+                    let upper = |bound: Bound| bound.metric.length(curve.curve().path());
+                    answer.bound = answer.bound.map(|bound| Bound { upper: upper(bound), ..bound });
+                    answer.verdict = Verdict::Found(curve.straight());
+                }
                 report.optimum = answer.bound.map(Optimum::from);
+                report.fastest = fastest;
                 report.closest = curve.nearest().map(|n| problem.scene().describe(n.contact.pair));
                 followed = Some(curve);
                 report

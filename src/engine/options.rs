@@ -1,7 +1,7 @@
 //! What is asked for: a planner with options of its own, how to drive, and what files hold.
 
-use super::{Method, Planner};
-use crate::model::Joint;
+use super::{Method, Planner, Problem};
+use crate::model::{Arm, Joint};
 use crate::motion::{Drive, SHORTEST_INTERVAL};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -84,13 +84,25 @@ impl From<Method> for Options {
 
 impl Options {
     /// Puts the limits that are given here in place of the joints' own.
-    pub(crate) fn override_limits(&self, joints: &mut [Joint; 2]) {
-        Joint::override_jerks(joints, self.jerk);
+    pub(crate) fn override_limits(&self, arm: &mut Arm) {
+        Joint::override_jerks(&mut arm.joints, self.jerk);
+        if self.drive.torque || arm.dynamics.is_some_and(|dynamics| dynamics.limits) {
+            arm.keep_efforts();
+        }
+    }
+
+    /// What they ask of a robot that its file does not say.
+    pub(crate) fn lack(&self, problem: &Problem) -> Option<String> {
+        if !self.drive.torque || problem.scene().arm().dynamics.is_some() {
+            return None;
+        }
+        let why = problem.robot().no_dynamics.as_deref().unwrap_or("the arm has none of them");
+        Some(format!("--torque takes masses, inertias and efforts: {why}"))
     }
 
     /// What makes no sense, by name. `has_steps` says whether they are for a sequence of steps.
     pub(crate) fn error(&self, has_steps: bool) -> Option<String> {
-        let Drive { period, blend, tip_speed } = self.drive;
+        let Drive { period, blend, tip_speed, optimize: _, torque: _ } = self.drive;
         let jerks = self.jerk.into_iter().flatten().flatten();
         let not_positive = |value: &f64| !value.is_finite() || *value <= 0.0;
         if let Some(error) = self.planner.error() {

@@ -19,6 +19,9 @@ pub enum PlanError {
     /// Options that make no sense, or not for this problem.
     #[error("{0}")]
     Options(String),
+    /// Options that ask of the robot what its file does not say.
+    #[error("{0}")]
+    Robot(String),
     /// The trajectory cannot be made as asked.
     #[error(transparent)]
     Timing(#[from] TimingError),
@@ -98,6 +101,9 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
         return Err(PlanError::Options(lack));
     }
+    if let Some(lack) = options.lack(problem) {
+        return Err(PlanError::Robot(lack));
+    }
     let mut clock = Clock::after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
     let (made, mut report) = match problem.asked() {
         Asked::Motion(motion) => {
@@ -109,7 +115,7 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
         }
         Asked::Task((task, _)) => {
             let mut task = task.clone();
-            options.override_limits(&mut task.arm.joints);
+            options.override_limits(&mut task.arm);
             let answer = plan_task(&task, options, progress);
             clock.stage("plan");
             let mut report = Report::of_task(options.planner.method().name(), &task, &answer);
@@ -121,6 +127,9 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     report.search = SearchUsed::of(&options.planner);
     report.space = options.planner.space().and_then(GridSpace::told);
     report.assumed = problem.robot().assumed.clone();
+    if options.drive.torque {
+        report.assumed.acceleration.clear();
+    }
     if options.timings {
         report.timings = clock.milliseconds();
     }
@@ -135,7 +144,7 @@ fn solve_with(
     progress: &mut dyn FnMut(&str),
 ) -> (MotionProblem, Answer) {
     let mut motion = motion.clone();
-    options.override_limits(motion.joints_mut());
+    options.override_limits(motion.arm_mut());
     let answer = solve(&motion, options, progress);
     clock.solved(&answer.stages);
     if let (Some(bound), Some(gap)) = (&answer.bound, options.planner.gap())

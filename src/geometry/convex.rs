@@ -240,7 +240,7 @@ impl Convex {
     /// Greatest distance of a point of the shape (with a negative radius, of its core) from `pivot`, metres.
     #[must_use]
     pub fn reach_from(&self, pivot: Point) -> f64 {
-        self.core.iter().map(|p| (p - pivot).norm()).fold(0.0, f64::max) + self.radius.max(0.0)
+        reach(&self.core, pivot) + self.radius.max(0.0)
     }
 
     /// The smallest box with sides along the axes that holds the shape; with a negative radius, its core.
@@ -264,4 +264,9 @@ impl Convex {
         }
         twice / 2.0 + perimeter * self.radius + std::f64::consts::PI * self.radius * self.radius
     }
+}
+
+/// Greatest distance of any of these points from `pivot`.
+pub(crate) fn reach(points: &[Point], pivot: Point) -> f64 {
+    points.iter().map(|p| (p - pivot).norm_squared()).fold(0.0, f64::max).sqrt()
 }

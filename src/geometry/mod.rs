@@ -41,6 +41,7 @@ mod sliding;
 mod turning;
 
 pub use box_tree::{Bounds, BoxTree};
+pub(crate) use convex::reach;
 pub use convex::{Convex, ConvexError};
 pub use decompose::{MOST_CORNERS, decompose};
 pub(crate) use galloping::farthest;
@@ -60,8 +61,8 @@ pub use polygon::{PolygonError, SimplePolygon};
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
 pub use rings::{Polygon, RingError, RingSide};
 pub(crate) use seams::seams;
-pub(crate) use separation::gap_along;
 pub use separation::{Separation, separation};
+pub(crate) use separation::{gap_along, separation_at};
 pub use sliding::sliding;
 pub(crate) use sliding::{along_and_across, sliding_tracks};
 pub use turning::{Features, Hits, ROUNDING, turning, turning_from};

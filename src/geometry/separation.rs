@@ -27,6 +27,25 @@ pub fn separation(a: &Convex, b: &Convex) -> Separation {
     Separation { distance: core.distance - a.radius() - b.radius(), direction: core.direction }
 }
 
+/// The [`separation`] of a shape that is turned and moved by a pose from another, and what `and` makes of its corners there. A shape of few
+/// corners is put there without a list of its own.
+pub(crate) fn separation_at<R>(a: &Convex, pose: &Pose, b: &Convex, and: impl FnOnce(&[Point], Separation) -> R) -> R {
+    const FEW: usize = 8;
+    let (mut few, many);
+    let corners = if a.core().len() <= FEW {
+        few = [Point::origin(); FEW];
+        for (corner, p) in few.iter_mut().zip(a.core()) {
+            *corner = pose * p;
+        }
+        &few[..a.core().len()]
+    } else {
+        many = a.core().iter().map(|p| pose * p).collect::<Vec<Point>>();
+        &many
+    };
+    let core = core_separation(corners, b.core());
+    and(corners, Separation { distance: core.distance - a.radius() - b.radius(), direction: core.direction })
+}
+
 /// How far `b` is from `a`, turned and moved by a pose, along a unit direction: the gap between their supporting lines,
 /// negative where they overlap. The [`separation`] is the greatest of these, so none is greater than it. `O(n + m)`.
 pub(crate) fn gap_along(a: &Convex, pose: &Pose, b: &Convex, direction: Vector) -> f64 {
@@ -41,12 +60,10 @@ pub(crate) fn gap_along(a: &Convex, pose: &Pose, b: &Convex, direction: Vector) 
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 fn core_separation(a: &[Point], b: &[Point]) -> Separation {
-    let face_a = best_face(a, b);
-    let face_b = best_face(b, a).map(|face| Face { normal: -face.normal, ..face });
-    let face = match (face_a, face_b) {
-        (Some(x), Some(y)) => Some(if x.distance >= y.distance { x } else { y }),
-        (x, y) => x.or(y),
-    };
+    let face_a = best_face(a, b, f64::NEG_INFINITY);
+    let most = face_a.map_or(f64::NEG_INFINITY, |face| face.distance);
+    let face_b = best_face(b, a, most).map(|face| Face { normal: -face.normal, ..face });
+    let face = face_b.or(face_a);
     let error = ROUNDING * largest(a).max(largest(b));
     let Some(Face { distance, normal, is_beside }) = face else { return nearest_features(a, b, error) };
     let face = Separation { distance, direction: normal };
@@ -82,12 +99,16 @@ struct Face {
     is_beside: bool,
 }
 
-/// The side of `a` which `b` is farthest outside of (least deep inside), if `a` has a side.
-fn best_face(a: &[Point], b: &[Point]) -> Option<Face> {
+/// The side of `a` which `b` is farthest outside of (least deep inside), if it is by more than `most` of one.
+fn best_face(a: &[Point], b: &[Point], mut most: f64) -> Option<Face> {
     let mut best: Option<(f64, Vector, [&Point; 3])> = None;
     for (p, q) in sides(a) {
-        let Some(normal) = (-perpendicular(q - p)).try_normalize(0.0) else { continue };
-        let most = best.map_or(f64::NEG_INFINITY, |(distance, ..)| distance);
+        let across = -perpendicular(q - p);
+        // Most sides face away from what lies apart, which is soon seen.
+        if most >= 0.0 && b.iter().any(|v| across.dot(&(v - p)) <= 0.0) {
+            continue;
+        }
+        let Some(normal) = across.try_normalize(0.0) else { continue };
         let mut nearest = (f64::INFINITY, p);
         for v in b {
             let outside = normal.dot(&(v - p));
@@ -100,7 +121,7 @@ fn best_face(a: &[Point], b: &[Point]) -> Option<Face> {
             }
         }
         if nearest.0 > most {
-            best = Some((nearest.0, normal, [p, q, nearest.1]));
+            (most, best) = (nearest.0, Some((nearest.0, normal, [p, q, nearest.1])));
         }
     }
     best.map(|(distance, normal, [p, q, v])| {

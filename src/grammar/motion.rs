@@ -1,26 +1,50 @@
 //! How to drive along a path.
 
 use super::number::{number_in, seconds};
-use crate::motion::Drive;
-use clap::Args;
+use crate::motion::{Drive, Objective};
+use clap::{Args, ValueEnum};
 
 /// How to drive along a path.
 #[derive(Debug, Args)]
 pub struct MotionArgs {
+    /// What is to be the least: the length of the path, or the time of the motion, for which the path is given another shape.
+    #[arg(long, value_enum, value_name = "WHAT", default_value_t)]
+    pub optimize: Optimize,
     /// Time between two samples of the trajectory, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
     pub period: f64,
     /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space (radians and
-    /// metres as they come): "none" stops at every corner, "auto" lets the clearance and the path decide. With a limit on
-    /// a jerk the motion stops at every corner.
+    /// metres as they come): "none" stops at every corner, "auto" lets the clearance and the path decide.
     #[arg(long, value_name = "RADIUS", default_value = "auto", value_parser = radius, allow_hyphen_values = true)]
     pub blend: f64,
     /// Greatest speed of the tip, metres a second; without it the joints alone have limits.
     #[arg(long, value_name = "M_PER_S", value_parser = tip_speed, allow_hyphen_values = true)]
     pub tip_speed: Option<f64>,
+    /// Keep the joints' torques within the efforts that the URDF or the world gives, by the links' and objects' masses.
+    #[arg(long)]
+    pub torque: bool,
     /// Greatest jerk of each joint instead of the world's, such as 200,none: rad/s3 or m/s3, "none" for a joint without.
     #[arg(long, value_name = "j1,j2", value_parser = jerk, allow_hyphen_values = true)]
     pub jerk: Option<Jerk>,
+}
+
+/// As [`Objective`] has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Optimize {
+    /// The length of the path.
+    #[default]
+    Length,
+    /// The time of the motion.
+    Time,
+}
+
+impl From<Optimize> for Objective {
+    fn from(optimize: Optimize) -> Self {
+        match optimize {
+            Optimize::Length => Objective::Length,
+            Optimize::Time => Objective::Time,
+        }
+    }
 }
 
 /// Greatest jerk of each joint that has one.
@@ -61,6 +85,7 @@ impl MotionArgs {
 
     /// The same for the trajectory.
     pub fn drive(&self) -> Drive {
-        Drive { period: self.period, blend: self.blend, tip_speed: self.tip_speed }
+        let Self { period, blend, tip_speed, torque, .. } = *self;
+        Drive { optimize: self.optimize.into(), period, blend, tip_speed, torque }
     }
 }

@@ -102,6 +102,9 @@ pub struct RobotReport {
     pub held: Vec<(String, f64)>,
     /// All joints that can move, for messages that name them.
     pub joints: RobotJoints,
+    /// Why torques are not known, unless they are.
+    #[serde(default)]
+    pub no_dynamics: Option<String>,
 }
 
 /// Arm, obstacles and objects as the files have them, without start, goal and steps.

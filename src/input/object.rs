@@ -48,6 +48,9 @@ pub(super) struct ObjectTable {
     /// By how much it is raised while it is carried, m; by default 0.
     #[schemars(with = "Option<NotNegative>")]
     lift: Option<Number>,
+    /// What it weighs, kg, spread evenly over its outline; by default 0. Counts where torques do.
+    #[schemars(with = "Option<NotNegative>")]
+    mass: Option<Number>,
     /// How it is held; by default as [robot] says.
     #[schemars(with = "Option<HeldAs>")]
     payload: Option<Spanned<String>>,
@@ -296,6 +299,7 @@ fn movable(
         }
     };
     let lift = given.lift.as_ref().map(|l| reader.not_negative(l, &format!("{what}: lift"))).transpose()?;
+    let mass = given.mass.as_ref().map(|m| reader.not_negative(m, &format!("{what}: mass"))).transpose()?;
     let grasp = given.grasp.as_ref().map(|g| reader.point(g, &format!("{what}, grasp"))).transpose()?;
     let supports = match &given.supports {
         Some(list) => names.supports(reader, list)?,
@@ -312,6 +316,7 @@ fn movable(
         lift: lift.unwrap_or(0.0),
         holding: given.payload.as_ref().map(|p| holding(reader, p)).transpose()?.unwrap_or(default),
         at,
+        mass: mass.unwrap_or(0.0),
     };
     Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::origin), supports, is_renewed: given.renew })
 }

@@ -35,6 +35,21 @@ impl LoadedScene {
         }
         Ok(self)
     }
+
+    /// Holds motions to the joints' efforts, whatever the world says.
+    ///
+    /// # Errors
+    /// When the robot does not say what that takes.
+    pub fn keeping_efforts(mut self) -> Result<Self, InputError> {
+        if self.scene.arm().dynamics.is_none() {
+            let why = self.robot.no_dynamics.as_deref().unwrap_or("the arm has no masses");
+            return Err(Diagnostic::new("--torque", why)
+                .help("`cplan inspect` tells what the robot's file has")
+                .into());
+        }
+        self.scene.arm_mut().keep_efforts();
+        Ok(self)
+    }
 }
 
 /// Two joint values as written: `-0.9,0.4` or `10deg, 20deg`. Without a suffix radians or metres, as the joint has it.

@@ -125,6 +125,16 @@ pub(super) struct RobotTable {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Positive>")]
     pub jerk: PerJoint<Number>,
+    /// Greatest torque or force of a joint, by name, N m or N, in place of the URDF's.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
+    pub effort: PerJoint<Number>,
+    /// Whether motions keep within the joints' efforts, by the masses that the URDF gives.
+    #[serde(default)]
+    pub dynamics: bool,
+    /// Acceleration of free fall in the robot's root frame, m/s2; by default [0, 0, -9.81].
+    #[schemars(with = "Option<[f64; 3]>")]
+    pub gravity: Option<Numbers>,
     /// Radius of the capsule that stands in for a link without geometry, m.
     #[schemars(with = "Option<Positive>")]
     pub bar: Option<Number>,

@@ -1,6 +1,6 @@
 //! The planar two-joint arm and its kinematics.
 
-use super::{Joint, JointType, Link};
+use super::{Dynamics, Joint, JointType, Link};
 use crate::geometry::{ConvexError, Point, Pose, Vector, perpendicular};
 use crate::space::{Configuration, Topology};
 use nalgebra::{Isometry2, Translation2, Vector3};
@@ -49,6 +49,9 @@ pub struct Arm {
     pub tip_name: String,
     /// The plane of motion.
     pub plane: Plane,
+    /// Masses and efforts, if they are known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dynamics: Option<Dynamics>,
 }
 
 impl Arm {
@@ -67,6 +70,7 @@ impl Arm {
             tip: Point::new(tip, 0.0),
             tip_name: "tip".into(),
             plane,
+            dynamics: None,
         }
     }
 
@@ -100,6 +104,9 @@ impl Arm {
                 if let JointType::Prismatic { direction } = &mut joint.joint_type {
                     *direction = turn * *direction;
                 }
+            }
+            for body in arm.dynamics.iter_mut().flat_map(|dynamics| &mut dynamics.bodies) {
+                body.center = turn * body.center;
             }
         }
         arm

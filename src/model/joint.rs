@@ -90,6 +90,12 @@ impl Joint {
         if self.joint_type.is_revolute() { "rad" } else { "m" }
     }
 
+    /// Unit of what moves it: `N m` or `N`.
+    #[must_use]
+    pub fn effort_unit(&self) -> &'static str {
+        if self.joint_type.is_revolute() { "N m" } else { "N" }
+    }
+
     /// A value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
     #[must_use]
     pub fn shown(&self, value: f64) -> String {

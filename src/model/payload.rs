@@ -48,6 +48,9 @@ pub struct Payload {
     pub heights: Heights,
     /// How it is held.
     pub grip: Grip,
+    /// Kilograms, spread evenly over the pieces.
+    #[serde(default)]
+    pub mass: f64,
     /// What it may touch, though not press into by more than [`Payload::penetration_allowance`]: what it rests on. Obstacles by their
     /// number in the workspace.
     pub supports: Vec<usize>,

@@ -132,8 +132,8 @@ impl MotionProblem {
         &self.goals
     }
 
-    /// The joints, to give them other limits on speed, acceleration and jerk, on which start and goals do not depend.
-    pub(crate) fn joints_mut(&mut self) -> &mut [super::Joint; 2] {
-        self.scene.joints_mut()
+    /// The arm, to give its joints other limits on speed, acceleration, jerk and effort, on which start and goals do not depend.
+    pub(crate) fn arm_mut(&mut self) -> &mut super::Arm {
+        self.scene.arm_mut()
     }
 }

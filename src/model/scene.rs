@@ -2,7 +2,7 @@
 
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
-use super::{Arm, Grip, Joint, Obstacle, Part, Payload, SceneError, Workspace};
+use super::{Arm, Dynamics, Grip, Obstacle, Part, Payload, SceneError, Workspace};
 use crate::geometry::{Convex, Separation, seams, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
@@ -178,9 +178,16 @@ impl Scene {
         &self.workspace
     }
 
-    /// The joints, to give them other limits on speed, acceleration and jerk: the pairs do not depend on them.
-    pub(crate) fn joints_mut(&mut self) -> &mut [Joint; 2] {
-        &mut self.arm.joints
+    /// The arm, to give its joints other limits on speed, acceleration, jerk and effort: the pairs do not depend on them.
+    pub(crate) fn arm_mut(&mut self) -> &mut Arm {
+        &mut self.arm
+    }
+
+    /// Masses and efforts with what is carried, if motions have to keep within the efforts.
+    #[must_use]
+    pub fn limiting_dynamics(&self) -> Option<Dynamics> {
+        let own = self.arm.dynamics.filter(|dynamics| dynamics.limits)?;
+        Some(self.payload.as_ref().map_or(own, |payload| own.carrying(&self.arm, payload)))
     }
 
     /// What the arm carries, if anything.

@@ -1,6 +1,6 @@
 //! What arm, obstacles and what is carried must be to make a scene.
 
-use super::{Arm, Grip, Heights, Joint, JointType, Payload, Plane, Workspace};
+use super::{Arm, Body, Dynamics, Grip, Heights, Joint, JointType, Payload, Plane, Workspace};
 use crate::geometry::{Convex, Pose};
 use crate::space::JointRange;
 
@@ -57,6 +57,12 @@ pub enum SceneError {
         /// Name of the obstacle or link.
         of: String,
     },
+    /// A mass, an inertia, an effort or the gravity is negative or not finite, or there is no effort at all.
+    #[error("masses, efforts and gravity make no sense: {what}")]
+    Dynamics {
+        /// Of what.
+        what: String,
+    },
     /// Something ends below where it begins, or at no number.
     #[error("\"{of}\": no heights from {lower} to {upper}")]
     Heights {
@@ -106,6 +112,9 @@ pub(super) fn check(
     check_workspace(workspace)?;
     if let Some(payload) = payload {
         check_heights(&payload.object, payload.heights)?;
+        if !is_mass(payload.mass) {
+            return Err(SceneError::Dynamics { what: format!("\"{}\" of {} kg", payload.object, payload.mass) });
+        }
         let is_finite = match payload.grip {
             Grip::Rigid(pose) => is_pose(&pose),
             Grip::Level { angle, point } => are_small([angle, point.x, point.y]),
@@ -135,10 +144,28 @@ fn check_arm(arm: &Arm) -> Result<(), SceneError> {
     if !off.iter().all(|off| off.abs() <= UNIT_ROUNDING) {
         return Err(SceneError::Plane);
     }
+    arm.dynamics.as_ref().map_or(Ok(()), check_dynamics)?;
     arm.links.iter().flat_map(|link| &link.parts).try_for_each(|part| {
         check_size(&part.body, [&part.shape])?;
         check_heights(&part.body, part.heights)
     })
+}
+
+fn check_dynamics(dynamics: &Dynamics) -> Result<(), SceneError> {
+    let error = |what: String| Err(SceneError::Dynamics { what });
+    for (k, Body { mass, center, inertia }) in dynamics.bodies.iter().enumerate() {
+        if !is_mass(*mass) || !is_mass(*inertia) || !are_small(center.coords.iter().copied()) {
+            return error(format!("link {} of {mass} kg, {inertia} kg m2, its centre at {center}", k + 1));
+        }
+    }
+    if let Some(effort) = dynamics.effort.into_iter().find(|effort| !(is_mass(*effort) && *effort > 0.0)) {
+        return error(format!("an effort of {effort}"));
+    }
+    if are_small(dynamics.gravity.iter().copied()) { Ok(()) } else { error("the gravity".into()) }
+}
+
+fn is_mass(value: f64) -> bool {
+    (0.0..=LARGEST).contains(&value)
 }
 
 fn check_joint(joint: &Joint) -> Result<(), SceneError> {

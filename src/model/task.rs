@@ -33,6 +33,9 @@ pub struct Object {
     pub holding: Holding,
     /// Where it lies at first.
     pub at: Pose,
+    /// Kilograms.
+    #[serde(default)]
+    pub mass: f64,
 }
 
 impl Object {
@@ -178,7 +181,7 @@ impl Object {
     #[must_use]
     pub fn carried(&self, grip: Grip, supports: Vec<usize>) -> Payload {
         let (object, pieces) = (self.name.clone(), self.pieces.clone());
-        Payload { object, pieces, heights: self.carried_heights(), grip, supports }
+        Payload { object, pieces, heights: self.carried_heights(), grip, mass: self.mass, supports }
     }
 
     /// Its extent along the plane's normal from where it lies to where it is carried.

@@ -113,6 +113,8 @@ fn check_object(object: &Object) -> Result<(), TaskError> {
         "where it lies is no finite pose"
     } else if !(0.0..=LARGEST).contains(&object.lift) {
         "its lift must be no negative number, and no more than 1e15 m"
+    } else if !(0.0..=LARGEST).contains(&object.mass) {
+        "its mass must be no negative number, and no more than 1e15 kg"
     } else if !object.pieces.iter().all(is_small) {
         "it is larger than 1e15 m"
     } else {

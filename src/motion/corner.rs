@@ -22,6 +22,9 @@ use crate::space::{Blend, Configuration, HAIR};
 /// Spans of a blend to begin with.
 const SPANS: usize = 8;
 
+/// The same of a straight stretch, which may begin or end at rest.
+const SPANS_OF_LINES: usize = 32;
+
 /// Spans of a blend at the most, as long as what is known of them asks for more.
 const MOST_SPANS: usize = 256;
 
@@ -43,7 +46,11 @@ const SPEED_STEP: f64 = 0.1;
 /// by which many controllers and checks read a trajectory, keeps them too. A little more is left for [`reserve`].
 const RESERVE: f64 = 1e-3;
 
-/// A blend on its way through time.
+/// The same where the joints' torques have limits.
+const MOST_SPANS_OF_TORQUES: usize = 1024;
+
+/// A blend on its way through time; or a straight stretch, as a blend of two directions that are one, where its speed and acceleration are
+/// not limited alike all along it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corner {
     blend: Blend,
@@ -52,6 +59,8 @@ pub(super) struct Corner {
     spans: usize,
     /// Bound on the speed of the parameter.
     fastest: f64,
+    /// Share of the speed that the limits allow.
+    share: f64,
 }
 
 /// Seconds that a blend of so many spans has to last: each of them the least interval between samples, though it is
@@ -62,13 +71,25 @@ fn shortest(spans: usize) -> f64 {
 
 impl Corner {
     /// Prepares a blend; none if it is so small that it would be passed in hardly more than the interval between samples.
-    pub(super) fn new(blend: Blend, limits: &Limits) -> Option<Self> {
+    pub(super) fn new(blend: Blend, limits: &Limits, share: f64) -> Option<Self> {
+        let limits = &limits.scaled(share);
         let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
-        let corner = Self { blend, radius: blend.radius(), directions, spans: SPANS, fastest: f64::INFINITY };
+        let corner = Self { blend, radius: blend.radius(), directions, spans: SPANS, fastest: f64::INFINITY, share };
         let bend = corner.second_derivative();
         let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min).sqrt();
         let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
         (corner.length() / fastest >= shortest(SPANS)).then_some(Self { fastest, ..corner })
+    }
+
+    /// Prepares a straight stretch; none if it is as small.
+    pub(super) fn straight(from: Configuration, to: Configuration, limits: &Limits) -> Option<Self> {
+        let blend = Blend { from, corner: (from + to) / 2.0, to };
+        let offset = to - from;
+        let length = offset[0].hypot(offset[1]);
+        let directions = [offset / length; 2];
+        let fastest = limits.speed_along(directions[0]);
+        let corner = Self { blend, radius: length / 2.0, directions, spans: SPANS_OF_LINES, fastest, share: 1.0 };
+        (length / fastest >= shortest(SPANS_OF_LINES)).then_some(corner)
     }
 
     /// Share of the limits that is left unused.
@@ -85,10 +106,12 @@ impl Corner {
             // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q'' times
             // the change of z.
             (0..2).any(|k| 1.5 * bend[k].abs() * step > ACCELERATION_STEP * limits.acceleration[k])
-                || step > 2.0 * SPEED_STEP * z[0].max(z[1])
+                || (!self.is_straight() && step > 2.0 * SPEED_STEP * z[0].max(z[1]))
                 || limits.tip.is_some_and(|tip| tip.slack(&self.part(i)) * z[0].max(z[1]).sqrt() > TIP_STEP * tip.speed)
+                || limits.torque.is_some_and(|torque| torque.is_coarse(&self.part(i), [z[0], z[1]]))
         });
-        if coarse { self.cut(2, MOST_SPANS, squared_speeds) } else { None }
+        let most = if limits.torque.is_some() { MOST_SPANS_OF_TORQUES } else { MOST_SPANS };
+        if coarse { self.cut(2, most, squared_speeds) } else { None }
     }
 
     /// The same with several times the spans, whatever they are worth.
@@ -101,6 +124,11 @@ impl Corner {
         let lasts: f64 = self.phases(squared_speeds).iter().map(|phase| phase.duration).sum();
         let finer = Self { spans: parts * self.spans, ..self.clone() };
         (finer.spans <= most && lasts >= shortest(finer.spans)).then_some(finer)
+    }
+
+    /// Whether it is a straight stretch.
+    pub(super) fn is_straight(&self) -> bool {
+        self.directions[0] == self.directions[1]
     }
 
     /// Range of the parameter.
@@ -129,6 +157,7 @@ impl Corner {
 
     /// What the squared speeds at the ends of each span have to keep, in order.
     pub(super) fn bounds(&self, limits: &Limits) -> Vec<Bounds> {
+        let limits = &limits.scaled(self.share);
         let step = self.length() / self.spans as f64;
         let (bend, share) = (self.second_derivative(), |i: usize| i as f64 / self.spans as f64);
         let left = 1.0 - self.reserve();
@@ -152,6 +181,9 @@ impl Corner {
                 let squared = (left * tip.allowed(&self.part(i))).powi(2);
                 bounds.extend([[1.0 / squared, 0.0], [0.0, 1.0 / squared]]);
             }
+            if let Some(torque) = limits.torque {
+                bounds.extend(torque.rows(&self.part(i), left - RESERVE));
+            }
             bounds
         };
         (0..self.spans).map(span).collect()
@@ -172,9 +204,10 @@ impl Corner {
     /// `d = 3 q'' a^2`.
     pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
         let bend = self.second_derivative();
+        let torque = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
         let longest = |k: usize| {
             let fourth = 3.0 * bend[k].abs() * phase.acceleration * phase.acceleration;
-            let acceleration = (12.0 * RESERVE * limits.acceleration[k] / fourth).sqrt();
+            let acceleration = (12.0 * RESERVE * limits.acceleration[k].min(torque[k]) / fourth).sqrt();
             let velocity = (72.0 * 3f64.sqrt() * RESERVE * limits.velocity[k] / fourth).cbrt();
             let position = (384.0 * HAIR * self.radius / fourth).sqrt().sqrt();
             acceleration.min(velocity).min(position)
@@ -198,8 +231,8 @@ impl Corner {
     }
 }
 
-/// Rows of a span with `z1` at the most: seven a joint, one of the tip.
-const MOST_LINES: usize = 15;
+/// Rows of a span with `z1` at the most: seven a joint, one of the tip, twelve a joint of torques.
+const MOST_LINES: usize = 39;
 
 /// Squared speeds `z0`, `z1` at the ends of a span: neither is negative, and `a z0 + b z1 <= 1` for each row `[a, b]`. A
 /// convex set that holds a neighbourhood of 0 in the quadrant.

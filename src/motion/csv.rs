@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::fmt::Write;
 
 /// The trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, and `A_acceleration,B_acceleration`
-/// if asked for, then a line a sample.
+/// if asked for, `A_torque,B_torque` if the trajectory has torques, then a line a sample.
 ///
 /// Fields are quoted as RFC 4180 says; lines end in a single line feed, which every reader takes and text tools prefer.
 /// Numbers have as many digits as it takes to read the same `f64` back.
@@ -15,7 +15,9 @@ use std::fmt::Write;
 #[must_use]
 pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, steps: Option<&[usize]>) -> String {
     let mut text = String::from("time");
-    for suffix in ["", "_velocity", "_acceleration"].into_iter().take(if accelerations { 3 } else { 2 }) {
+    let torques = !trajectory.torque.is_empty();
+    let columns = [("", true), ("_velocity", true), ("_acceleration", accelerations), ("_torque", torques)];
+    for (suffix, _) in columns.into_iter().filter(|(_, is_there)| *is_there) {
         for joint in joints {
             text.push(',');
             text.push_str(&quoted(&format!("{joint}{suffix}")));
@@ -30,6 +32,9 @@ pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, s
         write!(text, "{time:?},{p1:?},{p2:?},{v1:?},{v2:?}").expect("a string takes all");
         if accelerations {
             write!(text, ",{a1:?},{a2:?}").expect("a string takes all");
+        }
+        if let Some([first, second]) = trajectory.torque.get(k) {
+            write!(text, ",{first:?},{second:?}").expect("a string takes all");
         }
         if let Some(step) = step.next() {
             write!(text, ",{step}").expect("a string takes all");

@@ -1,46 +1,97 @@
 //! From a certified path to a motion: corners and time.
 
-use super::{Limits, Timed, TimingError, TipSpeed, time};
+use super::shape::Shaping;
+use super::smooth::smoothed;
+use super::{Limits, Timed, TimingError, TipSpeed, TorqueLimit, time};
 use crate::check::{CertifiedCurve, CertifiedPath, blend};
 use crate::model::Scene;
 use serde::{Deserialize, Serialize};
+
+/// What is to be the least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Objective {
+    /// The length of the path; the motion is the fastest along it.
+    #[default]
+    Length,
+    /// The time of the motion: ways are compared by it, and the path is given the shape that makes the motion fast.
+    Time,
+}
 
 /// How to drive along a path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drive {
+    /// What is to be the least.
+    #[serde(default)]
+    pub optimize: Objective,
     /// Time between two samples, seconds.
     pub period: f64,
     /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space; 0 to stop at
-    /// every corner, infinite to let the clearance and the path decide. Where a joint's jerk has a limit every corner is
-    /// stopped at.
+    /// every corner, infinite to let the clearance and the path decide.
     #[serde(with = "crate::text::number")]
     pub blend: f64,
     /// Greatest speed of the tip, metres a second; none if only the joints have limits.
     pub tip_speed: Option<f64>,
+    /// Whether the joints keep within their efforts, where the world does not say so.
+    #[serde(default)]
+    pub torque: bool,
 }
 
 impl Default for Drive {
     /// A sample every hundredth of a second, corners blended as the clearance allows, no limit of the tip.
     fn default() -> Self {
-        Self { period: 0.01, blend: f64::INFINITY, tip_speed: None }
+        Self { optimize: Objective::Length, period: 0.01, blend: f64::INFINITY, tip_speed: None, torque: false }
     }
 }
 
 impl Drive {
-    /// The fastest motion along a path at this share of the joints' top speeds (more than 0, at most 1), as [`time`] has
-    /// it, within the scene's clearance.
+    /// A motion along a path at this share of the joints' top speeds (more than 0, at most 1), within the scene's clearance: the fastest, as
+    /// [`time`] has it. With limits on jerks the corners are moved off what they go around by as much as makes the motion fastest, since a
+    /// smooth motion needs room there; if time is to be the least ([`Drive::optimize`]), the whole path is given the shape that does.
     ///
     /// # Errors
-    /// A motion that lasts too long, or has too many samples.
+    /// A motion that lasts too long, or has too many samples; joints whose efforts do not hold the arm all along it.
     pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<Timed, TimingError> {
         let tip = self.tip_speed.map(|speed| TipSpeed { arm: scene.arm(), speed });
-        let limits = Limits { tip, ..Limits::from(&scene.arm().joints) }.scaled(speed);
-        let curve = if self.blend > 0.0 && !limits.stops_at_corners() {
-            blend(scene, path, self.blend, scene.workspace().clearance)
-        } else {
-            CertifiedCurve::from(path.clone())
+        let torque = TorqueLimit::of(scene);
+        if let Some(torque) = &torque {
+            torque.held_along(path.path())?;
+        }
+        let limits = Limits { tip, torque, ..Limits::from(&scene.arm().joints) }.scaled(speed);
+        let (is_smooth, has_corners) = (limits.stops_at_corners(), path.path().waypoints().len() > 2);
+        let blended = |path: &CertifiedPath| {
+            if self.blend > 0.0 && !is_smooth {
+                blend(scene, path, self.blend, scene.workspace().clearance)
+            } else {
+                CertifiedCurve::from(path.clone())
+            }
         };
-        time(curve, &limits, self.period)
+        let mut best = time(blended(path), &limits, self.period)?;
+        let is_shaped = has_corners || (is_smooth && torque.is_some());
+        if is_shaped && self.blend > 0.0 && (is_smooth || self.optimize == Objective::Time) {
+            let drive = |path: &CertifiedPath, below: f64| {
+                if is_smooth {
+                    smoothed(scene, path, self.blend, limits, self.period, below)
+                } else {
+                    let timed = time(blended(path), &limits, self.period).ok();
+                    timed.filter(|timed| timed.trajectory.duration() < below)
+                }
+            };
+            let shaping = Shaping::new(scene, drive);
+            match self.optimize {
+                Objective::Length => shaping.lifted(path, limits.reversal().min(self.blend), &mut best),
+                Objective::Time => {
+                    let most = limits.ramp().min(self.blend);
+                    shaping.lifted(path, most, &mut best);
+                    shaping.refined(most, &mut best);
+                }
+            }
+        }
+        if let Some(torque) = torque {
+            torque.kept(&best.trajectory.pieces())?;
+            best.trajectory.torque = torque.along(&best.trajectory);
+        }
+        Ok(best)
     }
 }

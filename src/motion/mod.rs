@@ -41,10 +41,13 @@
 //! [`time`] drives along the curve within the limits: forward-backward integration of the squared speed, on straight
 //! pieces in closed form (`profile`), on a blend over spans with bounds that are linear in the squared speeds at their
 //! ends (`corner`), from one stop to the next (`schedule`). Every piece of the motion is a polynomial in time of the
-//! fourth degree at the most, and the samples say which. With a limit on a jerk there are no blends: `jerk` takes
-//! Ruckig's times of the seven phases from rest to rest, brings them to the least interval between samples, and works out
+//! fourth degree at the most, and the samples say which. With a limit on a jerk `smooth` makes of that motion a cubic B-spline (`spline`), by the
+//! mean over a window that is long enough for the jerk, and passes those corners more slowly near which it is not shown to be free; single
+//! straight pieces go from rest to rest by `jerk`, which takes
+//! Ruckig's times of the seven phases, brings them to the least interval between samples, and works out
 //! the phases from the times and the length alone, so that they end where they should and keep the limits whatever the
-//! solver's tolerances are. All samples lie at whole nanoseconds (`clock`).
+//! solver's tolerances are. All samples lie at whole nanoseconds (`clock`). `shape` looks for the path along which a motion is fastest, and
+//! `least` knows a time that none undercuts.
 //!
 //! # Files
 //!
@@ -61,6 +64,7 @@ mod field;
 mod format;
 mod jerk;
 mod json;
+mod least;
 mod limits;
 #[cfg(feature = "mcap")]
 mod mcap;
@@ -70,8 +74,12 @@ mod result;
 mod ros;
 mod sample;
 mod schedule;
+mod shape;
 mod single;
+mod smooth;
+mod spline;
 mod tip;
+mod torque;
 mod whole_file;
 
 #[cfg(test)]
@@ -83,16 +91,18 @@ pub use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use clock::whole_nanoseconds;
 pub(crate) use clock::{nanoseconds, seconds};
 pub use csv::csv;
-pub use drive::Drive;
+pub use drive::{Drive, Objective};
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
 pub(crate) use json::{as_map, line_a_field};
+pub use least::least_duration;
 pub use limits::Limits;
 pub use message::{AccelerationJump, JointMotion};
 pub(crate) use result::interpolation;
-pub use result::{Blends, Optimum, SearchUsed};
+pub use result::{Blends, Fastest, Optimum, SearchUsed};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use single::single;
 pub use tip::TipSpeed;
+pub use torque::TorqueLimit;
 pub use whole_file::{WriteError, check_writable, write_whole, write_whole_set};

@@ -93,7 +93,7 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest:
 }
 
 /// The fastest motion over `length` between two speeds, not both 0, that are within `speed` and near enough to each
-/// other for `acceleration`. None if even a single phase would be shorter than `shortest`.
+/// other for `acceleration`, which coasts for `coast` seconds between acceleration and deceleration, as far as the two speeds allow. None if even a single phase would be shorter than `shortest`.
 ///
 /// A phase that would be too short is left out, and the greater of the two speeds held instead of passed: the speed that
 /// is lost is no more than what `shortest` seconds would have gained.
@@ -103,6 +103,7 @@ pub(super) fn passing(
     speed: f64,
     acceleration: f64,
     shortest: f64,
+    coast: f64,
 ) -> Option<Vec<Phase>> {
     let ramp = |slow: f64, fast: f64| (fast - slow).max(0.0) * ((fast + slow) / (2.0 * acceleration));
     let over = |peak: f64| {
@@ -126,7 +127,11 @@ pub(super) fn passing(
         let phase = Phase::between([0.0, length], [enter, leave]);
         vec![Phase { acceleration: phase.acceleration.clamp(-acceleration, acceleration), ..phase }]
     };
-    let highest = speed.min((acceleration * length + (enter * enter + leave * leave) / 2.0).sqrt());
+    let meeting = (acceleration * length + (enter * enter + leave * leave) / 2.0).sqrt();
+    // The distance of the ramps and the coasting between them is that of the stretch: a quadratic equation for the speed.
+    let half = acceleration * coast / 2.0;
+    let coasting = if half > 0.0 { half.hypot(meeting) - half } else { meeting };
+    let highest = speed.min(coasting.max(enter).max(leave));
     let lasts = |phases: &Vec<Phase>| !phases.is_empty() && phases.iter().all(|phase| phase.duration >= shortest);
     [over(highest), over(enter.max(leave))].into_iter().find(lasts).or_else(|| Some(single()).filter(lasts))
 }
@@ -213,7 +218,7 @@ mod tests {
             let leave = (enter * enter + (2.0 * at.1 - 1.0) * most * most).max(0.0).sqrt();
             let speed = enter.max(leave).max(top * most);
             prop_assume!(enter + leave > 1e-3 * most);
-            let phases = passing(length, [enter, leave], speed, acceleration, 1e-6).expect("long enough");
+            let phases = passing(length, [enter, leave], speed, acceleration, 1e-6, 0.0).expect("long enough");
             joined(&phases, length, [enter, leave]);
             for phase in &phases {
                 prop_assert!(phase.enter.max(phase.leave) <= speed * (1.0 + 1e-12));

@@ -26,6 +26,25 @@ pub struct Optimum {
     pub gap: Option<f64>,
 }
 
+/// A motion's place between a time that no motion undercuts and its own.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Fastest {
+    /// Of the motion, seconds.
+    pub duration: f64,
+    /// No motion to any of the goals that keeps the joints' limits takes less: proven.
+    pub lower_bound: f64,
+    /// `duration / lower_bound - 1`; none where the bound is 0.
+    pub gap: Option<f64>,
+}
+
+impl Fastest {
+    /// With the gap that follows.
+    #[must_use]
+    pub fn new(duration: f64, lower_bound: f64) -> Self {
+        Self { duration, lower_bound, gap: (lower_bound > 0.0).then_some(duration / lower_bound - 1.0) }
+    }
+}
+
 /// The corners that a motion does not stop at.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Blends {
@@ -39,7 +58,7 @@ impl Blends {
     /// Those of a curve.
     #[must_use]
     pub fn of(curve: &CertifiedCurve) -> Self {
-        let radii = || curve.curve().radii().iter().copied().filter(|radius| *radius > 0.0);
+        let radii = || curve.radii().iter().copied().filter(|radius| *radius > 0.0);
         Self { count: radii().count(), largest_radius: radii().fold(0.0, f64::max) }
     }
 }

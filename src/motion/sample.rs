@@ -5,7 +5,7 @@ use super::limits::Limits;
 use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
 use crate::check::CertifiedCurve;
-use crate::space::{BlendedPath, Configuration};
+use crate::space::{BlendedPath, Configuration, Piece};
 use serde::Serialize;
 use thiserror::Error;
 
@@ -34,7 +34,7 @@ pub const MOST_SAMPLES: usize = 5_000_000;
 /// a limit: the one that is given is that of the interval that begins there. The cubic through positions and velocities of two
 /// samples keeps the limits, too, and is the same motion on straight pieces. Times begin at 0 and increase strictly, by
 /// at least [`SHORTEST_INTERVAL`]; they are whole nanoseconds. Radians or metres, and seconds; joints in the order base to tip.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Trajectory {
     /// Seconds from the start.
     pub time: Vec<f64>,
@@ -44,6 +44,9 @@ pub struct Trajectory {
     pub velocity: Vec<[f64; 2]>,
     /// Joint accelerations at the beginning of the interval that begins here; 0 at the last sample.
     pub acceleration: Vec<[f64; 2]>,
+    /// Joint torques (N m), of those that slide forces (N), at the beginning of the interval that begins here; none if nobody asks for them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub torque: Vec<[f64; 2]>,
 }
 
 /// Why a path cannot be timed.
@@ -69,6 +72,28 @@ pub enum TimingError {
          raise the limits of the joints"
     )]
     TooLong(f64),
+    /// A joint cannot bring what the arm weighs.
+    #[error(
+        "joint \"{joint}\" has an effort of {effort} {unit}, and the arm takes {torque:.3} {unit} at {}; \
+         raise [robot] effort, or let the path keep away from there",
+        described(*.at)
+    )]
+    TooHeavy {
+        /// The joint's name.
+        joint: String,
+        /// Where that is.
+        at: [f64; 2],
+        /// What it takes, N m or N.
+        torque: f64,
+        /// What the joint can bring.
+        effort: f64,
+        /// Of both.
+        unit: &'static str,
+    },
+}
+
+fn described([first, second]: [f64; 2]) -> String {
+    format!("({first:.4}, {second:.4})")
 }
 
 impl Trajectory {
@@ -88,11 +113,13 @@ impl Trajectory {
             self.position.pop();
             self.velocity.pop();
             self.acceleration.pop();
+            self.torque.pop();
         }
         self.time.extend(next.time.iter().map(|time| clock::seconds(begin + nanoseconds(*time))));
         self.position.extend(&next.position);
         self.velocity.extend(&next.velocity);
         self.acceleration.extend(&next.acceleration);
+        self.torque.extend(&next.torque);
     }
 
     /// Stands still for so many seconds at the end, rounded up to whole nanoseconds; less than [`SHORTEST_INTERVAL`] counts as
@@ -103,7 +130,15 @@ impl Trajectory {
                 nanoseconds(end + rest(pause)),
                 [position.into(), Configuration::zeros(), Configuration::zeros()],
             );
+            // What it takes to hold the arm there.
+            self.torque.extend(self.torque.last().copied());
         }
+    }
+
+    /// The cubics through positions and velocities.
+    pub(super) fn pieces(&self) -> Vec<Piece> {
+        let end = |i: usize| [self.position[i].into(), self.velocity[i].into()];
+        (1..self.time.len()).map(|i| Piece::hermite(self.time[i - 1], self.time[i], end(i - 1), end(i))).collect()
     }
 
     fn with_capacity(samples: usize) -> Self {
@@ -112,10 +147,11 @@ impl Trajectory {
             position: Vec::with_capacity(samples),
             velocity: Vec::with_capacity(samples),
             acceleration: Vec::with_capacity(samples),
+            torque: Vec::new(),
         }
     }
 
-    fn push(&mut self, nanoseconds: u64, [position, velocity, acceleration]: [Configuration; 3]) {
+    pub(super) fn push(&mut self, nanoseconds: u64, [position, velocity, acceleration]: [Configuration; 3]) {
         // Adding 0 turns the minus zero of a joint at rest into zero.
         let row = |v: Configuration| [v[0] + 0.0, v[1] + 0.0];
         self.time.push(clock::seconds(nanoseconds));
@@ -156,7 +192,7 @@ pub struct Timed {
 /// `2 sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`, up to `4` [`SHORTEST_INTERVAL`] longer where a phase would be
 /// shorter than that; and each phase is lengthened to whole nanoseconds. Linear in the number of samples.
 ///
-/// If any joint's jerk has a limit, the motion stops at every corner, blended or not, and each straight piece on which such
+/// If any joint's jerk has a limit, the motion stops at every corner, blended or not ([`super::Drive::along`] passes them), and each straight piece on which such
 /// a joint moves takes the shortest time that speed, acceleration and jerk along it allow from rest to rest, with one bound
 /// on the tip's speed for all of it; up to `12` [`SHORTEST_INTERVAL`] longer where a phase would be shorter than that.
 ///
@@ -179,7 +215,7 @@ pub(super) fn time_curve(
     if !(period.is_finite() && period >= SHORTEST_INTERVAL) {
         return Err(TimingError::Period(period));
     }
-    let (used, runs) = schedule(curve, limits);
+    let (used, runs) = schedule(curve, limits, &vec![1.0; curve.radii().len()], 0.0);
     let phases = || {
         let timed_tracks = runs.iter().flatten();
         timed_tracks.flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase)))
@@ -204,7 +240,7 @@ pub(super) fn time_curve(
 ///
 /// Phases begin and end between nanoseconds. The sample of each is at the nearest one, where the motion is then, with the
 /// acceleration of the interval that begins there.
-fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f64, trajectory: &mut Trajectory) -> u64 {
+pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f64, trajectory: &mut Trajectory) -> u64 {
     let near = nanoseconds((period / 2.0).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL));
     let mut since = 0.0;
     let mut before: Option<(&Track, &Phase)> = None;

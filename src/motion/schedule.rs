@@ -5,7 +5,7 @@ use super::corner::{Bounds, Corner};
 use super::jerk;
 use super::limits::Limits;
 use super::profile::{Phase, State, passing, rest_to_rest};
-use super::sample::{SHORTEST_INTERVAL, USUAL_INTERVAL};
+use super::sample::{SHORTEST_INTERVAL, Trajectory, USUAL_INTERVAL, sample};
 use super::tip::{Part, TIP_STEP};
 use crate::space::{Blend, BlendedPath, Configuration};
 use std::ops::Range;
@@ -44,6 +44,7 @@ pub(super) struct Line {
 }
 
 impl Line {
+    /// With a limit on torques its acceleration is not known to keep that: see [`Line::safe`].
     fn new(from: Configuration, to: Configuration, limits: &Limits) -> Self {
         let offset = to - from;
         // Unlike the root of the sum of squares this does not vanish for the shortest of offsets.
@@ -55,6 +56,12 @@ impl Line {
             Part { middle: from + offset / 2.0, slope: direction, bend: Configuration::zeros(), half: length / 2.0 };
         let speed = limits.tip.map_or(speed, |tip| speed.min(tip.allowed(&part)));
         Self { from, to, length, direction, speed, acceleration, jerk }
+    }
+
+    /// The same with a speed and an acceleration that the torques allow wherever it is passed.
+    fn safe(self, limits: &Limits) -> Self {
+        let [speed, acceleration] = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.safe(self.from, self.to));
+        Self { speed: self.speed.min(speed), acceleration: self.acceleration.min(acceleration), ..self }
     }
 
     /// A straight stretch in parts, each with a top speed of its own: several if the tip's limit asks for it.
@@ -100,12 +107,26 @@ impl Line {
 }
 
 impl Track {
+    /// A straight stretch in as many tracks as its limits ask for.
+    fn straight(from: Configuration, to: Configuration, limits: &Limits) -> Vec<Self> {
+        if limits.torque.is_none() {
+            return Line::parts(from, to, limits).into_iter().map(Track::Line).collect();
+        }
+        let corner = Corner::straight(from, to, limits).map(Track::Corner);
+        vec![corner.unwrap_or_else(|| Track::Line(Line::new(from, to, limits).safe(limits)))]
+    }
+
     /// Position, velocity and acceleration of the joints.
     pub(super) fn at(&self, state: State) -> [Configuration; 3] {
         match self {
             Track::Line(line) => line.at(state),
             Track::Corner(corner) => corner.at(state),
         }
+    }
+
+    /// Whether it goes about a waypoint.
+    pub(super) fn is_blend(&self) -> bool {
+        matches!(self, Track::Corner(corner) if !corner.is_straight())
     }
 
     /// The longest interval between samples within a phase.
@@ -122,11 +143,17 @@ pub(super) type TimedTrack = (Track, Vec<Phase>);
 
 /// The timed tracks along a path, from rest to rest each, in order, and the blends in use: waypoints whose blend is of no use are
 /// left out of them, and their corners are stopped at. With a limit on a jerk no blend is of use: where a parabola that is passed at speed
-/// begins, the acceleration jumps.
-pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Vec<Vec<TimedTrack>>) {
+/// begins, the acceleration jumps. Each waypoint's blend is passed at a share of the speed that the limits allow.
+/// Between acceleration and deceleration on a straight piece the arm coasts for some seconds at least.
+pub(super) fn schedule(
+    curve: &BlendedPath,
+    limits: &Limits,
+    shares: &[f64],
+    coast: f64,
+) -> (BlendedPath, Vec<Vec<TimedTrack>>) {
     let corner = |waypoint: usize| {
         let blend = curve.blend(waypoint).filter(|_| !limits.stops_at_corners());
-        blend.and_then(|blend: Blend| Corner::new(blend, limits))
+        blend.and_then(|blend: Blend| Corner::new(blend, limits, shares[waypoint]))
     };
     let count = curve.radii().len();
     let mut used = curve.clone();
@@ -139,7 +166,7 @@ pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Ve
     let stops: Vec<usize> = (0..count).filter(|&w| used.radii()[w] == 0.0).collect();
     for run in stops.windows(2) {
         let stopping = stopping(&used, run[0]..run[1], limits);
-        let blended = (run[1] - run[0] > 1).then(|| blended(&used, run[0]..run[1], limits)).flatten();
+        let blended = (run[1] - run[0] > 1).then(|| blended(&used, run[0]..run[1], limits, shares, coast)).flatten();
         let took: f64 = stopping.iter().map(|timed_tracks| duration(timed_tracks)).sum();
         match blended.filter(|blended| duration(blended) <= took) {
             Some(blended) => runs.push(blended),
@@ -153,8 +180,38 @@ pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Ve
 }
 
 /// How long they take together, seconds.
-fn duration(timed_tracks: &[TimedTrack]) -> f64 {
+pub(super) fn duration(timed_tracks: &[TimedTrack]) -> f64 {
     timed_tracks.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
+}
+
+/// Appends the samples of the leg after a waypoint, from rest to rest, but for the last; and tells when it ends.
+pub(super) fn stopping_at(
+    curve: &BlendedPath,
+    waypoint: usize,
+    limits: &Limits,
+    begin: u64,
+    period: f64,
+    trajectory: &mut Trajectory,
+) -> u64 {
+    let runs = stopping(curve, waypoint..waypoint + 1, limits);
+    runs.iter().fold(begin, |begin, run| sample(run, begin, limits, period, trajectory))
+}
+
+/// The places of a run at the multiples of so many seconds, the beginning first, until it has ended.
+pub(super) fn places(run: &[TimedTrack], step: f64) -> Vec<Configuration> {
+    let mut places = Vec::new();
+    let mut since = 0.0;
+    for (track, phase) in run.iter().flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase))) {
+        while places.len() as f64 * step < since + phase.duration {
+            let [place, ..] = track.at(phase.at(places.len() as f64 * step - since));
+            places.push(place);
+        }
+        since += phase.duration;
+    }
+    if let Some((track, phase)) = run.last().and_then(|(track, phases)| Some((track, phases.last()?))) {
+        places.push(track.at(phase.at(phase.duration))[0]);
+    }
+    places
 }
 
 /// From rest to rest on each leg from one waypoint to another.
@@ -162,20 +219,21 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Ve
     let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
     let timed_tracks = |leg: &[Configuration]| {
         let whole = || {
-            let line = Line::new(leg[0], leg[1], limits);
+            let line = Line::new(leg[0], leg[1], limits).safe(limits);
             let phases = rest_to_rest(line.length, line.speed, line.acceleration, SHORTEST_INTERVAL);
             vec![(Track::Line(line), phases)]
         };
-        let parts = Line::parts(leg[0], leg[1], limits);
-        if parts[0].jerk.is_finite() {
+        if Line::new(leg[0], leg[1], limits).jerk.is_finite() {
             // One top speed for all parts, and so no jumps between them.
+            let parts = Line::parts(leg[0], leg[1], limits);
             let speed = parts.iter().map(|part| part.speed).fold(f64::INFINITY, f64::min);
-            let line = Line { speed, ..Line::new(leg[0], leg[1], limits) };
-            let phases = jerk::rest_to_rest(line.length, speed, line.acceleration, line.jerk, SHORTEST_INTERVAL);
+            let line = Line { speed, ..Line::new(leg[0], leg[1], limits) }.safe(limits);
+            let phases = jerk::rest_to_rest(line.length, line.speed, line.acceleration, line.jerk, SHORTEST_INTERVAL);
             return vec![(Track::Line(line), phases)];
         }
-        let driven = (parts.len() > 1).then(|| driven(parts.into_iter().map(Track::Line).collect(), limits)).flatten();
-        driven.unwrap_or_else(whole)
+        let tracks = Track::straight(leg[0], leg[1], limits);
+        let is_more = tracks.len() > 1 || matches!(tracks[0], Track::Corner(_));
+        is_more.then(|| driven(tracks, limits, 0.0)).flatten().unwrap_or_else(whole)
     };
     legs.map(timed_tracks).collect()
 }
@@ -205,13 +263,19 @@ impl Span {
 }
 
 /// From rest at one waypoint to rest at another, with a blend at each between them. None if that cannot be sampled.
-fn blended(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Option<Vec<TimedTrack>> {
-    driven(tracks(curve, waypoints, limits)?, limits)
+fn blended(
+    curve: &BlendedPath,
+    waypoints: Range<usize>,
+    limits: &Limits,
+    shares: &[f64],
+    coast: f64,
+) -> Option<Vec<TimedTrack>> {
+    driven(tracks(curve, waypoints, limits, shares)?, limits, coast)
 }
 
 /// From rest at the beginning of the first track to rest at the end of the last; blends are cut into more spans until
 /// these are fine enough. None if a phase would be too short to be sampled.
-fn driven(tracks: Vec<Track>, limits: &Limits) -> Option<Vec<TimedTrack>> {
+fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64) -> Option<Vec<TimedTrack>> {
     let passed = |track| match track {
         Track::Line(line) => Track::Line(line.passed()),
         corner @ Track::Corner(_) => corner,
@@ -231,10 +295,10 @@ fn driven(tracks: Vec<Track>, limits: &Limits) -> Option<Vec<TimedTrack>> {
             break squared;
         }
     };
-    let mut best = (timed_tracks(&tracks, &squared)?, squared);
+    let mut best = (timed_tracks(&tracks, &squared, coast)?, squared);
     while let Some(finer) = much_finer(&tracks, &best.1) {
         let squared = squared_speeds(&finer, limits);
-        let Some(timed_tracks) = timed_tracks(&finer, &squared) else { break };
+        let Some(timed_tracks) = timed_tracks(&finer, &squared, coast) else { break };
         if duration(&timed_tracks) > (1.0 - WORTH) * duration(&best.0) {
             break;
         }
@@ -261,12 +325,12 @@ fn much_finer(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Track>> {
 }
 
 /// The phases in which tracks are passed, given the squared speeds on them; none if one would be too short to be sampled.
-fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<TimedTrack>> {
+fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>], coast: f64) -> Option<Vec<TimedTrack>> {
     let timed_track = |(track, squared): (&Track, &Vec<f64>)| {
         let phases = match track {
             Track::Line(line) => {
                 let ends = [squared[0].sqrt(), squared[1].sqrt()];
-                passing(line.length, ends, line.speed, line.acceleration, line.shortest())?
+                passing(line.length, ends, line.speed, line.acceleration, line.shortest(), coast)?
             }
             Track::Corner(corner) => corner.phases(squared),
         };
@@ -310,16 +374,15 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     speeds
 }
 
-fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Option<Vec<Track>> {
+fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares: &[f64]) -> Option<Vec<Track>> {
     let q = curve.path().waypoints();
     let mut from = q[waypoints.start];
     let mut tracks = Vec::new();
     for (waypoint, &corner) in q.iter().enumerate().take(waypoints.end + 1).skip(waypoints.start + 1) {
         let blend = curve.blend(waypoint);
-        let leg = Line::parts(from, blend.map_or(corner, |b| b.from), limits);
-        tracks.extend(leg.into_iter().map(Track::Line));
+        tracks.extend(Track::straight(from, blend.map_or(corner, |b| b.from), limits));
         if let Some(blend) = blend {
-            tracks.push(Track::Corner(Corner::new(blend, limits)?));
+            tracks.push(Track::Corner(Corner::new(blend, limits, shares[waypoint])?));
             from = blend.to;
         }
     }

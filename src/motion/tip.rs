@@ -1,10 +1,13 @@
 //! A top speed of the tip.
 
 use crate::model::{Arm, JointType};
-use crate::space::Configuration;
+use crate::space::{Configuration, Derivative, Piece};
 
 /// Share of its limit that the tip's speed may lose, because it is bounded part by part: curves are cut so finely.
 pub(super) const TIP_STEP: f64 = 0.01;
+
+/// Parts of a piece in which it is looked how fast the tip is, at the most.
+const MOST_PARTS: f64 = 64.0;
 
 /// Greatest speed of an arm's tip over the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +43,30 @@ impl TipSpeed<'_> {
         let [first, second] = self.arm.jacobian(1, self.arm.tip, part.middle);
         let way = (first * part.slope[0] + second * part.slope[1]).norm();
         self.speed / (way + self.slack(part))
+    }
+
+    /// By how many times the tip may be faster on pieces of a motion than its limit allows, if it may be at all.
+    pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
+        let excess = pieces.iter().map(|piece| self.excess_on(piece)).fold(1.0, f64::max);
+        (excess > 1.0).then_some(excess)
+    }
+
+    fn excess_on(&self, piece: &Piece) -> f64 {
+        let duration = piece.to - piece.from;
+        let parts = |count: u32| {
+            let part = move |u: f64, acceleration: Configuration| Part {
+                middle: piece.at(u),
+                slope: piece.derivative(Derivative::Velocity, u),
+                bend: acceleration,
+                half: duration / f64::from(2 * count),
+            };
+            // The acceleration is linear, so it is greatest at an end, whatever the direction.
+            let ends = [0.0, 1.0].map(|end| piece.derivative(Derivative::Acceleration, end));
+            (0..count).flat_map(move |i| ends.map(|end| part((f64::from(i) + 0.5) / f64::from(count), end)))
+        };
+        let slack = parts(1).map(|part| self.slack(&part)).fold(0.0, f64::max);
+        let count = (slack / (TIP_STEP * self.speed)).ceil().clamp(1.0, MOST_PARTS) as u32;
+        parts(count).map(|part| 1.0 / self.allowed(&part)).fold(0.0, f64::max)
     }
 
     /// Greatest magnitude of the second derivative of the tip's place by the parameter.

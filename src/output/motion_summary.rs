@@ -1,10 +1,11 @@
 //! The summary of a single motion for people.
 
-use super::summary::{Line, Told, configuration, field, non_empty, segment};
+use super::summary::{Line, Told, configuration, field, non_empty, segment, torque};
 use crate::check::CertifiedCurve;
 use crate::engine::explain::{BlockingSet, Question, blocking_set};
 use crate::engine::{Bound, MotionPlan, Plan, Verdict, percent};
 use crate::model::Scene;
+use crate::motion::Fastest;
 use crate::space::Metric;
 use crate::text::counted;
 
@@ -45,6 +46,8 @@ fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
     if let (Some(curve), Some(trajectory)) = (curve, whole.trajectory()) {
         let (samples, corners) = (trajectory.time.len(), corners(curve));
         lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
+        lines.extend(torque(whole.arm(), trajectory));
+        lines.extend(report.fastest.as_ref().map(|fastest| ("fastest", least_time(fastest))));
         lines.push(("clearance", clearance(problem.scene(), curve)));
     }
     let search = report.search.as_ref().map(|used| format!(" ({used})"));
@@ -86,7 +89,7 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
 
 /// What becomes of the path's corners, if it has any.
 fn corners(curve: &CertifiedCurve) -> String {
-    let radii = curve.curve().radii();
+    let radii = curve.radii();
     let corners = radii.len().saturating_sub(2);
     let blended = radii.iter().filter(|radius| **radius > 0.0).count();
     match blended {
@@ -97,6 +100,13 @@ fn corners(curve: &CertifiedCurve) -> String {
             format!("; {blended} of {corners} corners blended, radius up to {largest:.4}")
         }
     }
+}
+
+/// How near the motion is to the fastest.
+fn least_time(fastest: &Fastest) -> String {
+    let Fastest { lower_bound, gap, .. } = *fastest;
+    let longer = gap.map_or_else(String::new, |gap| format!(", so at most {} longer than the fastest", percent(gap)));
+    format!("proven: no motion takes less than {lower_bound:.3} s{longer}")
 }
 
 /// How near the path is to the optimum.

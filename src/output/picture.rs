@@ -166,7 +166,7 @@ impl Plan {
     fn motion_view(&self, plan: &MotionPlan, contours: &[CObstacle]) -> View {
         let (MotionPlan { problem, answer, curve }, report) = (plan, self.report());
         let scene = problem.scene();
-        let outline = curve.as_ref().map(|curve| curve.curve().outline());
+        let outline = curve.as_ref().map(|curve| curve.outline());
         let detail = match (report.length, &answer.verdict) {
             (Some(length), _) => format!("{}: length {length:.4}, {}", answer.method, kept(report.clearance)),
             (None, Verdict::Infeasible(_)) => {

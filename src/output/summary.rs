@@ -3,6 +3,7 @@
 use super::{motion_summary, task_summary};
 use crate::engine::{Kind, Options, Plan};
 use crate::model::{Arm, Joint};
+use crate::motion::Trajectory;
 use crate::space::{Configuration, JointRange, Segment};
 use crate::text::Columns;
 use std::time::Duration;
@@ -96,13 +97,30 @@ pub type Line = (&'static str, String);
 /// The arm and its joints.
 fn arm_lines(arm: &Arm) -> Vec<Line> {
     let mut lines = vec![("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name))];
-    for joint in &arm.joints {
+    let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits);
+    for (k, joint) in arm.joints.iter().enumerate() {
         let unit = joint.unit();
-        let jerk = joint.jerk.map(|jerk| format!(", {jerk} {unit}/s3")).unwrap_or_default();
-        let speeds = format!("at most {} {unit}/s, {} {unit}/s2{jerk}", joint.velocity, joint.acceleration);
+        let mut speeds = format!("at most {} {unit}/s", joint.velocity);
+        // What takes the place of an acceleration is no wish of anybody's.
+        if dynamics.is_none_or(|dynamics| !dynamics.assumed[k]) {
+            speeds += &format!(", {} {unit}/s2", joint.acceleration);
+        }
+        speeds += &joint.jerk.map(|jerk| format!(", {jerk} {unit}/s3")).unwrap_or_default();
+        speeds += &dynamics.map(|d| format!(", {} {}", d.effort[k], joint.effort_unit())).unwrap_or_default();
         lines.push(("joint", format!("{}: {}; {speeds}", joint.name, range(joint))));
     }
     lines
+}
+
+/// The greatest torques of a motion that keeps within the joints' efforts.
+pub(super) fn torque(arm: &Arm, trajectory: &Trajectory) -> Option<Line> {
+    let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;
+    let joint = |k: usize| {
+        let greatest = trajectory.torque.iter().map(|torque| torque[k].abs()).fold(0.0, f64::max);
+        let joint = &arm.joints[k];
+        format!("{} {greatest:.2} of {} {}", joint.name, dynamics.effort[k], joint.effort_unit())
+    };
+    Some(("torque", format!("at most {}, {}", joint(0), joint(1))))
 }
 
 /// The field that was asked for.

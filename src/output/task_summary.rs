@@ -1,10 +1,10 @@
 //! The summary of a task for people.
 
 use super::step_lines::{StepLine, step_lines};
-use super::summary::{Line, Told, configuration, field, non_empty};
+use super::summary::{Line, Told, configuration, field, non_empty, torque};
 use crate::engine::task::{Leg, TaskAnswer};
 use crate::engine::{Plan, Report, TaskPlan, percent};
-use crate::model::Task;
+use crate::model::{Arm, Task};
 use crate::text::counted;
 
 /// What came of the steps; start and steps.
@@ -17,7 +17,7 @@ pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
         ("start", configuration(&task.arm, task.start)),
     ];
     asked.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
-    let mut found = outcome(answer, report);
+    let mut found = outcome(&task.arm, answer, report);
     found.extend(clearance(answer, report));
     found.push(("planner", format!("{}: {motions} planned, {states} seen", report.planner)));
     found.extend(field(whole.options()));
@@ -47,7 +47,7 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
 }
 
 /// The verdict, and what is proven of the time, or why it fails.
-fn outcome(answer: &TaskAnswer, report: &Report) -> Vec<Line> {
+fn outcome(arm: &Arm, answer: &TaskAnswer, report: &Report) -> Vec<Line> {
     let count = counted(answer.legs.len(), "step");
     let figures = report.task.as_ref();
     let Some(duration) = report.duration else {
@@ -73,12 +73,13 @@ fn outcome(answer: &TaskAnswer, report: &Report) -> Vec<Line> {
     } else {
         "a good choice of postures, turns and order; not all were looked at"
     };
-    vec![
+    let mut lines = vec![
         ("result", format!("done and certified: {count}")),
         ("motion", format!("{duration:.3} s{still}, {samples} samples")),
-        ("optimum", proven),
-        ("optimum", choice.into()),
-    ]
+    ];
+    lines.extend(report.trajectory.as_ref().and_then(|trajectory| torque(arm, trajectory)));
+    lines.extend([("optimum", proven), ("optimum", choice.into())]);
+    lines
 }
 
 /// What is kept all the time, and in which step it comes nearest.

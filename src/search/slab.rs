@@ -252,6 +252,7 @@ mod tests {
             tip: Point::origin(),
             tip_name: "tip".into(),
             plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+            dynamics: None,
         };
         let shape = Shape::Polygon(piece.core().to_vec());
         let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };

@@ -70,6 +70,9 @@ limits = { a = [-1, 1.5] }
 velocity = { a = 2 }
 acceleration = { a = 3.5 }
 jerk = { a = 100 }
+effort = { a = 50 }
+dynamics = true
+gravity = [0, 0, -9.81]
 bar = 0.02
 payload = "level"
 wrist = { velocity = 6.0, acceleration = 60.0 }
@@ -118,6 +121,7 @@ at = [0.3, 0.1]
 angle = 1
 height = [0, 0.02]
 lift = 0.05
+mass = 1.5
 payload = "rigid"
 grasp = [0, 0.005]
 supports = ["table"]

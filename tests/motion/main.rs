@@ -12,6 +12,7 @@ mod played;
 #[cfg(feature = "mcap")]
 mod recorded_scene;
 mod sampled;
+mod torque;
 mod trajectory;
 
 use common::{arm, joint, link, q, scene};

@@ -40,6 +40,7 @@ fn scene(obstacle: bool) -> Scene {
         tip: Point::origin(),
         tip_name: "slider".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+        dynamics: None,
     };
     let (center, radius) = (Point::new(9.0, 0.0), 0.5);
     let far = Obstacle {

@@ -9,6 +9,7 @@ mod common;
 mod contract;
 mod decide;
 mod explaining;
+mod fastest;
 mod free_orders;
 mod goal_seams;
 mod goal_sets;

@@ -46,6 +46,7 @@ fn thing(name: &str, at: Point) -> Object {
         lift: 0.0,
         holding: Holding::Level,
         at: Isometry2::new(at.coords, 0.0),
+        mass: 0.0,
     }
 }
 

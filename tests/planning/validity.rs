@@ -10,8 +10,8 @@ use cplan::geometry::{
     Convex, ConvexError, Orientation, Point, Polygon, PolygonError, RingError, SimplePolygon, Vector, orientation,
 };
 use cplan::model::{
-    Arm, Grip, Heights, JointType, MotionProblem, MotionProblemError, Payload, Preference, Region, Scene, SceneError,
-    Workspace,
+    Arm, Body, Dynamics, Grip, Heights, JointType, MotionProblem, MotionProblemError, Payload, Preference, Region,
+    Scene, SceneError, Workspace,
 };
 use cplan::space::{GoalSet, JointRange, Segment};
 use std::f64::consts::PI;
@@ -144,12 +144,40 @@ fn no_scene_is_made_of_a_workspace_that_cannot_be() {
 }
 
 #[test]
+fn no_arm_weighs_less_than_nothing() {
+    let body = Body { mass: 2.0, center: Point::new(0.3, 0.0), inertia: 0.1 };
+    let sound = Dynamics {
+        bodies: [body; 2],
+        gravity: Vector::new(0.0, -9.81),
+        effort: [50.0, 20.0],
+        assumed: [false; 2],
+        limits: true,
+    };
+    let weighing = |dynamics| Scene::new(arm(|arm| arm.dynamics = Some(dynamics)), workspace(|_| ()));
+    assert!(weighing(sound).is_ok());
+    let light = Body { mass: -1.0, ..body };
+    let far = Body { center: Point::new(NAN, 0.0), ..body };
+    for (dynamics, part) in [
+        (Dynamics { bodies: [body, light], ..sound }, "link 2 of -1 kg"),
+        (Dynamics { bodies: [Body { inertia: INFINITE, ..body }, body], ..sound }, "link 1 of 2 kg, inf kg m2"),
+        (Dynamics { bodies: [far, body], ..sound }, "link 1"),
+        (Dynamics { effort: [50.0, 0.0], ..sound }, "an effort of 0"),
+        (Dynamics { effort: [NAN, 20.0], ..sound }, "an effort of NaN"),
+        (Dynamics { gravity: Vector::new(0.0, NAN), ..sound }, "the gravity"),
+    ] {
+        let error = weighing(dynamics).expect_err(part).to_string();
+        assert!(error.contains(part), "{error}, not {part}");
+    }
+}
+
+#[test]
 fn nothing_is_carried_that_cannot_be() {
     let payload = |grip, heights, supports| Payload {
         object: "part".into(),
         pieces: vec![rectangle(-0.1, 0.1, -0.1, 0.1)],
         heights,
         grip,
+        mass: 0.0,
         supports,
     };
     let level = |angle| Grip::Level { angle, point: Point::origin() };
@@ -161,6 +189,11 @@ fn nothing_is_carried_that_cannot_be() {
             payload(level(0.0), Heights { lower: 1.0, upper: 0.5 }, vec![]),
             vec![],
             SceneError::Heights { of: "part".into(), lower: 1.0, upper: 0.5 },
+        ),
+        (
+            Payload { mass: -1.0, ..payload(level(0.0), Heights::ALL, vec![]) },
+            vec![],
+            SceneError::Dynamics { what: "\"part\" of -1 kg".into() },
         ),
     ];
     for (payload, allowed_contacts, error) in cases {

@@ -162,7 +162,8 @@ impl Reader<'_> {
                 "at" => world.at = self.two(value, |n| self.number(n))?,
                 "angle" => world.angle = Interval::around(&self.quantity(value)?),
                 // What does not concern where shapes are.
-                "velocity" | "acceleration" | "jerk" | "wrist" | "stroke" | "payload" => {}
+                "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" | "wrist" | "stroke"
+                | "payload" => {}
                 "bar" => world.bar = Some(self.number(value)?),
                 other => return self.error(value, &format!("the checker does not know [robot] {other}")),
             }

@@ -102,6 +102,7 @@ impl Draft {
             tip: Point::new(0.5, 0.0),
             tip_name: "tip".into(),
             plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+            dynamics: None,
         };
         let obstacle = |s: &ShapeDraft| {
             let piece = s.shape(0.25);

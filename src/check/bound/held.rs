@@ -30,7 +30,7 @@ pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearanc
         let posture = Posture::new(scene, at);
         let part = scene.part(pair).at(&scene.arm().pose(pair.link, at));
         // What rounding makes of the place is far less than what it makes of the depth.
-        (penetration_depth(&part, &piece) - ROUNDING * posture.scale(&part, &piece), posture)
+        (penetration_depth(&part, &piece) - ROUNDING * posture.scale(part.core(), part.radius(), &piece), posture)
     };
     if slides(scene, pair, ends) && ends.iter().all(|&end| looked(end).0 > 0.0) {
         return [0.0, 1.0];

@@ -10,7 +10,7 @@ mod state;
 
 pub use fault::{Departure, Fault};
 
-use super::{CollisionCheck, Excess, TurnContact, WristTurn, check_collision, limits_kept};
+use super::{CollisionCheck, Excess, TurnContact, WristTurn, check_collision, limits_kept, torques_kept};
 use crate::geometry::{Point, Pose};
 use crate::model::{Action, Goal, RecordedStep, RecordedTurn, Scene, Step, Task};
 use crate::space::{Configuration, JointRange, Recording};
@@ -153,6 +153,7 @@ impl<'a> Iterator for Replay<'a> {
         let mut collision_check =
             shifted(check_collision(&scene, &motion, task.workspace.clearance), *recorded.samples.start());
         let mut broken = limits_kept(&task.arm.joints, &motion);
+        broken.extend(torques_kept(&scene, &motion));
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
         let mut object = carried;
         let (turn, lowered);

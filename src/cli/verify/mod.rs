@@ -23,9 +23,12 @@ use crate::space::Recording;
 /// is the job.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
-    let loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
+    let mut loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
     loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let mut recorded = input::load_recording(&args.trajectory, &loaded)?;
+    if args.torque || recorded.has_torques {
+        loaded = loaded.keeping_efforts()?;
+    }
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     let scene = &loaded.scene;
     if args.unwrap {

@@ -86,6 +86,9 @@ fn broken(arm: &Arm, limit: &LimitFinding) -> String {
         Limit::Velocity => format!("velocity {:.6} {unit}/s, at most {:.6}", excess.value, excess.allowed),
         Limit::Acceleration => format!("acceleration {:.6} {unit}/s2, at most {:.6}", excess.value, excess.allowed),
         Limit::Jerk => format!("jerk {:.6} {unit}/s3, at most {:.6}", excess.value, excess.allowed),
+        Limit::Torque => {
+            format!("torque {:.6} {}, at most {:.6}", excess.value, joint.effort_unit(), excess.allowed)
+        }
         Limit::AccelerationJump => format!("acceleration jumps by {:.6} {unit}/s2", excess.value),
         Limit::RestAtStart => format!("starts at {:.6} {unit}/s, not at rest", excess.value),
         Limit::RestAtEnd => format!("ends at {:.6} {unit}/s, not at rest", excess.value),

@@ -2,7 +2,7 @@
 
 use super::numbers::{Grain, ShapeView};
 use crate::draw::{chart, workspace};
-use crate::model::{Arm, Joint, JointType, Part, Scene};
+use crate::model::{Arm, JointType, Part, Scene};
 use serde::{Serialize, Serializer};
 
 #[derive(Serialize)]
@@ -22,6 +22,9 @@ struct JointView<'a> {
     circle: bool,
     velocity: f64,
     acceleration: f64,
+    /// The effort, where motions keep within it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -75,7 +78,7 @@ pub fn document<'a, S: Serializer>(arm: &'a Arm, serializer: S) -> Result<S::Ok,
     let document = ArmView {
         name: &arm.name,
         kind: arm.kind(),
-        joints: arm.joints.each_ref().map(joint),
+        joints: [0, 1].map(|k| joint(arm, k)),
         one_scale: chart::one_scale(arm).is_some(),
         links: [link(0), link(1)],
         base: [arm.base.x, arm.base.y],
@@ -88,7 +91,8 @@ pub fn document<'a, S: Serializer>(arm: &'a Arm, serializer: S) -> Result<S::Ok,
 }
 
 /// Unrounded: what comes of these numbers is multiplied and added up.
-fn joint(joint: &Joint) -> JointView<'_> {
+fn joint(arm: &Arm, k: usize) -> JointView<'_> {
+    let joint = &arm.joints[k];
     let (sign, direction) = match joint.joint_type {
         JointType::Revolute { sign } => (Some(sign), None),
         JointType::Prismatic { direction } => (None, Some([direction.x, direction.y])),
@@ -102,5 +106,6 @@ fn joint(joint: &Joint) -> JointView<'_> {
         circle: joint.range.is_circle(),
         velocity: joint.velocity,
         acceleration: joint.acceleration,
+        torque: arm.dynamics.filter(|dynamics| dynamics.limits).map(|dynamics| dynamics.effort[k]),
     }
 }

@@ -145,6 +145,9 @@ pub struct Clock {
     velocity: Chain,
     /// The same a second squared, at the beginning of the interval that begins here.
     acceleration: Chain,
+    /// Torques or forces likewise, where they are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque: Option<Chain>,
 }
 
 impl Clock {
@@ -172,6 +175,7 @@ impl Clock {
             position: chain(&trajectory.position),
             velocity: chain(&trajectory.velocity),
             acceleration: chain(&trajectory.acceleration),
+            torque: (!trajectory.torque.is_empty()).then(|| chain(&trajectory.torque)),
         }
     }
 }

@@ -51,7 +51,7 @@ impl View {
             let world = worlds.of(&leg.scene);
             motions.push(MotionView { world, path: Some(paths.len()), from, label: name.clone(), replay: None });
             let carried = leg.carried.map(|object| color::obstacle(task.obstacle_number(object)));
-            let outline = leg.timed.curve.curve().outline();
+            let outline = leg.timed.curve.outline();
             paths.push(PathView::of_step(name, &outline, world, order.number(&leg.step), carried, grain));
             from = leg.event_time().unwrap_or_else(|| leg.end());
         }

@@ -12,7 +12,7 @@ pub(super) fn evidence(problem: &MotionProblem, trajectory: &Trajectory) -> (&'s
     let arm = problem.scene().arm();
     // With a limit on the jerk the samples' JSON says the same cubics.
     let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
-    let Trajectory { time, position, velocity, acceleration } = trajectory;
+    let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
     if is_smooth {
         played(&["cubic"], time, &[position, velocity])
     } else {

@@ -9,7 +9,7 @@ pub use configuration::{BasisFinding, ConfigurationFindings, CornerFinding, Near
 pub use motion::{EncounterFinding, LimitFinding, MomentFinding, MotionFindings, Verdict, WayFinding};
 pub use task::{StepFinding, TurnContactFinding, TurnFinding};
 
-use crate::check::{ENDS_WITHIN, check_collision, claims_kept, ends_kept, limits_kept, replay};
+use crate::check::{ENDS_WITHIN, check_collision, claims_kept, ends_kept, limits_kept, replay, torques_kept};
 use crate::input::{InputError, LoadedRecording, LoadedScene, LoadedTask, Overrides};
 use crate::model::{Claims, RecordedStep, Scene};
 use crate::space::Recording;
@@ -25,7 +25,7 @@ pub fn verify(
     overrides: &Overrides,
     anywhere: bool,
 ) -> Result<MotionFindings, InputError> {
-    let LoadedRecording { recording, steps, claims, notes: read } = recorded;
+    let LoadedRecording { recording, steps, claims, has_torques: _, notes: read } = recorded;
     let nothing = Claims::default();
     let claims = claims.as_ref().unwrap_or(&nothing);
     let turns = turns(&loaded.scene, recording);
@@ -66,7 +66,8 @@ fn judge_motion(
         (false, false) => "where it begins and ends is not judged".into(),
     });
     let collision_check = check_collision(scene, recording, scene.workspace().clearance);
-    let broken = limits_kept(&scene.arm().joints, recording);
+    let mut broken = limits_kept(&scene.arm().joints, recording);
+    broken.extend(torques_kept(scene, recording));
     let findings = MotionFindings::new(scene, recording, &collision_check, &broken, notes);
     let misses = ends_kept(scene.arm(), recording, start, goal);
     let false_claims = claims_kept(scene, recording, claims, &collision_check);

@@ -272,6 +272,7 @@ fn limit(joints: &[Joint; 2], excess: &Excess, timed: bool) -> LimitFinding {
             Limit::Velocity => "velocity",
             Limit::Acceleration => "acceleration",
             Limit::Jerk => "jerk",
+            Limit::Torque => "torque",
             Limit::AccelerationJump => "acceleration jump",
             Limit::RestAtStart => "rest at start",
             Limit::RestAtEnd => "rest at end",

@@ -63,7 +63,7 @@ impl Serialize for Report {
 
 impl Report {
     /// The names of all fields that results can have.
-    pub const FIELDS: [&str; 33] = [
+    pub const FIELDS: [&str; 34] = [
         "status",
         "name",
         "planner",
@@ -81,6 +81,7 @@ impl Report {
         "free_joints",
         "length",
         "optimum",
+        "fastest",
         "certified",
         "clearance",
         "closest",
@@ -127,6 +128,7 @@ impl Report {
             fields.put("length", &self.length)?;
         }
         fields.some("optimum", self.optimum.as_ref())?;
+        fields.some("fastest", self.fastest.as_ref())?;
         fields.put("certified", &self.certified)?;
         fields.put("clearance", &self.clearance)?;
         fields.some("closest", self.closest.as_ref())?;

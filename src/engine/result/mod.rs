@@ -11,7 +11,7 @@ use super::Planner;
 use super::task::MessageError;
 use crate::check::{CertifiedCurve, CheckedProof};
 use crate::model::{AssumedLimits, Joint, RobotJoints, Status};
-use crate::motion::{Blends, FieldReport, Optimum, SearchUsed, Trajectory, interpolation};
+use crate::motion::{Blends, Fastest, FieldReport, Optimum, SearchUsed, Trajectory, interpolation};
 use crate::space::Metric;
 use std::collections::BTreeMap;
 
@@ -54,6 +54,8 @@ pub struct Report {
     pub length: Option<f64>,
     /// How far the path is from the optimum at the most, if the planner tells.
     pub optimum: Option<Optimum>,
+    /// How far the motion is from the fastest at the most, if that was asked for.
+    pub fastest: Option<Fastest>,
     /// Whether all of the continuous motion was shown free of collision; false without a motion, and if not all steps can be done.
     pub certified: bool,
     /// Proven lower bound on the distance between arm and obstacles all the time, metres. None without a motion, and where nothing
@@ -142,6 +144,7 @@ impl Report {
             free_joints: Vec::new(),
             length: None,
             optimum: None,
+            fastest: None,
             certified: false,
             clearance: None,
             closest: None,

@@ -305,6 +305,7 @@ mod tests {
             tip: Point::new(0.7, 0.0),
             tip_name: "tip".into(),
             plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+            dynamics: None,
         }
     }
 

@@ -15,16 +15,19 @@ pub(super) enum Quantity {
     Position,
     Velocity,
     Acceleration,
+    /// Follows from the others.
+    Torque,
 }
 
 /// Names of columns that hold times, in lower case.
 const TIMES: [&str; 4] = ["time", "t", "time_from_start", "time_s"];
 
 /// Words that go with a joint's name.
-const WORDS: [(Quantity, &[&str]); 3] = [
+const WORDS: [(Quantity, &[&str]); 4] = [
     (Quantity::Position, &["position", "positions", "pos"]),
     (Quantity::Velocity, &["velocity", "velocities", "vel"]),
     (Quantity::Acceleration, &["acceleration", "accelerations", "acc"]),
+    (Quantity::Torque, &["torque", "torques"]),
 ];
 
 /// Everything that a column's name can mean: `elbow`, `elbow_velocity`, `elbow.velocity`, `velocities_elbow` and the
@@ -66,6 +69,7 @@ mod tests {
             ("elbow_vel", Meaning::Of(1, Velocity)),
             ("/joint_states/elbow/position", Meaning::Of(1, Position)),
             ("accelerations/elbow", Meaning::Of(1, Acceleration)),
+            ("elbow_torque", Meaning::Of(1, Quantity::Torque)),
             ("Time", Meaning::Time),
             ("t", Meaning::Time),
             ("time_from_start", Meaning::Time),

@@ -144,14 +144,15 @@ impl Columns {
 
     /// Puts the columns' values where they belong.
     fn fill(self, samples: &mut Samples, values: Vec<Vec<f64>>) {
-        let mut series: Vec<[Option<Vec<f64>>; 3]> = self.joints.iter().map(|_| Default::default()).collect();
+        let mut series: Vec<[Option<Vec<f64>>; 4]> = self.joints.iter().map(|_| Default::default()).collect();
         for ((_, meaning), column) in self.used.into_iter().zip(values) {
             match meaning {
                 Meaning::Time => samples.time = Some(column),
                 Meaning::Of(joint, quantity) => series[joint][quantity as usize] = Some(column),
             }
         }
-        for (name, [position, velocity, acceleration]) in self.joints.into_iter().zip(series) {
+        for (name, [position, velocity, acceleration, torque]) in self.joints.into_iter().zip(series) {
+            samples.has_torques |= torque.is_some();
             if let Some(position) = position {
                 samples.joints.push(Series { name, position, velocity, acceleration });
             }

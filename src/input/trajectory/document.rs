@@ -5,6 +5,7 @@ use crate::input::error::{Diagnostic, InputError, without_place};
 use crate::input::source::Source;
 use crate::space::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 /// The members that are looked at; others may be there.
 #[derive(Deserialize)]
@@ -28,6 +29,7 @@ struct Inner {
     position: Option<Vec<Vec<f64>>>,
     velocity: Option<Vec<Vec<f64>>>,
     acceleration: Option<Vec<Vec<f64>>>,
+    torque: Option<IgnoredAny>,
     joint_names: Option<Vec<String>>,
     points: Option<Vec<Point>>,
 }
@@ -119,6 +121,7 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
             samples.joints = series(source, names, &position, "trajectory.position")?;
             samples.add(source, inner.velocity, "trajectory.velocity", |joint| &mut joint.velocity)?;
             samples.add(source, inner.acceleration, "trajectory.acceleration", |joint| &mut joint.acceleration)?;
+            samples.has_torques = inner.torque.is_some();
             samples.joined = own_rule(interpolation.as_deref(), &mut samples.notes);
             return Ok(samples);
         }

@@ -39,6 +39,8 @@ pub struct LoadedRecording {
     pub steps: Option<Vec<RecordedStep>>,
     /// What a result of cplan's says besides the samples.
     pub claims: Option<Claims>,
+    /// Whether it has torques.
+    pub has_torques: bool,
     /// What the user should know: what was ignored, and which rule joins the samples.
     pub notes: Vec<String>,
 }
@@ -61,6 +63,7 @@ struct Samples {
     joined: Option<Interpolation>,
     /// Samples after which nothing is joined: the arm stands until the next.
     rests: Vec<usize>,
+    has_torques: bool,
     /// How the file calls sample `k`: this, with `k` in brackets.
     what: &'static str,
     /// Where in the text each sample is, if the reader knows.
@@ -192,7 +195,7 @@ impl<'a> Names<'a> {
         let recording = recording.map_err(|d| misplaced(source, &samples, &d))?;
         notes.push(rule(&recording).into());
         notes.extend((recording.accelerations().is_some() && samples.joined.is_none()).then(|| STATED.into()));
-        Ok(LoadedRecording { recording, steps: None, claims: None, notes })
+        Ok(LoadedRecording { recording, steps: None, claims: None, has_torques: samples.has_torques, notes })
     }
 
     /// Checks a joint that is none of the arm's two.

@@ -158,7 +158,7 @@ impl Bodies<'_> {
     }
 
     /// The URDF links that arm link `index` is made of, in the order of the file.
-    fn bodies(&self, index: usize) -> Vec<usize> {
+    pub fn bodies(&self, index: usize) -> Vec<usize> {
         let [first, second] = self.chain.joints;
         (0..self.document.robot.links.len())
             .filter(|l| match index {
@@ -199,7 +199,8 @@ impl Bodies<'_> {
                 let shape = solid.outline(&pose, self.plane).at(&to_link.into());
                 let heights = solid.heights(&pose, self.plane);
                 let shapes = if shape.core().len() > MOST_CORNERS { shape.cut_up() } else { vec![shape] };
-                found.parts.extend(shapes.into_iter().map(|shape| Part { shape, heights, body: link.name.clone() }));
+                let part = |shape| Part { shape, heights, body: link.name.clone() };
+                found.parts.extend(shapes.into_iter().map(part));
             }
         }
         found
@@ -219,7 +220,7 @@ impl Bodies<'_> {
     }
 
     /// Where a joint is: in the plane, and its height.
-    fn joint_at(&self, index: usize) -> (Point, f64) {
+    pub fn joint_at(&self, index: usize) -> (Point, f64) {
         self.at(self.tree.child[self.chain.joints[index]])
     }
 

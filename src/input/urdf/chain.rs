@@ -136,6 +136,7 @@ impl Chooser<'_> {
         diagnostics.extend(keys("velocity", robot.velocity.keys().collect()));
         diagnostics.extend(keys("acceleration", robot.acceleration.keys().collect()));
         diagnostics.extend(keys("jerk", robot.jerk.keys().collect()));
+        diagnostics.extend(keys("effort", robot.effort.keys().collect()));
         InputError::check(diagnostics)
     }
 

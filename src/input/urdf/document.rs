@@ -104,6 +104,35 @@ impl Document {
     }
 }
 
+/// An `<inertial>` as `urdf-rs` is to see it; none if it is incomplete, as many are: nothing but torques depends on it.
+fn inertial(node: Node) -> Option<String> {
+    const MOMENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+    let mass = numbers(children(node, "mass").next()?, "value", 1)?;
+    let inertia = children(node, "inertia").next()?;
+    let mut copy = "<inertial>".to_owned();
+    if let Some(origin) = children(node, "origin").next() {
+        copy += "<origin";
+        for name in ["xyz", "rpy"].into_iter().filter(|name| origin.has_attribute(*name)) {
+            let _ = write!(copy, " {name}=\"{}\"", numbers(origin, name, 3)?);
+        }
+        copy += "/>";
+    }
+    let _ = write!(copy, "<mass value=\"{mass}\"/><inertia");
+    for name in MOMENTS {
+        let moment = if inertia.has_attribute(name) { numbers(inertia, name, 1)? } else { "0" };
+        let _ = write!(copy, " {name}=\"{moment}\"");
+    }
+    copy += "/></inertial>";
+    Some(copy)
+}
+
+/// The value of an attribute that is so many finite numbers.
+fn numbers<'a>(node: Node<'a, '_>, name: &str, count: usize) -> Option<&'a str> {
+    let text = node.attribute(name)?;
+    let numbers: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
+    numbers.filter(|numbers| numbers.len() == count && numbers.iter().all(|x| x.is_finite())).map(|_| text.trim())
+}
+
 struct Reader<'a> {
     source: &'a Source,
     diagnostics: Vec<Diagnostic>,
@@ -171,6 +200,9 @@ impl Reader<'_> {
                 }
             }
         }
+        if let Some(copy) = children(link, "inertial").next().and_then(inertial) {
+            self.copy.push_str(&copy);
+        }
         self.copy.push_str("</link>");
         place
     }
@@ -225,10 +257,11 @@ impl Reader<'_> {
         if limit.is_some() {
             let _ = write!(
                 self.copy,
-                "<limit lower=\"{}\" upper=\"{}\" velocity=\"{}\"/>",
+                "<limit lower=\"{}\" upper=\"{}\" velocity=\"{}\" effort=\"{}\"/>",
                 lower.unwrap_or(low),
                 upper.unwrap_or(high),
-                velocity.unwrap_or(0.0)
+                velocity.unwrap_or(0.0),
+                limit.and_then(|limit| limit.attribute("effort")?.trim().parse::<f64>().ok()).unwrap_or(0.0)
             );
         }
         if let Some(mimic) = mimic {

@@ -17,6 +17,7 @@ mod foreign;
 mod held;
 mod ignored;
 mod limits;
+mod masses;
 mod mesh;
 mod pairing;
 mod plane;
@@ -52,6 +53,7 @@ pub(super) fn load(source: Source, world: &World) -> Result<(Arm, RobotReport), 
     let bounds = reduction.bounds()?;
     let outlines = reduction.outlines(&plane)?;
     let joints = reduction.robot_joints(&plane)?;
-    let (arm, report) = reduction.arm(plane, bounds, outlines);
+    let (arm, report, unknown) = reduction.arm(plane, bounds, outlines);
+    unknown.filter(|_| world.robot.dynamics).map_or(Ok(()), Err)?;
     Ok((arm, RobotReport { joints, ..report }))
 }

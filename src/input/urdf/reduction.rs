@@ -9,9 +9,9 @@ use super::plane::{self, SpatialAxis, project};
 use super::tree::{self, Tree};
 use crate::geometry::Point;
 use crate::input::RobotReport;
-use crate::input::error::InputError;
+use crate::input::error::{Diagnostic, InputError};
 use crate::input::world::World;
-use crate::model::{Arm, Joint, Plane};
+use crate::model::{Arm, Dynamics, Joint, Plane};
 use crate::space::JointRange;
 use nalgebra::Isometry3;
 
@@ -89,8 +89,17 @@ impl<'a> Reduction<'a> {
         Bodies { document, tree, chain, world, plane, poses }.outlines()
     }
 
-    /// Puts the arm together.
-    pub fn arm(&self, plane: Plane, bounds: [Bounds; 2], outlines: Outlines) -> (Arm, RobotReport) {
+    /// Masses and efforts of an arm.
+    ///
+    /// # Errors
+    /// What the file does not say of them.
+    fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
+        let Self { document, tree, world, chain, poses } = self;
+        Bodies { document, tree, chain, world, plane: &arm.plane, poses }.dynamics(arm, assumed)
+    }
+
+    /// Puts the arm together; and tells why its masses and efforts are not known, unless they are.
+    pub fn arm(&self, plane: Plane, bounds: [Bounds; 2], outlines: Outlines) -> (Arm, RobotReport, Option<Diagnostic>) {
         let mut report = RobotReport {
             geometry: vec![plane::describe(&plane, &self.tree.links[self.tree.root])],
             ..Default::default()
@@ -107,12 +116,14 @@ impl<'a> Reduction<'a> {
             if let Ok(Range::Taken(_, note)) = limits.range(j) {
                 report.notes.push(note);
             }
-            report.notes.extend(bounds.rates.notes.iter().cloned());
+            // Efforts take the place of accelerations that nobody gives.
+            let takes = |note: &&String| !(self.world.robot.dynamics && note.contains("no acceleration limit"));
+            report.notes.extend(bounds.rates.notes.iter().filter(takes).cloned());
             let name = &self.document.robot.joints[j].name;
             if bounds.rates.assumed.velocity {
                 report.assumed.velocity.insert(name.clone(), bounds.rates.velocity);
             }
-            if bounds.rates.assumed.acceleration {
+            if bounds.rates.assumed.acceleration && !self.world.robot.dynamics {
                 report.assumed.acceleration.insert(name.clone(), bounds.rates.acceleration);
             }
         }
@@ -120,6 +131,7 @@ impl<'a> Reduction<'a> {
         report.notes.extend(outlines.notes);
         report.warnings.extend(outlines.warnings);
 
+        let assumed = bounds.each_ref().map(|bounds| bounds.rates.assumed.acceleration);
         let [base, elbow] = self.chain.joints.map(|j| self.at(&plane, self.tree.child[j]));
         let [first, second] = self.axes();
         let [a, b] = bounds;
@@ -131,7 +143,7 @@ impl<'a> Reduction<'a> {
             acceleration: bounds.rates.acceleration,
             jerk: bounds.rates.jerk,
         };
-        let arm = Arm {
+        let mut arm = Arm {
             name: self.document.robot.name.clone(),
             joints: [joint(first, a), joint(second, b)],
             links: outlines.links,
@@ -140,8 +152,24 @@ impl<'a> Reduction<'a> {
             tip: Point::from(self.at(&plane, self.chain.tip) - elbow),
             tip_name: self.tree.links[self.chain.tip].clone(),
             plane,
+            dynamics: None,
         };
-        (arm, report)
+        let unknown = match self.dynamics(&arm, assumed) {
+            Ok(dynamics) => {
+                arm.dynamics = Some(dynamics);
+                None
+            }
+            Err(diagnostic) => Some(diagnostic),
+        };
+        if self.world.robot.dynamics {
+            arm.keep_efforts();
+        }
+        let told = |diagnostic: &Diagnostic| {
+            let help = diagnostic.help.as_ref().map(|help| format!("; {help}"));
+            diagnostic.message.clone() + &help.unwrap_or_default()
+        };
+        report.no_dynamics = unknown.as_ref().map(told);
+        (arm, report, unknown)
     }
 
     /// Origin of a link's frame in plane coordinates.

@@ -135,7 +135,8 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
         }
         None => bare(reduction),
     };
-    let (arm, notes) = reduction.arm(plane, bounds.unwrap_or_else(|_| unbounded(reduction)), outlines);
+    let (arm, notes, unknown) = reduction.arm(plane, bounds.unwrap_or_else(|_| unbounded(reduction)), outlines);
+    report.errors.extend(unknown.filter(|_| reduction.world.robot.dynamics).map(InputError::from));
     report.ignored.extend(notes.notes.into_iter().filter(|note| note.contains("are ignored")));
     report.reach = Some(reach(&arm));
     report.frames = frames(reduction, &plane);

@@ -331,7 +331,7 @@ const MARGIN: f64 = 5.0;
 impl Way {
     fn of(name: String, curve: &CertifiedCurve) -> Self {
         let values = |path: &Path| all(path.waypoints());
-        Self { name, waypoints: values(curve.curve().path()), outline: values(&curve.curve().outline()) }
+        Self { name, waypoints: values(curve.curve().path()), outline: values(&curve.outline()) }
     }
 }
 

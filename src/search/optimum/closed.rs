@@ -198,7 +198,7 @@ impl<'a> Closed<'a> {
         let of_piece = &pair.sides;
         let poses = ends.map(|q| self.scene().arm().pose(1, q));
         let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
-        let slack = STUCK_ROUNDING * posture.scale(&part.at(&poses[0]), piece);
+        let slack = STUCK_ROUNDING * posture.scale(part.at(&poses[0]).core(), part.radius(), piece);
         let radius = part.radius() + piece.radius() + self.clearance - slack;
         let (in_link, in_plane) = (posture.curvature_in_link(1, deviation), posture.curvature_in_plane(1, deviation));
         let of_world = |p: Point, from_piece: f64| {

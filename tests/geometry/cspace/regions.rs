@@ -31,6 +31,7 @@ fn scene(joints: [Joint; 2], offset: Vector, links: [Vec<Convex>; 2], pieces: Ve
         tip: Point::new(0.8, 0.0),
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+        dynamics: None,
     };
     let obstacles = pieces
         .into_iter()

@@ -106,6 +106,7 @@ fn payloads_are_judged_like_a_flood_fill() {
             pieces: task.objects[object].pieces.clone(),
             heights: task.objects[object].carried_heights(),
             grip,
+            mass: 0.0,
             supports,
         };
         let poses: Vec<_> = task.objects.iter().enumerate().map(|(i, o)| (i != object).then_some(o.at)).collect();

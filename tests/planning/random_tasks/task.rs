@@ -48,6 +48,7 @@ pub fn task(seed: u64) -> Task {
             lift: if dice.chance(0.3) { 0.2 } else { 0.0 },
             holding,
             at: Isometry2::new(at.coords, dice.within(-PI, PI)),
+            mass: 0.0,
         });
     }
     // Somewhere free among all objects.

@@ -15,7 +15,7 @@
 
 mod exploring;
 mod flood;
-mod oracle;
+pub mod oracle;
 pub mod solid;
 pub mod world;
 

@@ -66,6 +66,7 @@ fn arm(dice: &mut Dice, kind: &str) -> Arm {
         tip: Point::new(0.5, 0.0),
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+        dynamics: None,
     }
 }
 

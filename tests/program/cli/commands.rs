@@ -125,11 +125,12 @@ fn limits_of_the_jerk_are_kept_in_every_format() {
     let smooth = [urdf.as_str(), "smooth.toml"];
     let done = place.run(&smooth, "--output m.json --output m.yaml --output m.csv");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    for part in ["2 rad/s, 8 rad/s2, 200 rad/s3", "3 rad/s, 12 rad/s2, 300 rad/s3", "; stops at 10 corners"] {
+    for part in ["2 rad/s, 8 rad/s2, 200 rad/s3", "3 rad/s, 12 rad/s2, 300 rad/s3", "; 10 of 10 corners blended"] {
         assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
     }
     let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
-    assert_eq!(result["blends"]["count"], 0);
+    // With a stop at each corner it takes 3.5 s.
+    assert!(result["blends"]["count"] == 10 && result["duration"].as_f64().unwrap() < 2.1, "{}", result["duration"]);
     assert!(result["interpolation"].as_str().unwrap().ends_with("the jerk is constant"));
     let verify = |file: &str| place.run(&["verify", &urdf, "smooth.toml", file], "");
     for file in ["m.json", "m.yaml", "m.csv"] {
@@ -143,6 +144,42 @@ fn limits_of_the_jerk_are_kept_in_every_format() {
     let jumps = verify("jumps.yaml");
     assert_eq!(jumps.code, 3, "{}", jumps.stdout);
     assert!(jumps.stdout.contains("shoulder: acceleration jumps by"), "{}", jumps.stdout);
+}
+
+#[test]
+fn the_least_time_has_a_bound_and_another_shape() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let run = |options: &str| {
+        let done = place.run(&shelf(), &format!("{options} --output m.json --output m.csv --certificate c.json"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        for file in ["m.json", "m.csv"] {
+            let verified = place.run(&["verify", &urdf, &world, file], "");
+            assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
+        }
+        let text = |path: &str| std::fs::read_to_string(path).unwrap();
+        let judged = cplan_check::check(&text(&urdf), &text(&world), &place.read("c.json"));
+        assert!(judged.is_ok(), "{options}: {judged:?}");
+        let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+        (done.stdout, result)
+    };
+    let number = |result: &Value, pointer: &str| result.pointer(pointer).and_then(Value::as_f64).unwrap();
+    let (text, length) = run("--optimize length");
+    assert!(!text.contains("fastest") && length["fastest"].is_null());
+    for options in ["--optimize time", "--optimize time --jerk 200,300", "--optimize time --metric time"] {
+        let (text, time) = run(options);
+        assert!(text.contains("fastest    proven: no motion takes less than 1."), "{text}");
+        let [duration, bound] = ["/fastest/duration", "/fastest/lower_bound"].map(|pointer| number(&time, pointer));
+        assert_eq!(duration, number(&time, "/duration"));
+        assert!(duration < 0.95 * number(&length, "/duration") && bound < duration && bound > 0.8 * duration);
+        assert!((number(&time, "/fastest/gap") - (duration / bound - 1.0)).abs() < 1e-12);
+        // What is told of the path is told of the one that is driven.
+        assert!(number(&time, "/length") > number(&length, "/length"));
+        assert!(number(&time, "/optimum/lower_bound") < number(&time, "/optimum/length"));
+    }
+    let corners = place.run(&shelf(), "--optimize time --blend none");
+    assert!(corners.stdout.contains("; stops at"), "{}", corners.stdout);
+    assert_eq!(place.run(&shelf(), "--optimize speed").code, 2);
 }
 
 #[test]

@@ -32,6 +32,7 @@ mod results;
 mod study;
 mod tasks;
 mod terminal;
+mod torques;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

@@ -50,6 +50,7 @@ pub fn arm(
         tip: Point::new(lengths[1], 0.0),
         tip_name: "tool0".to_owned(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+        dynamics: None,
     }
 }
 

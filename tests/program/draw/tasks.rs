@@ -30,7 +30,7 @@ fn object(name: &str, round: bool, holding: Holding, at: [f64; 2]) -> Object {
         (Shape::Polygon(corners.clone()), convex(corners, 0.0))
     };
     let at = Pose::translation(at[0], at[1]);
-    Object { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL, lift: 0.0, holding, at }
+    Object { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL, lift: 0.0, holding, at, mass: 0.0 }
 }
 
 fn pick(object: usize) -> Action {

@@ -1,4 +1,4 @@
-// Position, velocity and acceleration of both joints over time.
+// Position, velocity, acceleration and, where it is known, torque of both joints over time.
 'use strict';
 
 const Plots = (() => {
@@ -6,6 +6,7 @@ const Plots = (() => {
     { key: 'position', title: 'position', per: '' },
     { key: 'velocity', title: 'velocity', per: '/s' },
     { key: 'acceleration', title: 'acceleration', per: '/s\u00b2' },
+    { key: 'torque', title: 'torque', units: { rad: 'N m', m: 'N' } },
   ];
   const DASHES = [[], [6, 4]];
 
@@ -43,7 +44,7 @@ const Plots = (() => {
       for (let k = 0; k < clock.time.length; k += 1) {
         const spot = panel.at([clock.time[k], clock[key][2 * k + joint]]);
         if (before && spot[0] - last < 0.3 && Math.abs(spot[1] - before[1]) < 0.3 && k + 1 < clock.time.length) continue;
-        if (before && key === 'acceleration') context.lineTo(spot[0], before[1]);
+        if (before && key !== 'position' && key !== 'velocity') context.lineTo(spot[0], before[1]);
         if (before) context.lineTo(...spot);
         else context.moveTo(...spot);
         [before, last] = [spot, spot[0]];
@@ -75,8 +76,8 @@ const Plots = (() => {
         y: [-1, 1],
         titles: ['time (s)', quantity.title],
         margins: [52, 8, 6, 38],
-        still: (context, panel) => view.model.clock && draw(context, panel, view, quantity),
-        moving: (context, panel) => view.model.clock && cursor(context, panel, view),
+        still: (context, panel) => shows(view, quantity) && draw(context, panel, view, quantity),
+        moving: (context, panel) => shows(view, quantity) && cursor(context, panel, view),
       });
       const scrub = (event) => event.buttons && view.seek(panel.value(panel.spot(event))[0]);
       canvas.addEventListener('pointerdown', (event) => {
@@ -84,16 +85,28 @@ const Plots = (() => {
         scrub(event);
       });
       canvas.addEventListener('pointermove', scrub);
-      return { panel, fit: () => fit(panel, view, quantity, key) };
+      return {
+        panel,
+        fit: () => {
+          canvas.style.display = shows(view, quantity) ? '' : 'none';
+          fit(panel, view, quantity, key);
+        },
+      };
     });
   }
 
-  function fit(panel, view, { key, title, per }, legend) {
+  /** Whether there is anything to show of it. */
+  function shows(view, { key }) {
+    return Boolean(view.model.clock && view.model.clock[key]);
+  }
+
+  function fit(panel, view, quantity, legend) {
+    const { key, title, per, units: of } = quantity;
     const { clock, arm } = view.model;
-    if (!clock) return;
+    if (!shows(view, quantity)) return;
     const [first, second] = arm.joints.map((joint) => joint.name);
     legend.textContent = `${first} solid, ${second} dashed; limits dotted`;
-    const units = [...new Set(arm.joints.map((joint) => joint.unit + per))].join(', ');
+    const units = [...new Set(arm.joints.map((joint) => (of ? of[joint.unit] : joint.unit + per)))].join(', ');
     panel.titles = ['time (s)', `${title} (${units})`];
     panel.x = [0, Math.max(clock.time[clock.time.length - 1], 1e-6)];
     panel.y = span(view.model, key);

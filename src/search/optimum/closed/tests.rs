@@ -53,6 +53,7 @@ fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex
         tip: Point::origin(),
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+        dynamics: None,
     };
     let shape = Shape::Polygon(piece.core().to_vec());
     let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };

@@ -1,0 +1,110 @@
+//! What the two arm links weigh, and what their joints can bring.
+
+use super::bodies::Bodies;
+use super::limits::{find, key};
+use super::plane::project;
+use super::tree::isometry;
+use crate::geometry::Vector;
+use crate::input::error::Diagnostic;
+use crate::model::{Arm, Body, Dynamics};
+use nalgebra::{Matrix3, Vector3};
+
+/// Acceleration of free fall in the root frame, whose z axis points up; m/s2.
+const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
+
+/// The least determinant of an inertia matrix, as a share of the product of its diagonal: below, a joint moves nothing.
+const MASSLESS: f64 = 1e-12;
+
+impl Bodies<'_> {
+    /// Masses and efforts of an arm.
+    ///
+    /// # Errors
+    /// Links without mass, joints without effort, numbers that no body has.
+    pub fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
+        let effort = [self.effort(0)?, self.effort(1)?];
+        let bodies = [self.body(0)?, self.body(1)?];
+        let gravity = self.gravity()?;
+        let gravity = Vector::new(gravity.dot(&self.plane.u), gravity.dot(&self.plane.v));
+        let dynamics = Dynamics { bodies, gravity, effort, assumed, limits: false };
+        let inertia = dynamics.greatest_inertia(arm);
+        let acceleration = dynamics.greatest_accelerations(arm);
+        if inertia.iter().flatten().chain(&acceleration).all(|value| value.is_finite())
+            && (0..2).all(|k| effort[k] > MASSLESS * inertia[k][k] * acceleration[k])
+        {
+            return Ok(dynamics);
+        }
+        let message = "one of the two joints moves no inertia";
+        Err(self.document.source.diagnostic(message).help("give its link an <inertial> with <mass> and <inertia>"))
+    }
+
+    fn effort(&self, index: usize) -> Result<f64, Diagnostic> {
+        let joint = &self.document.robot.joints[self.chain.joints[index]];
+        let place = &self.document.joints[self.chain.joints[index]];
+        let given = find(&self.world.robot.effort, &joint.name);
+        if let Some(given) = given {
+            let effort = *given.get_ref();
+            if effort.is_finite() && effort > 0.0 {
+                return Ok(effort);
+            }
+            let message = format!("[robot] effort of \"{}\" must be positive, is {effort}", joint.name);
+            return Err(self
+                .world
+                .source
+                .diagnostic_at(given.span(), message)
+                .help("N m, or N of a joint that slides"));
+        }
+        if joint.limit.effort.is_finite() && joint.limit.effort > 0.0 && place.limit.is_some() {
+            return Ok(joint.limit.effort);
+        }
+        let message = format!("joint \"{}\" has no effort", joint.name);
+        let help = format!(
+            "effort=\"50\" in its <limit>, or in the world file: [robot] effort = {{ {} = 50 }} (N m, or N of a joint that slides)",
+            key(&joint.name)
+        );
+        Err(self.document.diagnostic_at(place.limit.as_ref().unwrap_or(&place.at), message).help(help))
+    }
+
+    /// All that an arm link is made of, in its frame.
+    fn body(&self, index: usize) -> Result<Body, Diagnostic> {
+        let joint = self.joint_at(index).0;
+        let mut whole = Body::NONE;
+        for body in self.bodies(index) {
+            let link = &self.document.robot.links[body];
+            let inertial = &link.inertial;
+            let mass = inertial.mass.value;
+            let pose = self.poses[body] * isometry(&inertial.origin);
+            let i = &inertial.inertia;
+            let tensor = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
+            let normal = pose.inverse_transform_vector(&self.plane.normal);
+            let inertia = normal.dot(&(tensor * normal));
+            if mass < 0.0 || inertia < 0.0 {
+                let message =
+                    format!("link \"{}\" has a mass of {mass} kg and an inertia of {inertia} kg m2", link.name);
+                let at = &self.document.links[body].at;
+                return Err(self.document.diagnostic_at(at, message).help("no body has less than 0 of either"));
+            }
+            let center = (project(self.plane, &pose.translation.vector) - joint).into();
+            whole = whole.and(&Body { mass, center, inertia });
+        }
+        if whole.mass > 0.0 {
+            return Ok(whole);
+        }
+        let link = self.tree.child[self.chain.joints[index]];
+        let message = format!("link \"{}\" has no mass", self.tree.links[link]);
+        let help = "give it an <inertial> with <origin>, <mass> and <inertia>";
+        Err(self.document.source.diagnostic(message).help(help))
+    }
+
+    fn gravity(&self) -> Result<Vector3<f64>, Diagnostic> {
+        let Some(given) = &self.world.robot.gravity else { return Ok(GRAVITY.into()) };
+        let numbers: Vec<f64> = given.get_ref().iter().map(|number| *number.get_ref()).collect();
+        match numbers[..] {
+            [x, y, z] if numbers.iter().all(|number| number.is_finite()) => Ok(Vector3::new(x, y, z)),
+            _ => {
+                let message = format!("[robot] gravity: expected three finite numbers, found {numbers:?}");
+                let help = "gravity = [0, 0, -9.81], m/s2 in the robot's root frame";
+                Err(self.world.source.diagnostic_at(given.span(), message).help(help))
+            }
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Torques through the program: kept, told and judged; what is missing is named.
+
+use super::{Place, shelf, shipped};
+use serde_json::Value;
+
+fn upright() -> [String; 2] {
+    [shipped("robots/rrbot_vertical.urdf"), shipped("workspaces/upright.toml")]
+}
+
+/// The greatest torque of each joint that a result has.
+fn greatest(result: &Value) -> [f64; 2] {
+    let rows = result["trajectory"]["torque"].as_array().expect("torques");
+    assert_eq!(rows.len(), result["trajectory"]["time"].as_array().expect("times").len());
+    [0, 1].map(|k| rows.iter().map(|row| row[k].as_f64().expect("a number").abs()).fold(0.0, f64::max))
+}
+
+#[test]
+fn torques_are_kept_told_and_judged() {
+    let place = Place::new();
+    let [urdf, world] = upright();
+    let done = place.run(&upright(), "--output m.json --output m.csv --output m.yaml --picture m.html");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    for part in ["at most 2 rad/s, 36 N m", "at most 3 rad/s, 12 N m", "torque     at most shoulder 35."] {
+        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
+    }
+    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+    let [shoulder, elbow] = greatest(&result);
+    assert!((35.0..=36.0).contains(&shoulder) && (10.0..=12.0).contains(&elbow), "{shoulder} {elbow}");
+    assert_eq!(result["assumed"], Value::Null, "efforts take the place of accelerations");
+    let table = place.read("m.csv");
+    assert!(table.lines().next().unwrap().ends_with(",shoulder_torque,elbow_torque"), "{table}");
+    assert!(place.read("m.html").contains("\"torque\":36"));
+    for file in ["m.json", "m.csv", "m.yaml"] {
+        let verified = place.run(&["verify", &urdf, &world, file], "");
+        assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
+    }
+    // With weaker motors the same motion is too much.
+    let weaker =
+        std::fs::read_to_string(&world).unwrap().replace("shoulder = 36, elbow = 12", "shoulder = 35, elbow = 11");
+    place.write("weaker.toml", weaker);
+    for file in ["m.json", "m.csv", "m.yaml"] {
+        let verified = place.run(&["verify", &urdf, "weaker.toml", file], "");
+        assert_eq!(verified.code, 3, "{file}: {}", verified.stdout);
+        for part in ["shoulder: torque", "N m, at most 35.0", "elbow: torque", "at most 11.0"] {
+            assert!(verified.stdout.contains(part), "{file}: no {part} in {}", verified.stdout);
+        }
+    }
+}
+
+#[test]
+fn the_option_is_as_good_as_the_world() {
+    let place = Place::new();
+    let [urdf, world] = upright();
+    let text = std::fs::read_to_string(&world).unwrap();
+    place.write("silent.toml", text.replace("dynamics = true\n", ""));
+    let silent = [urdf.as_str(), "silent.toml"];
+    let told = place.run(&upright(), "--json --quiet").json();
+    assert_eq!(place.run(&silent, "--torque --json --quiet").json(), told);
+    // Without, accelerations are assumed, and there is nothing to tell.
+    let without = place.run(&silent, "--output plain.json --json --quiet").json();
+    assert!(without["trajectory"]["torque"].is_null() && !without["assumed"]["acceleration"].is_null());
+    let verify = |options: &str, file: &str| place.run(&["verify", &urdf, "silent.toml", file], options);
+    assert_eq!(verify("", "plain.json").code, 0);
+    let judged = verify("--torque", "plain.json");
+    assert_eq!(judged.code, 3, "{}", judged.stdout);
+    assert!(judged.stdout.contains("torque"), "{}", judged.stdout);
+    // A motion that says its torques is held to them.
+    assert_eq!(place.run(&silent, "--torque --output m.json --output m.csv").code, 0);
+    for file in ["m.json", "m.csv"] {
+        assert_eq!(verify("", file).code, 0, "{file}");
+    }
+}
+
+#[test]
+fn what_is_carried_and_how_it_is_driven_stay_within_the_efforts() {
+    let place = Place::new();
+    let [urdf, _] = upright();
+    let heavy = shipped("workspaces/tasks/heavy_tower.toml");
+    let seconds = |world: &str, options: &str| {
+        let done = place.run(&[&urdf, world], &format!("{options} --output m.json --json --quiet"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let verified = place.run(&["verify", &urdf, world, "m.json"], "");
+        assert_eq!(verified.code, 0, "{options}: {}", verified.stdout);
+        let [shoulder, elbow] = greatest(&done.json());
+        assert!(shoulder <= 45.0 && elbow <= 16.0, "{shoulder} {elbow}");
+        done.json()["duration"].as_f64().unwrap()
+    };
+    let text = std::fs::read_to_string(&heavy).unwrap();
+    place.write("light.toml", text.replace("mass = 1.5", "mass = 0"));
+    let (laden, light) = (seconds(&heavy, ""), seconds("light.toml", ""));
+    assert!(light < 0.95 * laden, "{light} {laden}");
+    let jerk = seconds(&heavy, "--jerk 300,300");
+    assert!(jerk > laden, "{jerk}");
+    // Judged with what is carried: the motion of light blocks is too much for heavy ones.
+    assert_eq!(place.run(&[&urdf, "light.toml"], "--output light.json").code, 0);
+    let verified = place.run(&["verify", &urdf, &heavy, "light.json"], "");
+    assert!(verified.code == 3 && verified.stdout.contains("torque"), "{}", verified.stdout);
+}
+
+#[test]
+fn what_is_missing_or_makes_no_sense_is_named() {
+    let place = Place::new();
+    let [urdf, world] = upright();
+    place.run(&shelf(), "--torque").refused(1, &["--torque", "link \"upper_arm\" has no mass", "<inertial>"]);
+    let [plain, _] = shelf();
+    place.run(&[plain.as_str(), world.as_str()], "").refused(1, &["has no mass", "cure"]);
+    let text = std::fs::read_to_string(&world).unwrap();
+    let cases = [
+        ("shoulder = 36", "shoulder = 0", "effort of \"shoulder\" must be positive"),
+        ("shoulder = 36", "wrist = 36", "has no joint \"wrist\""),
+        ("shoulder = 36", "shoulder = 9", "joint \"shoulder\" has an effort of 9 N m, and the arm takes"),
+        ("dynamics = true", "dynamics = true\ngravity = [0, 1]", "gravity: expected three finite numbers"),
+        ("dynamics = true", "dynamics = 1", "dynamics"),
+    ];
+    for (from, to, part) in cases {
+        place.write("wrong.toml", text.replace(from, to));
+        place.run(&[urdf.as_str(), "wrong.toml"], "").refused(1, &[part]);
+    }
+    let robot = std::fs::read_to_string(&urdf).unwrap();
+    let robots = [
+        ("<mass value=\"4\"/>", "<mass value=\"-4\"/>", "has a mass of -4 kg"),
+        ("<mass value=\"4\"/>", "", "link \"upper_arm\" has no mass"),
+        ("iyy=\"0.0423\"", "iyy=\"-0.0423\"", "an inertia of -0.0423 kg m2"),
+    ];
+    for (from, to, part) in robots {
+        place.write("wrong.urdf", robot.replace(from, to));
+        place.run(&["wrong.urdf", world.as_str()], "").refused(1, &[part]);
+        // Nothing else depends on it.
+        place.write("silent.toml", text.replace("dynamics = true\n", ""));
+        assert_eq!(place.run(&["wrong.urdf", "silent.toml"], "").code, 0, "{part}");
+    }
+    place.write("weak.urdf", robot.replace(" effort=\"50\" velocity=\"2.0\"", " velocity=\"2.0\""));
+    place.write("own.toml", text.replace("effort = { shoulder = 36, elbow = 12 }", ""));
+    place.run(&["weak.urdf", "own.toml"], "").refused(1, &["joint \"shoulder\" has no effort", "[robot] effort"]);
+}
