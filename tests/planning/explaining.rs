@@ -13,7 +13,7 @@ use cplan::engine::explain::{BlockingSet, Cure, Element, Question, Side, blockin
 use cplan::engine::{Verdict, decide};
 use cplan::geometry::Vector;
 use cplan::model::{
-    Arm, Heights, Joint, Link, MotionProblem, Obstacle, Outcome, OutlineSource, Part, Scene, Workspace,
+    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, Outcome, OutlineSource, Part, Scene, Workspace,
 };
 use cplan::space::{Configuration, JointRange};
 use cplan::{Options, Status, engine};
@@ -40,8 +40,14 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
     if !there.contains(&Element::Clearance) {
         workspace.clearance = 0.0;
     }
+    // Beside each other two slides get nowhere but by long ways; along one line they get nowhere beside it.
+    let between = match arm.joints.each_ref().map(|joint| joint.joint_type) {
+        [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.angle(&b).sin(),
+        _ => 1.0,
+    };
+    let between = if between < 1e-3 { 1.0 } else { between };
     for (k, joint) in arm.joints.iter_mut().enumerate() {
-        let far = if joint.joint_type.is_revolute() { TAU } else { FAR };
+        let far = if joint.joint_type.is_revolute() { TAU } else { FAR / between };
         if let JointRange::Interval { lower, upper } = &mut joint.range {
             if !there.contains(&Element::Limit { joint: k, side: Side::Lower }) {
                 *lower -= far;
@@ -51,8 +57,13 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
             }
         }
     }
-    let scene = Scene::new(arm, workspace).expect("less of what is valid");
-    MotionProblem::new(scene, problem.start(), problem.goals().clone()).expect("ends stay free")
+    // A micrometre is kept, unless an end does not.
+    let asked = |clearance: f64| {
+        let workspace = Workspace { clearance: workspace.clearance.max(clearance), ..workspace.clone() };
+        let scene = Scene::new(arm.clone(), workspace).expect("less of what is valid");
+        MotionProblem::new(scene, problem.start(), problem.goals().clone())
+    };
+    asked(1e-6).unwrap_or_else(|_| asked(0.0).expect("ends stay free"))
 }
 
 /// What is wrong with a set.
@@ -114,6 +125,20 @@ fn blocking_sets_are_irreducible() {
     );
     assert!(wrong.is_empty(), "{wrong:#?}");
     assert!(unknown.len() * 20 <= count, "of {count} are not shown to be irreducible: {unknown:#?}");
+}
+
+/// Slides that are nearly parallel, and walls and points without area, which cannot be passed nor be shown not to be at no clearance at all.
+#[test]
+fn blocking_sets_of_degenerate_worlds() {
+    let long_ways = [722, 931, 1095, 1154, 1393, 1580].map(|seed| ("PP", seed));
+    let thin = [("RR", 39), ("RR", 253), ("RP", 615), ("PP", 862), ("PR", 28), ("PR", 684), ("PR", 874)];
+    for (kind, seed) in long_ways.into_iter().chain(thin) {
+        let problem = world(kind, seed).expect("a world");
+        let Verdict::Infeasible(proof) = decide(&problem, BOXES) else { panic!("{kind} {seed} has a motion") };
+        let set = blocking_set(&Question::from(&problem), Some(proof), [BOXES, BOXES_AT_LAST]);
+        assert!(set.is_irreducible(), "{kind} {seed}: {:?}", set.elements());
+        assert_eq!(faults(&problem, &set), Vec::<String>::new(), "{kind} {seed}");
+    }
 }
 
 /// Half the side of the block that the gantry carries.

@@ -4,9 +4,13 @@ use super::element::{Element, Side, widened};
 use crate::check::{CertifiedPath, CheckedProof};
 use crate::engine::{Verdict, decide};
 use crate::geometry::{Convex, Point};
-use crate::model::{Arm, Goal, MotionProblem, Scene, Workspace, inverse};
+use crate::model::{Arm, Goal, JointType, MotionProblem, Scene, Workspace, inverse};
 use crate::space::{Configuration, GoalSet, Segment};
 use std::f64::consts::TAU;
+
+/// The clearance among some of what is in the way where the world asks for less, or that is left out, metres: what passes through less passes by
+/// luck. Without any, what passes nothing but obstacles as thin as a line could be shown neither to be a way nor to be none, by boxes.
+pub const HARDLY_ANY: f64 = 1e-6;
 
 /// What is to be reached.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +38,8 @@ pub struct Question {
     target: Target,
     /// How far the joints go beyond a limit that is left out: the same however much else is left out.
     beyond: [f64; 2],
+    /// The least clearance when something is left out: [`HARDLY_ANY`], if start and goals keep it.
+    least_clearance: f64,
 }
 
 /// What is decided of a question.
@@ -66,7 +72,10 @@ impl Question {
     pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
         let target = target.into();
         let beyond = beyond(&scene, start, &target);
-        Self { scene, start, target, beyond }
+        let asked = Self { scene, start, target, beyond, least_clearance: 0.0 };
+        let kept = asked.with_clearance(asked.scene.workspace().clearance.max(HARDLY_ANY));
+        let keeps = kept.is_free(start) == asked.is_free(start) && kept.goals() == asked.goals();
+        Self { least_clearance: if keeps { HARDLY_ANY } else { 0.0 }, ..asked }
     }
 
     /// Arm and obstacles.
@@ -142,7 +151,8 @@ impl Question {
         self.beyond[joint]
     }
 
-    /// The same without some of what is in the way: no such obstacles; no such limits of joints (see [`Question::beyond`]); any clearance above 0. All else keeps its number, so that a proof which names nothing of it holds in both.
+    /// The same without some of what is in the way: no such obstacles; no such limits of joints (see [`Question::beyond`]); no
+    /// clearance. At least [`HARDLY_ANY`] is kept, if start and goals do. All else keeps its number, so that a proof which names nothing of it holds in both.
     #[must_use]
     pub fn without(&self, elements: &[Element]) -> Self {
         self.rebuilt(|arm, workspace| {
@@ -155,6 +165,7 @@ impl Question {
                     Element::Clearance => workspace.clearance = 0.0,
                 }
             }
+            workspace.clearance = workspace.clearance.max(self.least_clearance);
         })
     }
 
@@ -195,9 +206,22 @@ fn beyond(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
         let outside = values.map(|value| (lower - value).max(value - upper)).fold(0.0, f64::max);
         match joint.joint_type.is_revolute() {
             true => TAU * (1.0 + (outside / TAU).ceil()),
-            false => farthest(scene) + 2.0 * (tip - arm.base).norm() + outside,
+            false => (farthest(scene) + 2.0 * (tip - arm.base).norm()) / crossing(arm) + outside,
         }
     })
+}
+
+/// Two slides whose directions cross by less than this angle, radians, go along one line.
+const ONE_LINE: f64 = 1e-3;
+
+/// The sine of the angle between two slides, by which each has to go the farther to leave something behind beside the other; 1 of other arms,
+/// and of slides along one line, which leave nothing beside it.
+fn crossing(arm: &Arm) -> f64 {
+    let across = match arm.joints.each_ref().map(|joint| joint.joint_type) {
+        [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.perp(&b).abs(),
+        _ => 1.0,
+    };
+    if across < ONE_LINE { 1.0 } else { across }
 }
 
 /// How far a joint slides that has left all obstacles behind, wherever it begins.
