@@ -61,7 +61,7 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
         let covered = || covered(&met, each).filter(|covered| covered.len() < pieces.len());
         if pieces.len() > MANY { covered().unwrap_or(pieces) } else { pieces }
     };
-    Cow::Owned(scene.reshaped(|part| around(part, each), pieces))
+    Cow::Owned(scene.reshaped(|part| part.shape = around(&part.shape, each), pieces))
 }
 
 /// How far from the base anything of the arm gets, where that is plain: both joints turn and nothing is carried level.

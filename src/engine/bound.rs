@@ -67,7 +67,7 @@ fn past_polygons(motions: &Motions, gap: f64) -> Option<f64> {
     if scene.pairs().len() > FEW_POLYGONS {
         return None;
     }
-    let space = inner_regions(scene, (LOST * gap.min(1.0)).max(LEAST_LOST) * extent(scene.arm()))?;
+    let space = inner_regions(&scene.inner(), (LOST * gap.min(1.0)).max(LEAST_LOST) * extent(scene.arm()))?;
     let planner = Visibility { metric, ..Visibility::default() };
     let map = planner.build(&space);
     let run = planner.query(&space, &map, &Query { start, goals: goals.clone() });

@@ -99,6 +99,7 @@ impl Arm {
             let turned = Pose::from_parts(Translation2::identity(), turn);
             for part in arm.links.iter_mut().flat_map(|link| &mut link.parts) {
                 part.shape = part.shape.at(&turned);
+                part.inner = part.inner.as_ref().map(|inner| inner.at(&turned));
             }
             for joint in &mut arm.joints {
                 if let JointType::Prismatic { direction } = &mut joint.joint_type {

@@ -23,8 +23,11 @@ pub enum OutlineSource {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// Projection on the plane.
+    /// Projection on the plane, or what covers it: what is free of this is free.
     pub shape: Convex,
+    /// A shape within the projection, where `shape` is larger than that: proofs that something is in the way rest on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inner: Option<Convex>,
     /// Extent along the plane's normal in the root frame.
     pub heights: Heights,
     /// The URDF link that the geometry belongs to.
@@ -47,7 +50,7 @@ impl Link {
     /// A link of these shapes, at all heights; no shapes for one that cannot collide.
     #[must_use]
     pub fn of(name: &str, shapes: impl IntoIterator<Item = Convex>) -> Self {
-        let part = |shape| Part { shape, heights: Heights::ALL, body: name.into() };
+        let part = |shape| Part { shape, inner: None, heights: Heights::ALL, body: name.into() };
         let parts: Vec<Part> = shapes.into_iter().map(part).collect();
         let source = if parts.is_empty() { OutlineSource::None } else { OutlineSource::Collision };
         Self { name: name.into(), parts, source }

@@ -7,6 +7,7 @@ use crate::geometry::{Convex, Separation, seams, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
@@ -122,19 +123,27 @@ impl Scene {
         Self { arm, workspace, payload, allowed_contacts, own_parts, pairs, differences }
     }
 
+    /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within.
+    #[must_use]
+    pub(crate) fn inner(&self) -> Cow<'_, Self> {
+        if self.arm.links.iter().flat_map(|link| &link.parts).all(|part| part.inner.is_none()) {
+            return Cow::Borrowed(self);
+        }
+        let shrink = |part: &mut Part| {
+            if let Some(inner) = part.inner.take() {
+                part.shape = inner;
+            }
+        };
+        Cow::Owned(self.reshaped(shrink, |obstacle| obstacle.pieces.clone()))
+    }
+
     /// The same scene with other shapes for the arm's own parts and for the pieces of obstacles; each part stays one part,
     /// each obstacle one obstacle, and what is carried stays as it is.
     #[must_use]
-    pub(crate) fn reshaped(
-        &self,
-        part: impl Fn(&Convex) -> Convex,
-        pieces: impl FnMut(&Obstacle) -> Vec<Convex>,
-    ) -> Self {
+    pub(crate) fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
-        for own in arm.links.iter_mut().flat_map(|link| &mut link.parts) {
-            own.shape = part(&own.shape);
-        }
+        arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(reshape);
         let pieces: Vec<Vec<Convex>> = workspace.obstacles.iter().map(pieces).collect();
         for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
             obstacle.pieces = pieces;
@@ -303,7 +312,8 @@ impl Payload {
                 }));
                 meetable.push(first..own + made.len());
             }
-            parts.push((Part { shape: on_link, heights: self.heights, body: self.object.clone() }, meetable));
+            let (heights, body) = (self.heights, self.object.clone());
+            parts.push((Part { shape: on_link, inner: None, heights, body }, meetable));
         }
         parts
     }

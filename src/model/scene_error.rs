@@ -1,11 +1,14 @@
 //! What arm, obstacles and what is carried must be to make a scene.
 
 use super::{Arm, Body, Dynamics, Grip, Heights, Joint, JointType, Payload, Plane, Workspace};
-use crate::geometry::{Convex, Pose};
+use crate::geometry::{Convex, Point, Pose, separation};
 use crate::space::JointRange;
 
 /// Unit vectors may be off by this: far above the rounding of what is normalised, far below any robot's accuracy.
 const UNIT_ROUNDING: f64 = 1e-9;
+
+/// Share of its farthest point's distance by which rounding may move a shape's corners.
+const SHAPE_ROUNDING: f64 = 1e-9;
 
 /// Why arm and workspace make no scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -62,6 +65,12 @@ pub enum SceneError {
     Dynamics {
         /// Of what.
         what: String,
+    },
+    /// What proofs are to rest on is not within the outline.
+    #[error("\"{of}\": its inner shape is not within its outline")]
+    Inner {
+        /// Name of the link.
+        of: String,
     },
     /// Something ends below where it begins, or at no number.
     #[error("\"{of}\": no heights from {lower} to {upper}")]
@@ -147,6 +156,9 @@ fn check_arm(arm: &Arm) -> Result<(), SceneError> {
     arm.dynamics.as_ref().map_or(Ok(()), check_dynamics)?;
     arm.links.iter().flat_map(|link| &link.parts).try_for_each(|part| {
         check_size(&part.body, [&part.shape])?;
+        if part.inner.as_ref().is_some_and(|inner| !covers(&part.shape, inner)) {
+            return Err(SceneError::Inner { of: part.body.clone() });
+        }
         check_heights(&part.body, part.heights)
     })
 }
@@ -166,6 +178,13 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), SceneError> {
 
 fn is_mass(value: f64) -> bool {
     (0.0..=LARGEST).contains(&value)
+}
+
+/// Whether a shape covers another one, up to rounding: the discs at the corners of one lie as deep in the other as they are large.
+fn covers(shape: &Convex, inner: &Convex) -> bool {
+    let room = SHAPE_ROUNDING * shape.reach_from(Point::origin());
+    let beyond = |corner: &Point| separation(shape, &Convex::point(*corner)).distance + inner.radius();
+    inner.core().iter().all(|corner| beyond(corner) <= room)
 }
 
 fn check_joint(joint: &Joint) -> Result<(), SceneError> {

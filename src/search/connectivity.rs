@@ -8,6 +8,7 @@ use crate::check::Cell;
 use crate::check::Disconnection;
 use crate::model::Scene;
 use crate::space::{Configuration, GoalSet};
+use std::borrow::Cow;
 
 /// The answer of [`connectivity`].
 #[derive(Debug, Clone, PartialEq)]
@@ -62,7 +63,19 @@ pub fn connectivity(
     clearance: f64,
     max_boxes: usize,
 ) -> Connectivity {
-    decide(&mut Subdivision::new(scene, clearance), start, goals, max_boxes)
+    proven(scene, |scene| decide(&mut Subdivision::new(scene, clearance), start, goals, max_boxes))
+}
+
+/// The answer among shapes that cover what they stand for, which is as good as a path among these; that there is none is asked
+/// again of the shapes within, where they differ.
+pub(super) fn proven(scene: &Scene, decide: impl Fn(&Scene) -> Connectivity) -> Connectivity {
+    match (decide(scene), scene.inner()) {
+        (Connectivity::Disconnected(proof), Cow::Owned(inner)) => match decide(&inner) {
+            Connectivity::Connected(_) => Connectivity::Undecided { boxes: proof.stuck().len(), closed: false },
+            answer => answer,
+        },
+        (answer, _) => answer,
+    }
 }
 
 /// As [`connectivity`], with the boxes.

@@ -10,7 +10,7 @@ mod proof;
 use super::bands::{Kind, bands};
 use super::chain::{Mosaic, Openness, all_of_fewest_mixed, ends, fewest_mixed};
 use super::channel::Channel;
-use super::connectivity::{Connectivity, Occupancy};
+use super::connectivity::{Connectivity, Occupancy, proven};
 use super::slab::{SecondLink, Verdicts};
 use crate::check::Cell;
 use crate::check::StuckBox;
@@ -83,7 +83,7 @@ pub fn slab_connectivity(
     max_slabs: usize,
     max_boxes: usize,
 ) -> Connectivity {
-    decide(&mut Slabs::new(scene, clearance), start, goals, max_slabs, max_boxes)
+    proven(scene, |scene| decide(&mut Slabs::new(scene, clearance), start, goals, max_slabs, max_boxes))
 }
 
 /// The boxes of configurations that [`slab_connectivity`] ends with: they lie side by side and cover the domain.

@@ -156,6 +156,18 @@ proptest! {
             let outline = part.shape.core().iter().map(|p| p.coords.dot(&d)).fold(f64::MIN, f64::max) + part.shape.radius();
             let sampled = placed.iter().map(|p| p.xy().dot(&d)).fold(f64::MIN, f64::max);
             prop_assert!(outline - sampled < 0.005 * RADIUS + SAMPLING, "excess {}", outline - sampled);
+            // What proofs rest on is within the solid, and hardly less.
+            let inner = part.inner.as_ref().unwrap_or(&part.shape);
+            let support = inner.core().iter().map(|p| p.coords.dot(&d)).fold(f64::MIN, f64::max) + inner.radius();
+            if shape == CYLINDER {
+                let (axis, half) = (rpy(r) * Vector3::z(), length(seed) / 2.0);
+                let along = axis.xy().dot(&d);
+                let exact = 0.1 * d.x + 0.2 * d.y + half * along.abs() + RADIUS * (1.0 - along * along).sqrt();
+                prop_assert!(support < exact + 1e-9, "{} outside", support - exact);
+                prop_assert!(outline > exact - 1e-9 && outline - support < 0.01 * RADIUS + 1e-9, "{}", outline - support);
+            } else {
+                prop_assert_eq!(support, outline);
+            }
         }
     }
 }
@@ -164,9 +176,16 @@ const RADIUS: f64 = 0.2;
 /// Sagitta of 96 samples round a circle of radius 0.2, and 48 down to the pole, with room for both at once.
 const SAMPLING: f64 = 6e-4;
 
+const CYLINDER: usize = 1;
+
+/// That of a solid, metres.
+fn length(seed: u64) -> f64 {
+    0.1 + (seed % 7) as f64 * 0.15
+}
+
 /// A solid as URDF and as points of its surface.
 fn solid(shape: usize, seed: u64) -> (String, Vec<Vector3<f64>>) {
-    let length = 0.1 + (seed % 7) as f64 * 0.15;
+    let length = length(seed);
     let ring = |radius: f64, z: f64| {
         (0..96).map(move |i| {
             let a = f64::from(i) * std::f64::consts::TAU / 96.0;
@@ -187,7 +206,7 @@ fn solid(shape: usize, seed: u64) -> (String, Vec<Vector3<f64>>) {
             };
             (format!("<box size=\"{length} 0.3 0.1\"/>"), (0..8).map(corner).collect())
         }
-        1 => {
+        CYLINDER => {
             let points = ring(RADIUS, length / 2.0).chain(ring(RADIUS, -length / 2.0)).collect();
             (format!("<cylinder radius=\"{RADIUS}\" length=\"{length}\"/>"), points)
         }

@@ -19,6 +19,9 @@ const LONGEST_TURN: i32 = 1000;
 /// Steps along half of the ellipse that a cylinder's end is in the plane.
 const ELLIPSE_STEPS: i32 = 16;
 
+/// From this share of its radius on, an oblique cylinder's end is taken as a disc.
+const OBLIQUE: u32 = 200;
+
 /// A cylinder whose axis is out of the plane by less than this power of a half counts as lying.
 const LYING: u64 = 44;
 
@@ -560,7 +563,7 @@ impl<'a> Arm<'a> {
                 let reach = &(half * &tilt) + &(radius * &flat);
                 if tilt.is_whole(1) {
                     (vec![center.clone()], radius.clone(), half.clone())
-                } else if flat.lower.sign() != Sign::Plus {
+                } else if flat.lower.sign() != Sign::Plus || is_nearly_one(&tilt) {
                     // The ends are ellipses that hold discs of this radius.
                     (beside(&end).to_vec(), radius * &tilt, reach)
                 } else {
@@ -597,6 +600,11 @@ impl<'a> Tree<'a> {
         let Axis::Line([low, high]) = self.range(joint, world)? else { return Ok(Interval::whole(0)) };
         Ok(Interval::from(&Decimal::whole(0).max(low).min(high)))
     }
+}
+
+/// Whether a cosine is such that a cylinder's end is taken as a disc.
+fn is_nearly_one(tilt: &Interval) -> bool {
+    tilt.lower >= (&Interval::whole(1) - &Interval::whole(1).over(OBLIQUE)).lower
 }
 
 /// A solid about its origin; cylinders and capsules along z.

@@ -115,7 +115,7 @@ impl LengthClaim {
     /// closed, where they hardly are. What ends at a seam goes a little past it.
     #[must_use]
     pub fn closed(&self, scene: &Scene, clearance: f64) -> Vec<ClosedSegment> {
-        let mut closed = Vec::new();
+        let (scene, mut closed) = (&*scene.inner(), Vec::new());
         let seen = |ends: [Configuration; 2], pair: Pair| {
             checkpoint();
             held(scene, pair, ends, clearance, FEW_LOOKS)
@@ -159,7 +159,7 @@ impl LengthClaim {
         clearance: f64,
         metric: Metric,
     ) -> CheckedBound {
-        let topology = scene.arm().topology();
+        let (scene, topology) = (&*scene.inner(), scene.arm().topology());
         let mut refused = 0;
         let mut slices: Vec<HeldSlice> = Vec::new();
         for slice in &self.slices {

@@ -36,7 +36,7 @@ impl StuckBox {
     /// Whether it is what it says, with room for rounding.
     #[must_use]
     pub fn holds(&self, scene: &Scene, clearance: f64) -> bool {
-        is_stuck(scene, 0, self, clearance).is_ok()
+        is_stuck(&scene.inner(), 0, self, clearance).is_ok()
     }
 }
 
@@ -126,7 +126,7 @@ impl Disconnection {
         goals: &GoalSet,
         clearance: f64,
     ) -> Result<CheckedProof, ProofError> {
-        let topology = scene.arm().topology();
+        let (scene, topology) = (&*scene.inner(), scene.arm().topology());
         for (index, stuck) in self.stuck.iter().enumerate() {
             is_in_space(scene, &topology, index, stuck)?;
         }

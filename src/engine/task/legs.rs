@@ -6,7 +6,7 @@ use super::stroke::{ToolStroke, stroke};
 use crate::check::{CertifiedPath, CheckedProof, WristTurn, certify, wrist_turn};
 use crate::engine::settle::LARGE_PROOF;
 use crate::engine::{Answer, Options, Verdict, solve};
-use crate::geometry::{Convex, Pose};
+use crate::geometry::Pose;
 use crate::model::{Grip, MotionProblem, Scene, Step, Task};
 use crate::motion::{Timed, single};
 use crate::search::{Connectivity, slab_connectivity};
@@ -352,11 +352,14 @@ pub(super) fn planned_again(
 /// The scene with some of its objects alone; the others keep their numbers.
 fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
     let mut number = 0;
-    scene.reshaped(Convex::clone, |obstacle| {
-        number += 1;
-        let stays = number <= own || among.contains(&(number - 1 - own));
-        if stays { obstacle.pieces.clone() } else { Vec::new() }
-    })
+    scene.reshaped(
+        |_| {},
+        |obstacle| {
+            number += 1;
+            let stays = number <= own || among.contains(&(number - 1 - own));
+            if stays { obstacle.pieces.clone() } else { Vec::new() }
+        },
+    )
 }
 
 /// The straight way from one configuration to another, if it is free.

@@ -197,9 +197,10 @@ impl Bodies<'_> {
                 };
                 let pose = self.poses[*body] * isometry(origin);
                 let shape = solid.outline(&pose, self.plane).at(&to_link.into());
+                let inner = solid.inner(&pose, self.plane).map(|inner| inner.at(&to_link.into()));
                 let heights = solid.heights(&pose, self.plane);
                 let shapes = if shape.core().len() > MOST_CORNERS { shape.cut_up() } else { vec![shape] };
-                let part = |shape| Part { shape, heights, body: link.name.clone() };
+                let part = |shape| Part { shape, inner: inner.clone(), heights, body: link.name.clone() };
                 found.parts.extend(shapes.into_iter().map(part));
             }
         }
@@ -234,6 +235,7 @@ impl Bodies<'_> {
         let (from, low) = self.joint_at(index);
         let (to, high) = if index == 0 { self.joint_at(1) } else { self.at(self.chain.tip) };
         Part {
+            inner: None,
             shape: capsule(Point::origin(), Point::from(Vector::from(to - from)), radius),
             heights: Heights { lower: low.min(high) - radius, upper: low.max(high) + radius },
             body: body.to_owned(),

@@ -96,14 +96,15 @@ pub struct Motions<'a> {
 /// without area make no walls, which makes the bound lower.
 #[must_use]
 pub fn least_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> f64 {
-    bounded(motions, limit, gap, slices).0
+    bounded(&Motions { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices).0
 }
 
 /// The same with what closes shorter ways, for [`LengthClaim::checked`].
 #[must_use]
 pub fn claimed_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> LengthClaim {
-    let (length, mut ways) = bounded(motions, limit, gap, slices);
-    let (slices, goal_slices) = (ways.strips.claim(motions.scene), ways.strips.claim_at_goals(motions.goals));
+    let scene = &*motions.scene.inner();
+    let (length, mut ways) = bounded(&Motions { scene, ..*motions }, limit, gap, slices);
+    let (slices, goal_slices) = (ways.strips.claim(scene), ways.strips.claim_at_goals(motions.goals));
     LengthClaim { slices, goal_slices, length }
 }
 

@@ -58,9 +58,9 @@ struct Tally {
     tips: usize,
     boxes: usize,
     largest: usize,
-    /// Certificates that do not hold of arms with oblique cylinders, whose outlines are up to half a percent too wide.
+    /// Of arms with oblique cylinders.
     oblique: usize,
-    /// What other certificates do not hold, and why.
+    /// What certificates do not hold, and why.
     failed: Vec<String>,
     checking: Duration,
 }
@@ -105,15 +105,12 @@ fn closed(seed: u64, tally: &mut Tally) -> Vec<Closed> {
         let judged = check(&urdf, &world, &certificate);
         tally.checking += begun.elapsed();
         let count = certificate.matches("\"lower\"").count();
-        if judged.is_err() && drawn.has_oblique_cylinder() {
-            tally.oblique += 1;
-            continue;
-        }
         if let Err(why) = judged {
             tally.failed.push(format!("seed {seed}, {count} boxes: {why}\n{urdf}\n{world}"));
             continue;
         }
         tally.infeasible[kind as usize] += 1;
+        tally.oblique += usize::from(drawn.has_oblique_cylinder());
         tally.tips += usize::from(matches!(drawn.goal, Goal::Tip(_)));
         tally.boxes += count;
         tally.largest = tally.largest.max(certificate.len());
@@ -136,7 +133,6 @@ fn certificates_of_random_worlds_hold() {
     println!("{tally:?}");
     let first: Vec<String> = failed.into_iter().take(3).collect();
     assert!(count == 0, "{count} do not hold, among them\n{}", first.join("\n"));
-    assert!(tally.oblique <= 1 + tally.infeasible.iter().sum::<usize>() / 20, "{tally:?}");
     assert!(!usual() || tally.infeasible.iter().sum::<usize>() > 3 && tally.tips > 0, "{tally:?}");
 }
 

@@ -13,7 +13,7 @@ use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
 use cplan::{Options, Planner, Problem, plan};
-use cplan_check::{CheckError, check};
+use cplan_check::check;
 use std::time::{Duration, Instant};
 
 #[derive(Debug, Default)]
@@ -63,13 +63,9 @@ fn ways(seed: u64, tally: &mut Tally) {
         let begun = Instant::now();
         let judged = check(&urdf, &world, &certificate);
         let took = begun.elapsed();
-        // Walls rest on outlines, which of oblique cylinders are up to half a percent too wide.
-        if matches!(&judged, Err(CheckError::Fails(why)) if why.starts_with("wall ")) && drawn.has_oblique_cylinder() {
-            tally.oblique += 1;
-            continue;
-        }
         assert!(judged.is_ok(), "seed {seed}, {turn}: {judged:?}\n{urdf}\n{world}");
         tally.found[kind as usize] += 1;
+        tally.oblique += usize::from(drawn.has_oblique_cylinder());
         tally.tips += usize::from(matches!(drawn.goal, Goal::Tip(_)));
         tally.largest = tally.largest.max(certificate.len());
         tally.checking += took;
@@ -84,6 +80,5 @@ fn certificates_of_random_motions_hold() {
         ways(seed, &mut tally);
     }
     println!("{tally:?}");
-    assert!(tally.oblique <= 2 + tally.found.iter().sum::<usize>() / 5, "{tally:?}");
     assert!(!usual() || tally.found.iter().all(|count| *count > 3) && tally.tips > 3, "{tally:?}");
 }

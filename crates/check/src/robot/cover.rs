@@ -1,6 +1,6 @@
 //! All that of an arm can collide, by outlines that cover at least its projection.
 
-use super::{Arm, Body, Pose, Read, Solid, child};
+use super::{Arm, Body, OBLIQUE, Pose, Read, Solid, child, is_nearly_one};
 use crate::error::{CheckError, Input};
 use crate::interval::{Interval, Point, length};
 use crate::sweep::{Axis, Range};
@@ -12,9 +12,6 @@ pub struct Covered {
     pub name: String,
     pub body: Body,
 }
-
-/// From this share of its radius on, an oblique cylinder's end is taken as a disc, or as flat.
-const OBLIQUE: i32 = 200;
 
 /// Sides of the polygon round an oblique cylinder's end.
 const SIDES: u32 = 32;
@@ -120,10 +117,9 @@ fn oblique(
 ) -> (Vec<Point>, Interval) {
     let end = along.each_ref().map(|c| c * half);
     let both = |by: &Point| [[0, 1].map(|k| &center[k] + &by[k]), [0, 1].map(|k| &center[k] - &by[k])];
-    let share = &Interval::whole(1).over(OBLIQUE as u32);
     let length = length(along);
     // A turn by so much that its enclosure says nothing is such a case, too.
-    if tilt.lower >= (&Interval::whole(1) - share).lower || length.lower.sign() != Sign::Plus {
+    if is_nearly_one(tilt) || length.lower.sign() != Sign::Plus {
         return (both(&end).to_vec(), radius.clone());
     }
     let direction = along.each_ref().map(|c| c.divided(&length));
@@ -131,7 +127,7 @@ fn oblique(
     let bulge = direction.each_ref().map(|c| &(c * radius) * tilt);
     let plus = |a: &Point, b: &Point| [0, 1].map(|k| &a[k] + &b[k]);
     let minus = |a: &Point, b: &Point| [0, 1].map(|k| &a[k] - &b[k]);
-    let points = if tilt.upper <= share.upper {
+    let points = if tilt.upper <= Interval::whole(1).over(OBLIQUE).upper {
         let end = plus(&end, &bulge);
         [plus(&end, &across), minus(&end, &across)].iter().flat_map(both).collect()
     } else {
