@@ -1,16 +1,25 @@
 //! Where the arm's shapes are, and how far they can move.
 
 use crate::decimal::Decimal;
-use crate::interval::{Interval, Point, length, sum, times, turned};
-use crate::overlap::Shape;
+use crate::interval::{BITS, Interval, Point, length, sum, times, turned};
+use crate::overlap::{Shape, overlap_by_more_than};
 use crate::robot::{Arm, Body, Motion};
 use crate::sweep::{Domain, Range, Rectangle};
 use num_bigint::BigInt;
+use std::cell::RefCell;
 
 /// A box of configurations by its middle and half its sides.
 pub struct Cell {
     middle: [Interval; 2],
     half: [Interval; 2],
+}
+
+impl Cell {
+    /// What a straight segment covers from `k / 2^cuts` to `(k + 1) / 2^cuts` of its length.
+    pub fn of_segment(from: &Point, along: &Point, k: i64, cuts: u32) -> Self {
+        let middle = sum(from, &times(along, &Interval::exactly(BigInt::from(2 * k + 1) << (BITS - cuts - 1))));
+        Self { middle, half: along.each_ref().map(|along| along.abs().in_halves(cuts + 1)) }
+    }
 }
 
 impl From<&Rectangle> for Cell {
@@ -26,59 +35,94 @@ fn chord(angle: &Interval) -> Interval {
     if angle.upper >= Interval::pi().lower {
         return Interval::whole(2);
     }
+    if angle.upper < Interval::whole(1).in_halves(4).lower {
+        // Its series alternates: so far it is longer.
+        let square = angle * angle;
+        let cubed = (&square * angle).over(24);
+        return &(angle - &cubed) + &(&cubed * &square).over(80);
+    }
     let sine = &angle.half().sin_cos()[0];
     sine + sine
 }
 
 impl Arm<'_> {
-    /// A body's shape in the middle of a box, in plane coordinates.
-    pub fn placed(&self, body: &Body, cell: &Cell) -> Shape {
-        let moved = |k: usize| {
-            let value = &cell.middle[k];
-            match &self.joints[k].motion {
-                Motion::Turn(sign) => Moved::Turn((value * &Interval::whole(*sign)).sin_cos()),
-                Motion::Slide(direction) => Moved::Slide(times(direction, value)),
-            }
-        };
-        let first = moved(0);
-        let second = (body.link == 1).then(|| moved(1));
+    /// What a joint does at a value.
+    fn displaced(&self, joint: usize, value: &Interval) -> Moved {
+        match &self.joints[joint].motion {
+            Motion::Turn(sign) => Moved::Turn((value * &Interval::whole(*sign)).sin_cos()),
+            Motion::Slide(direction) => Moved::Slide(times(direction, value)),
+        }
+    }
+}
+
+/// A body, where it is and how far it gets in boxes, by what does not depend on the box.
+pub struct Mover<'a> {
+    arm: &'a Arm<'a>,
+    body: &'a Body,
+    /// The first joint at the value that it had last: many boxes have it in common.
+    first: RefCell<(Interval, Moved)>,
+    /// How far the second joint is from the first, and the body's points from the joint that moves it last.
+    offset: Interval,
+    reach: Interval,
+}
+
+/// The greatest length of some vectors.
+fn reach(points: &[Point]) -> Interval {
+    points.iter().map(|p| length(p).upper).max().map_or(Interval::whole(0), Interval::exactly)
+}
+
+impl<'a> Mover<'a> {
+    pub fn new(arm: &'a Arm<'a>, body: &'a Body) -> Self {
+        let zero = Interval::whole(0);
+        let first = RefCell::new((zero.clone(), arm.displaced(0, &zero)));
+        Self { arm, body, first, offset: length(&arm.offset), reach: reach(&body.shape.points) }
+    }
+
+    /// The body's shape in the middle of a box, in plane coordinates.
+    fn placed(&self, cell: &Cell) -> Shape {
+        let Self { arm, body, first, .. } = self;
+        let (value, first) = &mut *first.borrow_mut();
+        if *value != cell.middle[0] {
+            (*value, *first) = (cell.middle[0].clone(), arm.displaced(0, &cell.middle[0]));
+        }
+        let second = (body.link == 1).then(|| arm.displaced(1, &cell.middle[1]));
         let point = |p: &Point| {
-            let carried = second.as_ref().map_or_else(|| p.clone(), |second| sum(&self.offset, &second.apply(p)));
-            sum(&self.base, &first.apply(&carried))
+            let carried = second.as_ref().map_or_else(|| p.clone(), |second| sum(&arm.offset, &second.apply(p)));
+            sum(&arm.base, &first.apply(&carried))
         };
         Shape { points: body.shape.points.iter().map(point).collect(), radius: body.shape.radius.clone() }
     }
 
-    /// No point of a body is farther than this from where it is in the middle of a box, while the joints stay within the box.
+    /// No point of the body is farther than this from where it is in the middle of a box, while the joints stay within the box.
     ///
     /// Of a convex hull it is a corner that moves farthest: where a point is depends on it affinely.
-    pub fn farthest(&self, body: &Body, cell: &Cell) -> BigInt {
+    pub fn farthest(&self, cell: &Cell) -> BigInt {
+        let Self { arm, body, offset, reach: own, .. } = self;
         let half = &cell.half;
         let slid = |k: usize, direction: &Point| &length(direction) * &half[k];
-        let reach = |points: &[Point]| {
-            points.iter().map(|p| length(p).upper).max().map_or(Interval::whole(0), Interval::exactly)
-        };
-        let points = &body.shape.points;
-        let bound = match (&self.joints[0].motion, (body.link == 1).then_some(&self.joints[1].motion)) {
-            (Motion::Turn(_), None) => &reach(points) * &chord(&half[0]),
+        let bound = match (&arm.joints[0].motion, (body.link == 1).then_some(&arm.joints[1].motion)) {
+            (Motion::Turn(_), None) => own * &chord(&half[0]),
             (Motion::Slide(direction), None) => slid(0, direction),
             (Motion::Turn(_), Some(Motion::Turn(_))) => {
-                let second = &reach(points) * &chord(&(&half[0] + &half[1]));
-                &(&length(&self.offset) * &chord(&half[0])) + &second
+                &(offset * &chord(&half[0])) + &(own * &chord(&(&half[0] + &half[1])))
             }
             (Motion::Turn(_), Some(Motion::Slide(direction))) => {
                 // The second joint first, then the turn at the farther of the ends of the slide: distance is convex.
                 let slide = [&cell.middle[1] - &half[1], &cell.middle[1] + &half[1]];
-                let ends = slide.map(|value| sum(&self.offset, &times(direction, &value)));
+                let ends = slide.map(|value| sum(&arm.offset, &times(direction, &value)));
+                let points = &body.shape.points;
                 let out: Vec<Point> = ends.iter().flat_map(|end| points.iter().map(move |p| sum(end, p))).collect();
                 &slid(1, direction) + &(&reach(&out) * &chord(&half[0]))
             }
-            (Motion::Slide(direction), Some(Motion::Turn(_))) => {
-                &slid(0, direction) + &(&reach(points) * &chord(&half[1]))
-            }
+            (Motion::Slide(direction), Some(Motion::Turn(_))) => &slid(0, direction) + &(own * &chord(&half[1])),
             (Motion::Slide(first), Some(Motion::Slide(second))) => &slid(0, first) + &slid(1, second),
         };
         bound.upper
+    }
+
+    /// Whether the body is seen to overlap a shape all over a box.
+    pub fn overlaps(&self, shape: &Shape, cell: &Cell) -> bool {
+        overlap_by_more_than(&self.placed(cell), shape, &self.farthest(cell))
     }
 }
 
@@ -86,10 +130,11 @@ impl Arm<'_> {
     /// Whether the tip may be at a place in some configuration of a region. The domain is cut in four, again and again; parts are
     /// dropped that have nothing of the region, or in whose middle the tip is farther from the place than it can move within.
     pub fn may_reach(&self, tip: &Body, place: &Point, domain: &Domain, region: impl Fn(&Rectangle) -> bool) -> bool {
+        let mover = Mover::new(self, tip);
         let is_far = |rectangle: &Rectangle| {
             let cell = Cell::from(rectangle);
-            let at = &self.placed(tip, &cell).points[0];
-            length(&[&at[0] - &place[0], &at[1] - &place[1]]).lower > self.farthest(tip, &cell)
+            let at = &mover.placed(&cell).points[0];
+            length(&[&at[0] - &place[0], &at[1] - &place[1]]).lower > mover.farthest(&cell)
         };
         let halves = |[low, high]: &Range| {
             let middle = Decimal::middle(low, high);

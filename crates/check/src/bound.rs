@@ -4,12 +4,12 @@
 //! them goes straight from corner to corner, which are ends of walls. Each corner gets a *potential*: no way from the start is claimed to
 //! reach it sooner. It remains to be seen that a straight leg that no wall crosses is at least as long as the potential grows along it.
 
-use crate::arm::Cell;
+use crate::arm::{Cell, Mover};
 use crate::certificate::{Bound, Metric, Wall};
 use crate::decimal::Decimal;
 use crate::error::CheckError;
 use crate::interval::{BITS, Interval, Point};
-use crate::overlap::{Shape, overlap_by_more_than};
+use crate::overlap::Shape;
 use crate::robot::{Arm, Body, Motion};
 use crate::sweep::{Axis, Rectangle};
 use num_bigint::{BigInt, Sign};
@@ -19,6 +19,9 @@ use std::ops::RangeInclusive;
 /// Looks along a wall at the most.
 const MOST_LOOKS: usize = 20_000;
 
+/// How often a wall is halved at the most.
+const MOST_CUTS: u32 = 60;
+
 /// Copies of walls, on all turns that a way of the length can reach, at the most.
 const MOST_COPIES: usize = 200_000;
 
@@ -26,23 +29,24 @@ const MOST_COPIES: usize = 200_000;
 ///
 /// A shape that only slides along the wall overlaps another at a convex set of places: then its ends are enough.
 pub fn closes(arm: &Arm, wall: &Wall, body: &Body, part: &Shape) -> bool {
-    let ends = [wall.from.clone(), wall.to.clone()];
-    let looked = |[a, b]: &[[Decimal; 2]; 2]| {
-        let cell = Cell::from(&[0, 1].map(|k| [(&a[k]).min(&b[k]).clone(), (&a[k]).max(&b[k]).clone()]));
-        overlap_by_more_than(&arm.placed(body, &cell), part, &arm.farthest(body, &cell))
-    };
-    let turns = |k: usize| ends[0][k] != ends[1][k] && matches!(arm.joints[k].motion, Motion::Turn(_));
+    let [from, to] = [&wall.from, &wall.to].map(|end| end.each_ref().map(Interval::from));
+    let along = [0, 1].map(|k| &to[k] - &from[k]);
+    let mover = Mover::new(arm, body);
+    let turns = |k: usize| wall.from[k] != wall.to[k] && matches!(arm.joints[k].motion, Motion::Turn(_));
     if !(0..=body.link).any(turns) {
-        return ends.iter().all(|end| looked(&[end.clone(), end.clone()]));
+        let still = [0, 1].map(|_| Interval::whole(0));
+        return [from, to].iter().all(|end| mover.overlaps(part, &Cell::of_segment(end, &still, 0, 0)));
     }
-    let mut left = vec![ends];
+    let (mut left, mut last) = (vec![(0, 0)], 0);
     for _ in 0..MOST_LOOKS {
-        let Some([a, b]) = left.pop() else { return true };
-        let piece = [a, b];
-        if !looked(&piece) {
-            let [a, b] = piece;
-            let middle = [0, 1].map(|k| Decimal::middle(&a[k], &b[k]));
-            left.extend([[a, middle.clone()], [middle, b]]);
+        let Some((k, cuts)) = left.pop() else { return true };
+        // What is much longer than the piece before is not looked at.
+        if cuts + 1 >= last && mover.overlaps(part, &Cell::of_segment(&from, &along, k, cuts)) {
+            last = cuts;
+        } else if cuts < MOST_CUTS {
+            left.extend([2 * k + 1, 2 * k].map(|k| (k, cuts + 1)));
+        } else {
+            return false;
         }
     }
     false
@@ -241,7 +245,7 @@ impl<'a> Plane<'a> {
         });
         let square = i128::from(coarse).saturating_mul(coarse.into());
         let is_long = if self.metric.is_greatest() { x.max(y) >= coarse.into() } else { x * x + y * y >= square };
-        is_long || self.metric.between(&from.at, &to.at) >= *length
+        is_long || self.metric.is_at_least(&from.at, &to.at, length)
     }
 
     /// Whether walls bar every straight leg from a place to any in a rectangle: one that it goes through, from one side to the other, or
@@ -329,12 +333,13 @@ impl Place {
     /// On which side of the line through two others it certainly is; 0 if neither.
     fn side(&self, a: &Self, b: &Self) -> i8 {
         // Coarse middles are off by less than two units, so differences by less than four.
-        let middle = |place: &Self| place.coarse.map(|[low, high]| (i128::from(low) + i128::from(high)) / 2);
+        let middle = |place: &Self| place.coarse.map(|[low, high]| (low + high) / 2);
         let wide = |place: &Self| place.coarse.iter().any(|[low, high]| high - low > 2);
         let ([ax, ay], [bx, by], [px, py]) = (middle(a), middle(b), middle(self));
         let (ux, uy, vx, vy) = (bx - ax, by - ay, px - ax, py - ay);
-        let area = ux * vy - uy * vx;
-        let error = 8 * (ux.abs() + uy.abs() + vx.abs() + vy.abs() + 8);
+        let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
+        let area = product(ux, vy) - product(uy, vx);
+        let error = product(8, ux.abs() + uy.abs() + vx.abs() + vy.abs() + 8);
         if area.abs() > error && ![a, b, self].into_iter().any(wide) {
             return if area > 0 { 1 } else { -1 };
         }
@@ -376,6 +381,11 @@ fn below(a: &Interval, b: &Interval) -> bool {
     a.upper < b.lower
 }
 
+/// How far two rectangles are from each other along each axis, at least.
+fn apart(a: &Point, b: &Point) -> [BigInt; 2] {
+    [0, 1].map(|k| (&b[k].lower - &a[k].upper).max(&a[k].lower - &b[k].upper).max(BigInt::ZERO))
+}
+
 fn twice(a: &Interval) -> Interval {
     a + a
 }
@@ -414,7 +424,13 @@ impl Metric {
 
     /// No way from one place to any in a rectangle is shorter than this.
     fn between(&self, a: &Point, b: &Point) -> BigInt {
-        let [x, y] = [0, 1].map(|k| (&b[k].lower - &a[k].upper).max(&a[k].lower - &b[k].upper).max(BigInt::ZERO));
+        let [x, y] = apart(a, b);
         if self.is_greatest() { x.max(y) } else { crate::interval::length(&[x, y].map(Interval::exactly)).lower }
+    }
+
+    /// Whether no way from one place to any in a rectangle is shorter than a length above 0.
+    fn is_at_least(&self, a: &Point, b: &Point, length: &BigInt) -> bool {
+        let [x, y] = apart(a, b);
+        if self.is_greatest() { x.max(y) >= *length } else { &x * &x + &y * &y >= length * length }
     }
 }

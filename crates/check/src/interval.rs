@@ -75,7 +75,12 @@ impl Interval {
 
     /// The half of it.
     pub fn half(&self) -> Self {
-        Self { lower: &self.lower >> 1u32, upper: shifted_up(&self.upper, 1) }
+        self.in_halves(1)
+    }
+
+    /// What comes of halving it so often.
+    pub fn in_halves(&self, times: u32) -> Self {
+        Self { lower: &self.lower >> times, upper: shifted_up(&self.upper, times) }
     }
 
     /// The absolute value.
@@ -122,39 +127,48 @@ impl Interval {
     /// Sine and cosine.
     ///
     /// Both change by no more than the angle does, so that those of the middle, widened, enclose all. Halved until it is
-    /// below 1/16, the angle goes into Taylor's series, whose terms alternate and decrease; then it is doubled again.
+    /// below 1/16, the angle goes into Taylor's series, whose terms alternate and decrease; then it is doubled again. Numbers are cut off
+    /// after each step, and how far they may be from what they stand for is counted in units.
     pub fn sin_cos(&self) -> [Self; 2] {
         let (middle, radius) = self.middle();
+        if middle.sign() == Sign::NoSign {
+            return [0, 1].map(|n| Self::whole(n).widened(&radius).within_one());
+        }
+        let (one, none) = (BigInt::from(1) << BITS, BigInt::from(-1) << BITS);
         let angle = BigInt::from(middle.magnitude().clone());
         let halvings = (angle.bits() + 4).saturating_sub(u64::from(BITS)) as u32;
-        let x = Self { lower: &angle >> halvings, upper: shifted_up(&angle, halvings) };
-        let square = &x * &x;
-        let series = |first: Self, from: u32| {
-            let (mut sum, mut term) = (first.clone(), first);
+        let x = &angle >> halvings;
+        let square = (&x * &x) >> BITS;
+        // A term is made of the one before, less than a 256th of it, and of a square that is cut off; cut off twice itself, it is off by two
+        // units or little less. Two terms more pay for what is left out and for the angle's own unit.
+        let series = |first: &BigInt, from: u32| {
+            let (mut sum, mut term, mut terms) = (first.clone(), first.clone(), 2_u32);
             for n in (from..).step_by(2) {
-                term = (&term * &square).over(n * (n + 1));
-                sum = if n / 2 % 2 == from / 2 { &sum - &term } else { &sum + &term };
-                if term.upper <= BigInt::from(1) {
+                term = ((term * &square) >> BITS) / (n * (n + 1));
+                terms += 1;
+                if n / 2 % 2 == from / 2 {
+                    sum -= &term
+                } else {
+                    sum += &term
+                }
+                if term.bits() <= 1 {
                     break;
                 }
             }
-            // What is left out is less than the last term, which is at most one unit.
-            sum.widened(&BigInt::from(1))
+            (sum, 2 * terms)
         };
-        let (mut sine, mut cosine) = (series(x, 2), series(Self::whole(1), 1));
+        let ((mut sine, sine_error), (mut cosine, cosine_error)) = (series(&x, 2), series(&one, 1));
+        let mut error = BigInt::from(sine_error.max(cosine_error));
         for _ in 0..halvings {
-            let product = &sine * &cosine;
-            let square = &cosine * &cosine;
-            sine = (&product + &product).within_one();
-            cosine = (&(&square + &square) - &Self::whole(1)).within_one();
+            // With factors of at most 1 products are off by as much as both together, here twice.
+            [sine, cosine] = [(&sine * &cosine) >> (BITS - 1), ((&cosine * &cosine) >> (BITS - 1)) - &one]
+                .map(|value| value.clamp(none.clone(), one.clone()));
+            error = (error << 2u32) + 1;
         }
         if middle.sign() == Sign::Minus {
-            sine = -&sine;
+            sine = -sine;
         }
-        if angle.sign() == Sign::NoSign {
-            (sine, cosine) = (Self::whole(0), Self::whole(1));
-        }
-        [sine, cosine].map(|value| value.widened(&radius).within_one())
+        [sine, cosine].map(|value| Self::exactly(value).widened(&(&radius + &error)).within_one())
     }
 
     /// Pi, by Machin's formula: `16 atan(1/5) - 4 atan(1/239)`.
@@ -210,9 +224,14 @@ impl Mul for &Interval {
     type Output = Interval;
     fn mul(self, other: Self) -> Interval {
         let is_negative = |n: &BigInt| n.sign() == Sign::Minus;
-        if !is_negative(&self.lower) && !is_negative(&other.lower) {
-            let upper = shifted_up(&(&self.upper * &other.upper), BITS);
-            return Interval { lower: (&self.lower * &other.lower) >> BITS, upper };
+        // Where neither holds 0, or only as its lower end, signs tell which ends make the least product and which the greatest.
+        let negative = [self, other].map(|factor| is_negative(&factor.lower));
+        if [self, other].map(|factor| is_negative(&factor.upper)) == negative {
+            let [(a, b), (c, d)] = [(self, negative[1]), (other, negative[0])].map(|(factor, is_turned)| {
+                let Interval { lower, upper } = factor;
+                if is_turned { (upper, lower) } else { (lower, upper) }
+            });
+            return Interval { lower: (a * c) >> BITS, upper: shifted_up(&(b * d), BITS) };
         }
         let products = [
             &self.lower * &other.lower,
@@ -254,12 +273,12 @@ mod tests {
         Interval::from(&text.parse::<Decimal>().unwrap())
     }
 
-    /// Whether it holds the number that begins with these digits, and is no wider than `2^-160`.
+    /// Whether it holds the number that begins with these digits, and is no wider than `2^-155`.
     fn holds(interval: &Interval, digits: &str) -> bool {
         let [low, high] = interval.ends();
         let from: Decimal = digits.parse().unwrap();
         let last = Decimal::dyadic(&BigInt::from(1), 150);
-        &high - &low < Decimal::dyadic(&BigInt::from(1), 160) && low < &from + &last && high > &from - &last
+        &high - &low < Decimal::dyadic(&BigInt::from(1), 155) && low < &from + &last && high > &from - &last
     }
 
     // Digits from published tables (A000796, A049469, A049470) and, for other angles, the addition theorems.

@@ -49,11 +49,11 @@ mod world;
 
 pub use error::{CheckError, Input};
 
-use arm::Cell;
+use arm::{Cell, Mover};
 use certificate::{Answer, Certificate};
 use decimal::Decimal;
 use interval::{Interval, Point};
-use overlap::{Shape, overlap_by_more_than};
+use overlap::Shape;
 use robot::{Arm, Body};
 use sweep::{Domain, Range, Reached, Rectangle};
 use world::{Goal, World};
@@ -106,8 +106,7 @@ fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     let contacts = Contacts::new(arm, world, certificate, clearance)?;
     for (number, (stuck, ranges)) in stuck.iter().zip(&boxes).enumerate() {
         let (body, part) = contacts.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
-        let cell = Cell::from(ranges);
-        if !overlap_by_more_than(&arm.placed(body, &cell), part, &arm.farthest(body, &cell)) {
+        if !Mover::new(arm, body).overlaps(part, &Cell::from(ranges)) {
             return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
         }
     }

@@ -63,6 +63,17 @@ fn is_near(p: &Exact, q: &Exact, distance: &BigInt) -> bool {
     }
 }
 
+/// Points in the middle of a shape's, and how far one is from there at most.
+fn middles(shape: &Shape) -> (Vec<Exact>, BigInt) {
+    let mut error = BigInt::ZERO;
+    let middle = |p: &Point| {
+        let [(x, dx), (y, dy)] = p.each_ref().map(Interval::middle);
+        error = (dx + dy).max(std::mem::take(&mut error));
+        [x, y]
+    };
+    (shape.points.iter().map(middle).collect(), error)
+}
+
 /// Whether in every direction the shape `a` reaches beyond where `b` begins by more than `depth`: no translation of `a` by
 /// `depth` or less takes it off `b`.
 ///
@@ -70,15 +81,9 @@ fn is_near(p: &Exact, q: &Exact, distance: &BigInt) -> bool {
 /// every direction `M` reaches beyond the origin by more than `depth - r`. For exact points in the middle of the enclosures
 /// that is decided without rounding, with `error`, the farthest that a difference is from there, added to what is asked for.
 pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
-    let mut error = BigInt::ZERO;
-    let mut differences = Vec::with_capacity(a.points.len() * b.points.len());
-    for p in &b.points {
-        for q in &a.points {
-            let [(x, dx), (y, dy)] = [0, 1].map(|k| (&p[k] - &q[k]).middle());
-            error = error.max(dx + dy);
-            differences.push([x, y]);
-        }
-    }
+    let [(a_middles, a_error), (b_middles, b_error)] = [a, b].map(middles);
+    let differences = b_middles.iter().flat_map(|p| a_middles.iter().map(|q| minus(p, q))).collect();
+    let error = a_error + b_error;
     let needed = depth - &a.radius.lower - &b.radius.lower + error;
     let ring = hull(differences);
     let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
