@@ -40,7 +40,7 @@ pub(crate) fn torque_looks(
     let share = |k: usize| rate[k] * duration / (2.0 * fine * dynamics.effort[k]);
     let count = share(0).max(share(1)).ceil().clamp(1.0, MOST_LOOKS);
     let off = rate.map(|rate| rate * duration / (2.0 * count));
-    let (dynamics, arm, piece) = (*dynamics, arm, piece.clone());
+    let (dynamics, piece) = (*dynamics, *piece);
     (0..count as u32).map(move |i| {
         let u = (f64::from(i) + 0.5) / count;
         let q = piece.at(u);

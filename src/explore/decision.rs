@@ -67,10 +67,10 @@ impl Explorer<'_> {
             }
             let mut joined = join(&self.solid, &self.known.grid, place);
             joined.retain(|&cell| !is_reached[cell]);
-            let Self { survey, sensor, scene, known, frontier, .. } = self;
+            let Self { survey, sensor, known, frontier, .. } = self;
             let mut is_worth = false;
             let there = Reach::new(&known.grid, &known.closed, place, &joined, |cell, _| {
-                is_worth = frontier.contains(survey, sensor, scene.arm(), &known.grid, cell);
+                is_worth = frontier.contains(survey, sensor, cell);
                 is_worth
             });
             there.cells.iter().for_each(|&cell| is_reached[cell] = true);
@@ -213,10 +213,10 @@ impl Explorer<'_> {
 
     /// The way to the nearest frontier configuration; what can be reached if that is none, as for the others.
     fn nearest(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
-        let Self { survey, sensor, scene, known, frontier, .. } = self;
+        let Self { survey, sensor, known, frontier, .. } = self;
         let mut found = None;
         let reach = Reach::new(&known.grid, &known.closed, self.at, joined, |cell, _| {
-            found = frontier.contains(survey, sensor, scene.arm(), &known.grid, cell).then_some(cell);
+            found = frontier.contains(survey, sensor, cell).then_some(cell);
             found.is_some()
         });
         reach.way_to(found)
@@ -228,8 +228,8 @@ impl Explorer<'_> {
     /// None is looked for farther away than where nothing could be better, nor beyond the nearest [`MOST_VIEWS`]; and the farther away the fewer
     /// are asked, down to those that are as far apart as readings.
     fn best_view(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
-        let Self { survey, sensor, scene, known, frontier, .. } = self;
-        let (arm, grid) = (scene.arm(), &known.grid);
+        let Self { survey, sensor, known, frontier, .. } = self;
+        let grid = &known.grid;
         let is_asked = |cell: usize, length: f64| {
             let every = grid.step().map(|step| ((length / 4.0).min(sensor.step) / step).max(1.0) as usize);
             [cell / grid.cells[1], cell % grid.cells[1]].iter().zip(every).all(|(at, every)| at % every == 0)
@@ -239,16 +239,16 @@ impl Explorer<'_> {
         let reach = Reach::new(grid, &known.closed, self.at, joined, |cell, length| {
             let worth = |seen: u32| worth(seen, length, sensor.step);
             let Some((most, _)) = best else {
-                if frontier.contains(survey, sensor, arm, grid, cell) {
-                    wanted = survey.shown_first(sensor, arm, grid.center(cell));
-                    best = Some((worth(frontier.gain(survey, sensor, arm, grid, cell)), cell));
+                if frontier.contains(survey, sensor, cell) {
+                    wanted = survey.shown_first(sensor, frontier.stand(cell));
+                    best = Some((worth(frontier.gain(survey, sensor, cell)), cell));
                 }
                 return false;
             };
             let may_be_best = is_asked(cell, length) && worth(frontier.most(cell)) > most;
             asked += usize::from(may_be_best);
-            if may_be_best && survey.shows_all(sensor, arm, grid.center(cell), &wanted) {
-                let worth = worth(frontier.gain(survey, sensor, arm, grid, cell));
+            if may_be_best && survey.shows_all(sensor, frontier.stand(cell), &wanted) {
+                let worth = worth(frontier.gain(survey, sensor, cell));
                 if worth > most {
                     best = Some((worth, cell));
                 }
@@ -323,12 +323,12 @@ impl Explorer<'_> {
         if cells.is_empty() {
             return None;
         }
-        let Self { survey, sensor, scene, known, frontier, .. } = self;
-        let (arm, grid, wanted) = (scene.arm(), &known.grid, survey.by_rows(cells));
+        let Self { survey, sensor, known, frontier, .. } = self;
+        let (grid, wanted) = (&known.grid, survey.by_rows(cells));
         let mut showing = None;
         let reach = Reach::new(grid, &known.closed, self.at, joined, |cell, _| {
-            let shows = frontier.contains(survey, sensor, arm, grid, cell)
-                && survey.shows_any(sensor, arm, grid.center(cell), &wanted);
+            let shows =
+                frontier.contains(survey, sensor, cell) && survey.shows_any(sensor, frontier.stand(cell), &wanted);
             showing = shows.then_some(cell);
             shows
         });

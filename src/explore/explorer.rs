@@ -45,8 +45,8 @@ pub fn explore(
     let margin = settings.surveyed.unwrap_or(2.0 * sensor.cell) + clearance;
     let mut surroundings: Vec<usize> = (0..survey.map().cells.len()).filter(|&cell| !survey.is_unknown(cell)).collect();
     surroundings.extend(survey.survey_about(arm, start, margin));
-    let frontier = Frontier::new(settings.cells[0] * settings.cells[1], &survey, sensor);
     let known = Known::new(&survey, arm, settings.cells, clearance);
+    let frontier = Frontier::new(&survey, sensor, arm, &known.grid);
     let free = (0..known.grid.blocked.len()).filter(|&cell| !known.grid.blocked[cell]).collect();
     let mut explorer = Explorer {
         sensor,
@@ -171,7 +171,7 @@ impl Explorer<'_> {
         let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
         self.opened.push((self.readings.len(), self.known.update(&self.survey, arm, &fresh)));
         self.frontier.update(&self.survey);
-        self.frontier.ask_ahead(&self.survey, self.sensor, self.scene.arm(), &self.known.grid);
+        self.frontier.ask_ahead(&self.survey, self.sensor, &self.known.grid);
         if !fresh.is_empty() {
             self.solid = self.survey.scene(arm, clearance, false);
         }
@@ -186,7 +186,7 @@ impl Explorer<'_> {
 
     /// Whether something new would be seen from a cell of the grid.
     pub fn is_frontier(&mut self, cell: usize) -> bool {
-        self.frontier.contains(&self.survey, self.sensor, self.scene.arm(), &self.known.grid, cell)
+        self.frontier.contains(&self.survey, self.sensor, cell)
     }
 
     /// Moves along a path and looks on the way. Gone to for what can be seen from a cell, the arm stops as soon as that is nothing new.

@@ -1,6 +1,7 @@
 //! The configurations from which something new would be seen.
 
 use super::survey::Survey;
+use super::views::{Rows, Stand};
 use crate::cspace::Grid;
 use crate::model::{Arm, Sensor};
 
@@ -11,10 +12,12 @@ use crate::model::{Arm, Sensor};
 #[derive(Debug)]
 pub struct Frontier {
     configurations: Vec<Prospect>,
-    /// Columns of the unknown cells of the map beside free ones, row by row: what rays come to first is one of them.
+    /// From where each looks.
+    stands: Vec<Stand>,
+    /// The unknown cells of the map beside free ones: what rays come to first is one of them.
     ///
     /// None while something new has been seen since they were looked for.
-    edges: Option<Vec<Vec<usize>>>,
+    edges: Option<Rows>,
     /// No more cells than these can be seen from anywhere.
     most_of_all: u32,
     /// When each cell of the map was counted last.
@@ -39,16 +42,18 @@ struct Prospect {
 }
 
 impl Frontier {
-    /// Over so many configurations, nothing known of them but how far the sensor sees.
+    /// Over the configurations of a grid, nothing known of them but how far the sensor sees.
     #[must_use]
-    pub fn new(configurations: usize, survey: &Survey, sensor: &Sensor) -> Self {
+    pub fn new(survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid) -> Self {
         let cells = survey.map().cells.len();
         // Cells that meet a disc lie within one that is broader by their diagonal.
         let around = sensor.range / survey.map().resolution + std::f64::consts::SQRT_2;
         let most = (std::f64::consts::PI * around.powi(2)).min(cells as f64).ceil() as u32;
-        let configurations = vec![Prospect { witness: None, most }; configurations];
+        let stands: Vec<Stand> =
+            (0..grid.blocked.len()).map(|cell| sensor.pose(arm, grid.center(cell).into())).collect();
         Self {
-            configurations,
+            configurations: vec![Prospect { witness: None, most }; stands.len()],
+            stands,
             edges: None,
             most_of_all: most,
             counted: vec![0; cells],
@@ -69,11 +74,11 @@ impl Frontier {
     }
 
     /// Whether a reading at the middle of a cell of the grid would show something new.
-    pub fn contains(&mut self, survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid, cell: usize) -> bool {
+    pub fn contains(&mut self, survey: &Survey, sensor: &Sensor, cell: usize) -> bool {
         let prospect = &mut self.configurations[cell];
         if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
             // Rays that come to nothing new now never will.
-            prospect.witness = survey.promise(sensor, arm, grid.center(cell), self.edges.as_deref());
+            prospect.witness = survey.promise(sensor, self.stands[cell], self.edges.as_ref());
             if prospect.witness.is_none() {
                 prospect.most = 0;
             }
@@ -82,20 +87,26 @@ impl Frontier {
     }
 
     /// Asks some configurations whose answer is open, in turn, so that no decision has to ask them all: what shows nothing new never will.
-    pub fn ask_ahead(&mut self, survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid) {
+    pub fn ask_ahead(&mut self, survey: &Survey, sensor: &Sensor, grid: &Grid) {
         let mut asked = 0;
         for _ in 0..self.configurations.len() {
             let cell = self.ahead;
             self.ahead = (cell + 1) % self.configurations.len();
             let Prospect { witness, most } = self.configurations[cell];
             if !grid.blocked[cell] && most > 0 && !witness.is_some_and(|witness| survey.is_unknown(witness)) {
-                self.contains(survey, sensor, arm, grid, cell);
+                self.contains(survey, sensor, cell);
                 asked += 1;
                 if asked == ASKED_AHEAD {
                     break;
                 }
             }
         }
+    }
+
+    /// From where a reading at the middle of a cell of the grid looks.
+    #[must_use]
+    pub fn stand(&self, cell: usize) -> Stand {
+        self.stands[cell]
     }
 
     /// No more cells than these can be seen for the first time from a cell of the grid.
@@ -111,11 +122,11 @@ impl Frontier {
     }
 
     /// How many cells would be seen for the first time from a cell of the grid if nothing unknown were in the way.
-    pub fn gain(&mut self, survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid, cell: usize) -> u32 {
+    pub fn gain(&mut self, survey: &Survey, sensor: &Sensor, cell: usize) -> u32 {
         if self.configurations[cell].most > 0 {
             self.count += 1;
             let mut gain = 0;
-            for seen in survey.visible_unknown(sensor, arm, grid.center(cell)) {
+            for seen in survey.visible_unknown(sensor, self.stands[cell]) {
                 gain += u32::from(std::mem::replace(&mut self.counted[seen], self.count) != self.count);
             }
             self.configurations[cell].most = gain;

@@ -3,13 +3,23 @@
 use super::survey::Survey;
 use crate::geometry::{Point, Vector};
 use crate::input::Occupancy;
-use crate::model::{Arm, Sensor};
-use crate::space::Configuration;
+use crate::model::Sensor;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 /// Radius of a disc that holds a cell, in cells, with room for rounding.
 pub(super) const AROUND_CELL: f64 = 0.75;
+
+/// Where a sensor takes a reading, and the angle straight ahead of it: [`Sensor::pose`].
+pub type Stand = (Point, f64);
+
+/// Cells of a map by their rows, those that have any, from the top; of each the columns in ascending order.
+pub type Rows = Vec<(usize, Vec<usize>)>;
+
+/// Of so many rows those that have any columns.
+fn rows(height: usize, columns: impl Fn(usize) -> Vec<usize>) -> Rows {
+    (0..height).map(|row| (row, columns(row))).filter(|(_, columns)| !columns.is_empty()).collect()
+}
 
 /// A cell that a ray crosses.
 pub(super) struct Crossing {
@@ -50,37 +60,38 @@ impl Survey {
         })
     }
 
-    /// An unknown cell that a reading at `q` would come to; none if it would show nothing new. Rays come first to one of the
+    /// An unknown cell that a reading would come to; none if it would show nothing new. Rays come first to one of the
     /// [`Survey::edges`], where these are given: only those that may are looked along.
     #[must_use]
-    pub fn promise(&self, sensor: &Sensor, arm: &Arm, q: Configuration, edges: Option<&[Vec<usize>]>) -> Option<usize> {
+    pub fn promise(&self, sensor: &Sensor, stand: Stand, edges: Option<&Rows>) -> Option<usize> {
         match edges {
-            Some(edges) => self.first_towards(sensor, arm, q, edges, |_| true),
-            None => self.first_unknown(sensor, arm, q).next(),
+            Some(edges) => self.first_towards(sensor, stand, edges, |_| true),
+            None => self.first_unknown(sensor, stand).next(),
         }
     }
 
-    /// Whether a reading at `q` would come first to any of some unknown cells, by columns in ascending order, row by row.
+    /// Whether a reading would come first to any of some unknown cells.
     #[must_use]
-    pub fn shows_any(&self, sensor: &Sensor, arm: &Arm, q: Configuration, wanted: &[Vec<usize>]) -> bool {
+    pub fn shows_any(&self, sensor: &Sensor, stand: Stand, wanted: &Rows) -> bool {
         let width = self.known.size[0];
-        let is_wanted = |cell: usize| wanted[cell / width].binary_search(&(cell % width)).is_ok();
-        self.first_towards(sensor, arm, q, wanted, is_wanted).is_some()
+        let is_wanted = |cell: usize| {
+            let row = wanted.binary_search_by_key(&(cell / width), |(row, _)| *row);
+            row.is_ok_and(|row| wanted[row].1.binary_search(&(cell % width)).is_ok())
+        };
+        self.first_towards(sensor, stand, wanted, is_wanted).is_some()
     }
 
-    /// The first unknown cell of a ray of a reading at `q` that `is_asked` for. Only rays that may cross one of some cells are looked along,
+    /// The first unknown cell of a ray of a reading that `is_asked` for. Only rays that may cross one of some cells are looked along,
     /// unless the sensor itself is where nothing is known.
     fn first_towards(
         &self,
         sensor: &Sensor,
-        arm: &Arm,
-        q: Configuration,
-        cells: &[Vec<usize>],
+        stand @ (from, ahead): Stand,
+        cells: &Rows,
         is_asked: impl Fn(usize) -> bool,
     ) -> Option<usize> {
-        let (from, ahead) = sensor.pose(arm, q.into());
         if self.is_unknown_about(from) {
-            return self.first_unknown(sensor, arm, q).find(|&cell| is_asked(cell));
+            return self.first_unknown(sensor, stand).find(|&cell| is_asked(cell));
         }
         let mut is_tried = vec![false; sensor.rays];
         self.near(cells, from, sensor.range).find_map(|cell| {
@@ -94,12 +105,11 @@ impl Survey {
         })
     }
 
-    /// Columns of some cells in ascending order, row by row from the top.
+    /// Some cells by their rows.
     #[must_use]
-    pub fn by_rows(&self, cells: &BTreeSet<usize>) -> Vec<Vec<usize>> {
-        let [width, height] = self.known.size;
-        let row = |y: usize| cells.range(y * width..(y + 1) * width).map(|cell| cell % width).collect();
-        (0..height).map(row).collect()
+    pub fn by_rows(&self, cells: &BTreeSet<usize>) -> Rows {
+        let width = self.known.size[0];
+        rows(self.known.size[1], |y| cells.range(y * width..(y + 1) * width).map(|cell| cell % width).collect())
     }
 
     /// The numbers of those rays that may cross a cell.
@@ -111,27 +121,26 @@ impl Survey {
         sensor.rays_about(ahead, way.y.atan2(way.x), if sine < 1.0 { sine.asin() } else { PI })
     }
 
-    /// Of each ray of a reading at `q` the first cell that is not known to be free, if it is unknown.
-    fn first_unknown(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> impl Iterator<Item = usize> {
-        self.views(sensor, arm, q).filter_map(|mut view| {
+    /// Of each ray of a reading the first cell that is not known to be free, if it is unknown.
+    fn first_unknown(&self, sensor: &Sensor, stand: Stand) -> impl Iterator<Item = usize> {
+        self.views(sensor, stand).filter_map(|mut view| {
             let first = view.find(|&cell| self.known.cells[cell] != Occupancy::Free);
             first.filter(|&cell| self.is_unknown(cell))
         })
     }
 
-    /// The unknown cells that rays of a reading at `q` come to first, in ascending order.
+    /// The unknown cells that rays of a reading come to first, in ascending order.
     #[must_use]
-    pub fn shown_first(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> Vec<usize> {
-        let mut cells: Vec<usize> = self.first_unknown(sensor, arm, q).collect();
+    pub fn shown_first(&self, sensor: &Sensor, stand: Stand) -> Vec<usize> {
+        let mut cells: Vec<usize> = self.first_unknown(sensor, stand).collect();
         cells.sort_unstable();
         cells.dedup();
         cells
     }
 
-    /// Whether the rays of a reading at `q` cross all of some cells before what is known to be there.
+    /// Whether the rays of a reading cross all of some cells before what is known to be there.
     #[must_use]
-    pub fn shows_all(&self, sensor: &Sensor, arm: &Arm, q: Configuration, cells: &[usize]) -> bool {
-        let (from, ahead) = sensor.pose(arm, q.into());
+    pub fn shows_all(&self, sensor: &Sensor, (from, ahead): Stand, cells: &[usize]) -> bool {
         cells.iter().all(|&wanted| {
             self.rays_to(sensor, from, ahead, wanted).any(|ray| {
                 let view = self.crossings(from, sensor.ray(ahead, ray), sensor.range).map(|crossing| crossing.cell);
@@ -140,26 +149,25 @@ impl Survey {
         })
     }
 
-    /// The unknown cells that the rays of a reading at `q` cross before what is known to be there; some more than once.
-    pub fn visible_unknown(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> impl Iterator<Item = usize> {
+    /// The unknown cells that the rays of a reading cross before what is known to be there; some more than once.
+    pub fn visible_unknown(&self, sensor: &Sensor, stand: Stand) -> impl Iterator<Item = usize> {
         let open = |&cell: &usize| self.known.cells[cell] != Occupancy::Occupied;
-        self.views(sensor, arm, q).flat_map(move |view| view.take_while(open)).filter(|&cell| self.is_unknown(cell))
+        self.views(sensor, stand).flat_map(move |view| view.take_while(open)).filter(|&cell| self.is_unknown(cell))
     }
 
-    /// The cells that each ray of a reading at `q` crosses.
+    /// The cells that each ray of a reading crosses.
     fn views(
         &self,
         sensor: &Sensor,
-        arm: &Arm,
-        q: Configuration,
+        (from, ahead): Stand,
     ) -> impl Iterator<Item = impl Iterator<Item = usize> + use<>> {
-        let ((from, ahead), range) = (sensor.pose(arm, q.into()), sensor.range);
+        let range = sensor.range;
         sensor.rays(ahead).map(move |angle| self.crossings(from, angle, range).map(|crossing| crossing.cell))
     }
 
-    /// Columns of the unknown cells that share a side with a free one, in ascending order, row by row from the top.
+    /// The unknown cells that share a side with a free one.
     #[must_use]
-    pub fn edges(&self) -> Vec<Vec<usize>> {
+    pub fn edges(&self) -> Rows {
         let [width, height] = self.known.size;
         let is = |x: usize, y: usize, label| self.known.cells[y * width + x] == label;
         let is_edge = |x: usize, y: usize| {
@@ -170,20 +178,20 @@ impl Survey {
                     || is_free(x, y.wrapping_sub(1))
                     || is_free(x, y + 1))
         };
-        (0..height).map(|y| (0..width).filter(|&x| is_edge(x, y)).collect()).collect()
+        rows(height, |y| (0..width).filter(|&x| is_edge(x, y)).collect())
     }
 
     /// Those of the [`Survey::edges`] that are within a range of a point, and some more.
-    fn near<'a>(&self, edges: &'a [Vec<usize>], point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
+    fn near<'a>(&self, edges: &'a Rows, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
         let local = (point.coords - self.origin()) / self.known.resolution;
         let [width, height] = self.known.size;
         let (x, y) = (local.x, height as f64 - local.y);
         // A cell more to each side: for its far side, and rounding.
         let range = range / self.known.resolution + 2.0;
-        let rows = (y - range).max(0.0) as usize..((y + range).max(0.0) as usize).min(height);
-        rows.flat_map(move |row| {
-            let half = (range.powi(2) - (row as f64 + 0.5 - y).powi(2)).max(0.0).sqrt() + 1.0;
-            let columns = &edges[row];
+        let [above, below] =
+            [y - range, y + range].map(|y| edges.partition_point(|(row, _)| (*row as f64) < y.floor()));
+        edges[above..below].iter().flat_map(move |(row, columns)| {
+            let half = (range.powi(2) - (*row as f64 + 0.5 - y).powi(2)).max(0.0).sqrt() + 1.0;
             let first = columns.partition_point(|&column| (column as f64) < x - half);
             let near = columns[first..].iter().take_while(move |&&column| column as f64 <= x + half);
             near.map(move |column| row * width + column)

@@ -217,12 +217,12 @@ impl Dynamics {
         let mut curvature = Curvature::default();
         for (link, body) in self.bodies.iter().enumerate() {
             let Bounds { column, way } = bounds(arm, link, body.center, middle, reach, rates);
-            for k in 0..2 {
+            for (k, column) in column.iter().enumerate() {
                 // The second derivative of a product of a column and a derivative of the way.
-                let of = |n: usize| column[k][2] * way[n] + 2.0 * column[k][1] * way[n + 1] + column[k][0] * way[n + 2];
+                let of = |n: usize| column[2] * way[n] + 2.0 * column[1] * way[n + 1] + column[0] * way[n + 2];
                 curvature.inertial[k] += body.mass * of(0);
                 curvature.bent[k] += body.mass * of(1);
-                curvature.holding[k] += body.mass * column[k][2] * self.gravity.norm();
+                curvature.holding[k] += body.mass * column[2] * self.gravity.norm();
             }
         }
         curvature

@@ -231,20 +231,16 @@ impl Corner {
     }
 }
 
-/// Rows of a span with `z1` at the most: seven a joint, one of the tip, twelve a joint of torques.
-const MOST_LINES: usize = 39;
-
 /// Squared speeds `z0`, `z1` at the ends of a span: neither is negative, and `a z0 + b z1 <= 1` for each row `[a, b]`. A
 /// convex set that holds a neighbourhood of 0 in the quadrant.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bounds {
     /// The greatest `z0` by rows without `z1`.
     most: f64,
-    /// Of each other row the `z1` at 0 and how it changes with `z0`: from the front those that bound it from above, from the back those
-    /// that bound it from below.
-    lines: [[f64; 2]; MOST_LINES],
-    above: usize,
-    below: usize,
+    /// Of each other row the `z1` at 0 and how it changes with `z0`: of those that bound it from above ...
+    above: Vec<[f64; 2]>,
+    /// ... and of those that bound it from below.
+    below: Vec<[f64; 2]>,
 }
 
 /// Rounding of a coefficient or of a squared speed, relative to the others: far above the one of doubles, far below
@@ -253,7 +249,9 @@ const ROUNDING: f64 = 1e-12;
 
 impl Default for Bounds {
     fn default() -> Self {
-        Self { most: f64::MAX, lines: [[0.0; 2]; MOST_LINES], above: 0, below: 0 }
+        // What a span has where no torques count.
+        let [above, below] = [0, 1].map(|_| Vec::with_capacity(8));
+        Self { most: f64::MAX, above, below }
     }
 }
 
@@ -265,11 +263,9 @@ impl Extend<[f64; 2]> for Bounds {
             if b.abs() <= ROUNDING * a.abs() {
                 self.most = if a > 0.0 { self.most.min(1.0 / a) } else { self.most };
             } else if b > 0.0 {
-                self.lines[self.above] = line;
-                self.above += 1;
+                self.above.push(line);
             } else {
-                self.below += 1;
-                self.lines[MOST_LINES - self.below] = line;
+                self.below.push(line);
             }
         }
     }
@@ -288,7 +284,7 @@ impl Bounds {
     /// smaller by more than the rounding, so that [`Bounds::onward`] finds room.
     pub(super) fn back(&self, most: f64) -> f64 {
         let mut z0 = self.most;
-        for _ in 0..MOST_LINES * MOST_LINES {
+        for _ in 0..=(self.above.len() + 1) * (self.below.len() + 1) {
             let (upper, lower) = (self.upper(z0, most), self.lower(z0));
             let (room, slope) = (upper.0 - lower.0, upper.1 - lower.1);
             let next = z0 - room / slope;
@@ -303,13 +299,13 @@ impl Bounds {
 
     /// The greatest `z1` for a `z0`, and how it changes with `z0`.
     fn upper(&self, z0: f64, most: f64) -> (f64, f64) {
-        let lines = self.lines[..self.above].iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
+        let lines = self.above.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
         lines.fold((most, 0.0), |best, line| if line.0 < best.0 { line } else { best })
     }
 
     /// The least `z1` for a `z0`, and how it changes with `z0`.
     fn lower(&self, z0: f64) -> (f64, f64) {
-        let lines = self.lines[MOST_LINES - self.below..].iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
+        let lines = self.below.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
         lines.fold((0.0, 0.0), |best, line| if line.0 > best.0 { line } else { best })
     }
 }

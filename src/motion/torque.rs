@@ -167,12 +167,12 @@ impl<'a> TorqueLimit<'a> {
         let effort = self.dynamics.effort;
         let mut excess = 1.0_f64;
         for look in pieces.iter().flat_map(|piece| torque_looks(&self.dynamics, self.arm, piece, ROUGH)) {
-            for k in 0..2 {
+            for (k, effort) in effort.into_iter().enumerate() {
                 let greatest = look.torque[k].abs() + look.off[k];
-                if greatest > effort[k] {
-                    let left = effort[k] - look.holding[k].abs() - look.off[k];
+                if greatest > effort {
+                    let left = effort - look.holding[k].abs() - look.off[k];
                     let moves = (look.torque[k] - look.holding[k]).abs();
-                    excess = excess.max(moves / left.max(NOTHING_LEFT * effort[k]));
+                    excess = excess.max(moves / left.max(NOTHING_LEFT * effort));
                 }
             }
         }

@@ -140,8 +140,8 @@ fn kept(arm: &Arm, dynamics: &Dynamics, trajectory: &Trajectory, what: &str) -> 
         for part in 0..=4 {
             for [q, v, a] in between(trajectory, i, f64::from(part) / 4.0) {
                 let torque = by_steps(arm, dynamics, q, v, a);
-                for k in 0..2 {
-                    let share = torque[k].abs() / dynamics.effort[k];
+                for (k, (torque, effort)) in torque.into_iter().zip(dynamics.effort).enumerate() {
+                    let share = torque.abs() / effort;
                     assert!(share <= 1.0 + 1e-5, "{what}: joint {k} at sample {i}, part {part}: {share}");
                     greatest = greatest.max(share);
                 }
