@@ -1,11 +1,13 @@
 //! From a certified path to a motion: corners and time.
 
+use super::schedule::rough_duration;
 use super::shape::Shaping;
 use super::smooth::smoothed;
 use super::{Limits, Timed, TimingError, TipSpeed, TorqueLimit, time};
 use crate::check::{CertifiedCurve, CertifiedPath, blend};
 use crate::model::Scene;
 use serde::{Deserialize, Serialize};
+use std::cell::Cell;
 
 /// What is to be the least.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -70,13 +72,16 @@ impl Drive {
         let mut best = time(blended(path), &limits, self.period)?;
         let is_shaped = has_corners || (is_smooth && torque.is_some());
         if is_shaped && self.blend > 0.0 && (is_smooth || self.optimize == Objective::Time) {
+            let least = Cell::new(rough_duration(best.curve.curve(), &limits));
             let drive = |path: &CertifiedPath, below: f64| {
                 if is_smooth {
-                    smoothed(scene, path, self.blend, limits, self.period, below)
-                } else {
-                    let timed = time(blended(path), &limits, self.period).ok();
-                    timed.filter(|timed| timed.trajectory.duration() < below)
+                    return smoothed(scene, path, self.blend, limits, self.period, below);
                 }
+                let curve = blended(path);
+                let rough = rough_duration(curve.curve(), &limits);
+                let timed = (rough < least.get()).then(|| time(curve, &limits, self.period).ok()).flatten();
+                let faster = timed.filter(|timed| timed.trajectory.duration() < below);
+                faster.inspect(|_| least.set(rough))
             };
             let shaping = Shaping::new(scene, drive);
             match self.optimize {

@@ -151,6 +151,32 @@ pub(super) fn schedule(
     shares: &[f64],
     coast: f64,
 ) -> (BlendedPath, Vec<Vec<TimedTrack>>) {
+    scheduled(curve, limits, shares, coast, Spans::Enough)
+}
+
+/// How long a motion along a curve takes at most, seconds, by the speeds that few spans allow: curves that are much alike can be compared by
+/// it, for a small part of what [`schedule`] costs.
+pub(super) fn rough_duration(curve: &BlendedPath, limits: &Limits) -> f64 {
+    let (_, runs) = scheduled(curve, limits, &vec![1.0; curve.radii().len()], 0.0, Spans::Few);
+    runs.iter().map(|run| duration(run)).sum()
+}
+
+/// Into how many spans blends are cut.
+#[derive(Clone, Copy, PartialEq)]
+enum Spans {
+    /// As they are to begin with.
+    Few,
+    /// Until these are fine enough.
+    Enough,
+}
+
+fn scheduled(
+    curve: &BlendedPath,
+    limits: &Limits,
+    shares: &[f64],
+    coast: f64,
+    spans: Spans,
+) -> (BlendedPath, Vec<Vec<TimedTrack>>) {
     let corner = |waypoint: usize| {
         let blend = curve.blend(waypoint).filter(|_| !limits.stops_at_corners());
         blend.and_then(|blend: Blend| Corner::new(blend, limits, shares[waypoint]))
@@ -165,8 +191,9 @@ pub(super) fn schedule(
     let mut runs = Vec::new();
     let stops: Vec<usize> = (0..count).filter(|&w| used.radii()[w] == 0.0).collect();
     for run in stops.windows(2) {
-        let stopping = stopping(&used, run[0]..run[1], limits);
-        let blended = (run[1] - run[0] > 1).then(|| blended(&used, run[0]..run[1], limits, shares, coast)).flatten();
+        let stopping = stopping(&used, run[0]..run[1], limits, spans);
+        let tracks = (run[1] - run[0] > 1).then(|| tracks(&used, run[0]..run[1], limits, shares)).flatten();
+        let blended = tracks.and_then(|tracks| driven(tracks, limits, coast, spans));
         let took: f64 = stopping.iter().map(|timed_tracks| duration(timed_tracks)).sum();
         match blended.filter(|blended| duration(blended) <= took) {
             Some(blended) => runs.push(blended),
@@ -193,7 +220,7 @@ pub(super) fn stopping_at(
     period: f64,
     trajectory: &mut Trajectory,
 ) -> u64 {
-    let runs = stopping(curve, waypoint..waypoint + 1, limits);
+    let runs = stopping(curve, waypoint..waypoint + 1, limits, Spans::Enough);
     runs.iter().fold(begin, |begin, run| sample(run, begin, limits, period, trajectory))
 }
 
@@ -215,7 +242,7 @@ pub(super) fn places(run: &[TimedTrack], step: f64) -> Vec<Configuration> {
 }
 
 /// From rest to rest on each leg from one waypoint to another.
-fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Vec<Vec<TimedTrack>> {
+fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans: Spans) -> Vec<Vec<TimedTrack>> {
     let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
     let timed_tracks = |leg: &[Configuration]| {
         let whole = || {
@@ -233,7 +260,7 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Ve
         }
         let tracks = Track::straight(leg[0], leg[1], limits);
         let is_more = tracks.len() > 1 || matches!(tracks[0], Track::Corner(_));
-        is_more.then(|| driven(tracks, limits, 0.0)).flatten().unwrap_or_else(whole)
+        is_more.then(|| driven(tracks, limits, 0.0, spans)).flatten().unwrap_or_else(whole)
     };
     legs.map(timed_tracks).collect()
 }
@@ -262,20 +289,8 @@ impl Span {
     }
 }
 
-/// From rest at one waypoint to rest at another, with a blend at each between them. None if that cannot be sampled.
-fn blended(
-    curve: &BlendedPath,
-    waypoints: Range<usize>,
-    limits: &Limits,
-    shares: &[f64],
-    coast: f64,
-) -> Option<Vec<TimedTrack>> {
-    driven(tracks(curve, waypoints, limits, shares)?, limits, coast)
-}
-
-/// From rest at the beginning of the first track to rest at the end of the last; blends are cut into more spans until
-/// these are fine enough. None if a phase would be too short to be sampled.
-fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64) -> Option<Vec<TimedTrack>> {
+/// From rest at the beginning of the first track to rest at the end of the last. None if a phase would be too short to be sampled.
+fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64, spans: Spans) -> Option<Vec<TimedTrack>> {
     let passed = |track| match track {
         Track::Line(line) => Track::Line(line.passed()),
         corner @ Track::Corner(_) => corner,
@@ -283,6 +298,9 @@ fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64) -> Option<Vec<TimedTr
     let mut tracks: Vec<Track> = tracks.into_iter().map(passed).collect();
     let squared = loop {
         let squared = squared_speeds(&tracks, limits);
+        if spans == Spans::Few {
+            return timed_tracks(&tracks, &squared, coast);
+        }
         let mut refined = false;
         for (track, squared) in tracks.iter_mut().zip(&squared) {
             if let Track::Corner(corner) = track
@@ -374,6 +392,7 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     speeds
 }
 
+/// From one waypoint to another, with a blend at each between them. None if one cannot be sampled.
 fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares: &[f64]) -> Option<Vec<Track>> {
     let q = curve.path().waypoints();
     let mut from = q[waypoints.start];
