@@ -156,13 +156,14 @@ const SLACK: f64 = 1e-12;
 /// nearest point of the side to the corner, times `sign`.
 ///
 /// The line of a side is no farther than the side, so most sides are passed over. So are those of a core with area that have
-/// the corner on their inner side by more than `error`: the nearest point of the core is on one that the corner is outside
+/// the corner on their inner side by more than some `error`: the nearest point of the core is on one that the corner is outside
 /// of, too.
 fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, best: &mut Separation) {
     let mut look = |p: &Point, q: &Point, is_one_sided: bool| {
         let along = q - p;
         let length2 = along.norm_squared();
-        let inside = error * error * length2;
+        // Cores that meet by `error` along a side's normal may do so by a little more along what is computed here.
+        let inside = 16.0 * error * error * length2;
         for v in corners {
             let from = v - p;
             // Left of the side, which is inside, if positive.

@@ -171,6 +171,25 @@ mod tests {
         assert!(Bar::of(&Convex::trusted(vec![Point::origin(), Point::new(1.0, 0.0)], 0.0)).is_none());
     }
 
+    /// Rounding has the corner that touches on the inner side of the bar's by more than the distance along its normal says.
+    #[test]
+    fn what_touches_is_not_apart() {
+        let part = bar(0.8, 0.14258016639302604, 0.01648044041409189, -1.856738282955592);
+        let corner = |k: u32| {
+            let angle = 6.086385869499533 + TAU * f64::from(k) / 4.0;
+            Point::new(0.07625734473771464 * angle.cos(), 0.07625734473771464 * angle.sin())
+        };
+        let piece = Convex::trusted((0..4).map(corner).collect(), 0.0);
+        let away = Vector::new(0.7598922895925858_f64.cos(), 0.7598922895925858_f64.sin()) * 0.4827191507635857;
+        for touching in [-1.6011286936056064, -1.273965092817372] {
+            for nudge in -8_i32..=8 {
+                let angle = touching + f64::from(nudge) * 2.0 * f64::EPSILON + 0.8_f64.atan2(0.6);
+                let distance = separation(&part.at(&Pose::new(away, angle)), &piece).distance;
+                assert!(distance.abs() < ROUNDING, "{touching} {nudge}: {distance}");
+            }
+        }
+    }
+
     proptest! {
         #![proptest_config(crate::random::cases(20_000))]
 
