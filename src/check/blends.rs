@@ -85,6 +85,31 @@ impl CertifiedCurve {
         self.driven.as_ref().map_or_else(|| self.curve.outline(), |(_, outline)| outline.clone())
     }
 
+    /// Followed by another one that begins where this ends, at rest between them.
+    #[must_use]
+    pub fn then(self, next: &Self) -> Self {
+        let nearer = |a: &Nearest, b: &Nearest| a.contact.separation.distance <= b.contact.separation.distance;
+        let nearest = match (self.nearest, next.nearest) {
+            (Some(a), Some(b)) => Some(if nearer(&a, &b) { a } else { b }),
+            (a, b) => a.or(b),
+        };
+        let driven = (self.driven.is_some() || next.driven.is_some()).then(|| {
+            let radii = self.radii().iter().take(self.radii().len() - 1).chain(next.radii()).copied().collect();
+            let outline = self.outline().waypoints().iter().chain(next.outline().waypoints()).copied().collect();
+            (radii, Path::new(outline))
+        });
+        let clearance = self.clearance.min(next.clearance);
+        Self { curve: self.curve.then(&next.curve), clearance, nearest, driven }
+    }
+
+    /// The same, known to keep this distance from what moves, too, which is nearest here.
+    #[must_use]
+    pub(crate) fn among_movers(self, clearance: f64, nearest: Option<Nearest>) -> Self {
+        let nearer = |a: &Nearest| self.nearest.is_none_or(|b| a.contact.separation.distance < b.contact.separation.distance);
+        let nearest = nearest.filter(nearer).or(self.nearest);
+        Self { clearance: self.clearance.min(clearance), nearest, ..self }
+    }
+
     /// The same without the blend at an inner waypoint: the legs are proven up to the corner.
     #[must_use]
     pub fn without(self, waypoint: usize) -> Self {

@@ -1,9 +1,10 @@
 //! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
 
-use super::deviation::{Deviation, Posture};
+use super::deviation::{Bounded, Deviation, Posture};
 use crate::interrupt::checkpoint;
-use crate::model::{Contact, Pair, Scene};
+use crate::model::{Contact, Drift, Pair, Scene};
 use crate::space::{Configuration, Piece, Recording};
+use std::borrow::Cow;
 
 /// The proven clearance is at least this share of the true one, as for [`super::certify`].
 const TIGHTNESS: f64 = 0.9;
@@ -88,11 +89,27 @@ pub enum CollisionCheck {
 /// second derivative times the squared width, joint by joint. A span of several pieces is the box of their control
 /// points. The bound of [`Posture::bound`] decides, else both halves are looked at, so that many samples cost little
 /// where nothing is near. Once a contact is found only what comes before it is looked at.
+///
+/// Obstacles that move do so on the recording's clock, from its first sample on. Without a clock nothing is said of them.
 #[must_use]
 pub fn check_collision(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
+    let moving = if recording.times().is_some() { scene.moving_pairs() } else { &[] };
+    let pairs = if moving.is_empty() { scene.pairs().into() } else { [scene.pairs(), moving].concat().into() };
+    check_pairs(scene, pairs, recording, clearance)
+}
+
+/// The same of what moves alone, on the recording's clock from its first sample on: the arm's motion in time is certified if it is known to be
+/// free of what stands, as the motion along a [`super::CertifiedCurve`] is.
+#[must_use]
+pub fn certify_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
+    check_pairs(scene, scene.moving_pairs().into(), recording, clearance)
+}
+
+fn check_pairs(scene: &Scene, pairs: Cow<[Pair]>, recording: &Recording, clearance: f64) -> CollisionCheck {
     let pieces = recording.pieces();
     let mut search = Search {
         scene,
+        pairs: &pairs,
         pieces: &pieces,
         required: clearance,
         proven: f64::INFINITY,
@@ -108,11 +125,11 @@ pub fn check_collision(scene: &Scene, recording: &Recording, clearance: f64) -> 
 }
 
 /// A place on the motion: a piece, and a share of it.
-type Place = (usize, f64);
+pub(crate) type Place = (usize, f64);
 
 /// A stretch of the motion.
 #[derive(Debug, Clone, Copy)]
-enum Span {
+pub(crate) enum Span {
     /// Whole pieces, from one to before another.
     Pieces(usize, usize),
     /// From one share of a piece to another.
@@ -121,14 +138,32 @@ enum Span {
 
 impl Span {
     fn start(self) -> Place {
+        self.ends()[0]
+    }
+
+    /// All of a motion of so many pieces.
+    pub(crate) fn all(pieces: usize) -> Self {
+        if pieces == 1 { Span::Part(0, 0.0, 1.0) } else { Span::Pieces(0, pieces) }
+    }
+
+    /// The configuration in the middle of it, and how far it deviates from that.
+    pub(crate) fn deviation(self, pieces: &[Piece]) -> (Configuration, Deviation) {
         match self {
-            Span::Pieces(first, _) => (first, 0.0),
-            Span::Part(piece, from, _) => (piece, from),
+            Span::Pieces(first, end) => around(&pieces[first..end]),
+            Span::Part(index, from, to) => along(&pieces[index], from, to, 0.0),
+        }
+    }
+
+    /// Where it begins, and where it ends.
+    pub(crate) fn ends(self) -> [Place; 2] {
+        match self {
+            Span::Pieces(first, end) => [(first, 0.0), (end - 1, 1.0)],
+            Span::Part(piece, from, to) => [(piece, from), (piece, to)],
         }
     }
 
     /// Both halves, in order; none of a span that is as fine as can be.
-    fn halves(self) -> Option<[Span; 2]> {
+    pub(crate) fn halves(self) -> Option<[Span; 2]> {
         let whole = |from: usize, to: usize| match to - from {
             1 => Span::Part(from, 0.0, 1.0),
             _ => Span::Pieces(from, to),
@@ -149,6 +184,8 @@ impl Span {
 
 struct Search<'a> {
     scene: &'a Scene,
+    /// Those that are looked at; those of what moves come last.
+    pairs: &'a [Pair],
     pieces: &'a [Piece],
     required: f64,
     /// Least of the bounds that were accepted.
@@ -178,13 +215,20 @@ impl Search<'_> {
     /// Every pair at a place, but for those that discs around both show to be neither in contact nor nearer than any before.
     fn look(&mut self, place: Place) {
         let posture = Posture::new(self.scene, self.pieces[place.0].at(place.1));
-        for &pair in self.scene.pairs() {
+        for &pair in self.pairs {
             let seen = self.least.map_or(f64::INFINITY, |e| e.contact.separation.distance);
-            let apart = posture.apart(pair, STILL);
+            let drift = self.drift(pair, place, place);
+            let apart = apart(&posture, pair, STILL, drift.as_ref());
             if apart <= 0.0 || apart < self.required || apart < seen {
-                self.see(place, Contact { pair, separation: posture.here(pair) });
+                self.see(place, Contact { pair, separation: bound(&posture, pair, STILL, drift.as_ref()).here });
             }
         }
+    }
+
+    /// What the obstacle of a pair does between two places, if it moves.
+    fn drift(&self, pair: Pair, from: Place, to: Place) -> Option<Drift> {
+        let time = |(piece, share): Place| self.pieces[piece].time(share) - self.pieces[0].from;
+        self.scene.mover(pair).map(|mover| mover.course.drift(time(from), time(to)))
     }
 
     /// Takes note of a distance on the motion.
@@ -211,11 +255,7 @@ impl Search<'_> {
 
     /// All spans in the order of time, each with the pairs that are open in it.
     fn run(&mut self) {
-        let all = match self.pieces.len() {
-            1 => Span::Part(0, 0.0, 1.0),
-            n => Span::Pieces(0, n),
-        };
-        let mut stack = vec![(all, self.scene.pairs().to_vec())];
+        let mut stack = vec![(Span::all(self.pieces.len()), self.pairs.to_vec())];
         while let Some((span, mut pairs)) = stack.pop() {
             checkpoint();
             if self.hit.as_ref().is_some_and(|(place, _)| span.start() >= *place) {
@@ -234,14 +274,20 @@ impl Search<'_> {
 
     /// Drops the pairs that are proven to keep their distance all over the span.
     fn judge(&mut self, span: Span, pairs: &mut Vec<Pair>) {
-        let (middle, deviation) = match span {
-            Span::Pieces(first, end) => around(&self.pieces[first..end]),
-            Span::Part(index, from, to) => along(&self.pieces[index], from, to, 0.0),
-        };
+        let (middle, deviation) = span.deviation(self.pieces);
         let posture = Posture::new(self.scene, middle);
+        let [from, to] = span.ends();
         pairs.retain(|&pair| {
-            let bounded = posture.bound(pair, deviation);
+            let drift = self.drift(pair, from, to);
             self.evaluations += 1;
+            if let Some(drift) = &drift {
+                let apart = posture.apart_moving(pair, deviation, drift);
+                if self.suffices(apart) {
+                    self.proven = self.proven.min(apart);
+                    return false;
+                }
+            }
+            let bounded = bound(&posture, pair, deviation, drift.as_ref());
             if let Span::Part(index, from, to) = span {
                 self.see((index, (from + to) / 2.0), Contact { pair, separation: bounded.here });
             }
@@ -255,16 +301,13 @@ impl Search<'_> {
 
     /// A span that can neither be proven free nor halved: only its ends remain to be looked at.
     fn leave_open(&mut self, span: Span, pairs: &[Pair]) {
-        let ends = match span {
-            Span::Pieces(first, end) => [(first, 0.0), (end - 1, 1.0)],
-            Span::Part(index, from, to) => [(index, from), (index, to)],
-        };
         let mut nearest: Option<Encounter> = None;
-        for place in ends {
+        for place in span.ends() {
             let at = self.pieces[place.0].at(place.1);
             let posture = Posture::new(self.scene, at);
             for &pair in pairs {
-                let separation = posture.here(pair);
+                let drift = self.drift(pair, place, place);
+                let separation = bound(&posture, pair, STILL, drift.as_ref()).here;
                 let contact = Contact { pair, separation };
                 self.see(place, contact);
                 if nearest.is_none_or(|n| separation.distance < n.contact.separation.distance) {
@@ -288,6 +331,22 @@ impl Search<'_> {
             (None, Some((_, nearest)), _) => CollisionCheck::Undecided(nearest),
             (None, None, nearest) => CollisionCheck::Free { clearance: self.proven, nearest },
         }
+    }
+}
+
+/// Distance of a pair in the middle of a span, and the least that it comes to in it.
+fn bound(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> Bounded {
+    match drift {
+        Some(drift) => posture.bound_moving(pair, deviation, drift),
+        None => posture.bound(pair, deviation),
+    }
+}
+
+/// The same by discs around both.
+fn apart(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
+    match drift {
+        Some(drift) => posture.apart_moving(pair, deviation, drift),
+        None => posture.apart(pair, deviation),
     }
 }
 

@@ -9,7 +9,7 @@
 //! slides along an obstacle, which shortest paths do; that one is the third bound, and the best one far away.
 
 use crate::geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, reach, separation_at};
-use crate::model::{Arm, JointType, Pair, Scene};
+use crate::model::{Arm, Drift, JointType, Pair, Scene};
 use crate::space::Configuration;
 
 /// Rounding errors of one evaluation stay far below this share of the lengths involved (a few dozen operations at
@@ -41,6 +41,15 @@ impl Deviation {
         }
     }
 
+    /// The greatest `|g_1 d_1 + g_2 d_2 - t c|`, where `t` is the share of the straight motion that has been gone.
+    fn linear_less(self, g: [f64; 2], c: f64) -> f64 {
+        match self {
+            Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1] - c).abs(),
+            Deviation::Box(_) => self.linear(g) + c.abs(),
+            Deviation::Tube(d, h) => Deviation::Along(d).linear_less(g, c) + Deviation::Box(h).linear(g),
+        }
+    }
+
     /// The greatest `|d_1|` and `|d_2|`.
     fn each(self) -> [f64; 2] {
         match self {
@@ -67,6 +76,18 @@ pub struct Bounded {
     pub here: Separation,
     /// Lower bound on the signed distance over the deviation, metres.
     pub least: f64,
+}
+
+/// The shapes of a pair, and what the obstacle's does while the configuration deviates, if it moves: at the deviation `t d` it is where it is
+/// `t` half spans from the middle of the drift.
+#[derive(Clone, Copy)]
+struct Shapes<'s> {
+    link: usize,
+    /// The link's, in its frame.
+    local: &'s Convex,
+    /// The obstacle's, in the plane; where it is in the middle.
+    piece: &'s Convex,
+    drift: Option<&'s Drift>,
 }
 
 /// A bound on the second derivative of the motion of points, per squared parameter of the deviation.
@@ -102,6 +123,11 @@ impl<'a> Posture<'a> {
         self.q
     }
 
+    /// Where a link is.
+    pub(crate) fn pose(&self, link: usize) -> Pose {
+        self.poses[link]
+    }
+
     /// Distance of a pair here.
     pub(crate) fn here(&self, pair: Pair) -> Separation {
         separation_at(self.scene.part(pair), &self.poses[pair.link], self.scene.piece(pair), |_, here| here)
@@ -115,17 +141,41 @@ impl<'a> Posture<'a> {
 
     /// The same, but for the trouble of a better bound than one that is enough for the distance here.
     pub(crate) fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> Bounded {
-        let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
-        separation_at(local, &self.poses[pair.link], piece, |corners, here| {
+        self.least(self.shapes(pair), deviation, enough)
+    }
+
+    /// [`Posture::bound`] with something that moves: the posture is that in the middle of a span of time, the deviation what the arm does in it.
+    pub(crate) fn bound_moving(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> Bounded {
+        let standing = self.shapes(pair);
+        let piece = standing.piece.at(&drift.middle);
+        self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, |_| f64::INFINITY)
+    }
+
+    /// [`Posture::apart`] from something that moves.
+    pub(crate) fn apart_moving(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
+        let (center, around) = disc(self.scene.piece(pair));
+        let drifts = drift.farthest(center.coords.norm() + around);
+        self.apart_from(pair, deviation, drift.middle * center, around + drifts)
+    }
+
+    fn shapes(&self, pair: Pair) -> Shapes<'a> {
+        Shapes { link: pair.link, local: self.scene.part(pair), piece: self.scene.piece(pair), drift: None }
+    }
+
+    fn least(&self, shapes: Shapes, deviation: Deviation, enough: impl Fn(f64) -> f64) -> Bounded {
+        let Shapes { link, local, piece, drift } = shapes;
+        separation_at(local, &self.poses[link], piece, |corners, here| {
             let rounding = ROUNDING * self.scale(corners, local.radius(), piece);
             let enough = enough(here.distance) + rounding;
-            let mut least = here.distance - self.farthest_motion(pair, deviation);
+            let drifts =
+                drift.map_or(0.0, |drift| drift.farthest(piece.reach_from(drift.middle.translation.vector.into())));
+            let mut least = here.distance - self.farthest_motion_of(link, local, deviation) - drifts;
             let radii = local.radius() + piece.radius();
             if least < enough {
-                least = least.max(self.least_in_plane(pair, corners, here.direction, deviation) - radii);
+                least = least.max(self.least_in_plane(shapes, corners, here.direction, deviation) - radii);
             }
-            if least < enough {
-                least = least.max(self.least_in_link(pair, corners, here.direction, deviation) - radii);
+            if least < enough && drift.is_none() {
+                least = least.max(self.least_in_link(shapes, corners, here.direction, deviation) - radii);
             }
             Bounded { here, least: least - rounding }
         })
@@ -135,6 +185,10 @@ impl<'a> Posture<'a> {
     /// [`Posture::bound`]'s where shapes are near each other, and a small part of its cost.
     pub(crate) fn apart(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (fixed, around) = disc(self.scene.piece(pair));
+        self.apart_from(pair, deviation, fixed, around)
+    }
+
+    fn apart_from(&self, pair: Pair, deviation: Deviation, fixed: Point, around: f64) -> f64 {
         let (at, extent) = self.place(pair, deviation);
         let between = (at - fixed).norm();
         let scale = self.scene.arm().base.coords.norm() + at.coords.norm() + fixed.coords.norm() + extent + around;
@@ -166,29 +220,42 @@ impl<'a> Posture<'a> {
         base.coords.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)
     }
 
-    /// Bound with the separating direction fixed in the plane: the link's corners move.
-    fn least_in_plane(&self, pair: Pair, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
-        let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
-        let line = piece.core().iter().map(|p| n.dot(&p.coords)).fold(f64::INFINITY, f64::min);
+    /// Bound with the separating direction fixed in the plane: the link's corners move, and those of an obstacle that does.
+    fn least_in_plane(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
+        let Shapes { link, local, piece, drift } = shapes;
+        let curvature = self.curvature_in_plane(link, deviation);
+        let ahead = |p: &Point| n.dot(&p.coords);
+        let Some(drift) = drift else {
+            let line = piece.core().iter().map(ahead).fold(f64::INFINITY, f64::min);
+            let mut least = f64::INFINITY;
+            for (x, a) in corners.iter().zip(local.core()) {
+                let toward = deviation.linear(self.rates(link, *x, n));
+                least = least.min(line - ahead(x) - toward - curvature.of(*a) / 2.0);
+            }
+            return least;
+        };
+        // Both move by the same share of the span: what they do together does not count.
         let mut least = f64::INFINITY;
-        let curvature = self.curvature_in_plane(pair.link, deviation);
         for (x, a) in corners.iter().zip(local.core()) {
-            let gap = line - n.dot(&x.coords);
-            let toward = deviation.linear(self.rates(pair.link, *x, n));
-            least = least.min(gap - toward - curvature.of(*a) / 2.0);
+            let rates = self.rates(link, *x, n);
+            for p in piece.core() {
+                let toward = deviation.linear_less(rates, n.dot(&drift.of(*p)));
+                least = least.min(ahead(p) - ahead(x) - toward - curvature.of(*a) / 2.0 - drift.beyond(*p));
+            }
         }
         least
     }
 
     /// Bound with the separating direction fixed in the link: the obstacle's corners move, with the opposite of the
     /// velocity that a point of the link has in their place.
-    fn least_in_link(&self, pair: Pair, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
+    fn least_in_link(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
+        let Shapes { link, piece, .. } = shapes;
         let line = corners.iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
         let mut least = f64::INFINITY;
-        let curvature = self.curvature_in_link(pair.link, deviation);
-        for p in self.scene.piece(pair).core() {
+        let curvature = self.curvature_in_link(link, deviation);
+        for p in piece.core() {
             let gap = n.dot(&p.coords) - line;
-            let toward = deviation.linear(self.rates(pair.link, *p, n));
+            let toward = deviation.linear(self.rates(link, *p, n));
             least = least.min(gap - toward - curvature.of(*p) / 2.0);
         }
         least
@@ -251,11 +318,15 @@ impl<'a> Posture<'a> {
 
     /// Bound on how far any point of the pair's link part moves.
     pub(crate) fn farthest_motion(&self, pair: Pair, deviation: Deviation) -> f64 {
+        self.farthest_motion_of(pair.link, self.scene.part(pair), deviation)
+    }
+
+    fn farthest_motion_of(&self, link: usize, local: &Convex, deviation: Deviation) -> f64 {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
-        let reach = self.scene.part(pair).reach_from(Point::origin());
+        let reach = local.reach_from(Point::origin());
         let [d1, d2] = deviation.each();
-        match (pair.link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
+        match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => reach * d1,
             (0, Prismatic { .. }, _) => d1,
             (_, Revolute { .. }, Revolute { .. }) => arm.offset.norm() * d1 + reach * turn_of_link_2(arm, deviation),

@@ -7,7 +7,7 @@
 //!   [`CertifiedPath`]; [`blend`] cuts its corners by parabolas, each as large as is certified within the clearance: a
 //!   [`CertifiedCurve`] is the straight path, its blends, and the least distance along all of both.
 //! - [`Disconnection::checked`] judges a proof that there is no path: it joins what the stuck boxes leave by petgraph's union-find.
-//! - [`check_collision`] judges anyone's recorded motion between its samples, [`limits_kept`] its limits, [`ends_kept`] whether
+//! - [`check_collision`] judges anyone's recorded motion between its samples, also among what moves ([`certify_in_time`]), [`limits_kept`] its limits, [`ends_kept`] whether
 //!   it leads from start to goal.
 //! - [`replay()`] does a recorded task again: it puts the recorded steps beside the task's (`order`), follows where the
 //!   objects are and what is carried from the recorded configurations (`state`), and judges each motion in the scene of
@@ -49,7 +49,8 @@ pub use blends::{CertifiedCurve, Rounding, blend};
 pub use bound::{Barrier, CheckedBound, ClosedSegment, LengthClaim, Slice, Wall};
 pub use cell::Cell;
 pub use claims::{FalseClaim, claims_kept, step_claims_kept, task_claims_kept};
-pub use collision::{CollisionCheck, Encounter, Moment, check_collision};
+pub use collision::{CollisionCheck, Encounter, Moment, certify_in_time, check_collision};
+pub(crate) use collision::Span;
 pub(crate) use deviation::STUCK_ROUNDING;
 pub use deviation::{Bounded, Deviation, Posture};
 pub use ends::{ENDS_WITHIN, Miss, ends_kept};

@@ -58,6 +58,13 @@ impl CertifiedPath {
         Self { path: curve.curve().path().clone(), clearance: curve.clearance(), nearest: curve.nearest() }
     }
 
+    /// The part between two distances along it, backwards if the first is the greater: part of what is certified is, and a way back as well as the
+    /// way there. Its clearance is at least that of the whole, which is what is told of it.
+    #[must_use]
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        Self { path: self.path.part(from, to), ..self.clone() }
+    }
+
     pub(super) fn into_path(self) -> Path {
         self.path
     }

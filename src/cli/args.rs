@@ -166,6 +166,10 @@ pub(super) fn clearance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= 0.0, "of metres, finite and not negative")
 }
 
+fn time(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x >= 0.0, "of seconds, finite and not negative")
+}
+
 /// Options of the main job.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
@@ -244,6 +248,9 @@ pub struct CheckArgs {
     /// The configuration, such as 0.3,-1 or 20deg,-60deg.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
     pub at: JointValues,
+    /// The time at which obstacles that move are where they are, seconds since the motion begins.
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = time, allow_hyphen_values = true)]
+    pub time: f64,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,

@@ -108,6 +108,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
     sinks::spare_inputs(files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
+    loaded.require_standing("fields are of what stands")?;
     let problem = Problem::of_scene(loaded, &args.query.overrides())?;
     let motion = problem.motion().ok_or_else(|| {
         let world = args.files.world.display();

@@ -82,6 +82,7 @@ impl Explained {
     /// # Errors
     /// Overrides that do not go with the world; a task that is none.
     pub fn of(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, Failure> {
+        loaded.require_standing("what is in the way is told of what stands")?;
         let (question, notes) = if loaded.has_steps() {
             match Problem::of_scene(loaded.clone(), overrides) {
                 Ok(problem) => {

@@ -141,6 +141,8 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
     keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, stuck::keys).into_iter().map(always));
     keys.push(always((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned())));
     keys.extend(obstacles(world.obstacles.iter().filter(|obstacle| obstacle.lies())).into_iter().map(always));
+    let movers: Vec<ObstacleView> = world.movers.iter().map(|mover| mover.at(0.0)).collect();
+    keys.extend(obstacles(movers.iter()).into_iter().map(|(sign, name)| always((sign, format!("{name}, moving")))));
     let payload = world.payload.iter().map(|held| (Sign::Swatch(held.color), format!("{}, carried", held.object)));
     keys.extend(payload.map(always));
     keys

@@ -22,6 +22,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let mut inside = ground(&frame, arm);
     inside.extend(still.reach.as_ref().map(|reach| reach::in_workspace(reach, &frame)));
     inside.extend(view.world_now().obstacles.iter().map(|obstacle| shapes::solid(&frame, obstacle)));
+    inside.extend(movers(view, &frame));
     inside.extend(still.placed.iter().map(|object| shapes::dashed(&frame, object)));
     inside.extend(preferences::in_workspace(&first.regions, &frame));
     let mut pose = |world: usize, q, look| {
@@ -54,6 +55,22 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     items
 }
 
+/// What moves, where it is now; while nothing does, also where it goes, dashed.
+fn movers(view: &View, frame: &Frame) -> Vec<Item> {
+    let (movers, mut items) = (&view.world_now().movers, Vec::new());
+    if let (None, Some(duration)) = (view.still.now, view.duration()) {
+        for mover in movers {
+            let moments = mover.moments(duration);
+            let places = std::iter::once(&0.0).chain(&moments).map(|&time| mover.origin(time));
+            let way = chain(places.map(|p| frame.at(p.x, p.y)), false);
+            items.push(Item::Outline(way, Style::line(GREY, 1.0).dashed(shapes::DASH)));
+            items.extend(moments.iter().map(|&time| shapes::dashed(frame, &mover.at(time))));
+        }
+    }
+    items.extend(movers.iter().map(|mover| shapes::solid(frame, &mover.at(view.still.time))));
+    items
+}
+
 /// Which of the arms is which, and the names of obstacles, or numbers of many.
 fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let arm = |name: &str, q: [f64; 2]| {
@@ -66,7 +83,9 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let world = view.first_world();
     let lying = world.obstacles.iter().enumerate().filter(|(_, obstacle)| obstacle.lies());
     let obstacles = lying.map(|(number, o)| (world.called(number), labels::place(frame, &o.outline, o.own())));
-    arms.chain(obstacles).collect()
+    let movers = world.movers.iter().map(|mover| mover.at(view.still.time));
+    let movers = movers.map(|o| (o.name.clone(), labels::place(frame, &o.outline, o.own())));
+    arms.chain(obstacles).chain(movers).collect()
 }
 
 /// A dot where each step ends, or was to end, with its number.

@@ -2,6 +2,7 @@
 
 use super::fastest::fastest;
 use super::field_report::field_report;
+use super::moving::{InTime, Timing, in_time};
 use super::options::Options;
 use super::{Answer, Bound, Report, Verdict};
 use crate::check::CertifiedCurve;
@@ -17,6 +18,8 @@ pub struct MotionPlan {
     pub answer: Answer,
     /// What the motion follows, if there is one.
     pub curve: Option<CertifiedCurve>,
+    /// How it gets by what moves, if anything does.
+    pub timing: Option<Timing>,
 }
 
 impl MotionPlan {
@@ -31,13 +34,25 @@ impl MotionPlan {
     ) -> Result<(Self, Report), TimingError> {
         let joints = &problem.scene().arm().joints;
         let planner = answer.method.name();
-        let mut followed = None;
-        let mut report = match &answer.verdict {
-            Verdict::Found(certified) => {
-                let (Timed { curve, trajectory }, fastest) = match options.drive.optimize {
-                    Objective::Length => (options.drive.along(problem.scene(), certified, 1.0)?, None),
-                    Objective::Time => fastest(&problem, &answer, certified, options)?,
-                };
+        let (mut followed, mut timing) = (None, None);
+        let mut driven = match &answer.verdict {
+            Verdict::Found(certified) => Some(match options.drive.optimize {
+                Objective::Length => (options.drive.along(problem.scene(), certified, 1.0)?, None),
+                Objective::Time => fastest(&problem, &answer, certified, options)?,
+            }),
+            Verdict::Infeasible(_) | Verdict::Unknown(_) => None,
+        };
+        if !problem.scene().workspace().movers.is_empty()
+            && let Verdict::Found(certified) = &answer.verdict
+            && let Some((timed, fastest)) = driven.take()
+        {
+            match in_time(&problem, certified, timed, options)? {
+                Ok(InTime { timed, figures }) => (driven, timing) = (Some((timed, fastest)), Some(figures)),
+                Err(reason) => answer.verdict = Verdict::Unknown(reason),
+            }
+        }
+        let mut report = match (&answer.verdict, driven) {
+            (Verdict::Found(certified), Some((Timed { curve, trajectory }, fastest))) => {
                 let mut report = Report::found(planner, joints, &curve, trajectory);
                 // What is told of the path is told of the one that the motion takes.
                 if curve.curve().path() != certified.path() {
@@ -47,17 +62,19 @@ impl MotionPlan {
                 }
                 report.optimum = answer.bound.map(Optimum::from);
                 report.fastest = fastest;
+                report.moving.clone_from(&timing);
                 report.closest = curve.nearest().map(|n| problem.scene().describe(n.contact.pair));
                 followed = Some(curve);
                 report
             }
-            Verdict::Infeasible(proof) => {
+            (Verdict::Infeasible(proof), _) => {
                 let reason = answer.verdict.reason().unwrap_or_default();
                 let mut report = Report::infeasible(planner, joints, reason);
                 report.proof = Some(proof.clone());
                 report
             }
-            Verdict::Unknown(reason) => {
+            (Verdict::Found(_), None) => unreachable!("what is found is driven"),
+            (Verdict::Unknown(reason), _) => {
                 let mut report = Report::unknown(planner, joints, reason.clone());
                 report.path_exists = answer.witness.is_some().then_some(true);
                 report
@@ -68,7 +85,7 @@ impl MotionPlan {
         report.name = Some(problem.scene().workspace().name.clone()).filter(|name| !name.is_empty());
         report.size = answer.run.size.figures().into_iter().collect();
         report.field = options.planner.field().map(|field| field_report(field, &answer));
-        Ok((Self { problem, answer, curve: followed }, report))
+        Ok((Self { problem, answer, curve: followed, timing }, report))
     }
 }
 

@@ -1,7 +1,7 @@
 //! What to write instead of a value in a world file that is of a wrong kind.
 
 /// Keys with what is to be written for them. A key's own table comes before keys of the same name elsewhere.
-const FORMS: [(&str, &str); 27] = [
+const FORMS: [(&str, &str); 30] = [
     ("start", "[start] joints = [q1, q2], or tip = [x, y]"),
     ("goal", "[goal] joints = [q1, q2], or tip = [x, y]"),
     ("robot.joints", "joints = [\"first\", \"second\"], base to tip"),
@@ -22,6 +22,9 @@ const FORMS: [(&str, &str); 27] = [
     ("circle", "circle = { center = [x, y], radius = r }"),
     ("center", "center = [x, y]"),
     ("radius", "radius = r, metres"),
+    ("motion", "motion = { velocity = [vx, vy] }, or { stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y] }] }"),
+    ("stops", "stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y], angle = a }], seconds and metres"),
+    ("time", "time = t, seconds since the arm's motion begins"),
     ("height", "height = [lower, upper], metres"),
     ("clearance", "clearance = 0.01, metres"),
     ("name", "name = \"words\""),

@@ -16,6 +16,7 @@
 //! decomposes polygons into convex pieces, and checks start and goal. Out comes a problem, or every diagnostic at once.
 //! [`load_recording`] makes a recording of anyone's motion, and of a result of a task its steps, too.
 
+mod course;
 mod help;
 mod ends;
 mod error;

@@ -1,5 +1,6 @@
 //! The world file's `[[obstacle]]`.
 
+use super::course::CourseTable;
 use super::error::{Diagnostic, InputError};
 use super::occupancy::OccupancyMap;
 use super::polygon::{Ring, polygon, polyline};
@@ -7,7 +8,7 @@ use super::quantity::Written;
 use super::schema::{AngleOrLength, Corners, Positive, Rings, Two, UnknownAs};
 use super::world::{Number, Numbers, Reader};
 use crate::geometry::{Convex, Pose};
-use crate::model::{Obstacle, Shape};
+use crate::model::{Mover, Obstacle, Shape};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -48,6 +49,9 @@ pub(super) struct ObstacleTable {
     /// How its frame is turned, rad; by default 0.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
+    /// How its frame moves while the arm does; by default it stands still.
+    #[schemars(with = "Option<CourseTable>")]
+    motion: Option<Spanned<CourseTable>>,
     /// Its extent along the plane's normal, m: only parts of the arm at these heights can hit it; by default all heights.
     #[schemars(with = "Option<Two>")]
     height: Option<Numbers>,
@@ -69,6 +73,14 @@ pub(super) struct CircleTable {
 /// Convex pieces of the largest map: beyond it each planner takes minutes.
 pub(super) const MOST_PIECES: usize = 1 << 20;
 
+/// What an `[[obstacle]]` is.
+pub(super) enum Read {
+    /// It stands where it is.
+    Standing(Obstacle),
+    /// It has a motion.
+    Moving(Mover),
+}
+
 const SIMPLE: &str =
     "list the corners in order round the shape (and round each hole), each once; a wall without area is a polyline";
 
@@ -77,12 +89,15 @@ impl ObstacleTable {
     ///
     /// # Errors
     /// On not exactly one shape, values that are not finite, shapes that are none, and files that cannot be used.
-    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Obstacle, InputError> {
+    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Read, InputError> {
         let obstacle = table.get_ref();
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
         let what = format!("obstacle \"{name}\"");
         let place = reader.pose(obstacle.at.as_ref(), obstacle.angle.as_ref(), &what)?;
-        let place = place.as_ref();
+        let course = obstacle.motion.as_ref().map(|m| m.get_ref().read(reader, &what, place.as_ref(), m.span()));
+        let course = course.transpose()?;
+        // What moves has its shape in its own frame.
+        let place = place.as_ref().filter(|_| course.is_none());
         let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
             (Some(corners), None, None, None) => {
                 polygon(reader, corners, obstacle.holes.as_ref(), place, &what, SIMPLE)?
@@ -108,7 +123,11 @@ impl ObstacleTable {
             return Err(reader.source.diagnostic_at(holes.span(), message).help("remove the key").into());
         }
         let heights = reader.heights(obstacle.height.as_ref(), &what)?;
-        Ok(Obstacle { name, shape, pieces, heights })
+        let obstacle = Obstacle { name, shape, pieces, heights };
+        Ok(match course {
+            Some(course) => Read::Moving(Mover { obstacle, course }),
+            None => Read::Standing(obstacle),
+        })
     }
 }
 

@@ -40,7 +40,8 @@ impl LoadedScene {
         let loaded = self.keeping(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;
-        loaded.require("the start", start, &place).map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
+        let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
+        is_free.map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
         let about = |diagnostic: Diagnostic| diagnostic.about(DiagnosticKind::Goal);
         let (goal, place) = loaded.goal(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
         let goals = match goal {
@@ -109,6 +110,32 @@ impl LoadedScene {
             return Err(place.diagnostic(message).help(help_for_contact(&self.scene)));
         }
         Ok(())
+    }
+
+    /// Refuses what moves, for all that knows no time: `what` says so.
+    ///
+    /// # Errors
+    /// When an obstacle has a motion.
+    pub fn require_standing(&self, what: &str) -> Result<(), InputError> {
+        let Some(mover) = self.scene.workspace().movers.first() else { return Ok(()) };
+        let message = format!("{what}, and obstacle \"{}\" moves", mover.obstacle.name);
+        let help = "remove its motion; single motions are planned, verified and checked among what moves";
+        Err(self.world.source.diagnostic(message).help(help).into())
+    }
+
+    /// Refuses a start where something that moves is at first.
+    fn require_clear(&self, start: Configuration, place: &Place) -> Result<(), Diagnostic> {
+        let hits = self.scene.obstructions_at(start, 0.0);
+        if hits.is_empty() {
+            return Ok(());
+        }
+        let hits: Vec<String> = hits.iter().map(|hit| self.scene.explain(hit)).collect();
+        let message = format!(
+            "the start ({}) is not free when the motion begins: {}",
+            describe(&self.scene, start),
+            hits.join("; ")
+        );
+        Err(place.diagnostic(message).help("let the motion of the obstacle begin elsewhere, or choose another start"))
     }
 
     /// Every IK solution that puts the tip at `tip`, within the limits, but for those that are proven not to be free.

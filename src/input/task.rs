@@ -55,6 +55,7 @@ impl LoadedScene {
         if overrides.goal.is_some() || overrides.goal_tip.is_some() {
             return Err(self.has_no_goal(overrides).into());
         }
+        self.require_standing("steps are planned among what stands")?;
         let loaded = self.keeping(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;

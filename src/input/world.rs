@@ -4,7 +4,7 @@ use super::error::{Diagnostic, InputError};
 use super::help::help;
 use super::notes::Taken;
 use super::object::{self, Movable, Names, ObjectTable};
-use super::obstacle::ObstacleTable;
+use super::obstacle::{ObstacleTable, Read};
 use super::pallet::{PalletTable, Pallets};
 use super::preference::PreferenceTable;
 use super::quantity::{JointPair, Written};
@@ -64,7 +64,7 @@ impl World {
                 name: String::new(),
                 obstacles: Vec::new(),
                 clearance: 0.0,
-                preferences: Vec::new(),
+                preferences: Vec::new(), movers: Vec::new(),
             },
             objects: Vec::new(),
             notes: Vec::new(),
@@ -261,8 +261,13 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     });
     let start = start.transpose()?;
     let goal = file.goal.as_ref().map(|g| reader.goal(&g.get_ref().0, g.span(), "goal")).transpose()?;
-    let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| ObstacleTable::read(&reader, i, o));
-    let mut obstacles = obstacles.collect::<Result<Vec<_>, _>>()?;
+    let (mut obstacles, mut movers) = (Vec::new(), Vec::new());
+    for (index, table) in file.obstacle.iter().enumerate() {
+        match ObstacleTable::read(&reader, index, table)? {
+            Read::Standing(obstacle) => obstacles.push(obstacle),
+            Read::Moving(mover) => movers.push(mover),
+        }
+    }
     let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
     obstacles.extend(map.obstacles);
     let preferences = file.preference.iter().enumerate().map(|(i, p)| PreferenceTable::read(&reader, i, p));
@@ -288,7 +293,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     }));
     Ok(World {
         notes,
-        workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
+        workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences, movers },
         start,
         in_degrees: reader.in_degrees.take(),
         // Steps count for more than a map's goal.

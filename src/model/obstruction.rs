@@ -1,8 +1,9 @@
 //! Why a configuration is not free.
 
-use super::{Contact, Scene};
-use crate::geometry::shapes_meet;
+use super::{Contact, Pair, Scene};
+use crate::geometry::{Convex, separation, shapes_meet};
 use crate::space::Configuration;
+use std::borrow::Cow;
 
 /// A contact, or a distance below the clearance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,14 +21,31 @@ const SHALLOW: f64 = 1e-9;
 const DEEP: f64 = 1e-3;
 
 impl Scene {
-    /// Why `q` is not free: of each link (or payload) and obstacle the worst pair of shapes. Empty if it is.
+    /// Why `q` is not free of what stands: of each link (or payload) and obstacle the worst pair of shapes. Empty if it is.
     #[must_use]
     pub fn obstructions(&self, q: Configuration) -> Vec<Obstruction> {
+        self.worst(q, self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair)))))
+    }
+
+    /// The same of what stands and of what moves, at a time.
+    #[must_use]
+    pub fn obstructions_at(&self, q: Configuration, time: f64) -> Vec<Obstruction> {
+        let standing = self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair))));
+        let moving = self.moving_pairs().iter().filter_map(|&pair| {
+            let pose = self.mover(pair)?.course.pose(time);
+            Some((pair, Cow::Owned(self.piece(pair).at(&pose))))
+        });
+        self.worst(q, standing.chain(moving))
+    }
+
+    fn worst<'a>(&self, q: Configuration, pieces: impl Iterator<Item = (Pair, Cow<'a, Convex>)>) -> Vec<Obstruction> {
         let poses = self.arm().poses(q);
         let mut worst: Vec<Obstruction> = Vec::new();
-        for contact in self.separations(q) {
-            let (pair, distance) = (contact.pair, contact.separation.distance);
-            let touches = distance <= 0.0 || shapes_meet(&self.part(pair).at(&poses[pair.link]), self.piece(pair));
+        for (pair, piece) in pieces {
+            let part = self.part(pair).at(&poses[pair.link]);
+            let contact = Contact { pair, separation: separation(&part, &piece) };
+            let distance = contact.separation.distance;
+            let touches = distance <= 0.0 || shapes_meet(&part, &piece);
             if !touches && distance >= self.workspace().clearance {
                 continue;
             }
@@ -50,12 +68,12 @@ impl Scene {
     pub fn explain(&self, obstruction: &Obstruction) -> String {
         let Contact { pair, separation } = obstruction.contact;
         let part = self.describe_part(pair);
-        let obstacle = &self.workspace().obstacles[pair.obstacle].name;
+        let (obstacle, moves) = (self.obstacle_name(pair), if self.mover(pair).is_some() { "moving " } else { "" });
         let distance = separation.distance;
         if !obstruction.touches {
             let clearance = self.workspace().clearance;
             return format!(
-                "{part} is {distance:.6} m from obstacle \"{obstacle}\", nearer than the clearance of {clearance} m"
+                "{part} is {distance:.6} m from {moves}obstacle \"{obstacle}\", nearer than the clearance of {clearance} m"
             );
         }
         let depth = (-distance).max(0.0);
@@ -64,6 +82,6 @@ impl Scene {
             _ if depth >= DEEP => format!("{depth:.4} m deep"),
             _ => format!("{depth:.2e} m deep"),
         };
-        format!("{part} hits obstacle \"{obstacle}\", {how}")
+        format!("{part} hits {moves}obstacle \"{obstacle}\", {how}")
     }
 }

@@ -27,7 +27,7 @@ pub enum MotionProblemError {
         /// Radians or metres.
         value: f64,
     },
-    /// At the start the arm meets an obstacle, or is nearer to one than the clearance.
+    /// At the start the arm meets an obstacle, or is nearer to one than the clearance; of what moves, where it is at time 0.
     #[error("the start is not free: {why}")]
     StartBlocked {
         /// Which link, which obstacle, how deep.
@@ -84,7 +84,7 @@ impl MotionProblem {
         if let Some((joint, value)) = outside(start) {
             return Err(MotionProblemError::StartOutside { joint, value });
         }
-        if let Some(why) = blocked(start) {
+        if let Some(why) = scene.obstructions_at(start, 0.0).first().map(|found| scene.explain(found)) {
             return Err(MotionProblemError::StartBlocked { why });
         }
         if goals.is_empty() {

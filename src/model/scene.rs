@@ -2,7 +2,7 @@
 
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
-use super::{Arm, Dynamics, Grip, Obstacle, Part, Payload, SceneError, Workspace};
+use super::{Arm, Dynamics, Grip, Mover, Obstacle, Part, Payload, SceneError, Workspace};
 use crate::geometry::{Convex, Separation, seams, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
@@ -17,7 +17,7 @@ pub struct Pair {
     pub link: usize,
     /// Into the link's parts.
     pub part: usize,
-    /// Into the workspace's obstacles.
+    /// Into the workspace's obstacles; beyond these, into what moves.
     pub obstacle: usize,
     /// Into the obstacle's pieces; beyond these, what is made of them for a payload.
     pub piece: usize,
@@ -48,6 +48,8 @@ pub struct Scene {
     /// Parts of link 2 that are the arm's own; those that follow are the payload's.
     own_parts: usize,
     pairs: Vec<Pair>,
+    /// The same with what moves.
+    moving: Vec<Pair>,
     /// Of each obstacle, what a level payload makes of its pieces, and of supports what is met of them.
     differences: Vec<Vec<Convex>>,
 }
@@ -119,8 +121,9 @@ impl Scene {
                 }
             }
         }
+        let moving = moving_pairs(&arm, &workspace);
         let allowed_contacts = allowed_contacts.to_vec();
-        Self { arm, workspace, payload, allowed_contacts, own_parts, pairs, differences }
+        Self { arm, workspace, payload, allowed_contacts, own_parts, pairs, moving, differences }
     }
 
     /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within.
@@ -160,6 +163,19 @@ impl Scene {
         let (payload, allowed_contacts) = (self.payload.take(), std::mem::take(&mut self.allowed_contacts));
         let (arm, workspace) = self.into_parts();
         Ok(Self::handling_trusted(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts))
+    }
+
+    /// The same scene at a time: what moves stands where it is then, after all that stands.
+    #[must_use]
+    pub fn frozen(&self, time: f64) -> Self {
+        if self.workspace.movers.is_empty() {
+            return self.clone();
+        }
+        let mut scene = self.clone();
+        let (payload, allowed_contacts) = (scene.payload.take(), std::mem::take(&mut scene.allowed_contacts));
+        let (arm, mut workspace) = scene.into_parts();
+        workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| mover.at(time)));
+        Self::handling_trusted(arm, workspace, payload, &allowed_contacts)
     }
 
     /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
@@ -218,15 +234,30 @@ impl Scene {
         &self.pairs
     }
 
+    /// Pairs of a part and something that moves and can meet it at all, in the same order. All other questions are about what stands.
+    #[must_use]
+    pub fn moving_pairs(&self) -> &[Pair] {
+        &self.moving
+    }
+
+    /// What moves in a pair, if it is one of [`Scene::moving_pairs`].
+    #[must_use]
+    pub fn mover(&self, pair: Pair) -> Option<&Mover> {
+        self.workspace.movers.get(pair.obstacle.wrapping_sub(self.workspace.obstacles.len()))
+    }
+
     /// The link part of a pair, in its link's frame.
     #[must_use]
     pub fn part(&self, pair: Pair) -> &Convex {
         &self.arm.links[pair.link].parts[pair.part].shape
     }
 
-    /// The obstacle piece of a pair, or what is made of it for a payload, in plane coordinates.
+    /// The obstacle piece of a pair, or what is made of it for a payload, in plane coordinates; of what moves, in its own frame.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
+        if let Some(mover) = self.mover(pair) {
+            return &mover.obstacle.pieces[pair.piece];
+        }
         let own = &self.workspace.obstacles[pair.obstacle].pieces;
         own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
     }
@@ -255,7 +286,14 @@ impl Scene {
     /// The pair in words: `link "forearm" and obstacle "shelf"`.
     #[must_use]
     pub fn describe(&self, pair: Pair) -> String {
-        format!("{} and obstacle \"{}\"", self.describe_part(pair), self.workspace.obstacles[pair.obstacle].name)
+        format!("{} and obstacle \"{}\"", self.describe_part(pair), self.obstacle_name(pair))
+    }
+
+    /// The name of what a part can meet in a pair.
+    #[must_use]
+    pub fn obstacle_name(&self, pair: Pair) -> &str {
+        let standing = || &self.workspace.obstacles[pair.obstacle];
+        &self.mover(pair).map_or_else(standing, |mover| &mover.obstacle).name
     }
 
     /// Whether a pair's part is the payload's.
@@ -277,6 +315,21 @@ impl Scene {
             format!("link \"{}\" (body \"{body}\")", link.name)
         }
     }
+}
+
+/// The parts of an arm and what moves that is as high.
+fn moving_pairs(arm: &Arm, workspace: &Workspace) -> Vec<Pair> {
+    let first = workspace.obstacles.len();
+    let mut pairs = Vec::new();
+    for (link, l) in arm.links.iter().enumerate() {
+        for (part, p) in l.parts.iter().enumerate() {
+            for (mover, Mover { obstacle, .. }) in workspace.movers.iter().enumerate() {
+                let pieces = if p.heights.meet(obstacle.heights) { 0..obstacle.pieces.len() } else { 0..0 };
+                pairs.extend(pieces.map(|piece| Pair { link, part, obstacle: first + mover, piece }));
+            }
+        }
+    }
+    pairs
 }
 
 /// Which pieces of each obstacle something can meet.

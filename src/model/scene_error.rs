@@ -224,7 +224,8 @@ pub(super) fn check_range(joint: &str, range: JointRange) -> Result<(), SceneErr
 
 fn check_workspace(workspace: &Workspace) -> Result<(), SceneError> {
     check_clearance(workspace.clearance)?;
-    workspace.obstacles.iter().try_for_each(|obstacle| {
+    let moving = workspace.movers.iter().map(|mover| &mover.obstacle);
+    workspace.obstacles.iter().chain(moving).try_for_each(|obstacle| {
         check_size(&obstacle.name, &obstacle.pieces)?;
         check_heights(&obstacle.name, obstacle.heights)
     })?;

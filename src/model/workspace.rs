@@ -1,6 +1,6 @@
 //! Obstacles in the plane.
 
-use super::Preference;
+use super::{Mover, Preference};
 use super::scene_error::are_small;
 use crate::geometry::{Convex, ConvexError, Point, PolygonError, Pose, SimplePolygon};
 use serde::{Deserialize, Serialize};
@@ -117,6 +117,10 @@ pub struct Workspace {
     pub clearance: f64,
     /// Regions that field planners may prefer or avoid, in the order of the file; of several that hold the last counts.
     pub preferences: Vec<Preference>,
+    /// Obstacles that move. What has no time knows nothing of them: planners, configuration spaces, paths and proofs. Motions are put in time
+    /// among them ([`crate::engine`]) and judged in time ([`crate::check::certify_in_time`]).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub movers: Vec<Mover>,
 }
 
 impl Obstacle {
@@ -160,11 +164,12 @@ impl Workspace {
     #[must_use]
     pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
         let obstacles = obstacles.into_iter().collect();
-        Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() }
+        Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() }
     }
 
     /// Holds the shapes to what is judged: for what is read as data.
     pub(super) fn hold_shapes(&mut self) {
-        self.obstacles.iter_mut().for_each(|obstacle| obstacle.shape.hold_to(&obstacle.pieces));
+        let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
+        self.obstacles.iter_mut().chain(moving).for_each(|obstacle| obstacle.shape.hold_to(&obstacle.pieces));
     }
 }

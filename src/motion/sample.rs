@@ -136,7 +136,7 @@ impl Trajectory {
     }
 
     /// The cubics through positions and velocities.
-    pub(super) fn pieces(&self) -> Vec<Piece> {
+    pub(crate) fn pieces(&self) -> Vec<Piece> {
         let end = |i: usize| [self.position[i].into(), self.velocity[i].into()];
         (1..self.time.len()).map(|i| Piece::hermite(self.time[i - 1], self.time[i], end(i - 1), end(i))).collect()
     }

@@ -3,16 +3,20 @@
 use super::summary::{Line, Told, configuration, field, non_empty, segment, torque};
 use crate::check::CertifiedCurve;
 use crate::engine::explain::{BlockingSet, Question, blocking_set};
-use crate::engine::{Bound, MotionPlan, Plan, Verdict, percent};
-use crate::model::Scene;
+use crate::engine::{Bound, MotionPlan, Plan, Timing, Verdict, Wait, percent};
+use crate::model::{Arm, Scene};
 use crate::motion::Fastest;
-use crate::space::Metric;
+use crate::space::{Configuration, Metric};
 use crate::text::counted;
 
 /// What the planner found and did; start and goals.
 pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
     let (scene, arm) = (plan.problem.scene(), whole.arm());
-    let obstacles = counted(scene.workspace().obstacles.len(), "obstacle");
+    let moving = match scene.workspace().movers.len() {
+        0 => String::new(),
+        count => format!(", {count} that move"),
+    };
+    let obstacles = counted(scene.workspace().obstacles.len(), "obstacle") + &moving;
     let mut asked = vec![
         ("world", format!("{}, {obstacles}", non_empty(&scene.workspace().name))),
         ("start", configuration(arm, plan.problem.start())),
@@ -22,7 +26,7 @@ pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
 }
 
 fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
-    let (MotionPlan { problem, answer, curve }, report) = (plan, whole.report());
+    let (MotionPlan { problem, answer, curve, timing }, report) = (plan, whole.report());
     let mut lines = Vec::new();
     match &answer.verdict {
         Verdict::Found(certified) => {
@@ -49,6 +53,7 @@ fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
         lines.extend(torque(whole.arm(), trajectory));
         lines.extend(report.fastest.as_ref().map(|fastest| ("fastest", least_time(fastest))));
         lines.push(("clearance", clearance(problem.scene(), curve)));
+        lines.extend(timing.iter().flat_map(|timing| among_movers(whole.arm(), timing)));
     }
     let search = report.search.as_ref().map(|used| format!(" ({used})"));
     let space = report.space.map(|space| format!(", {space}"));
@@ -85,6 +90,19 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
         ),
         None => "nothing can be hit".into(),
     }
+}
+
+/// How the motion gets by what moves.
+fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
+    let Timing { obstacles, ways, waits, clearance, free_until } = timing;
+    let kept = clearance.map_or_else(|| "none of them can meet the arm".into(), |kept| format!("{kept:.6} m proven"));
+    let stays = free_until.map_or_else(|| "for ever".into(), |until| format!("until {until:.3} s"));
+    let tried = counted(*ways, "way");
+    let mut lines = vec![("moving", format!("{}, {kept}; {tried} tried; at the goal the arm may stay {stays}", counted(*obstacles, "obstacle")))];
+    lines.extend(waits.iter().map(|Wait { from, to, at }| {
+        ("waits", format!("from {from:.3} to {to:.3} s at {}", configuration(arm, Configuration::from(*at))))
+    }));
+    lines
 }
 
 /// What becomes of the path's corners, if it has any.

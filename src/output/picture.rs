@@ -164,7 +164,7 @@ impl Plan {
     }
 
     fn motion_view(&self, plan: &MotionPlan, contours: &[CObstacle]) -> View {
-        let (MotionPlan { problem, answer, curve }, report) = (plan, self.report());
+        let (MotionPlan { problem, answer, curve, .. }, report) = (plan, self.report());
         let scene = problem.scene();
         let outline = curve.as_ref().map(|curve| curve.outline());
         let detail = match (report.length, &answer.verdict) {

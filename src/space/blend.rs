@@ -117,6 +117,15 @@ impl BlendedPath {
         self
     }
 
+    /// Followed by another one that begins where this ends, with a corner between them.
+    #[must_use]
+    pub fn then(self, next: &BlendedPath) -> Self {
+        let waypoints = self.path.waypoints().iter().chain(next.path.waypoints()).copied().collect();
+        let last = self.radii.len() - 1;
+        let radii = self.radii[..last].iter().chain(&next.radii).copied().collect();
+        Self { path: Path::new(waypoints), radii }
+    }
+
     /// Straight pieces and blends from start to goal.
     #[must_use]
     pub fn stretches(&self) -> Vec<Stretch> {

@@ -44,10 +44,60 @@ impl Path {
         self.waypoints.windows(2).map(|w| (w[0], w[1]))
     }
 
+    /// The part between two distances along it, joint space; backwards if the first is the greater. Distances beyond its ends are those ends.
+    #[must_use]
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        if from > to {
+            let mut part = self.part(to, from);
+            part.waypoints.reverse();
+            return part;
+        }
+        let (mut waypoints, mut gone) = (Vec::new(), 0.0);
+        for (a, b) in self.segments() {
+            let length = (b - a).norm();
+            let ends = gone + length;
+            let at = |distance: f64| {
+                let share = (distance - gone) / length;
+                if share >= 1.0 { b } else { a + (b - a) * share.max(0.0) }
+            };
+            if waypoints.is_empty() && from < ends {
+                waypoints.push(at(from));
+            }
+            if !waypoints.is_empty() {
+                waypoints.push(at(to));
+                if to <= ends {
+                    break;
+                }
+            }
+            gone = ends;
+        }
+        if waypoints.is_empty() { Self::new(vec![self.goal()]) } else { Self::new(waypoints) }
+    }
+
     /// Euclidean length in joint space (rad and m as they come).
     #[must_use]
     pub fn length(&self) -> f64 {
         // Not `sum`: of nothing it is -0.
         self.segments().map(|(a, b)| (b - a).norm()).fold(0.0, |length, piece| length + piece)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_between_distances() {
+        let q = |a: f64, b: f64| Configuration::new(a, b);
+        let path = Path::new(vec![q(0.0, 0.0), q(2.0, 0.0), q(2.0, 1.0), q(0.0, 1.0)]);
+        let part = |from: f64, to: f64| path.part(from, to).waypoints().to_vec();
+        assert_eq!(part(0.0, 5.0), path.waypoints());
+        assert_eq!(part(-1.0, 9.0), path.waypoints());
+        assert_eq!(part(0.5, 1.5), [q(0.5, 0.0), q(1.5, 0.0)]);
+        assert_eq!(part(1.0, 4.0), [q(1.0, 0.0), q(2.0, 0.0), q(2.0, 1.0), q(1.0, 1.0)]);
+        assert_eq!(part(4.0, 1.0), [q(1.0, 1.0), q(2.0, 1.0), q(2.0, 0.0), q(1.0, 0.0)]);
+        assert_eq!(part(2.0, 3.0), [q(2.0, 0.0), q(2.0, 1.0)]);
+        assert_eq!((part(2.5, 2.5), part(5.0, 5.0)), (vec![q(2.0, 0.5)], vec![q(0.0, 1.0)]));
+        assert_eq!(Path::new(vec![q(1.0, 1.0)]).part(0.0, 1.0).waypoints(), [q(1.0, 1.0)]);
     }
 }

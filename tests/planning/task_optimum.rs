@@ -32,7 +32,7 @@ fn cell(limits: [[f64; 2]; 2]) -> (Arm, Workspace) {
     );
     let pieces = [disc(Point::new(1.2, 0.5), 0.08), disc(Point::new(-0.6, 1.2), 0.1), rectangle(0.3, 0.6, -1.3, -1.1)];
     let obstacles = pieces.into_iter().map(|piece| obstacle("post", piece)).collect();
-    (arm, Workspace { name: "cell".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
+    (arm, Workspace { name: "cell".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() })
 }
 
 /// A flat thing far below the arm, which nothing can hit.

@@ -170,6 +170,7 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
         if member.scene.has_steps() {
             member.scene.clone().problem(overrides)?;
         }
+        member.scene.require_standing("planners are compared among what stands")?;
         let scene = member.scene.keeping(overrides.clearance)?.scene;
         let nowhere = Configuration::zeros();
         Ok((member.name, MotionProblem::trusted(scene, nowhere, nowhere)))

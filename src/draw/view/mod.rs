@@ -125,6 +125,8 @@ pub(super) struct Still {
     pub reach: Option<Reach>,
     /// Where the arm is now, and in which world, while it moves.
     pub now: Option<([f64; 2], usize)>,
+    /// What time it is then, seconds.
+    pub time: f64,
     /// What is in the way.
     pub stuck: Option<Stuck>,
     /// Where the arm is in the end, and in which world.
@@ -176,6 +178,7 @@ impl View {
         let mut view = self.clone();
         let world =
             self.motions.iter().take_while(|motion| motion.from <= time).last().map_or(0, |motion| motion.world);
+        view.still.time = time;
         view.still.now = self.clock.as_ref().map(|clock| (clock.at(time).into(), world));
         view
     }

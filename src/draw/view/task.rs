@@ -76,6 +76,7 @@ impl View {
         let placed = placed.iter().map(|(object, o)| ObstacleView::new(o, task.obstacle_number(*object), grain));
         let last = legs.last().map(|leg| (leg, motions[legs.len() - 1].world));
         let still = Still {
+            time: 0.0,
             now: None,
             reach: None,
             stuck: None,

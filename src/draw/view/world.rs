@@ -7,7 +7,7 @@ use crate::check::CheckedProof;
 use crate::cspace::CObstacle;
 use crate::draw::color::{self, Rgb};
 use crate::geometry::{Convex, Point};
-use crate::model::{Grip, Obstacle, Pair, Preference, Region, Scene, Shape};
+use crate::model::{Course, Grip, Mover, Obstacle, Pair, Preference, Region, Scene, Shape};
 use crate::space::Configuration;
 use serde::{Serialize, Serializer};
 
@@ -49,6 +49,52 @@ impl ObstacleView {
     /// Whether it lies somewhere.
     pub fn lies(&self) -> bool {
         self.own > 0
+    }
+}
+
+/// What moves while the arm does.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MoverView {
+    /// In its own frame.
+    #[serde(flatten)]
+    obstacle: ObstacleView,
+    /// Time, both coordinates and angle of the frame, of each stop.
+    stops: Vec<[f64; 4]>,
+    /// From the last stop on, metres a second.
+    velocity: [f64; 2],
+    #[serde(skip)]
+    course: Course,
+}
+
+impl MoverView {
+    fn new(mover: &Mover, color: usize, grain: Grain) -> Self {
+        let Mover { obstacle, course } = mover;
+        let velocity = course.velocity();
+        Self {
+            obstacle: ObstacleView::new(obstacle, color, grain),
+            stops: course.stops().iter().map(|s| [number(s.time), grain.length(s.at.x), grain.length(s.at.y), number(s.angle)]).collect(),
+            velocity: [grain.length(velocity.x), grain.length(velocity.y)],
+            course: course.clone(),
+        }
+    }
+
+    /// Where it is at a time, as an obstacle.
+    pub fn at(&self, time: f64) -> ObstacleView {
+        let pose = self.course.pose(time);
+        let ObstacleView { name, color, outline, own, pieces } = &self.obstacle;
+        let pieces = pieces.iter().map(|piece| ShapeView(piece.0.at(&pose))).collect();
+        ObstacleView { name: name.clone(), color: *color, outline: outline.at(&pose), own: *own, pieces }
+    }
+
+    /// The times at which it changes its course, and the end of the motion.
+    pub fn moments(&self, duration: f64) -> Vec<f64> {
+        let stops = self.course.stops().iter().map(|stop| stop.time).filter(|&time| 0.0 < time && time < duration);
+        stops.chain([duration]).collect()
+    }
+
+    /// Where its frame's origin is at a time.
+    pub fn origin(&self, time: f64) -> Point {
+        Point::from(self.course.pose(time).translation.vector)
     }
 }
 
@@ -100,6 +146,8 @@ pub struct WorldView {
     pub label: String,
     pub clearance: f64,
     pub obstacles: Vec<ObstacleView>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub movers: Vec<MoverView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub payload: Option<PayloadView>,
     /// Which shapes can meet: link, part, obstacle, first piece, and the one after the last.
@@ -131,6 +179,7 @@ impl WorldView {
             label,
             clearance: scene.workspace().clearance,
             obstacles: obstacles.iter().enumerate().map(|(number, o)| obstacle(scene, number, o, grain)).collect(),
+            movers: movers(scene, grain),
             payload: payload(scene, grain),
             pairs: ranges(scene.pairs()),
             names: names::places(scene.arm(), obstacles.len(), &contours, grain),
@@ -180,6 +229,12 @@ fn obstacle(scene: &Scene, number: usize, obstacle: &Obstacle, grain: Grain) -> 
         .map(|piece| scene.piece(Pair { link: 1, part: 0, obstacle: number, piece }));
     view.pieces.extend(made.map(|piece| grain.shape(piece)));
     view
+}
+
+/// What moves, in the colours after those of what stands.
+fn movers(scene: &Scene, grain: Grain) -> Vec<MoverView> {
+    let numbered = scene.workspace().movers.iter().zip(scene.workspace().obstacles.len()..);
+    numbered.map(|(mover, number)| MoverView::new(mover, number, grain)).collect()
 }
 
 fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {

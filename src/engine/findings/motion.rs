@@ -249,7 +249,7 @@ fn encounter(scene: &Scene, e: &Encounter, timed: bool) -> EncounterFinding {
         moment: moment(&e.moment, timed),
         link: link.name.clone(),
         body: link.parts[pair.part].body.clone(),
-        obstacle: scene.workspace().obstacles[pair.obstacle].name.clone(),
+        obstacle: scene.obstacle_name(pair).to_owned(),
         depth: -e.contact.separation.distance,
         pair: scene.describe(pair),
     }

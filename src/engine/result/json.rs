@@ -63,7 +63,7 @@ impl Serialize for Report {
 
 impl Report {
     /// The names of all fields that results can have.
-    pub const FIELDS: [&str; 34] = [
+    pub const FIELDS: [&str; 35] = [
         "status",
         "name",
         "planner",
@@ -82,6 +82,7 @@ impl Report {
         "length",
         "optimum",
         "fastest",
+        "moving",
         "certified",
         "clearance",
         "closest",
@@ -129,6 +130,7 @@ impl Report {
         }
         fields.some("optimum", self.optimum.as_ref())?;
         fields.some("fastest", self.fastest.as_ref())?;
+        fields.some("moving", self.moving.as_ref())?;
         fields.put("certified", &self.certified)?;
         fields.put("clearance", &self.clearance)?;
         fields.some("closest", self.closest.as_ref())?;

@@ -8,6 +8,7 @@ pub use task::{Choice, TaskFigures};
 
 use super::Bound;
 use super::Planner;
+use super::moving::Timing;
 use super::task::MessageError;
 use crate::check::{CertifiedCurve, CheckedProof};
 use crate::model::{AssumedLimits, Joint, RobotJoints, Status};
@@ -56,6 +57,8 @@ pub struct Report {
     pub optimum: Option<Optimum>,
     /// How far the motion is from the fastest at the most, if that was asked for.
     pub fastest: Option<Fastest>,
+    /// How the motion gets by what moves, if anything does.
+    pub moving: Option<Timing>,
     /// Whether all of the continuous motion was shown free of collision; false without a motion, and if not all steps can be done.
     pub certified: bool,
     /// Proven lower bound on the distance between arm and obstacles all the time, metres. None without a motion, and where nothing
@@ -145,6 +148,7 @@ impl Report {
             length: None,
             optimum: None,
             fastest: None,
+            moving: None,
             certified: false,
             clearance: None,
             closest: None,

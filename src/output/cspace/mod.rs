@@ -272,7 +272,7 @@ impl CSpace {
     }
 
     fn of_motion(plan: &MotionPlan) -> Self {
-        let MotionPlan { problem, answer, curve } = plan;
+        let MotionPlan { problem, answer, curve, .. } = plan;
         let scene = problem.scene();
         let free = match &answer.space {
             Space::Regions(regions) => Some(FreeRegion {

@@ -66,7 +66,7 @@ fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds
             [1.0, 0.8],
             [block(-0.06, -0.06, 1.06, 0.06), capsule(0.8, 0.05)],
         ),
-        workspace: Workspace { name: "cell".into(), obstacles, clearance: 0.0, preferences: Vec::new() },
+        workspace: Workspace { name: "cell".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() },
         objects,
         start: Configuration::new(START[0], START[1]),
         items,

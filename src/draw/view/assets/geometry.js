@@ -40,6 +40,26 @@ const Geometry = (() => {
     return compose(turned(tip[0], tip[1], angle), [-x, -y, 1, 0]);
   }
 
+  /** Where something that moves is at a time, as an obstacle: straight and evenly from stop to stop, and on from the last. */
+  function moved(mover, time) {
+    const { stops, velocity, outline, pieces } = mover;
+    const next = stops.findIndex(([at]) => at > time);
+    let [, x, y, angle] = stops[next < 0 ? stops.length - 1 : Math.max(0, next - 1)];
+    if (next > 0) {
+      const [a, b] = [stops[next - 1], stops[next]];
+      const part = (time - a[0]) / (b[0] - a[0]);
+      [x, y, angle] = [1, 2, 3].map((k) => a[k] + (b[k] - a[k]) * part);
+    } else if (next < 0) {
+      const since = time - stops[stops.length - 1][0];
+      [x, y] = [x + velocity[0] * since, y + velocity[1] * since];
+    }
+    const pose = turned(x, y, angle);
+    const all = (points) => points && placed({ core: points }, pose).core;
+    const { polygon, circle, polyline } = outline;
+    const disc = circle && [...apply(pose, circle[0], circle[1]), circle[2]];
+    return { ...mover, outline: { polygon: all(polygon), circle: disc, polyline: all(polyline) }, pieces: pieces.map((piece) => placed(piece, pose)) };
+  }
+
   function placed(shape, pose) {
     const core = new Array(shape.core.length);
     for (let i = 0; i < core.length; i += 2) {
@@ -166,5 +186,5 @@ const Geometry = (() => {
     for (let i = 0; i + 1 < flat.length; i += 2) yield [flat[i], flat[i + 1]];
   }
 
-  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, separation, contacts, wrap, moving, pointsOf };
+  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, moved, separation, contacts, wrap, moving, pointsOf };
 })();

@@ -212,6 +212,16 @@ class View {
     return (this.account ?? this.world).scale;
   }
 
+  /** The time of the motion, at which what moves is where it is; while something else is played, its beginning. */
+  get now() {
+    return this.mode === 'move' ? this.time : 0;
+  }
+
+  /** How long the motion takes. */
+  get lasts() {
+    return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
+  }
+
   /** The motion that is under way. */
   get motion() {
     const { motions } = this.model;

@@ -19,8 +19,35 @@ const Workspace = (() => {
   }
 
   function obstacles(context, panel, view, world) {
+    solids(context, panel, view, world.obstacles);
+  }
+
+  /** What moves, where it is now. */
+  function movers(context, panel, view, world) {
+    solids(context, panel, view, (world.movers ?? []).map((mover) => Geometry.moved(mover, view.now)));
+  }
+
+  /** Where what moves goes while the arm does: its course, and where it stops. */
+  function courses(context, panel, view, world) {
+    for (const mover of world.movers ?? []) {
+      const moments = [0, ...mover.stops.map(([time]) => time).filter((time) => 0 < time && time < view.lasts), view.lasts];
+      const places = moments.map((time) => Geometry.moved(mover, time));
+      const origin = { outline: { circle: [0, 0, 0] }, pieces: [], stops: mover.stops, velocity: mover.velocity };
+      context.lineWidth = 1;
+      context.strokeStyle = panel.theme.grey;
+      context.setLineDash([5, 3]);
+      line(context, moments.map((time) => panel.at(Geometry.moved(origin, time).outline.circle)));
+      context.setLineDash([]);
+      for (const place of places.slice(1)) {
+        outline(context, panel, place);
+        dashed(context, [5, 3], 1.2, panel.theme.obstacle(mover.color).line);
+      }
+    }
+  }
+
+  function solids(context, panel, view, all) {
     const { theme } = panel;
-    world.obstacles.forEach((obstacle, index) => {
+    all.forEach((obstacle) => {
       if (view.hidden.has(obstacle.name)) return;
       const { fill, line: edge } = theme.obstacle(obstacle.color);
       outline(context, panel, obstacle);
@@ -51,6 +78,9 @@ const Workspace = (() => {
       world.obstacles.forEach((obstacle, index) => {
         if (obstacle.own > 0 && !view.hidden.has(obstacle.name)) shown.push([view.called(index), box(panel, obstacle)]);
       });
+      for (const mover of (world.movers ?? []).filter(({ name }) => !view.hidden.has(name))) {
+        shown.push([mover.name, box(panel, Geometry.moved(mover, view.now))]);
+      }
     }
     Labels.beside(context, panel, shown);
   }
@@ -202,6 +232,7 @@ const Workspace = (() => {
     dashed(context, [2, 4], 1, theme.pale);
     if (model.reach && view.shows('access')) cells(context, panel, model.reach);
     obstacles(context, panel, view, world);
+    courses(context, panel, view, world);
     if (view.shows('regions')) regions(context, panel, world);
     if (view.shows('poses')) {
       const shown = view.pathsHere();
@@ -245,6 +276,7 @@ const Workspace = (() => {
   /** What moves: the arm, and the one that is tried. */
   function moving(context, panel, view) {
     const { theme } = panel;
+    movers(context, panel, view, view.world);
     arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.accent, width: 1.6, joints: true });
     if (view.probe) tried(context, panel, view);
     if (view.shows('names')) names(context, panel, view, view.world);

@@ -1,0 +1,62 @@
+//! When a motion may depart: at which times it would meet nothing that moves.
+
+use super::blocked::near_times;
+use crate::check::{Posture, Span};
+use crate::geometry::{Interval, merge_in_place};
+use crate::interrupt::checkpoint;
+use crate::model::Scene;
+use crate::space::Piece;
+
+/// Stretches of a motion are halved no further once they are as short as this, seconds.
+const SHORTEST: f64 = 2e-3;
+
+/// The times at which a motion must not begin: if it did, something that moves would, or might, be nearer to the arm than the clearance at some
+/// time of it. In order and disjoint; a superset.
+///
+/// In a stretch of the motion, which takes from `a` to `b` seconds after it began, the arm is in the way of what moves at times `[c, d]`
+/// ([`near_times`]); so it must not begin in `[c - b, d - a]`. Only stretches in which anything is near are halved, and only what is near is
+/// looked at again, until no point of the arm moves farther than `finest` in a stretch.
+pub fn blocked_departures(scene: &Scene, pieces: &[Piece], clearance: f64, finest: f64) -> Vec<Interval> {
+    let (mut blocked, mut near) = (Vec::new(), Vec::new());
+    let mut open = vec![(Span::all(pieces.len()), scene.moving_pairs().to_vec())];
+    while let Some((span, mut pairs)) = open.pop() {
+        checkpoint();
+        let (middle, deviation) = span.deviation(pieces);
+        let posture = Posture::new(scene, middle);
+        let [begins, ends] = span.ends().map(|(piece, share)| pieces[piece].time(share) - pieces[0].from);
+        near.clear();
+        let mut moves = 0.0_f64;
+        pairs.retain(|&pair| {
+            moves = moves.max(posture.farthest_motion(pair, deviation));
+            near_times(scene, &posture, deviation, pair, clearance, &mut near)
+        });
+        if pairs.is_empty() {
+            continue;
+        }
+        match span.halves().filter(|_| moves > finest && ends - begins > SHORTEST) {
+            Some([first, second]) => open.extend([(second, pairs.clone()), (first, pairs)]),
+            None => blocked.extend(near.iter().map(|[from, to]| [from - ends, to - begins])),
+        }
+    }
+    merge_in_place(&mut blocked);
+    blocked
+}
+
+/// The first time from one to another, ends included, at which a motion may begin; none if there is none.
+pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> {
+    let mut time = from;
+    for &[lower, upper] in blocked {
+        if time < lower {
+            break;
+        }
+        if time <= upper {
+            time = after(upper);
+        }
+    }
+    (time <= to).then_some(time)
+}
+
+/// A nanosecond after: times of trajectories are whole ones.
+fn after(time: f64) -> f64 {
+    time + 2e-9
+}

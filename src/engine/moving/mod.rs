@@ -1,0 +1,171 @@
+//! Motions among obstacles that move: which certified path to take, when to go, and where to wait.
+//!
+//! Place on a path and time are a plane, in which what moves is a set of forbidden regions. A path among what stands is certified
+//! first, as if nothing moved; what stands in the way then stands in it always. Along it the arm goes from rest to rest between places at which it
+//! may wait: the departures of each such motion that are blocked are known as intervals of time (`departures`), exact as slices are in joint
+//! space (`blocked`), and the earliest way is a search over safe intervals (`schedule`). Where none is found it is tried to prove that no
+//! timing at all helps along this path (`refutation`). Other ways are those that go around what is met where it is met. What comes of it is
+//! judged in time as anybody's recording is, by [`crate::check::certify_in_time`].
+
+mod blocked;
+mod departures;
+mod refutation;
+mod schedule;
+
+pub use schedule::{Scheduled, Wait};
+
+use super::options::Options;
+use super::{Verdict, solve};
+use crate::check::{CertifiedPath, CollisionCheck, Nearest, certify, certify_in_time};
+use crate::model::{MotionProblem, Scene};
+use crate::motion::{Timed, TimingError, Trajectory};
+use crate::space::{Configuration, GoalSet, Interpolation, Recording, Segment};
+use crate::text::counted;
+use refutation::no_timing;
+use schedule::{Effort, schedule};
+use serde::Serialize;
+
+/// Ways that are tried: the planner's, and others around what is met on those before.
+const WAYS: usize = 3;
+
+/// A motion that is certified in time.
+#[derive(Debug, Clone)]
+pub struct InTime {
+    /// What it follows, and the motion; the clearance is that from what moves, too.
+    pub timed: Timed,
+    /// What there is to say of it.
+    pub figures: Timing,
+}
+
+/// What there is to say of a motion among obstacles that move.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Timing {
+    /// How many obstacles move.
+    pub obstacles: usize,
+    /// How many ways were tried.
+    pub ways: usize,
+    /// Where the arm stands on its way, and when.
+    pub waits: Vec<Wait>,
+    /// Proven lower bound on the distance to what moves, metres; none if nothing that moves can meet the arm.
+    pub clearance: Option<f64>,
+    /// Until when the arm may stay at the goal, seconds; none if for ever.
+    pub free_until: Option<f64>,
+}
+
+/// The earliest motion among those along the ways tried: the certified path's, which `first` drives along as if nothing moved, and
+/// others. Or why there is none, in words.
+///
+/// # Errors
+/// Paths that cannot be timed.
+pub fn in_time(
+    problem: &MotionProblem,
+    certified: &CertifiedPath,
+    first: Timed,
+    options: &Options,
+) -> Result<Result<InTime, String>, TimingError> {
+    let scene = problem.scene();
+    let mut around = problem.clone();
+    let mut way = Some((certified.clone(), first));
+    let (mut best, mut refuted, mut ways): (Option<InTime>, usize, usize) = (None, 0, 0);
+    while let Some((path, whole)) = way.take() {
+        ways += 1;
+        let duration = whole.trajectory.duration();
+        // A way that takes longer without a wait than what is known is none.
+        let is_worth = best.as_ref().is_none_or(|best| duration < best.timed.trajectory.duration());
+        if is_worth {
+            let drive = &options.drive;
+            let along = |effort: Effort| Ok::<_, TimingError>(schedule(scene, &path, &whole, drive, effort)?.and_then(|found| certified_in_time(scene, found)));
+            let mut found = along(Effort::QUICK)?;
+            let is_closed = found.is_none() && no_timing(scene, path.path(), scene.workspace().clearance);
+            if found.is_none() && !is_closed {
+                found = along(Effort::THOROUGH)?;
+            }
+            refuted += usize::from(is_closed);
+            if let Some(found) = found
+                && best.as_ref().is_none_or(|best| is_better(&found, best))
+            {
+                best = Some(found);
+            }
+        }
+        let is_direct = best.as_ref().is_some_and(|best| best.figures.waits.is_empty() && best.figures.free_until.is_none());
+        if ways == WAYS || is_direct {
+            break;
+        }
+        let Some(next) = around_what_is_met(&around, &whole.trajectory) else { break };
+        around = next;
+        let Verdict::Found(other) = solve(&around, &Options { bounded: false, ..*options }, &mut |_| ()).verdict else { break };
+        let Ok(other) = certify(scene, other.path().clone(), scene.workspace().clearance) else { break };
+        let whole = options.drive.along(scene, &other, 1.0)?;
+        way = Some((other, whole));
+    }
+    Ok(match best {
+        Some(best) => Ok(InTime { figures: Timing { ways, ..best.figures }, ..best }),
+        None => Err(reason(ways, refuted, scene)),
+    })
+}
+
+/// Whether a motion is to be had rather than another: one after which the arm can stay, then the sooner one.
+fn is_better(found: &InTime, than: &InTime) -> bool {
+    let rank = |it: &InTime| (it.figures.free_until.is_some(), it.timed.trajectory.duration());
+    rank(found) < rank(than)
+}
+
+fn reason(ways: usize, refuted: usize, scene: &Scene) -> String {
+    let movers = counted(scene.workspace().movers.len(), "obstacle");
+    let tried = counted(ways, "way");
+    if refuted == ways {
+        let along = if ways == 1 { "the way".into() } else { format!("any of {tried}") };
+        return format!(
+            "there are ways among what stands, but {movers} move: proven, no timing along {along} that was tried keeps clear of them"
+        );
+    }
+    format!("there are ways among what stands, but {movers} move: no timing was found along {tried}, and proven to be none along {refuted}")
+}
+
+/// A motion as it is judged: in both ways in which consumers join its samples.
+fn certified_in_time(scene: &Scene, found: Scheduled) -> Option<InTime> {
+    let Scheduled { timed: Timed { curve, trajectory }, waits, free_until } = found;
+    let (mut clearance, mut nearest) = (f64::INFINITY, None);
+    // On straight pieces both readings are the same motion.
+    let is_curved = curve.radii().iter().any(|radius| *radius > 0.0);
+    for recording in recordings(&trajectory)?.into_iter().take(if is_curved { 2 } else { 1 }) {
+        match certify_in_time(scene, &recording, scene.workspace().clearance) {
+            CollisionCheck::Free { clearance: proven, nearest: seen } => {
+                clearance = clearance.min(proven);
+                nearest = seen.map(|seen| Nearest { at: seen.moment.at, contact: seen.contact });
+            }
+            CollisionCheck::Collision { .. } | CollisionCheck::Undecided(_) => return None,
+        }
+    }
+    let curve = curve.among_movers(clearance, nearest);
+    let obstacles = scene.workspace().movers.len();
+    let [clearance, free_until] = [clearance, free_until].map(|value| Some(value).filter(|value| value.is_finite()));
+    let figures = Timing { obstacles, ways: 0, waits, clearance, free_until };
+    Some(InTime { timed: Timed { curve, trajectory }, figures })
+}
+
+/// A motion by its cubics, and by the polynomials that it states.
+fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
+    let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
+    let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
+    let cubic = Recording::new(position, Some(trajectory.time.clone()), Some(velocity)).ok()?;
+    let quartic = cubic.clone().accelerated(rows(&trajectory.acceleration), Interpolation::Quartic).ok()?;
+    Some([cubic, quartic])
+}
+
+/// The same problem with what a motion first meets standing where it meets it; none if it meets nothing, or start or goals are not free then.
+fn around_what_is_met(problem: &MotionProblem, trajectory: &Trajectory) -> Option<MotionProblem> {
+    let scene = problem.scene();
+    let [cubic, _] = recordings(trajectory)?;
+    let met = match certify_in_time(scene, &cubic, scene.workspace().clearance) {
+        CollisionCheck::Collision { first, .. } | CollisionCheck::Undecided(first) => first,
+        CollisionCheck::Free { .. } => return None,
+    };
+    let mover = scene.mover(met.contact.pair)?.at(met.moment.time);
+    let (arm, mut workspace) = scene.clone().into_parts();
+    workspace.obstacles.push(mover);
+    let scene = Scene::new(arm, workspace).ok()?;
+    let is_open = |goal: &&Segment| !goal.is_point() || scene.obstructions(goal.ends()[0]).is_empty();
+    let goals: GoalSet = problem.goals().pieces().iter().filter(is_open).copied().collect();
+    MotionProblem::new(scene, problem.start(), goals).ok()
+}

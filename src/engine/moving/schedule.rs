@@ -1,0 +1,262 @@
+//! When to go along a certified path, and where to wait.
+
+use super::blocked::safe_intervals;
+use super::departures::{blocked_departures, first_departure};
+use crate::check::{CertifiedCurve, CertifiedPath, Posture};
+use crate::geometry::{Interval, Ordered};
+use crate::interrupt::checkpoint;
+use crate::model::Scene;
+use crate::motion::{Drive, Timed, TimingError, Trajectory};
+use crate::space::Path;
+use serde::Serialize;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+/// Places on a path at which it is looked when they are safe.
+const LOOKS: usize = 64;
+
+/// How hard it is looked for a motion along a path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Places at which the arm may wait, beside the ends: each pair of them is a motion to be timed.
+    most_stops: usize,
+    /// Whether they are spread over the path where there is nothing better.
+    spread: bool,
+    /// Stretches of motions are looked at until no point of the arm moves farther in one than this share of its reach.
+    finest: f64,
+    /// Whether the arm may go back along the path, too.
+    backward: bool,
+}
+
+impl Effort {
+    /// Enough for most, in milliseconds.
+    pub const QUICK: Self = Self { most_stops: 8, spread: false, finest: 1e-2, backward: false };
+    /// For what is tight.
+    pub const THOROUGH: Self = Self { most_stops: 12, spread: true, finest: 2e-3, backward: true };
+}
+
+/// A time at which the arm stands still on its way.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Wait {
+    /// Seconds since the start.
+    pub from: f64,
+    /// Likewise.
+    pub to: f64,
+    /// Where that is.
+    pub at: [f64; 2],
+}
+
+/// A motion that goes along a path when it may.
+#[derive(Debug, Clone)]
+pub struct Scheduled {
+    /// What is followed, with corners where the arm waits, and the whole motion.
+    pub timed: Timed,
+    /// Where it waits.
+    pub waits: Vec<Wait>,
+    /// Until when nothing that moves comes too near to the goal; infinite if nothing ever does.
+    pub free_until: f64,
+}
+
+/// Departures along a path that some stops divide.
+struct Stops<'a> {
+    scene: &'a Scene,
+    path: &'a CertifiedPath,
+    drive: &'a Drive,
+    clearance: f64,
+    effort: Effort,
+    /// Distances along the path, ascending; the first and the last are its ends.
+    at: Vec<f64>,
+    /// When the arm may stand there.
+    safe: Vec<Vec<Interval>>,
+    /// Motions from one stop to another, and the times at which they must not begin.
+    legs: BTreeMap<(usize, usize), (Timed, Vec<Interval>)>,
+}
+
+/// A way to be at a stop in one of its safe intervals: when, from which other and when that was left.
+#[derive(Debug, Clone, Copy)]
+struct Arrival {
+    time: f64,
+    from: Option<(usize, usize, f64)>,
+}
+
+/// The earliest motion along a path, from rest to rest between some places on it at which it may wait; none if there is none. `whole` is the motion
+/// without a wait.
+///
+/// Safe intervals (Phillips, Likhachev 2011): who is at a stop at all within an interval in which it is safe had best be there as early as possible.
+/// It arrives where it can stay for ever, if that is possible.
+///
+/// # Errors
+/// Parts of the path that cannot be timed.
+pub fn schedule(
+    scene: &Scene,
+    path: &CertifiedPath,
+    whole: &Timed,
+    drive: &Drive,
+    effort: Effort,
+) -> Result<Option<Scheduled>, TimingError> {
+    let clearance = scene.workspace().clearance;
+    let at = places(scene, path.path(), clearance, effort);
+    let safe_at = |distance: &f64| {
+        let posture = Posture::new(scene, path.path().part(*distance, *distance).start());
+        safe_intervals(scene, &posture, clearance)
+    };
+    let safe: Vec<Vec<Interval>> = at.iter().map(safe_at).collect();
+    let departures = blocked_departures(scene, &whole.trajectory.pieces(), clearance, effort.finest * scene.arm().reach());
+    let legs = BTreeMap::from([((0, at.len() - 1), (whole.clone(), departures))]);
+    let mut stops = Stops { scene, path, drive, clearance, effort, at, safe, legs };
+    let Some((way, free_until)) = stops.search()? else { return Ok(None) };
+    let (timed, waits) = stops.driven(&way)?;
+    Ok(Some(Scheduled { timed, waits, free_until }))
+}
+
+impl Stops<'_> {
+    /// The motion from one stop to another.
+    fn leg(&mut self, from: usize, to: usize) -> Result<&(Timed, Vec<Interval>), TimingError> {
+        if !self.legs.contains_key(&(from, to)) {
+            checkpoint();
+            let part = self.path.part(self.at[from], self.at[to]);
+            let timed = self.drive.along(self.scene, &part, 1.0)?;
+            let finest = self.effort.finest * self.scene.arm().reach();
+            let blocked = blocked_departures(self.scene, &timed.trajectory.pieces(), self.clearance, finest);
+            self.legs.insert((from, to), (timed, blocked));
+        }
+        Ok(&self.legs[&(from, to)])
+    }
+
+    /// No motion between two stops takes less: at top speed all the way.
+    fn least(&self, from: usize, to: usize) -> f64 {
+        let speeds = self.scene.arm().joints.each_ref().map(|joint| joint.velocity);
+        let part = self.path.path().part(self.at[from], self.at[to]);
+        part.segments().map(|(a, b)| ((b - a)[0].abs() / speeds[0]).max((b - a)[1].abs() / speeds[1])).sum()
+    }
+
+    /// The earliest way to the last stop, as stops and the times at which they are left (the last: reached), and until when it is safe there.
+    #[expect(clippy::type_complexity, reason = "the stops of a way with their times, and one time more")]
+    fn search(&mut self) -> Result<Option<(Vec<(usize, f64)>, f64)>, TimingError> {
+        let last = self.at.len() - 1;
+        let mut known: BTreeMap<(usize, usize), Arrival> = BTreeMap::new();
+        let mut open = BinaryHeap::new();
+        // At the start the interval that holds time 0 is the first.
+        if self.safe[0].first().is_none_or(|first| first[0] > 0.0) {
+            return Ok(None);
+        }
+        known.insert((0, 0), Arrival { time: 0.0, from: None });
+        open.push(Reverse((Ordered(0.0), 0, 0)));
+        let mut fallback = None;
+        // When the goal is known to be reached for good.
+        let mut soonest_for_good = f64::INFINITY;
+        while let Some(Reverse((Ordered(time), stop, interval))) = open.pop() {
+            if known[&(stop, interval)].time < time {
+                continue;
+            }
+            if stop == last {
+                let until = self.safe[last][interval][1];
+                if until == f64::INFINITY {
+                    return Ok(Some((way(&known, (stop, interval)), until)));
+                }
+                fallback = fallback.or_else(|| Some((way(&known, (stop, interval)), until)));
+                continue;
+            }
+            let leaves_by = self.safe[stop][interval][1];
+            // The goal first: what is known to be reached sooner needs no other way.
+            for next in (0..=last).rev().filter(|&next| next != stop && (self.effort.backward || next > stop)) {
+                let soonest = time + self.least(stop, next);
+                if next != last && soonest + self.least(next, last) >= soonest_for_good {
+                    continue;
+                }
+                let targets: Vec<usize> = (0..self.safe[next].len())
+                    .filter(|&k| {
+                        let [_, ends] = self.safe[next][k];
+                        ends >= soonest && known.get(&(next, k)).is_none_or(|known| known.time > soonest)
+                    })
+                    .collect();
+                if targets.is_empty() {
+                    continue;
+                }
+                let (timed, blocked) = self.leg(stop, next)?;
+                let lasts = timed.trajectory.duration();
+                let blocked = blocked.clone();
+                for target in targets {
+                    let [begins, ends] = self.safe[next][target];
+                    let from = time.max(begins - lasts);
+                    let Some(departs) = first_departure(&blocked, from, leaves_by.min(ends - lasts)) else { continue };
+                    let arrives = departs + lasts;
+                    if known.get(&(next, target)).is_none_or(|known| arrives < known.time) {
+                        if next == last && ends == f64::INFINITY {
+                            soonest_for_good = arrives;
+                        }
+                        known.insert((next, target), Arrival { time: arrives, from: Some((stop, interval, departs)) });
+                        open.push(Reverse((Ordered(arrives), next, target)));
+                    }
+                }
+            }
+        }
+        Ok(fallback)
+    }
+
+    /// The motion along a way.
+    fn driven(&mut self, way: &[(usize, f64)]) -> Result<(Timed, Vec<Wait>), TimingError> {
+        let start = self.path.part(0.0, 0.0);
+        let mut trajectory = Trajectory::default();
+        let mut curve: Option<CertifiedCurve> = None;
+        let (mut waits, mut arrived) = (Vec::new(), 0.0);
+        for legs in way.windows(2) {
+            let [(from, departs), (to, _)] = [legs[0], legs[1]];
+            let pause = departs - arrived;
+            if trajectory.time.is_empty() && pause > 0.0 {
+                trajectory = self.drive.along(self.scene, &start, 1.0)?.trajectory;
+            }
+            let at = self.path.path().part(self.at[from], self.at[from]).start();
+            let (timed, _) = self.leg(from, to)?;
+            trajectory.then(pause, &timed.trajectory);
+            let begins = trajectory.duration() - timed.trajectory.duration();
+            if pause > 0.0 {
+                waits.push(Wait { from: arrived, to: begins, at: at.into() });
+            }
+            arrived = trajectory.duration();
+            curve = Some(match curve {
+                Some(curve) => curve.then(&timed.curve),
+                None => timed.curve.clone(),
+            });
+        }
+        if trajectory.time.is_empty() {
+            trajectory = self.drive.along(self.scene, &start, 1.0)?.trajectory;
+        }
+        let curve = curve.unwrap_or_else(|| start.into());
+        Ok((Timed { curve, trajectory }, waits))
+    }
+}
+
+/// The stops of a way, and when each is left; the last, when it is reached.
+fn way(known: &BTreeMap<(usize, usize), Arrival>, end: (usize, usize)) -> Vec<(usize, f64)> {
+    let mut stops = vec![(end.0, known[&end].time)];
+    let mut at = end;
+    while let Some((stop, interval, departs)) = known[&at].from {
+        stops.push((stop, departs));
+        at = (stop, interval);
+    }
+    stops.reverse();
+    stops
+}
+
+/// Where the arm may wait: the ends of the path; the ends of its parts that nothing ever comes near to; and, with more effort, some places more.
+fn places(scene: &Scene, path: &Path, clearance: f64, effort: Effort) -> Vec<f64> {
+    let length = path.length();
+    if length == 0.0 {
+        return vec![0.0];
+    }
+    let looks: Vec<f64> = (0..=LOOKS).map(|k| length * k as f64 / LOOKS as f64).collect();
+    let is_calm = |distance: &f64| {
+        let posture = Posture::new(scene, path.part(*distance, *distance).start());
+        safe_intervals(scene, &posture, clearance) == [[0.0, f64::INFINITY]]
+    };
+    let calm: Vec<bool> = looks.iter().map(is_calm).collect();
+    let is_end = |&k: &usize| calm[k] && (!calm[k - 1] || !calm[k + 1]);
+    let mut stops: Vec<usize> = (1..LOOKS).filter(is_end).take(effort.most_stops).collect();
+    let left = if effort.spread { effort.most_stops - stops.len() } else { 0 };
+    stops.extend((1..=left).map(|k| k * LOOKS / (left + 1)).filter(|k| (1..LOOKS).contains(k)));
+    stops.extend([0, LOOKS]);
+    stops.sort_unstable();
+    stops.dedup();
+    stops.into_iter().map(|k| looks[k]).collect()
+}
