@@ -3,7 +3,7 @@
 use crate::check::{Deviation, Posture};
 use crate::geometry::{Convex, Interval, Point, Vector, cross, merge_in_place, separation, sliding};
 use crate::interrupt::checkpoint;
-use crate::model::{Leg, Pair, Scene};
+use crate::model::{Leg, Mover, Pair, Scene};
 
 /// What is looked at is larger than it is by this share of the lengths involved: far more than rounding, far less than anybody sees.
 const ROOM: f64 = 1e-9;
@@ -11,65 +11,131 @@ const ROOM: f64 = 1e-9;
 /// Turning obstacles are followed in steps of this, seconds: contact may seem to begin so much earlier and to end so much later.
 const STEP: f64 = 1e-3;
 
-/// The times at which a pair is, or may be, nearer than the clearance while the configuration is no farther from the posture's than `deviation`:
-/// a superset, in no order. Whether there are any.
-///
-/// A shape that slides past another one, grown by how far the arm's part moves, meets it for one interval of time, in closed form
-/// ([`sliding`]); where it turns, time is halved down to a millisecond.
-pub fn near_times(
-    scene: &Scene,
-    posture: &Posture,
-    deviation: Deviation,
-    pair: Pair,
+/// What moves, prepared for the question when.
+pub struct Movers<'a> {
+    scene: &'a Scene,
     clearance: f64,
-    out: &mut Vec<Interval>,
-) -> bool {
-    let Some(mover) = scene.mover(pair) else { return false };
-    let part = scene.part(pair).at(&posture.pose(pair.link));
-    let piece = scene.piece(pair);
-    let scale = part.reach_from(Point::origin()) + piece.reach_from(Point::origin());
-    let grow = posture.farthest_motion(pair, deviation) + clearance + ROOM * scale;
-    let before = out.len();
-    for leg in mover.course.legs() {
-        let at = piece.at(&leg.pose(leg.from));
-        if leg.is_still() {
-            if separation(&part, &at).distance <= grow {
-                out.push([leg.from, leg.to]);
-            }
-        } else if leg.turn == 0.0 {
-            let speed = leg.velocity.norm();
-            let direction = leg.velocity / speed;
-            if passes_by(&part, &at, direction, grow) {
+    /// Of each mover, of each of its pieces, its legs.
+    legs: Vec<Vec<Vec<Stretch>>>,
+}
+
+/// A piece of a mover along a leg of its course.
+struct Stretch {
+    leg: Leg,
+    /// Where the leg begins, ...
+    piece: Convex,
+    /// ... and a disc around it there.
+    disc: (Point, f64),
+    /// Of what slides: its direction and speed.
+    slide: Option<(Vector, f64)>,
+    /// Farthest that a point of it moves in a second, metres.
+    speed: f64,
+}
+
+impl<'a> Movers<'a> {
+    /// Those of a scene, from which this distance is to be kept, metres.
+    #[must_use]
+    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+        let of = |mover: &Mover, piece: &Convex| {
+            let stretch = |leg: &Leg| {
+                let placed = piece.at(&leg.pose(leg.from));
+                let speed = leg.velocity.norm();
+                Stretch {
+                    leg: *leg,
+                    disc: disc(&placed),
+                    piece: placed,
+                    slide: (leg.turn == 0.0 && speed > 0.0).then(|| (leg.velocity / speed, speed)),
+                    speed: leg.speed(piece.reach_from(Point::origin())),
+                }
+            };
+            mover.course.legs().iter().map(stretch).collect::<Vec<_>>()
+        };
+        let movers = scene.workspace().movers.iter();
+        let legs = movers.map(|mover| mover.obstacle.pieces.iter().map(|piece| of(mover, piece)).collect()).collect();
+        Self { scene, clearance, legs }
+    }
+
+    /// The scene that they are in.
+    #[must_use]
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    fn legs(&self, pair: Pair) -> &[Stretch] {
+        &self.legs[pair.obstacle - self.scene.workspace().obstacles.len()][pair.piece]
+    }
+
+    /// The times at which a pair is, or may be, nearer than the clearance while the configuration is no farther from the posture's than `deviation`:
+    /// a superset, in no order. Whether there are any.
+    ///
+    /// A shape that slides past another one, grown by how far the arm's part moves, meets it for one interval of time, in closed form
+    /// ([`sliding`]); where it turns, time is halved down to a millisecond.
+    pub fn near_times(&self, posture: &Posture, deviation: Deviation, pair: Pair, out: &mut Vec<Interval>) -> bool {
+        let before = out.len();
+        let (center, around) = posture.place(pair, deviation);
+        let around = around + self.clearance;
+        // The part where it is, once it is needed.
+        let mut placed = None;
+        for Stretch { leg, piece, disc: (at, radius), slide, speed } in self.legs(pair) {
+            let between = *at - center;
+            let far = around + radius + ROOM * (around + radius + between.norm());
+            let is_far = match slide {
+                Some((direction, speed)) => {
+                    let gone = (leg.to - leg.from) * speed;
+                    let along = -direction.dot(&between);
+                    cross(*direction, between).abs() > far || along < -far || along > gone + far
+                }
+                None if leg.turn == 0.0 => between.norm() > far,
+                None => between.norm() > far + speed * (leg.to - leg.from),
+            };
+            if is_far {
                 continue;
             }
-            // Seen from the obstacle the part slides backwards.
-            if let Some([first, last]) = sliding(&part, -direction, &at, grow) {
-                let met = [leg.from + first / speed - ROOM, leg.from + last / speed + ROOM];
-                let [first, last] = [met[0].max(leg.from), met[1].min(leg.to)];
-                if first <= last {
-                    out.push([first, last]);
+            let (part, grow) = placed.get_or_insert_with(|| {
+                let part = self.scene.part(pair).at(&posture.pose(pair.link));
+                let scale = part.reach_from(Point::origin()) + piece.reach_from(Point::origin());
+                (part, posture.farthest_motion(pair, deviation) + self.clearance + ROOM * scale)
+            });
+            match slide {
+                // Seen from the obstacle the part slides backwards.
+                Some((direction, speed)) => {
+                    if let Some([first, last]) = sliding(part, -direction, piece, *grow) {
+                        let met = [leg.from + first / speed - ROOM, leg.from + last / speed + ROOM];
+                        let [first, last] = [met[0].max(leg.from), met[1].min(leg.to)];
+                        if first <= last {
+                            out.push([first, last]);
+                        }
+                    }
                 }
+                None if leg.turn == 0.0 => {
+                    if separation(part, piece).distance <= *grow {
+                        out.push([leg.from, leg.to]);
+                    }
+                }
+                None => turning(part, self.scene.piece(pair), leg, [*grow, *speed], out),
             }
-        } else {
-            turning(&part, piece, leg, grow, out);
         }
+        out.len() > before
     }
-    out.len() > before
+
+    /// The times at which nothing that moves is nearer to the arm at a posture than the clearance; in order.
+    pub fn safe_intervals(&self, posture: &Posture) -> Vec<Interval> {
+        let mut near = Vec::new();
+        for &pair in self.scene.moving_pairs() {
+            self.near_times(posture, Deviation::Box([0.0; 2]), pair, &mut near);
+        }
+        merge_in_place(&mut near);
+        complement(&near)
+    }
 }
 
-/// Whether a shape that slides along a direction stays clear of another one: discs around both do.
-fn passes_by(part: &Convex, piece: &Convex, direction: Vector, grow: f64) -> bool {
-    let disc = |shape: &Convex| {
-        let [low, high] = shape.bounds();
-        let middle = nalgebra::center(&low, &high);
-        (middle, (high - low).norm() / 2.0)
-    };
-    let ((a, around_a), (b, around_b)) = (disc(part), disc(piece));
-    cross(direction, b - a).abs() > around_a + around_b + grow
+/// A disc around a shape.
+fn disc(shape: &Convex) -> (Point, f64) {
+    let [low, high] = shape.bounds();
+    (nalgebra::center(&low, &high), (high - low).norm() / 2.0)
 }
 
-fn turning(part: &Convex, piece: &Convex, leg: &Leg, grow: f64, out: &mut Vec<Interval>) {
-    let speed = leg.speed(piece.reach_from(Point::origin()));
+fn turning(part: &Convex, piece: &Convex, leg: &Leg, [grow, speed]: [f64; 2], out: &mut Vec<Interval>) {
     let mut open = vec![[leg.from, leg.to]];
     while let Some([from, to]) = open.pop() {
         checkpoint();
@@ -88,16 +154,6 @@ fn turning(part: &Convex, piece: &Convex, leg: &Leg, grow: f64, out: &mut Vec<In
     }
 }
 
-/// The times at which nothing that moves is nearer to the arm at a posture than the clearance; in order, open at no end but the last.
-pub fn safe_intervals(scene: &Scene, posture: &Posture, clearance: f64) -> Vec<Interval> {
-    let mut near = Vec::new();
-    for &pair in scene.moving_pairs() {
-        near_times(scene, posture, Deviation::Box([0.0; 2]), pair, clearance, &mut near);
-    }
-    merge_in_place(&mut near);
-    complement(&near)
-}
-
 /// What is left of the times from 0 on; ends of the intervals given count as theirs.
 pub fn complement(intervals: &[Interval]) -> Vec<Interval> {
     let (mut left, mut from) = (Vec::new(), 0.0);
@@ -111,4 +167,18 @@ pub fn complement(intervals: &[Interval]) -> Vec<Interval> {
         left.push([from, f64::INFINITY]);
     }
     left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_of_the_times() {
+        let inf = f64::INFINITY;
+        assert_eq!(complement(&[]), [[0.0, inf]]);
+        assert_eq!(complement(&[[-1.0, 2.0], [3.0, 4.0]]), [[2.0, 3.0], [4.0, inf]]);
+        assert_eq!(complement(&[[1.0, inf]]), [[0.0, 1.0]]);
+        assert_eq!(complement(&[[0.0, inf]]), Vec::<Interval>::new());
+    }
 }

@@ -1,10 +1,9 @@
 //! When a motion may depart: at which times it would meet nothing that moves.
 
-use super::blocked::near_times;
+use super::blocked::Movers;
 use crate::check::{Posture, Span};
 use crate::geometry::{Interval, merge_in_place};
 use crate::interrupt::checkpoint;
-use crate::model::Scene;
 use crate::space::Piece;
 
 /// Stretches of a motion are halved no further once they are as short as this, seconds.
@@ -14,9 +13,10 @@ const SHORTEST: f64 = 2e-3;
 /// time of it. In order and disjoint; a superset.
 ///
 /// In a stretch of the motion, which takes from `a` to `b` seconds after it began, the arm is in the way of what moves at times `[c, d]`
-/// ([`near_times`]); so it must not begin in `[c - b, d - a]`. Only stretches in which anything is near are halved, and only what is near is
+/// ([`Movers::near_times`]); so it must not begin in `[c - b, d - a]`. Only stretches in which anything is near are halved, and only what is near is
 /// looked at again, until no point of the arm moves farther than `finest` in a stretch.
-pub fn blocked_departures(scene: &Scene, pieces: &[Piece], clearance: f64, finest: f64) -> Vec<Interval> {
+pub fn blocked_departures(movers: &Movers, pieces: &[Piece], finest: f64) -> Vec<Interval> {
+    let scene = movers.scene();
     let (mut blocked, mut near) = (Vec::new(), Vec::new());
     let mut open = vec![(Span::all(pieces.len()), scene.moving_pairs().to_vec())];
     while let Some((span, mut pairs)) = open.pop() {
@@ -28,7 +28,7 @@ pub fn blocked_departures(scene: &Scene, pieces: &[Piece], clearance: f64, fines
         let mut moves = 0.0_f64;
         pairs.retain(|&pair| {
             moves = moves.max(posture.farthest_motion(pair, deviation));
-            near_times(scene, &posture, deviation, pair, clearance, &mut near)
+            movers.near_times(&posture, deviation, pair, &mut near)
         });
         if pairs.is_empty() {
             continue;

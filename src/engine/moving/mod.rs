@@ -21,6 +21,7 @@ use crate::model::{MotionProblem, Scene};
 use crate::motion::{Timed, TimingError, Trajectory};
 use crate::space::{Configuration, GoalSet, Interpolation, Recording, Segment};
 use crate::text::counted;
+use blocked::Movers;
 use refutation::no_timing;
 use schedule::{Effort, schedule};
 use serde::Serialize;
@@ -64,6 +65,7 @@ pub fn in_time(
     options: &Options,
 ) -> Result<Result<InTime, String>, TimingError> {
     let scene = problem.scene();
+    let movers = Movers::new(scene, scene.workspace().clearance);
     let mut around = problem.clone();
     let mut way = Some((certified.clone(), first));
     let (mut best, mut refuted, mut ways): (Option<InTime>, usize, usize) = (None, 0, 0);
@@ -74,9 +76,9 @@ pub fn in_time(
         let is_worth = best.as_ref().is_none_or(|best| duration < best.timed.trajectory.duration());
         if is_worth {
             let drive = &options.drive;
-            let along = |effort: Effort| Ok::<_, TimingError>(schedule(scene, &path, &whole, drive, effort)?.and_then(|found| certified_in_time(scene, found)));
+            let along = |effort: Effort| Ok::<_, TimingError>(schedule(&movers, &path, &whole, drive, effort)?.and_then(|found| certified_in_time(scene, found)));
             let mut found = along(Effort::QUICK)?;
-            let is_closed = found.is_none() && no_timing(scene, path.path(), scene.workspace().clearance);
+            let is_closed = found.is_none() && no_timing(&movers, path.path());
             if found.is_none() && !is_closed {
                 found = along(Effort::THOROUGH)?;
             }

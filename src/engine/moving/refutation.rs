@@ -1,10 +1,10 @@
 //! Proofs that no timing helps: that whoever goes along a path, in whatever way, meets what moves.
 
-use super::blocked::{complement, near_times};
+use super::blocked::{Movers, complement};
 use crate::check::{Deviation, Posture};
 use crate::geometry::{Convex, Interval, Ordered, Point, merge_in_place, separation};
 use crate::interrupt::checkpoint;
-use crate::model::{Leg, Pair, Scene};
+use crate::model::{Leg, Pair};
 use crate::space::{Configuration, Path};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -32,8 +32,8 @@ struct Stretch {
 /// Place on the path and time are a plane. For each of some stretches of the path the times are found at which all of its postures overlap
 /// something that moves, deeper than the arm moves in the stretch; of what is left only that counts which is reached: from the
 /// start at time 0, on to neighbouring stretches at times that are left in both, not faster than the joints' top speeds.
-pub fn no_timing(scene: &Scene, path: &Path, clearance: f64) -> bool {
-    let stretches = stretches(scene, path, clearance);
+pub fn no_timing(movers: &Movers, path: &Path) -> bool {
+    let stretches = stretches(movers, path);
     let Some(first) = stretches.first() else { return false };
     if first.left.first().is_none_or(|left| left[0] > 0.0) {
         return true;
@@ -72,7 +72,8 @@ pub fn no_timing(scene: &Scene, path: &Path, clearance: f64) -> bool {
     true
 }
 
-fn stretches(scene: &Scene, path: &Path, clearance: f64) -> Vec<Stretch> {
+fn stretches(movers: &Movers, path: &Path) -> Vec<Stretch> {
+    let scene = movers.scene();
     let length = path.length();
     let speeds = scene.arm().joints.each_ref().map(|joint| joint.velocity);
     let mut stretches = Vec::new();
@@ -85,7 +86,7 @@ fn stretches(scene: &Scene, path: &Path, clearance: f64) -> Vec<Stretch> {
             let deviation = Deviation::Along(half);
             let mut met = Vec::new();
             for &pair in scene.moving_pairs() {
-                met_times(scene, &posture, deviation, pair, clearance, &mut met);
+                met_times(movers, &posture, deviation, pair, &mut met);
             }
             merge_in_place(&mut met);
             let takes = (0..2).map(|k| 2.0 * half[k].abs() / speeds[k]).fold(0.0, f64::max);
@@ -96,24 +97,18 @@ fn stretches(scene: &Scene, path: &Path, clearance: f64) -> Vec<Stretch> {
 }
 
 /// Times at which a pair overlaps, grown by the clearance, all over the deviation: a subset of them, in no order.
-fn met_times(
-    scene: &Scene,
-    posture: &Posture,
-    deviation: Deviation,
-    pair: Pair,
-    clearance: f64,
-    out: &mut Vec<Interval>,
-) {
+fn met_times(movers: &Movers, posture: &Posture, deviation: Deviation, pair: Pair, out: &mut Vec<Interval>) {
+    let scene = movers.scene();
     let Some(mover) = scene.mover(pair) else { return };
     // Only when they are near at all.
     let mut near = Vec::new();
-    if !near_times(scene, posture, Deviation::Box([0.0; 2]), pair, clearance, &mut near) {
+    if !movers.near_times(posture, Deviation::Box([0.0; 2]), pair, &mut near) {
         return;
     }
     merge_in_place(&mut near);
     let (part, piece) = (scene.part(pair).at(&posture.pose(pair.link)), scene.piece(pair));
     let scale = part.reach_from(Point::origin()) + piece.reach_from(Point::origin());
-    let deeper = posture.farthest_motion(pair, deviation) - clearance + DEEPER * scale;
+    let deeper = posture.farthest_motion(pair, deviation) - scene.workspace().clearance + DEEPER * scale;
     for leg in mover.course.legs() {
         for &[from, to] in &near {
             let (from, to) = (from.max(leg.from), to.min(leg.to));

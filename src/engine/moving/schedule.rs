@@ -1,11 +1,10 @@
 //! When to go along a certified path, and where to wait.
 
-use super::blocked::safe_intervals;
+use super::blocked::Movers;
 use super::departures::{blocked_departures, first_departure};
 use crate::check::{CertifiedCurve, CertifiedPath, Posture};
 use crate::geometry::{Interval, Ordered};
 use crate::interrupt::checkpoint;
-use crate::model::Scene;
 use crate::motion::{Drive, Timed, TimingError, Trajectory};
 use crate::space::Path;
 use serde::Serialize;
@@ -59,10 +58,9 @@ pub struct Scheduled {
 
 /// Departures along a path that some stops divide.
 struct Stops<'a> {
-    scene: &'a Scene,
+    movers: &'a Movers<'a>,
     path: &'a CertifiedPath,
     drive: &'a Drive,
-    clearance: f64,
     effort: Effort,
     /// Distances along the path, ascending; the first and the last are its ends.
     at: Vec<f64>,
@@ -88,22 +86,18 @@ struct Arrival {
 /// # Errors
 /// Parts of the path that cannot be timed.
 pub fn schedule(
-    scene: &Scene,
+    movers: &Movers,
     path: &CertifiedPath,
     whole: &Timed,
     drive: &Drive,
     effort: Effort,
 ) -> Result<Option<Scheduled>, TimingError> {
-    let clearance = scene.workspace().clearance;
-    let at = places(scene, path.path(), clearance, effort);
-    let safe_at = |distance: &f64| {
-        let posture = Posture::new(scene, path.path().part(*distance, *distance).start());
-        safe_intervals(scene, &posture, clearance)
-    };
-    let safe: Vec<Vec<Interval>> = at.iter().map(safe_at).collect();
-    let departures = blocked_departures(scene, &whole.trajectory.pieces(), clearance, effort.finest * scene.arm().reach());
+    let at = places(movers, path.path(), effort);
+    let safe: Vec<Vec<Interval>> = at.iter().map(|&distance| safe_at(movers, path.path(), distance)).collect();
+    let finest = effort.finest * movers.scene().arm().reach();
+    let departures = blocked_departures(movers, &whole.trajectory.pieces(), finest);
     let legs = BTreeMap::from([((0, at.len() - 1), (whole.clone(), departures))]);
-    let mut stops = Stops { scene, path, drive, clearance, effort, at, safe, legs };
+    let mut stops = Stops { movers, path, drive, effort, at, safe, legs };
     let Some((way, free_until)) = stops.search()? else { return Ok(None) };
     let (timed, waits) = stops.driven(&way)?;
     Ok(Some(Scheduled { timed, waits, free_until }))
@@ -115,9 +109,9 @@ impl Stops<'_> {
         if !self.legs.contains_key(&(from, to)) {
             checkpoint();
             let part = self.path.part(self.at[from], self.at[to]);
-            let timed = self.drive.along(self.scene, &part, 1.0)?;
-            let finest = self.effort.finest * self.scene.arm().reach();
-            let blocked = blocked_departures(self.scene, &timed.trajectory.pieces(), self.clearance, finest);
+            let timed = self.drive.along(self.movers.scene(), &part, 1.0)?;
+            let finest = self.effort.finest * self.movers.scene().arm().reach();
+            let blocked = blocked_departures(self.movers, &timed.trajectory.pieces(), finest);
             self.legs.insert((from, to), (timed, blocked));
         }
         Ok(&self.legs[&(from, to)])
@@ -125,7 +119,7 @@ impl Stops<'_> {
 
     /// No motion between two stops takes less: at top speed all the way.
     fn least(&self, from: usize, to: usize) -> f64 {
-        let speeds = self.scene.arm().joints.each_ref().map(|joint| joint.velocity);
+        let speeds = self.movers.scene().arm().joints.each_ref().map(|joint| joint.velocity);
         let part = self.path.path().part(self.at[from], self.at[to]);
         part.segments().map(|(a, b)| ((b - a)[0].abs() / speeds[0]).max((b - a)[1].abs() / speeds[1])).sum()
     }
@@ -157,9 +151,9 @@ impl Stops<'_> {
                 fallback = fallback.or_else(|| Some((way(&known, (stop, interval)), until)));
                 continue;
             }
-            let leaves_by = self.safe[stop][interval][1];
+            let (leaves_by, backward) = (self.safe[stop][interval][1], self.effort.backward);
             // The goal first: what is known to be reached sooner needs no other way.
-            for next in (0..=last).rev().filter(|&next| next != stop && (self.effort.backward || next > stop)) {
+            for next in (0..=last).rev().filter(|&next| next != stop && (backward || next > stop)) {
                 let soonest = time + self.least(stop, next);
                 if next != last && soonest + self.least(next, last) >= soonest_for_good {
                     continue;
@@ -204,7 +198,7 @@ impl Stops<'_> {
             let [(from, departs), (to, _)] = [legs[0], legs[1]];
             let pause = departs - arrived;
             if trajectory.time.is_empty() && pause > 0.0 {
-                trajectory = self.drive.along(self.scene, &start, 1.0)?.trajectory;
+                trajectory = self.drive.along(self.movers.scene(), &start, 1.0)?.trajectory;
             }
             let at = self.path.path().part(self.at[from], self.at[from]).start();
             let (timed, _) = self.leg(from, to)?;
@@ -220,7 +214,7 @@ impl Stops<'_> {
             });
         }
         if trajectory.time.is_empty() {
-            trajectory = self.drive.along(self.scene, &start, 1.0)?.trajectory;
+            trajectory = self.drive.along(self.movers.scene(), &start, 1.0)?.trajectory;
         }
         let curve = curve.unwrap_or_else(|| start.into());
         Ok((Timed { curve, trajectory }, waits))
@@ -239,17 +233,19 @@ fn way(known: &BTreeMap<(usize, usize), Arrival>, end: (usize, usize)) -> Vec<(u
     stops
 }
 
+/// When the arm may stand at a distance along a path.
+fn safe_at(movers: &Movers, path: &Path, distance: f64) -> Vec<Interval> {
+    movers.safe_intervals(&Posture::new(movers.scene(), path.part(distance, distance).start()))
+}
+
 /// Where the arm may wait: the ends of the path; the ends of its parts that nothing ever comes near to; and, with more effort, some places more.
-fn places(scene: &Scene, path: &Path, clearance: f64, effort: Effort) -> Vec<f64> {
+fn places(movers: &Movers, path: &Path, effort: Effort) -> Vec<f64> {
     let length = path.length();
     if length == 0.0 {
         return vec![0.0];
     }
     let looks: Vec<f64> = (0..=LOOKS).map(|k| length * k as f64 / LOOKS as f64).collect();
-    let is_calm = |distance: &f64| {
-        let posture = Posture::new(scene, path.part(*distance, *distance).start());
-        safe_intervals(scene, &posture, clearance) == [[0.0, f64::INFINITY]]
-    };
+    let is_calm = |&distance: &f64| safe_at(movers, path, distance) == [[0.0, f64::INFINITY]];
     let calm: Vec<bool> = looks.iter().map(is_calm).collect();
     let is_end = |&k: &usize| calm[k] && (!calm[k - 1] || !calm[k + 1]);
     let mut stops: Vec<usize> = (1..LOOKS).filter(is_end).take(effort.most_stops).collect();
