@@ -1,0 +1,144 @@
+//! Random worlds in which obstacles move, and where they are at a time by the tests' own reckoning.
+
+use crate::common::dice::Dice;
+use crate::common::{disc, rectangle};
+use crate::oracle::Oracle;
+use crate::world::{KINDS, world};
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Course, Heights, MotionProblem, Mover, Obstacle, Scene, Shape, Stop};
+use cplan::space::Configuration;
+use cplan::Problem;
+use cplan::motion::Trajectory;
+
+/// A world with obstacles that move.
+pub struct Moving {
+    pub name: String,
+    pub problem: MotionProblem,
+}
+
+impl Moving {
+    /// Of a kind of arm and a seed; none if the draw has no free start.
+    pub fn drawn(kind: &str, seed: u64) -> Option<Self> {
+        let standing = world(kind, seed)?;
+        let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9).wrapping_add(u64::from(kind.as_bytes()[1])));
+        let (start, goals) = (standing.start(), standing.goals().clone());
+        let (arm, mut workspace) = standing.into_scene().into_parts();
+        workspace.obstacles.truncate(5);
+        let reach = arm.reach();
+        workspace.movers = (0..2 + dice.below(4)).map(|_| mover(&mut dice, arm.base, reach)).collect();
+        let scene = Scene::new(arm, workspace).expect("a scene");
+        let problem = MotionProblem::new(scene, start, goals).ok()?;
+        Some(Self { name: format!("{kind} {seed}"), problem })
+    }
+
+    /// Those of these seeds, of all kinds.
+    pub fn all(seeds: std::ops::Range<u64>) -> impl Iterator<Item = Self> {
+        seeds.flat_map(|seed| KINDS.iter().filter_map(move |kind| Self::drawn(kind, seed)))
+    }
+
+    pub fn asked(&self) -> Problem {
+        self.problem.clone().into()
+    }
+
+    /// The same with nothing that moves.
+    pub fn standing(&self) -> Problem {
+        let (arm, mut workspace) = self.problem.scene().clone().into_parts();
+        workspace.movers.clear();
+        let scene = Scene::new(arm, workspace).expect("a scene");
+        MotionProblem::new(scene, self.problem.start(), self.problem.goals().clone()).expect("a problem").into()
+    }
+
+    /// Distance to all obstacles at a time, less the clearance to keep.
+    pub fn room(&self, q: Configuration, time: f64) -> f64 {
+        let (arm, mut workspace) = self.problem.scene().clone().into_parts();
+        workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| at(mover, time)));
+        Oracle::new(&Scene::new(arm, workspace).expect("a scene")).room(q)
+    }
+
+    /// What moves alone, at a time.
+    pub fn movers_at(&self, time: f64) -> Oracle {
+        let (arm, mut workspace) = self.problem.scene().clone().into_parts();
+        workspace.obstacles = std::mem::take(&mut workspace.movers).iter().map(|mover| at(mover, time)).collect();
+        Oracle::new(&Scene::new(arm, workspace).expect("a scene"))
+    }
+
+    /// The time after which nothing moves any more, or nothing that moves is near.
+    pub fn horizon(&self) -> f64 {
+        let movers = &self.problem.scene().workspace().movers;
+        movers.iter().flat_map(|m| m.course.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 12.0
+    }
+}
+
+/// Comes and goes, parks, passes by, or turns.
+fn mover(dice: &mut Dice, base: Point, reach: f64) -> Mover {
+    let size = dice.within(0.05, 0.25);
+    let piece = match dice.below(3) {
+        0 => disc(Point::new(dice.within(-0.1, 0.1), 0.0), size),
+        1 => rectangle(-size, size, -size / 2.0, size / 2.0),
+        _ => rectangle(0.0, 3.0 * size, -0.02, 0.02),
+    };
+    let mut place = || {
+        let (angle, radius) = (dice.within(-3.2, 3.2), reach * dice.within(0.4, 1.3));
+        base + Vector::new(angle.cos(), angle.sin()) * radius
+    };
+    let places: Vec<Point> = (0..4).map(|_| place()).collect();
+    let course = match dice.below(4) {
+        0 => {
+            let speed = Vector::new(dice.within(-0.5, 0.5), dice.within(-0.5, 0.5));
+            Course::conveyor(places[0].coords.into(), speed.into())
+        }
+        kind => {
+            let mut time = if dice.chance(0.5) { 0.0 } else { dice.within(0.0, 2.0) };
+            let count = 2 + dice.below(3);
+            let mut stops = Vec::new();
+            for k in 0..count {
+                let at = if kind == 1 { places[k % 2] } else { places[k] };
+                let angle = if kind == 3 { dice.within(-2.0, 2.0) } else { 0.0 };
+                stops.push(Stop { time, at, angle });
+                time += dice.within(0.3, 3.0);
+            }
+            Course::new(stops, Vector::zeros())
+        }
+    };
+    let name = "mover".into();
+    let obstacle = Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights: Heights::ALL };
+    Mover { obstacle, course: course.expect("a course") }
+}
+
+/// Where a mover is, by its stops.
+fn at(mover: &Mover, time: f64) -> Obstacle {
+    let stops = mover.course.stops();
+    let (first, last) = (stops[0], stops[stops.len() - 1]);
+    let (place, angle) = if time <= first.time {
+        (first.at, first.angle)
+    } else if time >= last.time {
+        (last.at + mover.course.velocity() * (time - last.time), last.angle)
+    } else {
+        let next = stops.iter().position(|stop| stop.time > time).expect("before the last");
+        let [a, b] = [stops[next - 1], stops[next]];
+        let share = (time - a.time) / (b.time - a.time);
+        (a.at + (b.at - a.at) * share, a.angle + (b.angle - a.angle) * share)
+    };
+    let (sin, cos) = angle.sin_cos();
+    let moved = |p: &Point| Point::new(place.x + cos * p.x - sin * p.y, place.y + sin * p.x + cos * p.y);
+    let pieces = mover.obstacle.pieces.iter();
+    let pieces = pieces
+        .map(|piece| Convex::new(piece.core().iter().map(moved).collect(), piece.radius()).expect("a convex shape"));
+    Obstacle { pieces: pieces.collect(), ..mover.obstacle.clone() }
+}
+
+/// Where a trajectory is between its samples, as its JSON says: the polynomial of the fourth degree.
+pub fn position(trajectory: &Trajectory, sample: usize, share: f64) -> (f64, Configuration) {
+    let (a, b) = (sample, sample + 1);
+    let h = trajectory.time[b] - trajectory.time[a];
+    let t = share * h;
+    let along = |k: usize| {
+        let (p, v, w) = (trajectory.position[a][k], trajectory.velocity[a][k], trajectory.acceleration[a][k] / 2.0);
+        // What the fourth and third degree have to add at the end: position and velocity.
+        let gap = trajectory.position[b][k] - (p + v * h + w * h * h);
+        let rate = trajectory.velocity[b][k] - (v + 2.0 * w * h);
+        let (c3, c4) = ((4.0 * gap - rate * h) / h.powi(3), (rate * h - 3.0 * gap) / h.powi(4));
+        p + v * t + w * t * t + c3 * t.powi(3) + c4 * t.powi(4)
+    };
+    (trajectory.time[a] + t, Configuration::new(along(0), along(1)))
+}

@@ -1,0 +1,79 @@
+//! What is found is free at all times, and as early as brute force finds.
+
+use crate::common::random::{seeds, usual};
+use crate::drawn::{Moving, position};
+use cplan::{Options, Outcome, plan};
+
+/// Moments between two samples at which it is looked.
+const BETWEEN: usize = 3;
+
+/// Steps in which waiting at the start is tried, seconds.
+const STEP: f64 = 0.02;
+
+/// What brute force keeps from what moves: nearly all that moves in a step.
+const APART: f64 = 2e-2;
+
+#[test]
+fn what_is_found_is_free_at_all_times_and_hardly_later_than_waiting_at_the_start() {
+    let (mut found, mut waited, mut detours) = (0, 0, 0);
+    for world in Moving::all(seeds(5)) {
+        let plan = plan(&world.asked(), &Options { bounded: false, ..Options::default() }).expect("a plan");
+        let Outcome::Found(trajectory) = plan.outcome() else { continue };
+        let timing = plan.report().moving.as_ref().expect("of a world in which something moves");
+        found += 1;
+        waited += usize::from(!timing.waits.is_empty());
+        detours += usize::from(timing.ways > 1);
+        let goal = trajectory.position[trajectory.position.len() - 1].into();
+        for sample in 0..trajectory.time.len() - 1 {
+            for k in 0..BETWEEN {
+                let (time, q) = position(trajectory, sample, k as f64 / BETWEEN as f64);
+                assert!(world.room(q, time) > -1e-9, "{}: in contact at {time} s", world.name);
+            }
+        }
+        let end = trajectory.duration();
+        let until = timing.free_until.unwrap_or(world.horizon());
+        for k in 0..=50 {
+            let time = end + (until - end) * f64::from(k) / 50.0;
+            assert!(world.room(goal, time) > -1e-6, "{}: at the goal in contact at {time} s of {until}", world.name);
+        }
+        if let Some(until) = timing.free_until {
+            let after = world.movers_at(until + 5e-3).room(goal);
+            assert!(after < 0.02, "{}: free at the goal after {until} s, too", world.name);
+        }
+        for wait in &timing.waits {
+            let middle = trajectory.time.partition_point(|&time| time <= (wait.from + wait.to) / 2.0);
+            assert_eq!(trajectory.position[middle], wait.at, "{}", world.name);
+        }
+        if timing.free_until.is_none()
+            && let Some(least) = waiting_at_the_start(&world)
+        {
+            assert!(end <= least + 2.0 * STEP, "{}: {end} s, waiting at the start {least}", world.name);
+        }
+    }
+    println!("{found} found, {waited} with waits, {detours} after more than one way");
+    assert!(!usual() || (found > 8 && waited > 2), "{found} found, {waited} with waits");
+}
+
+/// When the motion among what stands ends if it begins as soon as it may, and the arm can stay there; none if it must not begin, or there is none.
+fn waiting_at_the_start(world: &Moving) -> Option<f64> {
+    let standing = plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
+    let trajectory = standing.trajectory()?;
+    let last = trajectory.time.len() - 1;
+    let steps: Vec<_> = (0..last).map(|sample| position(trajectory, sample, 0.0)).collect();
+    let (start, goal) = (trajectory.position[0].into(), trajectory.position[last].into());
+    // What moves, every step.
+    let horizon = world.horizon() + trajectory.duration();
+    let movers: Vec<_> = (0..(horizon / STEP) as usize).map(|k| world.movers_at(k as f64 * STEP)).collect();
+    let is_clear = |q, time: f64| movers.get((time / STEP).round() as usize).is_none_or(|movers| movers.room(q) > APART);
+    let lasts = (trajectory.duration() / STEP).ceil() as usize;
+    for k in 0..movers.len() - lasts {
+        let delay = k as f64 * STEP;
+        if !is_clear(start, delay) {
+            return None;
+        }
+        if steps.iter().all(|&(time, q)| is_clear(q, delay + time)) && movers[k + lasts..].iter().all(|m| m.room(goal) > APART) {
+            return Some(delay + trajectory.duration());
+        }
+    }
+    None
+}

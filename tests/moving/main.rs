@@ -1,0 +1,16 @@
+//! Motions among obstacles that move, against methods of the tests' own: kinematics, distances and courses by brute force.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod drawn;
+mod found;
+mod judged;
+#[path = "../planning/random_worlds/oracle.rs"]
+#[allow(dead_code, reason = "other test programs use more of it")]
+mod oracle;
+mod refuted;
+#[path = "../planning/random_worlds/solid.rs"]
+#[allow(dead_code, reason = "other test programs use more of it")]
+mod solid;
+#[path = "../planning/random_worlds/world.rs"]
+mod world;
