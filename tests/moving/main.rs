@@ -9,6 +9,7 @@ mod judged;
 #[allow(dead_code, reason = "other test programs use more of it")]
 mod oracle;
 mod refuted;
+mod shipped;
 #[path = "../planning/random_worlds/solid.rs"]
 #[allow(dead_code, reason = "other test programs use more of it")]
 mod solid;

@@ -8,7 +8,8 @@ use crate::model::{Leg, Mover, Pair, Scene};
 /// What is looked at is larger than it is by this share of the lengths involved: far more than rounding, far less than anybody sees.
 const ROOM: f64 = 1e-9;
 
-/// Turning obstacles are followed in steps of this, seconds: contact may seem to begin so much earlier and to end so much later.
+/// Obstacles that turn are followed in steps in which they move by no more than this share of the lengths involved, or than the arm's part does: contact
+/// may seem to begin so much earlier and to end so much later.
 const STEP: f64 = 1e-3;
 
 /// What moves, prepared for the question when.
@@ -69,7 +70,7 @@ impl<'a> Movers<'a> {
     /// a superset, in no order. Whether there are any.
     ///
     /// A shape that slides past another one, grown by how far the arm's part moves, meets it for one interval of time, in closed form
-    /// ([`sliding`]); where it turns, time is halved down to a millisecond.
+    /// ([`sliding`]); where it turns, time is halved.
     pub fn near_times(&self, posture: &Posture, deviation: Deviation, pair: Pair, out: &mut Vec<Interval>) -> bool {
         let before = out.len();
         let (center, around) = posture.place(pair, deviation);
@@ -91,10 +92,11 @@ impl<'a> Movers<'a> {
             if is_far {
                 continue;
             }
-            let (part, grow) = placed.get_or_insert_with(|| {
+            let (part, grow, step) = placed.get_or_insert_with(|| {
                 let part = self.scene.part(pair).at(&posture.pose(pair.link));
                 let scale = part.reach_from(Point::origin()) + piece.reach_from(Point::origin());
-                (part, posture.farthest_motion(pair, deviation) + self.clearance + ROOM * scale)
+                let moves = posture.farthest_motion(pair, deviation);
+                (part, moves + self.clearance + ROOM * scale, moves.max(STEP * scale))
             });
             match slide {
                 // Seen from the obstacle the part slides backwards.
@@ -112,7 +114,7 @@ impl<'a> Movers<'a> {
                         out.push([leg.from, leg.to]);
                     }
                 }
-                None => turning(part, self.scene.piece(pair), leg, [*grow, *speed], out),
+                None => turning(part, self.scene.piece(pair), leg, [*grow, *speed, *step], out),
             }
         }
         out.len() > before
@@ -135,7 +137,7 @@ fn disc(shape: &Convex) -> (Point, f64) {
     (nalgebra::center(&low, &high), (high - low).norm() / 2.0)
 }
 
-fn turning(part: &Convex, piece: &Convex, leg: &Leg, [grow, speed]: [f64; 2], out: &mut Vec<Interval>) {
+fn turning(part: &Convex, piece: &Convex, leg: &Leg, [grow, speed, step]: [f64; 3], out: &mut Vec<Interval>) {
     let mut open = vec![[leg.from, leg.to]];
     while let Some([from, to]) = open.pop() {
         checkpoint();
@@ -146,7 +148,7 @@ fn turning(part: &Convex, piece: &Convex, leg: &Leg, [grow, speed]: [f64; 2], ou
             continue;
         }
         // Near all the time, or too short a time to tell.
-        if distance + drifts <= 0.0 || to - from <= STEP {
+        if distance + drifts <= 0.0 || drifts <= step {
             out.push([from, to]);
         } else {
             open.extend([[middle, to], [from, middle]]);

@@ -53,7 +53,8 @@ pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> 
             time = after(upper);
         }
     }
-    (time <= to).then_some(time)
+    // Nobody departs after all time.
+    (time <= to && time < f64::INFINITY).then_some(time)
 }
 
 /// A nanosecond after: times of trajectories are whole ones.

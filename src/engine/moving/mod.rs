@@ -113,15 +113,15 @@ fn is_better(found: &InTime, than: &InTime) -> bool {
 }
 
 fn reason(ways: usize, refuted: usize, scene: &Scene) -> String {
-    let movers = counted(scene.workspace().movers.len(), "obstacle");
-    let tried = counted(ways, "way");
-    if refuted == ways {
-        let along = if ways == 1 { "the way".into() } else { format!("any of {tried}") };
-        return format!(
-            "there are ways among what stands, but {movers} move: proven, no timing along {along} that was tried keeps clear of them"
-        );
-    }
-    format!("there are ways among what stands, but {movers} move: no timing was found along {tried}, and proven to be none along {refuted}")
+    let movers = scene.workspace().movers.len();
+    let moves = if movers == 1 { "an obstacle moves".into() } else { format!("{movers} obstacles move") };
+    let tried = if ways == 1 { "the one way".into() } else { format!("any of {ways} ways") };
+    let known = match refuted {
+        _ if refuted == ways => "proven, no timing keeps clear of what moves".into(),
+        0 => "no timing was found that keeps clear of what moves".into(),
+        _ => format!("no timing was found that keeps clear of what moves; along {} there is none: proven", counted(refuted, "way")),
+    };
+    format!("there are ways among what stands, but {moves}, and along {tried} that was tried {known}")
 }
 
 /// A motion as it is judged: in both ways in which consumers join its samples.

@@ -1,0 +1,27 @@
+//! The shipped worlds in which something moves, each with the outcome that it states.
+
+use cplan::{Options, Outcome, Problem, plan};
+use std::path::Path;
+
+#[test]
+fn shipped_worlds_come_out_as_they_say() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files: Vec<_> = std::fs::read_dir(root.join("workspaces/moving")).unwrap().map(|e| e.unwrap().path()).collect();
+    files.sort();
+    for file in &files {
+        let text = std::fs::read_to_string(file).unwrap();
+        let said = |key: &str| text.lines().find_map(|line| line.strip_prefix(key)).map(str::trim).expect(key);
+        let problem = Problem::load(root.join(format!("robots/{}.urdf", said("# robot:"))), file).unwrap();
+        let plan = plan(&problem, &Options::default()).unwrap();
+        let name = file.file_stem().unwrap().to_string_lossy();
+        match (said("# expect:"), plan.outcome()) {
+            ("found", Outcome::Found(_)) => {
+                let timing = plan.report().moving.as_ref().expect("something moves");
+                assert!(timing.free_until.is_none() && timing.clearance.is_some_and(|kept| kept > 0.0), "{name}");
+            }
+            ("unknown", Outcome::Unknown(reason)) => assert!(reason.contains("proven, no timing"), "{name}: {reason}"),
+            (expected, outcome) => panic!("{name}: {outcome:?} instead of {expected}"),
+        }
+    }
+    assert!(files.len() >= 5);
+}
