@@ -34,6 +34,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let mut inside = frame.grid(chart.units);
     inside.extend(world.trace.iter().flat_map(|trace| trace::below(trace, chart)));
     inside.extend(c_obstacles(&worlds, chart));
+    inside.extend(in_time(view, world, chart));
     inside.extend(world.trace.iter().flat_map(|trace| trace::above(trace, chart)));
     inside.extend(view.still.reach.iter().flat_map(|reach| reach::in_cspace(reach, chart)));
     inside.extend(preferences::in_cspace(&world.regions, chart));
@@ -78,6 +79,22 @@ fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     }
     dashed.extend(solid);
     dashed
+}
+
+/// What is blocked by what moves, now; while nothing does, also where it stops, dashed.
+fn in_time(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
+    let mut items = Vec::new();
+    for (number, mover) in world.movers.iter().enumerate() {
+        let mut draw = |time: f64, style: fn(Rgb) -> Style| {
+            let contours = world.moment(time).into_iter().flat_map(|moment| &moment.c_obstacles);
+            items.push(chart.c_obstacle(contours.filter(|c| c.obstacle == number), style(mover.obstacle.color)));
+        };
+        if let (None, Some(duration)) = (view.still.now, view.duration()) {
+            mover.moments(duration).into_iter().for_each(|time| draw(time, passable));
+        }
+        draw(view.still.time, blocked);
+    }
+    items
 }
 
 /// Names within the C-obstacles; numbers of many.

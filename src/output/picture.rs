@@ -3,7 +3,7 @@
 use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, DrawError, Picture, TaskPicture, View};
 use crate::engine::{Kind, MotionPlan, Plan, TaskPlan, Verdict};
-use crate::model::{Scene, Status};
+use crate::model::{Scene, Status, Workspace};
 use crate::text::counted;
 use std::path::Path;
 use thiserror::Error;
@@ -166,6 +166,7 @@ impl Plan {
     fn motion_view(&self, plan: &MotionPlan, contours: &[CObstacle]) -> View {
         let (MotionPlan { problem, answer, curve, .. }, report) = (plan, self.report());
         let scene = problem.scene();
+        let moments = report.duration.map_or_else(Vec::new, |duration| contours_in_time(scene, duration));
         let outline = curve.as_ref().map(|curve| curve.outline());
         let detail = match (report.length, &answer.verdict) {
             (Some(length), _) => format!("{}: length {length:.4}, {}", answer.method, kept(report.clearance)),
@@ -186,6 +187,7 @@ impl Plan {
             trace: Some(&answer.drawn()),
             proof: answer.verdict.proof(),
             c_obstacles: contours,
+            moments: &moments,
             ..Picture::new(scene, problem.start())
         })
     }
@@ -236,6 +238,27 @@ pub(crate) fn title_of(scene: &Scene) -> String {
         "" => scene.arm().name.clone(),
         name => format!("{name}: {}", scene.arm().name),
     }
+}
+
+/// Times of a motion at which C-obstacles of what moves are drawn, at the most.
+const MOST_MOMENTS: f64 = 60.0;
+
+/// C-obstacles of what moves, some times a second.
+fn contours_in_time(scene: &Scene, duration: f64) -> Vec<(f64, Vec<CObstacle>)> {
+    let (arm, workspace) = scene.clone().into_parts();
+    let movers = &workspace.movers;
+    if movers.is_empty() {
+        return Vec::new();
+    }
+    let count = (duration * 20.0).ceil().clamp(1.0, MOST_MOMENTS);
+    let moment = |k: f64| {
+        let time = duration * k / count;
+        let obstacles = movers.iter().map(|mover| mover.at(time));
+        let clearance = workspace.clearance;
+        let scene = Scene::trusted(arm.clone(), Workspace { clearance, ..Workspace::new(obstacles) });
+        (time, contours(&scene))
+    };
+    (0..=count as usize).map(|k| moment(k as f64)).collect()
 }
 
 /// C-obstacles for pictures.

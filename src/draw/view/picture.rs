@@ -44,6 +44,8 @@ pub struct Picture<'a> {
     pub proof: Option<&'a CheckedProof>,
     /// Contours in joint space.
     pub c_obstacles: &'a [CObstacle],
+    /// Those of what moves at some times, seconds, ascending; by its number among what moves.
+    pub moments: &'a [(f64, Vec<CObstacle>)],
 }
 
 /// A frame, drawn by its axes.
@@ -74,6 +76,7 @@ impl<'a> Picture<'a> {
             trace: None,
             proof: None,
             c_obstacles: &[],
+            moments: &[],
         }
     }
 
@@ -92,7 +95,7 @@ impl View {
         let grain = Grain::of(scene.arm());
         let trace = picture.trace.and_then(|trace| TraceView::new(trace, &scene.arm().topology(), grain));
         let world = WorldView::new(scene, String::new(), picture.c_obstacles, grain);
-        let world = world.proven(picture.proof, grain).traced(trace);
+        let world = world.proven(picture.proof, grain).traced(trace).timed(picture.moments, grain);
         let count = picture.paths.len();
         let named = picture.paths.iter().enumerate();
         let paths: Vec<PathView> =

@@ -57,7 +57,7 @@ impl ObstacleView {
 pub struct MoverView {
     /// In its own frame.
     #[serde(flatten)]
-    obstacle: ObstacleView,
+    pub obstacle: ObstacleView,
     /// Time, both coordinates and angle of the frame, of each stop.
     stops: Vec<[f64; 4]>,
     /// From the last stop on, metres a second.
@@ -129,6 +129,15 @@ pub struct ContourView {
     pub contour: Chain,
 }
 
+/// The C-obstacles of what moves, at a time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MomentView {
+    /// Seconds.
+    pub time: f64,
+    /// Of each the mover by its number.
+    pub c_obstacles: Vec<ContourView>,
+}
+
 /// A region that fields prefer (negative) or avoid.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RegionView {
@@ -153,6 +162,9 @@ pub struct WorldView {
     /// Which shapes can meet: link, part, obstacle, first piece, and the one after the last.
     pub pairs: Vec<[usize; 5]>,
     pub c_obstacles: Vec<ContourView>,
+    /// The C-obstacles of what moves, at some times.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub moments: Vec<MomentView>,
     /// Where the names of C-obstacles stand.
     pub names: Vec<NameView>,
     /// What the obstacles would block that link 2 may reach into here. Pages show one world at a time, and do without.
@@ -184,6 +196,7 @@ impl WorldView {
             pairs: ranges(scene.pairs()),
             names: names::places(scene.arm(), obstacles.len(), &contours, grain),
             c_obstacles: contours,
+            moments: Vec::new(),
             open: Vec::new(),
             regions: scene.workspace().preferences.iter().map(|preference| region(preference, grain)).collect(),
             trace: None,
@@ -191,6 +204,18 @@ impl WorldView {
             proof: Chain::default(),
             unreached: Vec::new(),
         }
+    }
+
+    /// The same with the C-obstacles of what moves at some times, by the number of what moves.
+    pub fn timed(self, moments: &[(f64, Vec<CObstacle>)], grain: Grain) -> Self {
+        let moment = |(time, all): &(f64, Vec<CObstacle>)| MomentView { time: number(*time), c_obstacles: contours(all, grain) };
+        Self { moments: moments.iter().map(moment).collect(), ..self }
+    }
+
+    /// The last of the moments up to a time.
+    pub fn moment(&self, time: f64) -> Option<&MomentView> {
+        let next = self.moments.partition_point(|moment| moment.time <= time);
+        self.moments.get(next.saturating_sub(1))
     }
 
     /// The same with what a planner saw.

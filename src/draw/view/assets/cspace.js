@@ -68,6 +68,27 @@ const CSpace = (() => {
     }
   }
 
+  /** What is blocked by what moves, at the time of the motion. */
+  function inTime(context, panel, view, world) {
+    if (!world.moments || !view.shows('c-obstacles')) return;
+    const next = world.moments.findIndex(({ time }) => time > view.now);
+    const moment = world.moments[next < 0 ? world.moments.length - 1 : Math.max(0, next - 1)];
+    for (const { obstacle, contour } of moment.c_obstacles) {
+      const { name, color } = world.movers[obstacle];
+      if (view.hidden.has(name)) continue;
+      const { fill, line: edge } = panel.theme.obstacle(color);
+      context.beginPath();
+      shifted(context, panel, contour, turning(view), true);
+      context.lineWidth = 2;
+      context.strokeStyle = edge;
+      context.stroke();
+      context.globalAlpha = 0.7;
+      context.fillStyle = fill;
+      context.fill();
+      context.globalAlpha = 1;
+    }
+  }
+
   function rectangles(context, panel, boxes, least = 0) {
     for (let i = 0; i + 3 < boxes.length; i += 4) {
       const [x0, y1] = panel.at([boxes[i], boxes[i + 1]]);
@@ -358,6 +379,7 @@ const CSpace = (() => {
   /** What moves: where the arm is, and where it is tried. */
   function moving(context, panel, view) {
     const { theme } = panel;
+    inTime(context, panel, view, view.world);
     const [x, y] = place(view, panel, view.q);
     context.beginPath();
     context.arc(x, y, 4.8, 0, 2 * Math.PI);

@@ -470,16 +470,16 @@ class View {
     const { worlds, paths } = this.model;
     const seen = [...worlds, ...(this.model.replays ?? [])].map(({ trace }) => trace);
     const kinds = new Set(seen.map((trace) => trace?.kind));
-    const any = (key) => worlds.some((world) => world[key].length > 0);
+    const any = (key) => worlds.some((world) => world[key]?.length > 0);
     const there = {
-      'c-obstacles': any('c_obstacles'), access: Boolean(this.model.reach), path: paths.length > 0, roadmap: kinds.has('roadmap'), rows: kinds.has('rows'),
+      'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(this.model.reach), path: paths.length > 0, roadmap: kinds.has('roadmap'), rows: kinds.has('rows'),
       roads: kinds.has('roads'), expanded: seen.some((trace) => trace?.expanded?.length > 0),
       channel: kinds.has('channel'), cells: kinds.has('channel'), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'),
       flow: kinds.has('field'), boxes: kinds.has('boxes'), proof: any('proof'), regions: any('regions'), poses: true,
-      trace: paths.length > 0, names: any('obstacles'), frames: this.model.frames.length > 0,
+      trace: paths.length > 0, names: any('obstacles') || any('movers'), frames: this.model.frames.length > 0,
     };
     const wanted = LAYERS.filter(([name]) => there[name]);
-    const names = [...new Map(worlds.flatMap((world) => world.obstacles.map((o) => [o.name, o.color])))];
+    const names = [...new Map(worlds.flatMap((world) => [...world.obstacles, ...(world.movers ?? [])].map((o) => [o.name, o.color])))];
     const signature = JSON.stringify([wanted.map(([name]) => name), names]);
     if (signature === this.signature) return;
     this.signature = signature;
