@@ -170,7 +170,7 @@ impl Explorer<'_> {
         let fresh = std::mem::take(&mut self.fresh);
         let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
         self.opened.push((self.readings.len(), self.known.update(&self.survey, arm, &fresh)));
-        self.frontier.update(&self.survey);
+        self.frontier.update(&self.survey, self.sensor);
         self.frontier.ask_ahead(&self.survey, self.sensor, &self.known.grid);
         if !fresh.is_empty() {
             self.solid = self.survey.scene(arm, clearance, false);

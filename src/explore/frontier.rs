@@ -1,7 +1,8 @@
 //! The configurations from which something new would be seen.
 
+use super::sight::Edges;
 use super::survey::Survey;
-use super::views::{Rows, Stand};
+use super::views::Stand;
 use crate::cspace::Grid;
 use crate::model::{Arm, Sensor};
 
@@ -17,7 +18,7 @@ pub struct Frontier {
     /// The unknown cells of the map beside free ones: what rays come to first is one of them.
     ///
     /// None while something new has been seen since they were looked for.
-    edges: Option<Rows>,
+    edges: Option<Edges>,
     /// No more cells than these can be seen from anywhere.
     most_of_all: u32,
     /// When each cell of the map was counted last.
@@ -64,8 +65,8 @@ impl Frontier {
     }
 
     /// Takes note of what the map knows now.
-    pub fn update(&mut self, survey: &Survey) {
-        self.edges = Some(survey.edges());
+    pub fn update(&mut self, survey: &Survey, sensor: &Sensor) {
+        self.edges = Some(Edges::new(survey, sensor.range));
     }
 
     /// Something new has been seen: there may be edges elsewhere.

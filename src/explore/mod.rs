@@ -45,6 +45,7 @@ mod map_files;
 mod reach;
 mod result;
 mod settings;
+mod sight;
 mod survey;
 mod views;
 mod wall;

@@ -222,11 +222,11 @@ impl Survey {
         self.known.cells[cell] == Occupancy::Unknown
     }
 
-    /// Whether a point lies in a cell of which nothing is known.
-    pub(super) fn is_unknown_about(&self, point: Point) -> bool {
+    /// The cell of the map that a point lies in.
+    pub(super) fn cell_at(&self, point: Point) -> Option<usize> {
         let local = (point.coords - self.origin()) / self.known.resolution;
         let is_inside = (0..2).all(|k| 0.0 <= local[k] && local[k] < self.known.size[k] as f64);
-        is_inside && self.is_unknown(self.index(local.x as usize, local.y as usize))
+        is_inside.then(|| self.index(local.x as usize, local.y as usize))
     }
 
     /// Notes what a reading at `q` shows; the cells that are new, in the order in which they were seen.

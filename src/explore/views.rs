@@ -1,5 +1,6 @@
 //! What readings of a sensor would show of a map: the cells that rays cross.
 
+use super::sight::Edges;
 use super::survey::Survey;
 use crate::geometry::{Point, Vector};
 use crate::input::Occupancy;
@@ -9,6 +10,9 @@ use std::f64::consts::PI;
 
 /// Radius of a disc that holds a cell, in cells, with room for rounding.
 pub(super) const AROUND_CELL: f64 = 0.75;
+
+/// Room for rounding of distances, in cells.
+const SLACK: f64 = 1e-6;
 
 /// Where a sensor takes a reading, and the angle straight ahead of it: [`Sensor::pose`].
 pub type Stand = (Point, f64);
@@ -61,11 +65,12 @@ impl Survey {
     }
 
     /// An unknown cell that a reading would come to; none if it would show nothing new. Rays come first to one of the
-    /// [`Survey::edges`], where these are given: only those that may are looked along.
+    /// `edges`, where these are given: only those that may are looked along.
     #[must_use]
-    pub fn promise(&self, sensor: &Sensor, stand: Stand, edges: Option<&Rows>) -> Option<usize> {
+    pub fn promise(&self, sensor: &Sensor, stand: Stand, edges: Option<&Edges>) -> Option<usize> {
         match edges {
-            Some(edges) => self.first_towards(sensor, stand, edges, |_| true),
+            Some(edges) if self.cell_at(stand.0).is_none_or(|cell| !edges.may_be_seen_from(cell)) => None,
+            Some(edges) => self.first_towards(sensor, stand, &edges.rows, |_| true),
             None => self.first_unknown(sensor, stand).next(),
         }
     }
@@ -90,7 +95,7 @@ impl Survey {
         cells: &Rows,
         is_asked: impl Fn(usize) -> bool,
     ) -> Option<usize> {
-        if self.is_unknown_about(from) {
+        if self.cell_at(from).is_some_and(|cell| self.is_unknown(cell)) {
             return self.first_unknown(sensor, stand).find(|&cell| is_asked(cell));
         }
         let mut is_tried = vec![false; sensor.rays];
@@ -166,8 +171,7 @@ impl Survey {
     }
 
     /// The unknown cells that share a side with a free one.
-    #[must_use]
-    pub fn edges(&self) -> Rows {
+    pub(super) fn edges(&self) -> Rows {
         let [width, height] = self.known.size;
         let is = |x: usize, y: usize, label| self.known.cells[y * width + x] == label;
         let is_edge = |x: usize, y: usize| {
@@ -181,18 +185,18 @@ impl Survey {
         rows(height, |y| (0..width).filter(|&x| is_edge(x, y)).collect())
     }
 
-    /// Those of the [`Survey::edges`] that are within a range of a point, and some more.
-    fn near<'a>(&self, edges: &'a Rows, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
+    /// Those of some cells that are within a range of a point, up to rounding.
+    fn near<'a>(&self, cells: &'a Rows, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
         let local = (point.coords - self.origin()) / self.known.resolution;
         let [width, height] = self.known.size;
         let (x, y) = (local.x, height as f64 - local.y);
-        // A cell more to each side: for its far side, and rounding.
-        let range = range / self.known.resolution + 2.0;
+        let range = range / self.known.resolution + SLACK;
         let [above, below] =
-            [y - range, y + range].map(|y| edges.partition_point(|(row, _)| (*row as f64) < y.floor()));
-        edges[above..below].iter().flat_map(move |(row, columns)| {
-            let half = (range.powi(2) - (*row as f64 + 0.5 - y).powi(2)).max(0.0).sqrt() + 1.0;
-            let first = columns.partition_point(|&column| (column as f64) < x - half);
+            [y - range - 1.0, y + range].map(|y| cells.partition_point(|(row, _)| (*row as f64) < y.ceil()));
+        cells[above..below].iter().flat_map(move |(row, columns)| {
+            let off = (*row as f64 - y).max(y - (*row + 1) as f64).max(0.0);
+            let half = (range.powi(2) - off.powi(2)).max(0.0).sqrt();
+            let first = columns.partition_point(|&column| (column as f64 + 1.0) < x - half);
             let near = columns[first..].iter().take_while(move |&&column| column as f64 <= x + half);
             near.map(move |column| row * width + column)
         })

@@ -4,6 +4,7 @@
 mod common;
 
 mod certificate;
+mod corner_optimum;
 mod jerk;
 #[cfg(feature = "mcap")]
 mod mcap;

@@ -6,7 +6,7 @@ use crate::common::roadmap::*;
 use cplan::cspace::{Polygon, Proves, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace, Voronoi};
-use cplan::space::{Configuration, JointRange, Path, Topology};
+use cplan::space::{Configuration, JointRange, Measure, Metric, Path, Segment, Topology};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -286,6 +286,24 @@ fn with_no_obstacle_on_a_torus_the_way_is_straight() {
 }
 
 /// A corner that all but touches a side: between them is no way, and nothing that is worth arcs.
+/// The place of a set of goals that is nearest to the start is computed: it may be another one by a rounding.
+#[test]
+fn who_stands_at_a_goal_up_to_rounding_stays() {
+    let regions = window_with_holes((0.0, 4.0), (0.0, 4.0), vec![rectangle((2.0, 2.5), (2.0, 2.5))]);
+    let planner = Voronoi::default();
+    let map = planner.build(&regions);
+    let mut rounded = 0;
+    for k in 1..=40 {
+        let goals = Segment::new(configuration(0.1, 0.3), configuration(1.7, 0.9 + 0.01 * f64::from(k)));
+        let start = goals.at(f64::from(k) / 41.0);
+        rounded += u32::from(goals.nearest(Measure::from(Metric::Euclidean), start) != start);
+        let run = planner.query(&regions, &map, &Query { start, goals: goals.into() });
+        let length = path(&run).expect("it is there").length();
+        assert!(length < 1e-12, "{length} from {start}");
+    }
+    assert!(rounded > 5, "{rounded} of 40");
+}
+
 #[test]
 fn corners_that_all_but_touch_a_side_make_few_arcs() {
     for gap in [1e-12, 1e-11, 1e-10, 1e-9, 2e-9, 4e-9, 7e-9, 1e-8, 1e-7, 1e-6] {

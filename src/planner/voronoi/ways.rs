@@ -77,7 +77,7 @@ impl Ways {
         for &end in &ends {
             checkpoint();
             // With nothing to keep away from, or no way to go, one is there.
-            let is_there = self.chords.is_empty() || asked.at(end) == terminals.start;
+            let is_there = self.chords.is_empty() || (asked.at(end) - terminals.start).norm() < SAME;
             if end != start && is_there && mesh.is_clear(terminals.start, asked.at(end)) {
                 asked.join(start, end);
             }

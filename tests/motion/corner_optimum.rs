@@ -1,0 +1,280 @@
+//! Motions with limits on jerks, through corners, against the least time along the curve that they are driven on: by an interior-point
+//! method on a fine grid, which shares nothing with the library's.
+//!
+//! Let `q(s)` be the curve, `s` the motion's own time, and let it be driven anew, so that it is at `s(t)` after `t` seconds. With `z` the
+//! square of the rate of `s`, and derivatives by `s`, velocities are `q' z^(1/2)`, accelerations `q'' z + q' z' / 2`, and jerks
+//! `z^(1/2) (q''' z + 3 q'' z' / 2 + q' z'' / 2)`; the time is the integral of `z^(-1/2)`. The motion itself is `z = 1`. It begins and ends with
+//! all of its jerk alone, so that `z` need not vanish there.
+
+use crate::common::placed;
+use crate::sampled::as_vector;
+use crate::{certified, empty};
+use cplan::model::Scene;
+use cplan::motion::{Drive, Trajectory};
+use cplan::space::Configuration;
+
+/// Greatest velocity, acceleration and jerk of each joint.
+type Most = [[f64; 2]; 3];
+
+fn room([velocity, acceleration, jerk]: Most) -> Scene {
+    let (mut arm, workspace) = empty(velocity, acceleration).into_parts();
+    arm.joints.iter_mut().zip(jerk).for_each(|(joint, jerk)| joint.jerk = Some(jerk));
+    placed(arm, workspace)
+}
+
+/// The motion about the corners of a path, as a user gets it.
+fn driven(waypoints: &[[f64; 2]], most: Most) -> Trajectory {
+    let scene = room(most);
+    Drive::default().along(&scene, &certified(&scene, waypoints), 1.0).unwrap().trajectory
+}
+
+/// The three derivatives of a motion whose jerk is constant between samples, at so many equal steps from its beginning to its end.
+fn derivatives(motion: &Trajectory, steps: usize) -> Vec<[Configuration; 3]> {
+    let (times, mut k) = (&motion.time, 0);
+    let at = |step: usize| {
+        let time = motion.duration() * step as f64 / steps as f64;
+        while k + 2 < times.len() && times[k + 1] <= time {
+            k += 1;
+        }
+        let (since, long) = (time - times[k], times[k + 1] - times[k]);
+        let [from, to] = [k, k + 1].map(|k| as_vector(motion.acceleration[k]));
+        let third = (to - from) / long;
+        let velocity = as_vector(motion.velocity[k]) + from * since + third * (since * since / 2.0);
+        [velocity, from + third * since, third]
+    };
+    (0..=steps).map(at).collect()
+}
+
+/// A condition `1 - root(z_i) (w . (z_(i-1), z_i, z_(i+1))) > 0`, or the same without the root.
+struct Condition {
+    at: usize,
+    weights: [f64; 3],
+    has_root: bool,
+}
+
+impl Condition {
+    /// The slack, its gradient and its second derivatives.
+    fn slack(&self, z: &[f64]) -> (f64, [f64; 3], [[f64; 3]; 3]) {
+        let i = self.at;
+        let around = [z[i.saturating_sub(1)], z[i], z[(i + 1).min(z.len() - 1)]];
+        let w = self.weights;
+        let sum: f64 = (0..3).map(|k| w[k] * around[k]).sum();
+        if !self.has_root {
+            return (1.0 - sum, w.map(|w| -w), [[0.0; 3]; 3]);
+        }
+        let root = around[1].sqrt();
+        let mut gradient = w.map(|w| -w * root);
+        gradient[1] -= sum / (2.0 * root);
+        let mut second = [[0.0; 3]; 3];
+        for k in 0..3 {
+            second[1][k] -= w[k] / (2.0 * root);
+            second[k][1] -= w[k] / (2.0 * root);
+        }
+        second[1][1] += sum / (4.0 * root.powi(3));
+        (1.0 - root * sum, gradient, second)
+    }
+}
+
+/// What the joints' limits ask of `z` at each node; nodes at both ends have no neighbours there, and need none: the arm is at rest.
+fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<Condition> {
+    let mut all = Vec::new();
+    for (at, [first, second, third]) in nodes.iter().enumerate() {
+        let is_end = at == 0 || at + 1 == nodes.len();
+        for k in 0..2 {
+            let (slope, bend) = if is_end { (0.0, 0.0) } else { (1.0 / (2.0 * step), 1.0 / (step * step)) };
+            let (p, pp, ppp) = (first[k], second[k], third[k]);
+            let pull = [-0.5 * p * slope, pp, 0.5 * p * slope];
+            let jerk = [-1.5 * pp * slope + 0.5 * p * bend, ppp - p * bend, 1.5 * pp * slope + 0.5 * p * bend];
+            all.push(Condition { at, weights: [0.0, p * p / (v[k] * v[k]), 0.0], has_root: false });
+            for sign in [-1.0, 1.0] {
+                all.push(Condition { at, weights: pull.map(|w| sign * w / a[k]), has_root: false });
+                all.push(Condition { at, weights: jerk.map(|w| sign * w / j[k]), has_root: true });
+            }
+        }
+    }
+    all
+}
+
+/// Solves `A x = b` for a symmetric `A` of five diagonals: the middle one, and those one and two beside it. None unless it is positive definite.
+fn solved(middle: &[f64], beside: [&[f64]; 2], b: &[f64]) -> Option<Vec<f64>> {
+    let n = middle.len();
+    let (mut d, mut l, mut x) = (vec![0.0; n], [vec![0.0; n], vec![0.0; n]], b.to_vec());
+    for i in 0..n {
+        // `l[k][i]` is the entry of the unit triangle in row `i`, `k + 1` columns before it.
+        if i >= 2 {
+            l[1][i] = beside[1][i - 2] / d[i - 2];
+        }
+        if i >= 1 {
+            let both = if i >= 2 { l[1][i] * d[i - 2] * l[0][i - 1] } else { 0.0 };
+            l[0][i] = (beside[0][i - 1] - both) / d[i - 1];
+        }
+        d[i] = middle[i];
+        for k in 0..2.min(i) {
+            d[i] -= l[k][i] * l[k][i] * d[i - 1 - k];
+            x[i] -= l[k][i] * x[i - 1 - k];
+        }
+        if d[i].is_nan() || d[i] <= 0.0 {
+            return None;
+        }
+    }
+    for i in (0..n).rev() {
+        x[i] /= d[i];
+        for k in 0..2.min(n - 1 - i) {
+            x[i] -= l[k][i + 1 + k] * x[i + 1 + k];
+        }
+    }
+    Some(x)
+}
+
+/// The time, by the trapezoidal rule.
+fn time(z: &[f64], step: f64) -> f64 {
+    let half = |i: usize| if i == 0 || i + 1 == z.len() { 0.5 } else { 1.0 };
+    z.iter().enumerate().map(|(i, z)| half(i) * step / z.sqrt()).sum()
+}
+
+/// Time with a barrier of this height before the limits; infinite beyond them.
+fn merit(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> f64 {
+    if z.iter().any(|&z| z.is_nan() || z <= 0.0) {
+        return f64::INFINITY;
+    }
+    let barrier = conditions.iter().map(|condition| {
+        let (slack, ..) = condition.slack(z);
+        if slack > 0.0 { -slack.ln() } else { f64::INFINITY }
+    });
+    time(z, step) + height * barrier.sum::<f64>()
+}
+
+/// A step of Newton's method, made positive definite by as little as it takes.
+fn newton(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> (Vec<f64>, f64) {
+    let n = z.len();
+    let (mut gradient, mut middle, mut one, mut two) = (vec![0.0; n], vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    for i in 0..n {
+        let half = if i == 0 || i + 1 == n { 0.5 } else { 1.0 };
+        gradient[i] -= half * step * 0.5 * z[i].powf(-1.5);
+        middle[i] += half * step * 0.75 * z[i].powf(-2.5);
+    }
+    for condition in conditions {
+        let (slack, first, second) = condition.slack(z);
+        let index = |k: usize| (condition.at + k).wrapping_sub(1);
+        for k in (0..3).filter(|&k| index(k) < n) {
+            gradient[index(k)] -= height * first[k] / slack;
+            for m in (k..3).filter(|&m| index(m) < n) {
+                let entry = height * (first[k] * first[m] / slack - second[k][m]) / slack;
+                [&mut middle, &mut one, &mut two][m - k][index(k)] += entry;
+            }
+        }
+    }
+    let minus: Vec<f64> = gradient.iter().map(|g| -g).collect();
+    let mut more = 0.0;
+    loop {
+        let lifted: Vec<f64> = middle.iter().zip(z).map(|(m, z)| m + more * step * z.powf(-2.5)).collect();
+        if let Some(direction) = solved(&lifted, [&one, &two], &minus) {
+            let decrease = -gradient.iter().zip(&direction).map(|(g, d)| g * d).sum::<f64>();
+            return (direction, decrease);
+        }
+        more = if more == 0.0 { 1e-3 } else { 4.0 * more };
+    }
+}
+
+/// The least time along the curve of a motion, in so many steps, from this share of its speed on.
+fn optimum(motion: &Trajectory, most: Most, steps: usize, from: f64) -> f64 {
+    let step = motion.duration() / steps as f64;
+    let conditions = conditions(&derivatives(motion, steps), step, most);
+    let mut z = vec![from * from; steps + 1];
+    let mut height = 0.1 * motion.duration() / conditions.len() as f64;
+    while height * conditions.len() as f64 > 2e-4 * motion.duration() {
+        for _ in 0..60 {
+            let now = merit(&z, step, &conditions, height);
+            assert!(now.is_finite());
+            let (direction, decrease) = newton(&z, step, &conditions, height);
+            if decrease < 1e-7 * motion.duration() {
+                break;
+            }
+            let moved = |share: f64| -> Vec<f64> { z.iter().zip(&direction).map(|(z, d)| z + share * d).collect() };
+            let mut share = 1.0;
+            while share > 1e-9 && merit(&moved(share), step, &conditions, height) > now - 1e-3 * share * decrease {
+                share /= 2.0;
+            }
+            z = if share > 1e-9 { moved(share) } else { break };
+        }
+        height /= 4.0;
+    }
+    time(&z, step)
+}
+
+/// Waypoints, limits, and by what share the motion takes longer than the least time along its curve, at the most.
+type Case = (&'static [[f64; 2]], Most, f64);
+
+/// Right angles, gentle turns, hairpins, short legs between long ones, one joint far slower than the other. Where most of the time is spent at the
+/// limits of the velocities, little is lost; where a window of the jerk's length is much of the motion, much is.
+const PATHS: [Case; 12] = [
+    (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[2.0, 3.0], [8.0, 12.0], [200.0, 300.0]], 0.03),
+    (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[2.0, 3.0], [8.0, 12.0], [80.0, 60.0]], 0.2),
+    (&[[0.0, 0.0], [1.0, 0.2], [2.0, 0.0], [3.0, 0.3]], [[2.0, 3.0], [8.0, 12.0], [200.0, 300.0]], 0.01),
+    (&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.1]], [[1.0, 1.0], [4.0, 4.0], [100.0, 100.0]], 0.01),
+    (&[[0.0, 0.0], [1.0, 0.0], [0.5, 0.5]], [[1.0, 1.0], [4.0, 4.0], [40.0, 40.0]], 0.08),
+    (&[[0.0, 0.0], [1.0, 0.0], [1.05, 0.05], [1.05, 1.0]], [[2.0, 2.0], [5.0, 5.0], [125.0, 125.0]], 0.012),
+    (&[[0.0, 0.0], [1.0, 0.7], [0.2, 1.5], [-1.0, 1.0], [-1.5, -0.5]], [[0.5, 3.0], [1.0, 20.0], [25.0, 500.0]], 0.01),
+    (
+        &[[0.0, 0.0], [0.3, 0.0], [0.5, 0.2], [0.55, 0.5], [0.4, 0.8], [0.0, 0.9]],
+        [[2.0, 2.0], [9.0, 6.0], [225.0, 150.0]],
+        0.08,
+    ),
+    (&[[0.0, 0.0], [2.0, 1.0], [2.5, -1.0], [-1.0, 0.5]], [[10.0, 10.0], [3.0, 2.0], [75.0, 50.0]], 0.01),
+    (&[[0.0, 0.0], [0.02, 0.0], [0.02, 3.0], [0.0, 3.0]], [[1.0, 2.0], [2.0, 30.0], [50.0, 750.0]], 0.055),
+    (
+        &[[0.0, 0.0], [1.0, 1.0], [2.0, 1.0], [3.0, 0.0], [4.0, 0.0], [4.0, 2.0]],
+        [[1.5, 1.5], [40.0, 40.0], [1000.0, 1000.0]],
+        0.01,
+    ),
+    (
+        &[[0.5, 0.5], [0.4, 1.4], [0.45, 1.5], [1.3, 1.6], [1.4, 1.5], [1.5, 0.3]],
+        [[2.0, 3.0], [8.0, 12.0], [200.0, 300.0]],
+        0.075,
+    ),
+];
+
+/// Limits are kept at the steps, and may be exceeded in between: steps are halved until that makes no more difference than this share.
+const OFF: f64 = 1e-2;
+
+/// The most steps that are tried.
+const MOST_STEPS: usize = 20_000;
+
+#[test]
+fn near_the_least_time_along_the_same_curve() {
+    for (i, &(waypoints, most, share)) in PATHS.iter().enumerate() {
+        let motion = driven(waypoints, most);
+        let (mut steps, mut fine) = (1200, optimum(&motion, most, 600, 0.97));
+        loop {
+            let coarse = std::mem::replace(&mut fine, optimum(&motion, most, steps, 0.97));
+            if (coarse - fine).abs() <= OFF * fine {
+                break;
+            }
+            steps *= 2;
+            assert!(steps <= MOST_STEPS, "path {i}: the oracle itself is off: {coarse} {fine}");
+        }
+        let took = motion.duration();
+        println!("path {i}: {took:.4} s, least {fine:.4} s ({steps} steps), {:.2} % more", 100.0 * (took / fine - 1.0));
+        assert!(took >= fine * (1.0 - OFF) && took <= fine * (1.0 + share), "path {i}: {took} s, at least {fine} s");
+    }
+}
+
+/// The limits on jerks do not make a convex problem: from elsewhere the same is found.
+#[test]
+fn the_least_time_is_the_same_from_anywhere() {
+    for &(waypoints, most, _) in [PATHS[1], PATHS[4], PATHS[7]].iter() {
+        let motion = driven(waypoints, most);
+        let [one, other] = [0.97, 0.2].map(|from| optimum(&motion, most, 600, from));
+        assert!((one - other).abs() <= 1e-3 * one, "{one} {other}");
+    }
+}
+
+/// In closed form: a long way at top speed between whole ramps, `L / v + v / a + a / j`. The motions that are driven anew are gentler ones.
+#[test]
+fn along_straight_lines_the_least_time_is_known() {
+    let motion = driven(&[[0.0, 0.0], [1.0, 0.5]], [[0.7, 0.7], [3.0, 3.0], [20.0, 20.0]]);
+    for from in [0.9, 0.3] {
+        let found = optimum(&motion, [[1.0, 2.0], [4.0, 9.0], [40.0, 90.0]], 1500, from);
+        assert!((found - 1.35).abs() < 1e-3, "{found}");
+    }
+}
