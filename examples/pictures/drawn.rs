@@ -25,6 +25,7 @@ pub const PICTURES: [(&str, Subject); 12] = [
     ("no_path", Subject::Answer("planar_2r_continuous", "no_path", Method::Wavefront)),
     ("scara_cell", Subject::Answer("scara", "scara_cell", Method::Shortest)),
     ("upright", Subject::Answer("rrbot_vertical", "upright", Method::Shortest)),
+    ("crossing", Subject::Answer("planar_2r", "moving/crossing", Method::Shortest)),
     ("tower", Subject::Task("rrbot_vertical", "tower")),
     ("board_and_gate", Subject::Task("gantry", "board_and_gate")),
 ];

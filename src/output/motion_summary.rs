@@ -14,7 +14,7 @@ pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
     let (scene, arm) = (plan.problem.scene(), whole.arm());
     let moving = match scene.workspace().movers.len() {
         0 => String::new(),
-        count => format!(", {count} that move"),
+        count => format!(", {count} moving"),
     };
     let obstacles = counted(scene.workspace().obstacles.len(), "obstacle") + &moving;
     let mut asked = vec![

@@ -21,7 +21,7 @@ fn where_no_timing_helps_a_flood_in_place_and_time_does_not_get_through() {
         if !reason.contains("obstacle") || !reason.contains("move") {
             continue;
         }
-        if !reason.contains("proven, no timing") {
+        if !reason.contains("proven: along") {
             unknown += 1;
             continue;
         }

@@ -115,13 +115,16 @@ fn is_better(found: &InTime, than: &InTime) -> bool {
 fn reason(ways: usize, refuted: usize, scene: &Scene) -> String {
     let movers = scene.workspace().movers.len();
     let moves = if movers == 1 { "an obstacle moves".into() } else { format!("{movers} obstacles move") };
-    let tried = if ways == 1 { "the one way".into() } else { format!("any of {ways} ways") };
+    let tried = if ways == 1 { "the one way that was tried".into() } else { format!("the {ways} ways that were tried") };
     let known = match refuted {
-        _ if refuted == ways => "proven, no timing keeps clear of what moves".into(),
-        0 => "no timing was found that keeps clear of what moves".into(),
-        _ => format!("no timing was found that keeps clear of what moves; along {} there is none: proven", counted(refuted, "way")),
+        _ if refuted == ways => format!("proven: along {tried} no timing keeps clear of what moves"),
+        0 => format!("along {tried} no timing was found that keeps clear of what moves"),
+        _ => format!(
+            "along {tried} no timing was found that keeps clear of what moves, and along {} there is none: proven",
+            counted(refuted, "way")
+        ),
     };
-    format!("there are ways among what stands, but {moves}, and along {tried} that was tried {known}")
+    format!("there are ways among what stands, but {moves}; {known}")
 }
 
 /// A motion as it is judged: in both ways in which consumers join its samples.

@@ -21,6 +21,7 @@ mod inputs;
 mod large_turns;
 mod many_corners;
 mod mazes;
+mod moving;
 mod narrow;
 mod outputs;
 mod path_kind;
