@@ -25,7 +25,9 @@ impl Moving {
         let (arm, mut workspace) = standing.into_scene().into_parts();
         workspace.obstacles.truncate(5);
         let reach = arm.reach();
-        workspace.movers = (0..2 + dice.below(4)).map(|_| mover(&mut dice, arm.base, reach)).collect();
+        // Halfway there is where it hurts.
+        let halfway = arm.tip_at((start + goals.pieces()[0].ends()[0]) / 2.0);
+        workspace.movers = (0..2 + dice.below(4)).map(|_| mover(&mut dice, arm.base, reach, halfway)).collect();
         let scene = Scene::new(arm, workspace).expect("a scene");
         let problem = MotionProblem::new(scene, start, goals).ok()?;
         Some(Self { name: format!("{kind} {seed}"), problem })
@@ -70,7 +72,7 @@ impl Moving {
 }
 
 /// Comes and goes, parks, passes by, or turns.
-fn mover(dice: &mut Dice, base: Point, reach: f64) -> Mover {
+fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover {
     let size = dice.within(0.05, 0.25);
     let piece = match dice.below(3) {
         0 => disc(Point::new(dice.within(-0.1, 0.1), 0.0), size),
@@ -81,7 +83,10 @@ fn mover(dice: &mut Dice, base: Point, reach: f64) -> Mover {
         let (angle, radius) = (dice.within(-3.2, 3.2), reach * dice.within(0.4, 1.3));
         base + Vector::new(angle.cos(), angle.sin()) * radius
     };
-    let places: Vec<Point> = (0..4).map(|_| place()).collect();
+    let mut places: Vec<Point> = (0..4).map(|_| place()).collect();
+    if dice.chance(0.6) {
+        places[1] = halfway;
+    }
     let course = match dice.below(4) {
         0 => {
             let speed = Vector::new(dice.within(-0.5, 0.5), dice.within(-0.5, 0.5));
