@@ -107,7 +107,7 @@ impl<'a> Order<'a> {
             while !pairs.is_empty() {
                 let next = self.left.peek().map(|(_, done)| done.step);
                 let begins = |pair: &&[Node]| matches!(&pair[0], Node::Step(step) if Some(step.number) == next);
-                let pair = pairs.remove(pairs.iter().position(|pair| begins(pair)).unwrap_or(0));
+                let pair = pairs.remove(pairs.iter().position(begins).unwrap_or(0));
                 pair.iter().try_for_each(|node| self.node(node))?;
             }
         }

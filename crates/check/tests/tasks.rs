@@ -416,6 +416,11 @@ fn worlds_that_ask_for_nothing_that_is_known() {
             "[[object]]\nname = \"block\"\nat = [5, 5]\ncircle = { center = [0, 0], radius = 1 }\n[[step]]\npick",
             "a second object",
         ),
+        (
+            "[[step]]\npick",
+            "[[obstacle]]\nname = \"block\"\npolyline = [[5, 5], [6, 6]]\n[[step]]\npick",
+            "an obstacle, of this name",
+        ),
         ("[[step]]\npick", "[task]\norder = \"free\"\n[[step]]\npick", "pick, place, pick, place"),
         ("[[step]]\npick", "[task]\nrepeat = 0\n[[step]]\npick", "a whole number from 1 on"),
         ("[[step]]\npick", "[[step]]\nsteps = []\n[[step]]\npick", "there are no steps"),

@@ -120,9 +120,11 @@ impl Reader<'_> {
         let mut resting = Vec::new();
         for value in list("object")? {
             let of_family = self.object(value, is_level, &pallets, &mut objects)?;
+            let family = objects.last().map(|object: &Object| object.family.clone());
             for obstacle in of_family {
-                if world.obstacles[first..].iter().any(|other| other.name == obstacle.name) {
-                    return self.error(value, "a second object of this name");
+                let is_named = |other: &Obstacle| other.name == obstacle.name || other.name == family;
+                if world.obstacles.iter().any(is_named) {
+                    return self.error(value, "a second object, or an obstacle, of this name");
                 }
                 resting.push(self.table(value)?.get("supports"));
                 world.obstacles.push(obstacle);
@@ -277,12 +279,11 @@ impl Steps<'_, '_> {
             Some("free") => true,
             _ => return reader.error(list, "an order is \"free\" or \"fixed\""),
         };
-        let picks = |k: usize, node: &Node| match node {
-            Node::Step(Step { action, .. }) if k % 2 == 0 => matches!(action, Action::Pick { .. }),
-            Node::Step(Step { action, .. }) => matches!(action, Action::Place { .. }),
-            Node::Group(_) => false,
+        let is_pair = |pair: &[Node]| {
+            let [Node::Step(first), Node::Step(second)] = pair else { return false };
+            matches!((&first.action, &second.action), (Action::Pick { .. }, Action::Place { .. }))
         };
-        if is_free && (nodes.len() % 2 == 1 || !nodes.iter().enumerate().all(|(k, node)| picks(k, node))) {
+        if is_free && !nodes.chunks(2).all(is_pair) {
             return reader.error(list, "steps in free order are pick, place, pick, place, and so on");
         }
         let mut renewed = Vec::new();
