@@ -1,7 +1,7 @@
 //! Certificates of tasks: "found", with steps.
 
 use crate::certificate::Certificate;
-use crate::curve::Piece;
+use crate::curve::{FINE, Piece};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::free::{Chain, On, Solid, guard};
@@ -24,6 +24,9 @@ const PRESSED: u32 = 4;
 
 /// The arm may stand still for less than it is to by this, seconds: `10^-6`.
 const SHORT: u32 = 6;
+
+/// The wrist turns by less than this, radians: more than once round nobody does.
+const LARGEST_TURN: i128 = 7;
 
 /// A step as it is done.
 #[derive(Deserialize)]
@@ -452,7 +455,9 @@ impl<'a> Replay<'a> {
             return CheckError::fails("there is no wrist, or nothing that it could turn");
         };
         let wrist = Chain::about(&self.chain.point_at(&On::Link(1), &self.tip, at));
-        let Some(end) = fine(&(by * &Decimal::whole(SIXTY))) else { return CheckError::fails("a turn is too large") };
+        let Some(end) = fine(&(by * &Decimal::whole(SIXTY))).filter(|end| end.abs() < LARGEST_TURN << FINE) else {
+            return CheckError::fails("the wrist turns by more than a turn");
+        };
         let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]] };
         let rests = held.kernel.is_some();
         let (solids, kernel) = self.hung(&wrist, &On::Link(0), &held.hanging, rests)?;

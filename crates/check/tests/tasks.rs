@@ -194,6 +194,9 @@ fn the_wrist_turns_what_it_carries() {
     holds(judged(GANTRY, &world(""), KNOTS, &turned("-4.712385307")));
     fails(judged(GANTRY, &world(""), KNOTS, DONE), "by more than 1e-5");
     fails(judged(GANTRY, &world(""), KNOTS, &turned("1.57082")), "by more than 1e-5");
+    for round in ["7.853981634", "-7000000", "1e300"] {
+        fails(judged(GANTRY, &world(""), KNOTS, &turned(round)), "by more than a turn");
+    }
     let level = |world: String| judged(GANTRY, &world, KNOTS, &turned("1.5708"));
     fails(level(world("").replace(", wrist = { velocity = 1 }", "")), "there is no wrist");
     fails(level(world("").replace("\"level\"", "\"rigid\"")), "there is no wrist");
