@@ -4,6 +4,7 @@ use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::motion::Motion;
 use crate::polygon::Corner;
+use crate::task::Done;
 use crate::world::World;
 use serde::Deserialize;
 
@@ -23,6 +24,8 @@ pub struct Certificate {
     pub clearance: Option<Decimal>,
     /// That there is a motion.
     pub motion: Option<Motion>,
+    /// Of a task: which part of it does which step.
+    pub steps: Option<Vec<Done>>,
     /// What evidence names.
     #[serde(default)]
     pub shapes: Vec<ShapeName>,
@@ -71,15 +74,16 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
         let message = format!("its format is \"{}\": the checker knows \"{FORMAT}\"", certificate.format);
         return Err(CheckError::in_file(Input::Certificate, message));
     }
-    let Certificate { answer, motion, boxes, bound, .. } = &certificate;
+    let Certificate { answer, motion, steps, boxes, bound, .. } = &certificate;
     let evidence = [motion.is_some(), boxes.is_some(), bound.is_some()];
     let fits = match answer {
         Answer::Found => evidence[..2] == [true, false],
-        Answer::Infeasible => evidence == [false, true, false],
-        Answer::NoShorter => evidence == [false, false, true],
+        Answer::Infeasible => steps.is_none() && evidence == [false, true, false],
+        Answer::NoShorter => steps.is_none() && evidence == [false, false, true],
     };
     if !fits {
-        let message = "\"found\" has a motion, and may have a bound; \"infeasible\" has boxes; \"no_shorter\" a bound";
+        let message =
+            "\"found\" has a motion, and may have steps or a bound; \"infeasible\" has boxes; \"no_shorter\" a bound";
         return Err(CheckError::in_file(Input::Certificate, message));
     }
     Ok(certificate)

@@ -1,7 +1,7 @@
 //! Whether shapes stay off the sides of obstacles while the arm moves along curves.
 
 use crate::curve::{HALVINGS, Piece, Tube};
-use crate::interval::{BITS, Interval, Point, length, sum, times, turned};
+use crate::interval::{BITS, Interval, Point, both_turns, length, sum, times, turned};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Motion};
 use num_bigint::BigInt;
@@ -26,10 +26,28 @@ struct Term {
 /// A point by the vectors that add up to it.
 type Terms = Vec<Term>;
 
-/// A shape of the arm, and a disc round its core.
+/// How two joints move what they carry.
+pub struct Chain {
+    motions: [Motion; 2],
+    base: Point,
+    offset: Point,
+}
+
+/// What a shape hangs on.
+#[derive(Clone)]
+pub enum On {
+    /// A link, as it is seen from the link's joint.
+    Link(usize),
+    /// A point of the second link, about which it never turns.
+    Level(Point),
+}
+
+/// A shape that is carried, and a disc round its core.
 pub struct Solid {
-    link: usize,
+    on: On,
     shape: Shape,
+    /// How far it keeps off.
+    kept: BigInt,
     corners: Vec<Terms>,
     center: Terms,
     extent: BigInt,
@@ -56,7 +74,7 @@ struct Moving {
 
 /// The arm in the middle of a tube.
 struct Posture<'a> {
-    arm: &'a Arm<'a>,
+    chain: &'a Chain,
     tube: Tube,
     /// Sine and cosine of the turn by the first joint, the second, and both.
     turns: [[Interval; 2]; 3],
@@ -112,7 +130,20 @@ fn shifted(terms: &mut Terms, by: &Point) {
     }
 }
 
-impl Arm<'_> {
+impl From<&Arm<'_>> for Chain {
+    fn from(arm: &Arm) -> Self {
+        let motions = arm.joints.each_ref().map(|joint| joint.motion.clone());
+        Self { motions, base: arm.base.clone(), offset: arm.offset.clone() }
+    }
+}
+
+impl Chain {
+    /// What turns left about a point.
+    pub fn about(point: &Point) -> Self {
+        let offset = [0, 0].map(Interval::whole);
+        Self { motions: [Motion::Turn(1), Motion::Turn(1)], base: point.clone(), offset }
+    }
+
     /// Where a point of a link is that is at `a` as seen from the link's joint.
     fn carried(&self, link: usize, a: &Point) -> Terms {
         let mut terms = Terms::new();
@@ -137,7 +168,7 @@ impl Arm<'_> {
 
     /// Moves the sum of vectors by a joint, or back.
     fn moved(&self, terms: &mut Terms, joint: usize, back: bool) {
-        match &self.joints[joint].motion {
+        match &self.motions[joint] {
             Motion::Turn(_) => {
                 for term in terms {
                     term.by[joint] = true;
@@ -156,38 +187,70 @@ impl Arm<'_> {
 
     /// How a joint's angle counts: left 1, right -1, a slide 0.
     fn sign(&self, joint: usize) -> Interval {
-        Interval::whole(match self.joints[joint].motion {
+        Interval::whole(match self.motions[joint] {
             Motion::Turn(sign) => sign,
             Motion::Slide(_) => 0,
         })
     }
 
-    /// A point of a link at a configuration.
-    pub fn point_at(&self, link: usize, a: &Point, values: &Point) -> Point {
-        let still = Tube::still(values.clone());
-        Posture::new(self, still).moving(&self.carried(link, a)).at
+    /// Where a point is of what hangs on something.
+    fn hanging(&self, on: &On, a: &Point) -> Terms {
+        match on {
+            On::Link(link) => self.carried(*link, a),
+            On::Level(point) => {
+                let mut terms = self.carried(1, point);
+                shifted(&mut terms, a);
+                terms
+            }
+        }
+    }
+
+    /// The same at a configuration.
+    pub fn point_at(&self, on: &On, a: &Point, values: &Point) -> Point {
+        self.still(&self.hanging(on, a), values)
+    }
+
+    /// A point of the plane as it is seen from the second link's joint at a configuration.
+    pub fn seen_at(&self, p: &Point, values: &Point) -> Point {
+        self.still(&self.seen(1, p), values)
+    }
+
+    fn still(&self, terms: &Terms, values: &Point) -> Point {
+        Posture::new(self, Tube::still(values.clone())).moving(terms).at
     }
 }
 
 impl Solid {
-    pub fn new(arm: &Arm, link: usize, shape: &Shape) -> Self {
+    /// A shape that is to keep farther than `kept` units from sides.
+    pub fn new(chain: &Chain, on: On, shape: &Shape, kept: &BigInt) -> Self {
         let (center, extent) = disc(&shape.points);
         Self {
-            link,
-            corners: shape.points.iter().map(|a| arm.carried(link, a)).collect(),
-            center: arm.carried(link, &center),
+            corners: shape.points.iter().map(|a| chain.hanging(&on, a)).collect(),
+            center: chain.hanging(&on, &center),
             extent,
             ring: ring(&shape.points.iter().map(rough).collect::<Vec<_>>()),
             shape: shape.clone(),
+            kept: kept.clone(),
+            on,
         }
+    }
+
+    /// A corner of it at a configuration.
+    pub fn corner_at(&self, chain: &Chain, values: &Point) -> Point {
+        chain.still(&self.corners[0], values)
     }
 }
 
 impl Side {
-    pub fn new(arm: &Arm, shape: &Shape) -> Self {
+    pub fn new(chain: &Chain, shape: &Shape) -> Self {
         let (center, extent) = disc(&shape.points);
-        let seen = [0, 1].map(|link| shape.points.iter().map(|p| arm.seen(link, p)).collect());
+        let seen = [0, 1].map(|link| shape.points.iter().map(|p| chain.seen(link, p)).collect());
         Self { shape: shape.clone(), seen, center, extent }
+    }
+
+    /// A point of it.
+    pub fn point(&self) -> &Point {
+        &self.shape.points[0]
     }
 }
 
@@ -204,21 +267,20 @@ fn disc(points: &[Point]) -> (Point, BigInt) {
 }
 
 impl<'a> Posture<'a> {
-    fn new(arm: &'a Arm, tube: Tube) -> Self {
-        let [s1, s2] = [0, 1].map(|k| arm.sign(k));
+    fn new(chain: &'a Chain, tube: Tube) -> Self {
+        let [s1, s2] = [0, 1].map(|k| chain.sign(k));
         let zero = Interval::whole(0);
         let turn = |sign: &Interval, value: &Interval| match sign.is_whole(0) {
             true => [zero.clone(), Interval::whole(1)],
             false => (sign * value).sin_cos(),
         };
         let [first, second] = [turn(&s1, &tube.middle[0]), turn(&s2, &tube.middle[1])];
-        let ([a, b], [c, d]) = (&first, &second);
-        let both = [&(a * d) + &(b * c), &(b * d) - &(a * c)];
+        let both = both_turns(&first, &second);
         let greatest = |g: [&Interval; 2]| tube.greatest(&g.map(Clone::clone));
         let deviations = [greatest([&s1, &zero]), greatest([&zero, &s2]), greatest([&s1, &s2])];
         let one = &Interval::whole(1);
         let each = [greatest([one, &zero]), greatest([&zero, one])];
-        Self { arm, tube, turns: [first, second, both], deviations, each }
+        Self { chain, tube, turns: [first, second, both], deviations, each }
     }
 
     /// Which of the angles a vector turns by.
@@ -248,7 +310,7 @@ impl<'a> Posture<'a> {
             let place = |v: &Point| turn.as_ref().map_or_else(|| v.clone(), |turn| turned(v, turn));
             let at = place(&inner);
             for joint in (0..2).filter(|joint| term.by[*joint]) {
-                let sign = self.arm.sign(joint);
+                let sign = self.chain.sign(joint);
                 let rate = times(&perpendicular(&at), &if term.back { -&sign } else { sign });
                 moving.rates[joint] = sum(&moving.rates[joint], &rate);
             }
@@ -295,10 +357,10 @@ impl<'a> Posture<'a> {
         Placed { solid, motion: self.motion(&center), center, corners: OnceCell::new() }
     }
 
-    /// Whether it is shown that a shape and a side keep more than `kept` from one another all over the tube.
-    fn keeps_off(&self, placed: &Placed, side: &Side, kept: &BigInt) -> bool {
+    /// Whether it is shown that a shape keeps off a side all over the tube.
+    fn keeps_off(&self, placed: &Placed, side: &Side) -> bool {
         let solid = placed.solid;
-        let apart = kept + &solid.shape.radius.upper + &side.shape.radius.upper;
+        let apart = &solid.kept + &solid.shape.radius.upper + &side.shape.radius.upper;
         let discs = &apart + &solid.extent + &side.extent + &placed.motion;
         let [x, y] = minus(&placed.center.at, &side.center).map(|c| c.abs().lower);
         if &x * &x + &y * &y > &discs * &discs {
@@ -314,25 +376,25 @@ impl<'a> Posture<'a> {
             return true;
         }
         // The same seen from the link: the side moves, towards the shape.
-        let by = [0, 1].map(|k| k <= solid.link && matches!(self.arm.joints[k].motion, Motion::Turn(_)));
+        let On::Link(link) = solid.on else { return false };
+        let by = [0, 1].map(|k| k <= link && matches!(self.chain.motions[k], Motion::Turn(_)));
         let [sine, cosine] = Self::angle(by).map_or([0.0, 1.0], |which| rough(&self.turns[which]));
         let turned_back = [-(cosine * x + sine * y), -(cosine * y - sine * x)];
-        let moving: Vec<Moving> = side.seen[solid.link].iter().map(|p| self.moving(p)).collect();
+        let moving: Vec<Moving> = side.seen[link].iter().map(|p| self.moving(p)).collect();
         self.separates(&exact(turned_back), &moving, &solid.shape.points, &apart)
     }
 }
 
-/// Whether on pieces that follow one another each of the pairs of a shape and a side keeps more than `kept` units; else where that is
-/// not shown first.
+/// Whether on pieces that follow one another each of the pairs of a shape and a side keeps as far off as the shape is to; else where that
+/// is not shown first.
 ///
 /// # Errors
 /// The stretch, the shape and the side.
 pub fn keep_off(
-    arm: &Arm,
+    chain: &Chain,
     pieces: &[Piece],
-    (solids, sides): (&[Solid], &[Side]),
+    (solids, sides): (&[&Solid], &[&Side]),
     pairs: Vec<[usize; 2]>,
-    kept: &BigInt,
 ) -> Result<(), Open> {
     let mut stack = vec![(Stretch::Pieces(0, pieces.len()), pairs)];
     let mut parts = 0;
@@ -342,11 +404,11 @@ pub fn keep_off(
             Stretch::Pieces(from, to) => &pieces[*from..*to],
             Stretch::Part(piece, _) => std::slice::from_ref(piece),
         };
-        let posture = Posture::new(arm, Tube::around(of));
+        let posture = Posture::new(chain, Tube::around(of));
         let placed: Vec<OnceCell<Placed>> = solids.iter().map(|_| OnceCell::new()).collect();
         pairs.retain(|&[solid, side]| {
-            let placed = placed[solid].get_or_init(|| posture.placed(&solids[solid]));
-            !posture.keeps_off(placed, &sides[side], kept)
+            let placed = placed[solid].get_or_init(|| posture.placed(solids[solid]));
+            !posture.keeps_off(placed, sides[side])
         });
         let Some(&[solid, side]) = pairs.first() else { continue };
         let (first, second) = match stretch {

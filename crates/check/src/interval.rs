@@ -259,6 +259,11 @@ pub fn turned([x, y]: &Point, [sine, cosine]: &[Interval; 2]) -> Point {
     [&(x * cosine) - &(y * sine), &(x * sine) + &(y * cosine)]
 }
 
+/// One turn and another, by their sines and cosines.
+pub fn both_turns([s, c]: &[Interval; 2], [t, d]: &[Interval; 2]) -> [Interval; 2] {
+    [&(s * d) + &(c * t), &(c * d) - &(s * t)]
+}
+
 /// The length of a vector.
 pub fn length([x, y]: &Point) -> Interval {
     let [x, y] = [x.abs(), y.abs()];

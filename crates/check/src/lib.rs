@@ -44,7 +44,9 @@ mod motion;
 mod overlap;
 mod polygon;
 mod robot;
+mod scene;
 mod sweep;
+mod task;
 mod world;
 
 pub use error::{CheckError, Input};
@@ -74,7 +76,10 @@ pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, Check
     let arm = Arm::read(&document, &world)?;
     match certificate.answer {
         Answer::Found => {
-            let found = motion::found(&arm, &world, &certificate)?;
+            let found = match &certificate.steps {
+                Some(steps) => return task::found(&arm, &world, &certificate, steps),
+                None => motion::found(&arm, &world, &certificate)?,
+            };
             match &certificate.bound {
                 Some(_) => Ok(format!("{found}; {}", no_shorter(&arm, &world, &certificate)?)),
                 None => Ok(found),

@@ -4,11 +4,12 @@ use crate::certificate::Certificate;
 use crate::curve::{FINE, LARGEST, Piece, Values};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::free::{Open, Side, Solid, guard, keep_off};
+use crate::free::{Chain, On, Solid, guard};
 use crate::interval::{Interval, length};
-use crate::robot::Arm;
+use crate::robot::{Arm, Body, Covered};
+use crate::scene::{Part, Standing, stay_off};
 use crate::sweep::{Axis, Range};
-use crate::world::{Goal, World};
+use crate::world::{Goal, Obstacle, World};
 use num_bigint::BigInt;
 use serde::Deserialize;
 
@@ -23,15 +24,15 @@ const HALVINGS: u32 = 40;
 #[serde(deny_unknown_fields)]
 pub struct Motion {
     /// The ways in which it can be read: it is free in each.
-    interpolation: Vec<Interpolation>,
+    pub interpolation: Vec<Interpolation>,
     /// Time, both joints' values, and as far as an interpolation needs them their velocities and accelerations.
-    knots: Vec<Vec<Decimal>>,
+    pub knots: Vec<Vec<Decimal>>,
 }
 
 /// How knots are joined.
 #[derive(Deserialize, Clone, Copy, PartialEq, PartialOrd)]
 #[serde(rename_all = "snake_case")]
-enum Interpolation {
+pub enum Interpolation {
     /// Straight.
     Linear,
     /// By the cubic with the values and velocities of both.
@@ -43,7 +44,7 @@ enum Interpolation {
 }
 
 /// Control points are given times this, so that they are decimals.
-const SIXTY: i32 = 60;
+pub const SIXTY: i32 = 60;
 
 impl Interpolation {
     fn name(self) -> &'static str {
@@ -87,12 +88,31 @@ impl Interpolation {
     }
 }
 
+impl Motion {
+    /// How many knots it has, and how it is read.
+    pub fn in_words(&self) -> String {
+        let read: Vec<&str> = self.interpolation.iter().map(|way| way.name()).collect();
+        format!("{} knots, read as {}", self.knots.len(), read.join(" or "))
+    }
+
+    /// Whether the arm stands still from a knot to the next, however it is read.
+    pub fn stands(&self, knot: usize) -> bool {
+        let [from, to] = [knot, knot + 1].map(|knot| &self.knots[knot]);
+        let stands = |way: &Interpolation, joint: usize| {
+            let control = way.control(from, to, joint);
+            control.iter().all(|point| *point == control[0])
+        };
+        self.interpolation.iter().all(|way| (0..2).all(|joint| stands(way, joint)))
+    }
+}
+
 /// That a motion leads from the start to the goal within the limits, and keeps farther than the clearance from all obstacles.
 pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let clearance = certificate.clearance(world)?;
-    let Some(Motion { interpolation, knots }) = &certificate.motion else {
+    let Some(motion) = &certificate.motion else {
         return Err(CheckError::in_file(Input::Certificate, "it has no motion"));
     };
+    let Motion { interpolation, knots } = motion;
     well_formed(interpolation, knots)?;
     let (own_start, own_goal) = (certificate.start.as_ref(), Own::of(certificate)?);
     let start = arm.reached("start", &knots[0], own_start.map(Own::Joints), world)?;
@@ -102,17 +122,14 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Stri
     let pieces = pieces.collect::<Result<Vec<Piece>, CheckError>>()?;
     stays_off(arm, world, &pieces, [&knots[0][1], &knots[0][2]], clearance)?;
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
-    let read: Vec<&str> = interpolation.iter().map(|way| way.name()).collect();
     Ok(format!(
-        "a motion of \"{first}\" and \"{second}\" leads from the start{start} to the goal{goal} with clearance {clearance} \
-         ({} knots, read as {})",
-        knots.len(),
-        read.join(" or ")
+        "a motion of \"{first}\" and \"{second}\" leads from the start{start} to the goal{goal} with clearance {clearance} ({})",
+        motion.in_words()
     ))
 }
 
 /// What can be seen of the knots by themselves.
-fn well_formed(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> Result<(), CheckError> {
+pub fn well_formed(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> Result<(), CheckError> {
     let bad = |message: String| Err(CheckError::in_file(Input::Certificate, message));
     let Some(columns) = interpolation.iter().map(|way| way.columns()).max() else {
         return bad("the motion has no interpolation: nobody can play it".into());
@@ -130,7 +147,7 @@ fn well_formed(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> Resul
 }
 
 /// What was asked in place of the world's start or goal.
-enum Own<'a> {
+pub enum Own<'a> {
     Joints(&'a [Decimal; 2]),
     Tip(&'a [Decimal; 2]),
 }
@@ -149,7 +166,7 @@ impl<'a> Own<'a> {
 ///
 /// # Errors
 /// If it is too much.
-fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
+pub fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
     let is_within = |digits: u32| Interval::from(&Decimal::power_of_ten(digits)).lower >= *off;
     let Some(digits) = (MISSED as u32..50).rev().find(|digits| is_within(*digits)) else {
         return CheckError::fails(format!("the motion misses the {what} by more than 1e-{MISSED}"));
@@ -159,7 +176,7 @@ fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
 
 impl Arm<'_> {
     /// How the start or the goal is reached by a knot, in words.
-    fn reached(&self, what: &str, knot: &[Decimal], own: Option<Own>, world: &World) -> Result<String, CheckError> {
+    pub fn reached(&self, what: &str, knot: &[Decimal], own: Option<Own>, world: &World) -> Result<String, CheckError> {
         let at = [&knot[1], &knot[2]];
         let given = if what == "start" { &world.start } else { &world.goal };
         let exactly = |[a, b]: &[Decimal; 2]| [[a.clone(), a.clone()], [b.clone(), b.clone()]];
@@ -173,21 +190,27 @@ impl Arm<'_> {
                 return Err(CheckError::in_file(Input::World, message));
             }
         };
-        let off = match &wanted {
-            Goal::Joints(ranges) => {
-                if (0..2).all(|k| *at[k] == ranges[k][0] && *at[k] == ranges[k][1]) {
-                    return Ok(words);
-                }
-                (0..2).map(|k| self.off(k, at[k], &ranges[k])).max().expect("two joints")
+        match &wanted {
+            Goal::Joints(ranges) if (0..2).all(|k| *at[k] == ranges[k][0] && *at[k] == ranges[k][1]) => {
+                return Ok(words);
             }
+            Goal::Joints(_) => {}
+            Goal::Tip(_) => words += &format!(", a place of the tip \"{}\"", self.tip()?.0),
+        }
+        Ok(words + &missed(what, &self.away(knot, &wanted)?)?)
+    }
+
+    /// A bound on how far a knot is from where it is to be: joint by joint, or of the tip.
+    pub fn away(&self, knot: &[Decimal], goal: &Goal) -> Result<BigInt, CheckError> {
+        let at = [&knot[1], &knot[2]];
+        Ok(match goal {
+            Goal::Joints(ranges) => (0..2).map(|k| self.off(k, at[k], &ranges[k])).max().expect("two joints"),
             Goal::Tip(place) => {
-                let (link, tip) = self.tip()?;
-                words += &format!(", a place of the tip \"{link}\"");
-                let is = self.point_at(tip.link, &tip.shape.points[0], &at.map(Interval::from));
+                let (_, tip) = self.tip()?;
+                let is = Chain::from(self).point_at(&On::Link(tip.link), &tip.shape.points[0], &at.map(Interval::from));
                 length(&[0, 1].map(|k| &is[k] - &Interval::from(&place[k]))).upper
             }
-        };
-        Ok(words + &missed(what, &off)?)
+        })
     }
 
     /// A bound on how far a value of a joint is from another, whole turns of a joint that turns without end not counted.
@@ -207,7 +230,7 @@ impl Arm<'_> {
 }
 
 /// What is played after a knot; with one knot alone, that.
-fn piece(
+pub fn piece(
     arm: &Arm,
     interpolation: &[Interpolation],
     knots: &[Vec<Decimal>],
@@ -242,7 +265,7 @@ fn piece(
 }
 
 /// A sixtieth of a number in units of curves, to within less than two; none if it is too large.
-fn fine(sixty: &Decimal) -> Option<i128> {
+pub fn fine(sixty: &Decimal) -> Option<i128> {
     let fine = sixty.floor(FINE) / SIXTY;
     (fine.bits() < u64::from(FINE + LARGEST)).then(|| i128::try_from(fine).ok()).flatten()
 }
@@ -279,39 +302,18 @@ fn stays_off(
     start: [&Decimal; 2],
     clearance: &Decimal,
 ) -> Result<(), CheckError> {
-    let shapes = arm.covered(world)?;
-    let mut sides = Vec::new();
-    // Of each side its obstacle.
-    let mut sided = Vec::new();
-    for (number, obstacle) in world.obstacles.iter().enumerate() {
-        for side in obstacle.sides()? {
-            sides.push(Side::new(arm, &side));
-            sided.push(number);
-        }
-    }
-    let meets = |shape: usize, obstacle: usize| !shapes[shape].body.passes(world.obstacles[obstacle].heights.as_ref());
-    let mut pairs = Vec::new();
-    for shape in 0..shapes.len() {
-        pairs.extend((0..sides.len()).filter(|side| meets(shape, sided[*side])).map(|side| [shape, side]));
-    }
-    let solids: Vec<Solid> = shapes.iter().map(|shape| Solid::new(arm, shape.body.link, &shape.body.shape)).collect();
+    let (chain, shapes) = (Chain::from(arm), arm.covered(world)?);
+    let standing = |obstacle: &Obstacle| Standing::new(&chain, obstacle.clone()).map(Some);
+    let obstacles = world.obstacles.iter().map(standing).collect::<Result<Vec<_>, _>>()?;
     let kept = Interval::from(clearance).upper + guard();
-    keep_off(arm, pieces, (&solids, &sides), pairs, &kept).map_err(|Open { knot, solid, side }| {
-        CheckError::Fails(format!(
-            "from knot {knot} to the next {} is not shown to stay farther than {clearance} from obstacle {}",
-            shapes[solid].name, sided[side]
-        ))
-    })?;
-    // Off all borders all the time, it is inside an obstacle if it is at first.
-    let values = start.map(Interval::from);
-    for (shape, obstacle) in (0..shapes.len()).flat_map(|s| (0..world.obstacles.len()).map(move |o| (s, o))) {
-        if meets(shape, obstacle) {
-            let body = &shapes[shape].body;
-            let corner = arm.point_at(body.link, &body.shape.points[0], &values);
-            if world.obstacles[obstacle].surrounds(&corner, &guard()) != Some(false) {
-                return CheckError::fails(format!("{} is inside obstacle {obstacle}", shapes[shape].name));
-            }
-        }
-    }
-    Ok(())
+    let solid = |body: &Body| Solid::new(&chain, On::Link(body.link), &body.shape, &kept);
+    let solids: Vec<Solid> = shapes.iter().map(|shape| solid(&shape.body)).collect();
+    let keeps = format!("farther than {clearance} from");
+    let part = |(shape, solid)| {
+        let Covered { name, body, .. }: &Covered = shape;
+        let meets = world.obstacles.iter().map(|obstacle| !body.passes(obstacle.heights.as_ref())).collect();
+        Part { name, keeps: &keeps, solid, meets }
+    };
+    let parts: Vec<Part> = shapes.iter().zip(&solids).map(part).collect();
+    stay_off(&chain, pieces, &start.map(Interval::from), &parts, &obstacles)
 }

@@ -7,7 +7,7 @@ use num_bigint::Sign;
 pub type Corner = [Decimal; 2];
 
 /// On which side of the line from `a` to `b` a point lies: plus on the left.
-fn side(a: &Corner, b: &Corner, p: &Corner) -> Sign {
+pub fn side(a: &Corner, b: &Corner, p: &Corner) -> Sign {
     let cross = |u: &Corner, v: &Corner| &(&u[0] * &v[1]) - &(&u[1] * &v[0]);
     let from_a = |p: &Corner| [&p[0] - &a[0], &p[1] - &a[1]];
     cross(&from_a(b), &from_a(p)).sign()
@@ -19,7 +19,7 @@ pub fn edges(ring: &[Corner]) -> impl Iterator<Item = (&Corner, &Corner)> {
 }
 
 /// Whether each side has all other corners on its left. A corner that comes twice is on the line of a side.
-fn is_convex(ring: &[Corner]) -> bool {
+pub fn is_convex(ring: &[Corner]) -> bool {
     let others = |from: usize| (2..ring.len()).map(move |k| &ring[(from + k) % ring.len()]);
     ring.len() > 2 && edges(ring).enumerate().all(|(from, (a, b))| others(from).all(|p| side(a, b, p) == Sign::Plus))
 }

@@ -13,6 +13,8 @@ use std::collections::BTreeMap;
 
 mod cover;
 
+pub use cover::Covered;
+
 /// Ranges of a joint that turns longer than this mean that it has none.
 const LONGEST_TURN: i32 = 1000;
 
@@ -39,7 +41,7 @@ struct Pose {
 }
 
 /// How a joint moves what it carries, in the plane.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum Motion {
     /// By its value, left (1) or right (-1).
     Turn(i32),

@@ -8,10 +8,13 @@ use crate::polygon::{self, Corner};
 use crate::sweep::Range;
 use num_bigint::Sign;
 use std::collections::BTreeMap;
+use task::Task;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+mod hung;
 mod sides;
+pub mod task;
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
@@ -33,7 +36,10 @@ pub struct World {
     /// The link whose origin is the tip, if it says one.
     pub tip: Option<String>,
     pub clearance: Decimal,
+    /// Those that stay where they are, then the objects where they lie at first.
     pub obstacles: Vec<Obstacle>,
+    /// What is to be done, if it says it in steps.
+    pub task: Option<Task>,
 }
 
 /// Where the arm is, or is to go.
@@ -45,15 +51,18 @@ pub enum Goal {
 }
 
 /// An obstacle, as it stands in the file.
+#[derive(Clone)]
 pub struct Obstacle {
+    pub name: Option<String>,
     outline: Outline,
-    /// Where its frame's origin lies, and how it is turned.
-    at: Corner,
-    angle: Interval,
+    /// Where its frame's origin lies, and sine and cosine of how it is turned.
+    pub at: Point,
+    pub turn: Point,
     /// Its extent along the plane's normal; none: everywhere.
     pub heights: Option<Range>,
 }
 
+#[derive(Clone)]
 enum Outline {
     /// What its rings surround an odd number of times.
     Polygon(Vec<Vec<Corner>>),
@@ -162,8 +171,9 @@ impl Reader<'_> {
                 "at" => world.at = self.two(value, |n| self.number(n))?,
                 "angle" => world.angle = Interval::around(&self.quantity(value)?),
                 // What does not concern where shapes are.
-                "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" | "wrist" | "stroke"
-                | "payload" => {}
+                "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" => {}
+                // What concerns tasks alone.
+                "wrist" | "stroke" | "payload" => {}
                 "bar" => world.bar = Some(self.number(value)?),
                 other => return self.error(value, &format!("the checker does not know [robot] {other}")),
             }
@@ -171,10 +181,10 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn obstacle(&self, value: &Value) -> Read<Obstacle> {
-        let zero = || Decimal::whole(0);
+    fn obstacle(&self, value: &Value, is_object: bool) -> Read<Obstacle> {
         let (mut outlines, mut holes) = (Vec::new(), Vec::new());
-        let (mut at, mut angle, mut heights) = ([zero(), zero()], Interval::whole(0), None);
+        let (mut at, mut turn, mut heights) = ([0, 0].map(Interval::whole), [0, 1].map(Interval::whole), None);
+        let mut name = None;
         for (key, value) in self.table(value)? {
             match &**key.get_ref() {
                 "polygon" => outlines.push(Outline::Polygon(self.rings(value)?)),
@@ -189,8 +199,8 @@ impl Reader<'_> {
                 }
                 "image" => outlines.push(Outline::Image),
                 "holes" => holes = self.rings(value)?,
-                "at" => at = self.two(value, |n| self.number(n))?,
-                "angle" => angle = Interval::around(&self.quantity(value)?),
+                "at" => at = point(&self.two(value, |n| self.number(n))?),
+                "angle" => turn = Interval::around(&self.quantity(value)?).sin_cos(),
                 "height" => {
                     let [low, high] = self.two(value, |n| self.number(n))?;
                     if low > high {
@@ -198,7 +208,10 @@ impl Reader<'_> {
                     }
                     heights = Some([low, high]);
                 }
-                "name" | "unknown" => {}
+                "name" => name = Some(self.text(value)?),
+                "unknown" => {}
+                // Of objects: read elsewhere.
+                "pallet" | "lift" | "mass" | "payload" | "grasp" | "supports" | "renew" if is_object => {}
                 other => {
                     return self.error(value, &format!("the checker does not know the key {other} of an obstacle"));
                 }
@@ -213,7 +226,7 @@ impl Reader<'_> {
             }
             other => other,
         };
-        Ok(Obstacle { outline, at, angle, heights })
+        Ok(Obstacle { name, outline, at, turn, heights })
     }
 }
 
@@ -240,6 +253,7 @@ impl World {
             tip: None,
             clearance: Decimal::whole(0),
             obstacles: Vec::new(),
+            task: None,
         };
         for (key, value) in table.get_ref() {
             match &**key.get_ref() {
@@ -249,13 +263,16 @@ impl World {
                 "clearance" => world.clearance = reader.number(value)?,
                 "obstacle" => {
                     let list: Read<Vec<Obstacle>> =
-                        reader.list(value)?.into_iter().map(|o| reader.obstacle(o)).collect();
+                        reader.list(value)?.into_iter().map(|o| reader.obstacle(o, false)).collect();
                     world.obstacles = list?;
                 }
                 "name" | "preference" | "sensor" => {}
+                // What is to be done refers to all else.
+                "object" | "pallet" | "step" | "task" => {}
                 other => return reader.error(value, &format!("the checker does not know worlds with {other} yet")),
             }
         }
+        reader.task(table.get_ref(), &mut world)?;
         Ok(world)
     }
 }
@@ -267,8 +284,7 @@ impl Obstacle {
     /// # Errors
     /// Why it is no such part.
     pub fn part(&self, given: &[Corner]) -> Result<Shape, String> {
-        let turn = self.angle.sin_cos();
-        let placed = |corner: &Corner| sum(&point(&self.at), &turned(&point(corner), &turn));
+        let placed = |corner: &Corner| self.placed(corner);
         let named = |corners: &[&Corner]| {
             let places: Vec<Point> = corners.iter().map(|corner| placed(corner)).collect();
             given.iter().filter_map(|at| Some(corners[nearest(&places, &point(at))?].clone())).collect::<Vec<Corner>>()
@@ -298,6 +314,16 @@ impl Obstacle {
             return Err("its radius is negative".into());
         }
         Ok(Shape { points: corners.iter().map(placed).collect(), radius })
+    }
+
+    /// The same elsewhere.
+    pub fn moved(self, at: Point, turn: Point) -> Self {
+        Self { at, turn, ..self }
+    }
+
+    /// A point of its frame in its place.
+    pub fn placed(&self, corner: &Corner) -> Point {
+        sum(&self.at, &turned(&point(corner), &self.turn))
     }
 }
 

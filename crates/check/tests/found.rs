@@ -333,7 +333,7 @@ fn bad_input_is_named() {
     worlds("[[obstacle]]\npolyline = [[0, 0]]", "too few");
     worlds("[[obstacle]]\ncircle = { center = [9, 9], radius = -1 }", "no radius");
     worlds("[map]\nfile = \"m\"", "map");
-    worlds("[[object]]\nname = \"m\"", "object");
+    worlds("[[object]]\nname = \"m\"", "one shape");
     let bars = arm().replace(
         "<collision> <origin xyz=\"0.4 0 0\"/> <geometry> <box size=\"0.8 0.1 0.1\"/> </geometry> </collision>",
         "",

@@ -41,9 +41,6 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     if recorded.steps.is_some() && args.anywhere {
         return Err(Failure::Usage("--anywhere is for motions; a task begins at its start".into()));
     }
-    if recorded.steps.is_some() && args.certificate.is_some() {
-        return Err(Failure::Usage("--certificate is for one motion; tasks have no certificates yet".into()));
-    }
     let findings = verify(&loaded, &recorded, &overrides(args), args.anywhere)?;
     let recording = &recorded.recording;
     for sink in &sinks {
@@ -51,7 +48,8 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
             Sink::Picture(format, path) => draw(scene, recording, &findings, *format, path)?,
             Sink::Certificate(path) if matches!(findings.verdict, Verdict::Free) => {
                 let (start, goal) = if args.anywhere { (None, None) } else { loaded.ends(&overrides(args))? };
-                let certificate = certificate_of_recording(recording, &overrides(args), [start, goal]);
+                let certificate =
+                    certificate_of_recording(recording, recorded.steps.as_deref(), &overrides(args), [start, goal]);
                 write_whole(path, certificate.as_bytes())?;
             }
             Sink::Certificate(path) => {

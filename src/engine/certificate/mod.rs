@@ -2,12 +2,13 @@
 
 mod bound;
 mod motion;
+mod task;
 
 pub use motion::recorded as certificate_of_recording;
 
-use super::Plan;
 use super::bound::{claim, motions};
 use super::motion_plan::MotionPlan;
+use super::{Kind, Plan, TaskPlan};
 use crate::check::{Cell, ClosedSegment, StuckBox};
 use crate::geometry::Point;
 use crate::input::{Overrides, TipPoint};
@@ -25,8 +26,8 @@ pub enum NoCertificate {
     /// Neither a motion nor a proof.
     #[error("the answer is \"{}\", which claims nothing", .0.name())]
     Answer(Status),
-    /// The answer to a task.
-    #[error("tasks have no certificates yet")]
+    /// The proof that a task cannot be done.
+    #[error("proofs that tasks cannot be done have no certificates yet")]
     Task,
 }
 
@@ -45,12 +46,15 @@ impl Plan {
     /// # Errors
     /// [`NoCertificate`].
     pub fn certificate(&self, asked: &Overrides) -> Result<String, NoCertificate> {
-        let plan = self.motion().ok_or(NoCertificate::Task)?;
+        let plan = match self.made() {
+            Kind::Motion(plan) => plan,
+            Kind::Task(plan) => return self.certificate_of_task(plan, asked),
+        };
         let problem = &plan.problem;
         let mut contacts = Contacts::new(problem.scene());
         let (answer, evidence) = match (self.trajectory(), plan.answer.verdict.proof()) {
             (Some(trajectory), _) => {
-                let mut evidence = vec![motion::evidence(problem, trajectory)];
+                let mut evidence = vec![motion::evidence(problem.scene().arm(), trajectory)];
                 evidence.extend(least_length(plan, &mut contacts));
                 ("found", evidence)
             }
@@ -67,6 +71,24 @@ impl Plan {
             vec![("shapes", lines(&contacts.shapes)), ("parts", lines(&contacts.parts))]
         };
         Ok(written(answer, said(problem, asked), named.into_iter().chain(evidence)))
+    }
+
+    /// The same of a task that can be done.
+    fn certificate_of_task(
+        &self,
+        TaskPlan { task, .. }: &TaskPlan,
+        asked: &Overrides,
+    ) -> Result<String, NoCertificate> {
+        let (Some(trajectory), Some(figures)) = (self.trajectory(), &self.report().task) else {
+            return Err(match self.status() {
+                Status::Infeasible => NoCertificate::Task,
+                status => NoCertificate::Answer(status),
+            });
+        };
+        let start = asked.start.map(|_| ("start", json!(task.start)));
+        let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
+        let evidence = [motion::evidence(&task.arm, trajectory), task::steps(&figures.steps)];
+        Ok(written("found", start.into_iter().chain(clearance).collect(), evidence))
     }
 }
 

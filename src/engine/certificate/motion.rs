@@ -1,15 +1,15 @@
 //! Evidence for a motion: what its consumers play, which is all that it takes to check it.
 
+use super::task::steps_of_recording;
 use super::{Said, lines, written};
 use crate::input::{Overrides, TipPoint};
-use crate::model::{Goal, MotionProblem};
+use crate::model::{Arm, Goal, RecordedStep};
 use crate::motion::Trajectory;
 use crate::space::{Configuration, Interpolation, Recording};
 use serde_json::{Value, json};
 
 /// The evidence of a planned motion: as readers of tables and of ROS 2's messages join its samples, and as its JSON says.
-pub(super) fn evidence(problem: &MotionProblem, trajectory: &Trajectory) -> (&'static str, String) {
-    let arm = problem.scene().arm();
+pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, String) {
     // With a limit on the jerk the samples' JSON says the same cubics.
     let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
     let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
@@ -21,8 +21,13 @@ pub(super) fn evidence(problem: &MotionProblem, trajectory: &Trajectory) -> (&'s
 }
 
 /// The certificate of a recorded motion, as its format joins samples: from the world's start to its goal, or those that are
-/// `asked` for; where there are none (`ends`), from and to where it leads.
-pub fn recorded(recording: &Recording, asked: &Overrides, ends: [Option<Goal>; 2]) -> String {
+/// `asked` for; where there are none (`ends`), from and to where it leads. Of a recorded task from the start through all its steps.
+pub fn recorded(
+    recording: &Recording,
+    steps: Option<&[RecordedStep]>,
+    asked: &Overrides,
+    ends: [Option<Goal>; 2],
+) -> String {
     let q = recording.positions();
     let own = [q[0], q[q.len() - 1]];
     let mut said = Said::new();
@@ -31,6 +36,7 @@ pub fn recorded(recording: &Recording, asked: &Overrides, ends: [Option<Goal>; 2
         match end {
             Some(Goal::Joints(q)) if is_asked => said.push((name, json!(q))),
             Some(_) => {}
+            None if k == 1 && steps.is_some() => {}
             None => said.push((name, json!(own[k]))),
         }
     }
@@ -47,7 +53,8 @@ pub fn recorded(recording: &Recording, asked: &Overrides, ends: [Option<Goal>; 2
         Interpolation::Quintic => ("quintic", 3),
     };
     let all = [&rows(q), &velocities, &accelerations];
-    written("found", said, [played(&[reading], recording.times().unwrap_or(&counted), &all[..columns])])
+    let motion = played(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
+    written("found", said, [motion].into_iter().chain(steps.map(steps_of_recording)))
 }
 
 /// Knots of a time and the rows of some columns.

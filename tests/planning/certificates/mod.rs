@@ -13,6 +13,7 @@
 mod drawn;
 mod motions;
 mod oracle;
+mod tasks;
 
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, times, usual};

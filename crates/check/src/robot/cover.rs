@@ -1,6 +1,7 @@
 //! All that of an arm can collide, by outlines that cover at least its projection.
 
 use super::{Arm, Body, OBLIQUE, Pose, Read, Solid, child, is_nearly_one};
+use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::interval::{Interval, Point, length};
 use crate::sweep::{Axis, Range};
@@ -11,6 +12,8 @@ use num_bigint::Sign;
 pub struct Covered {
     pub name: String,
     pub body: Body,
+    /// The link that it belongs to.
+    link: String,
 }
 
 /// Sides of the polygon round an oblique cylinder's end.
@@ -31,7 +34,8 @@ impl Arm<'_> {
             }
             if found.is_empty() && world.bar.is_some() {
                 let link = self.children[last];
-                found.push(Covered { name: format!("the bar of link \"{link}\""), body: self.bar(link)? });
+                let name = format!("the bar of link \"{link}\"");
+                found.push(Covered { name, body: self.bar(link)?, link: link.into() });
             }
             all.append(&mut found);
         }
@@ -51,7 +55,7 @@ impl Arm<'_> {
             for (number, (node, solid)) in self.solids(name, kind)?.into_iter().enumerate() {
                 let pose = self.tree.pose(name)?.after(&self.tree.origin(node)?);
                 let body = self.cover(last, &pose, &solid)?;
-                found.push(Covered { name: format!("link \"{name}\", {kind} {number}"), body });
+                found.push(Covered { name: format!("link \"{name}\", {kind} {number}"), body, link: name.into() });
             }
         }
         Ok(found)
@@ -79,6 +83,40 @@ impl Arm<'_> {
         Ok(body)
     }
 
+    /// Whether a joint that lowers the tool carries a shape.
+    ///
+    /// # Errors
+    /// A joint that is not there, or does not slide along the plane's normal, exactly.
+    pub fn lowers(&self, joint: &str, shape: &Covered) -> Read<bool> {
+        let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the stroke's joint \"{joint}\" {why}")));
+        let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(joint));
+        let Some((&carried, &node)) = found else { return wrong("is none of the robot's") };
+        let axis = self.tree.pose(carried)?.direction(&self.tree.axis(node)?);
+        let is_along = self.plane.across.iter().all(|k| axis[*k].is_whole(0));
+        if node.attribute("type") != Some("prismatic") || !is_along {
+            return wrong("does not slide, exactly, along the normal of the plane");
+        }
+        let link = self.tree.order.iter().find(|name| **name == shape.link).expect("links of shapes are the robot's");
+        Ok(self.tree.above(link)?.contains(&node))
+    }
+
+    /// How far the arm reaches at the least: from the first joint to the second, and on to where its shapes or the tip are.
+    ///
+    /// # Errors
+    /// Without a tip.
+    pub fn reach(&self, shapes: &[Covered]) -> Read<Interval> {
+        let zero = Interval::whole(0);
+        let farthest = |link: usize, first: Interval| {
+            let of =
+                |body: &Body| body.shape.points.iter().map(|p| &length(p) + &body.shape.radius).collect::<Vec<_>>();
+            let all = shapes.iter().filter(|shape| shape.body.link == link).flat_map(|shape| of(&shape.body));
+            all.fold(first, |a, b| if b.lower > a.lower { b } else { a })
+        };
+        let (_, tip) = self.tip()?;
+        let out = &length(&self.offset) + &farthest(1, length(&tip.shape.points[0]));
+        Ok([farthest(0, zero), out].into_iter().max_by(|a, b| a.lower.cmp(&b.lower)).expect("two"))
+    }
+
     /// Least and greatest value of each joint; none of one that turns without end.
     ///
     /// # Errors
@@ -99,6 +137,15 @@ impl Arm<'_> {
 }
 
 impl Body {
+    /// The same at all heights from where it is to where it is lowered by a length.
+    pub fn lowered(&self, by: &Decimal) -> Self {
+        let [low, high] = &self.heights;
+        let by = Interval::from(by);
+        let least = if by.lower.sign() == Sign::Minus { low.clone() } else { low - &by };
+        let most = if by.lower.sign() == Sign::Minus { high - &by } else { high.clone() };
+        Self { link: self.link, shape: self.shape.clone(), heights: [least, most] }
+    }
+
     /// Whether its heights and these are known to have none in common.
     pub fn passes(&self, heights: Option<&Range>) -> bool {
         let Some([low, high]) = heights.map(|range| range.each_ref().map(Interval::from)) else { return false };

@@ -1,9 +1,9 @@
 //! What of an obstacle a shape that does not begin inside it has to stay off.
 
-use super::{Obstacle, Outline, point};
+use super::{Obstacle, Outline};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::interval::{BITS, Interval, Point, sum, turned};
+use crate::interval::{BITS, Interval, Point, turned};
 use crate::overlap::Shape;
 use crate::polygon::{Corner, edges, surrounds};
 use num_bigint::{BigInt, Sign};
@@ -15,10 +15,8 @@ impl Obstacle {
     /// # Errors
     /// An obstacle that the checker does not know, or that is none.
     pub fn sides(&self) -> Result<Vec<Shape>, CheckError> {
-        let turn = self.angle.sin_cos();
-        let placed = |corner: &Corner| sum(&point(&self.at), &turned(&point(corner), &turn));
         let side = |corners: &[&Corner], radius: &Interval| Shape {
-            points: corners.iter().map(|corner| placed(corner)).collect(),
+            points: corners.iter().map(|corner| self.placed(corner)).collect(),
             radius: radius.clone(),
         };
         let zero = Interval::whole(0);
@@ -44,9 +42,9 @@ impl Obstacle {
     /// to say.
     pub fn surrounds(&self, at: &Point, farther: &BigInt) -> Option<bool> {
         let Outline::Polygon(rings) = &self.outline else { return Some(false) };
-        let origin = point(&self.at);
-        let from_there = [0, 1].map(|k| &at[k] - &origin[k]);
-        let own = turned(&from_there, &(-&self.angle).sin_cos()).map(|c| c.middle());
+        let from_there = [0, 1].map(|k| &at[k] - &self.at[k]);
+        let [sine, cosine] = &self.turn;
+        let own = turned(&from_there, &[-sine, cosine.clone()]).map(|c| c.middle());
         // What stands in for the point is nearer to it than any ring.
         let is_near = own.iter().map(|(_, radius)| radius).sum::<BigInt>() < *farther;
         is_near.then(|| surrounds(rings, &own.map(|(middle, _)| Decimal::dyadic(&middle, BITS))))

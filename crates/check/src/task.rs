@@ -1,0 +1,483 @@
+//! Certificates of tasks: "found", with steps.
+
+use crate::certificate::Certificate;
+use crate::curve::{FINE, Piece};
+use crate::decimal::Decimal;
+use crate::error::{CheckError, Input};
+use crate::free::{Chain, On, Solid, guard};
+use crate::interval::{Interval, Point, both_turns, length, sum, turned};
+use crate::motion::{Motion, Own, SIXTY, fine, missed, piece, well_formed};
+use crate::overlap::Shape;
+use crate::polygon::Corner;
+use crate::robot::{Arm, Covered};
+use crate::scene::{Part, Standing, stay_off};
+use crate::sweep::Range;
+use crate::world::task::{Action, Group, Node, Step, Stroke, Task};
+use crate::world::{Obstacle, World};
+use num_bigint::BigInt;
+use serde::Deserialize;
+use std::iter::{Enumerate, Peekable};
+use std::slice::Iter;
+
+/// Objects press into what supports them by no more than this share of the arm's reach: `10^-4`.
+const PRESSED: u32 = 4;
+
+/// The arm may stand still for less than it is to by this, seconds: `10^-6`.
+const SHORT: u32 = 6;
+
+/// The wrist turns by less than this, radians: more than once round nobody does.
+const LARGEST_TURN: i128 = 7;
+
+/// A step as it is done.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Done {
+    /// Its number in the world file, from 1.
+    step: usize,
+    /// The first and the last knot of its motion.
+    knots: [usize; 2],
+    /// By how much the wrist turns what is carried while the arm stands still afterwards, to the left.
+    turn: Option<Decimal>,
+}
+
+/// That a motion does all steps of a task.
+pub fn found(arm: &Arm, world: &World, certificate: &Certificate, done: &[Done]) -> Result<String, CheckError> {
+    let clearance = certificate.clearance(world)?;
+    let wrong = |input: Input, message: &str| Err(CheckError::in_file(input, message));
+    let Some(task) = &world.task else { return wrong(Input::World, "it has no steps") };
+    if certificate.goal.is_some() || certificate.goal_tip.is_some() || certificate.bound.is_some() {
+        return wrong(Input::Certificate, "that of a task has neither a goal nor a bound");
+    }
+    let Some(motion) = &certificate.motion else { return wrong(Input::Certificate, "it has no motion") };
+    well_formed(&motion.interpolation, &motion.knots)?;
+    let start = arm.reached("start", &motion.knots[0], certificate.start.as_ref().map(Own::Joints), world)?;
+    let mut order = Order { left: done.iter().enumerate().peekable(), renewed: Vec::new(), matched: Vec::new() };
+    order.group(&task.steps)?;
+    if let Some((index, done)) = order.left.next() {
+        return CheckError::fails(format!("steps[{index}] is step {}, where the world asks for no more", done.step));
+    }
+    let steps = order.matched;
+    let stands = stands(motion, &steps)?;
+    let mut replay = Replay::new(arm, world, task, motion, clearance)?;
+    for (index, step) in steps.iter().enumerate() {
+        let number = step.step.number;
+        replay.step(step, &steps[index + 1..]).map_err(|error| match error {
+            CheckError::Fails(why) => CheckError::Fails(format!("steps[{index}], step {number}: {why}")),
+            other => other,
+        })?;
+        if &stands[index] + &Decimal::power_of_ten(SHORT) < step.step.dwell {
+            let dwell = &step.step.dwell;
+            return CheckError::fails(format!(
+                "after steps[{index}], step {number}, the arm does not stand for {dwell} s"
+            ));
+        }
+    }
+    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
+    let within = missed("target", &replay.off)?;
+    Ok(format!(
+        "a motion of \"{first}\" and \"{second}\" does all {} steps from the start{start} on{within} with clearance {clearance} ({})",
+        steps.len(),
+        motion.in_words()
+    ))
+}
+
+/// A step of the world and how it is done.
+struct Matched<'a> {
+    step: &'a Step,
+    done: &'a Done,
+    /// Objects that lie where they lay at first again before it.
+    renewed: Vec<usize>,
+}
+
+/// Steps as they are done, put beside those of the world.
+struct Order<'a> {
+    left: Peekable<Enumerate<Iter<'a, Done>>>,
+    renewed: Vec<usize>,
+    matched: Vec<Matched<'a>>,
+}
+
+impl<'a> Order<'a> {
+    fn group(&mut self, group: &'a Group) -> Result<(), CheckError> {
+        for repetition in 0..group.repeat {
+            if repetition > 0 {
+                self.renewed.extend(&group.renewed);
+            }
+            if !group.is_free {
+                group.nodes.iter().try_for_each(|node| self.node(node))?;
+                continue;
+            }
+            let mut pairs: Vec<&[Node]> = group.nodes.chunks(2).collect();
+            while !pairs.is_empty() {
+                let next = self.left.peek().map(|(_, done)| done.step);
+                let begins = |pair: &&[Node]| matches!(&pair[0], Node::Step(step) if Some(step.number) == next);
+                let pair = pairs.remove(pairs.iter().position(begins).unwrap_or(0));
+                pair.iter().try_for_each(|node| self.node(node))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn node(&mut self, node: &'a Node) -> Result<(), CheckError> {
+        let step = match node {
+            Node::Group(group) => return self.group(group),
+            Node::Step(step) => step,
+        };
+        match self.left.next() {
+            Some((_, done)) if done.step == step.number => {
+                self.matched.push(Matched { step, done, renewed: std::mem::take(&mut self.renewed) });
+                Ok(())
+            }
+            Some((index, done)) => CheckError::fails(format!(
+                "steps[{index}] is step {}, where the world asks for step {}",
+                done.step, step.number
+            )),
+            None => CheckError::fails(format!("the world asks for step {} then, and there are no more", step.number)),
+        }
+    }
+}
+
+/// How long the arm stands still after each step: it does so from one to the next, before the first and after the last.
+fn stands(motion: &Motion, steps: &[Matched]) -> Result<Vec<Decimal>, CheckError> {
+    let knots = &motion.knots;
+    let (mut last, mut all) = (0, Vec::new());
+    let end = knots.len() - 1;
+    let begins = steps.iter().map(|step| step.done.knots[0]).chain([end]);
+    for (index, first) in begins.enumerate() {
+        if first < last || first > end {
+            return CheckError::fails(format!("steps[{index}] begins before the one before ends, or after the motion"));
+        }
+        if let Some(knot) = (last..first).find(|knot| !motion.stands(*knot)) {
+            return CheckError::fails(format!("after knot {knot}, which belongs to no step, the arm moves"));
+        }
+        all.push(&knots[first][0] - &knots[last][0]);
+        if let Some(step) = steps.get(index) {
+            last = step.done.knots[1];
+            if last < first || last > end {
+                return CheckError::fails(format!("steps[{index}] ends before it begins, or after the motion"));
+            }
+        }
+    }
+    all.remove(0);
+    Ok(all)
+}
+
+/// What the arm carries.
+struct Held {
+    object: usize,
+    on: On,
+    /// It as it lies to what it hangs on.
+    hanging: Obstacle,
+    /// Its shapes, and what keeps off supports if it has any.
+    solids: Vec<Solid>,
+    kernel: Option<Solid>,
+    supports: Vec<usize>,
+}
+
+impl Held {
+    /// It in the plane, at a configuration.
+    fn lying(&self, chain: &Chain, values: &Point) -> Obstacle {
+        let Obstacle { at: origin, turn: [sine, cosine], .. } = &self.hanging;
+        let at = chain.point_at(&self.on, origin, values);
+        let turn = match self.on {
+            On::Level(_) => self.hanging.turn.clone(),
+            On::Link(_) => {
+                let ahead = chain.point_at(&self.on, &sum(origin, &[cosine.clone(), sine.clone()]), values);
+                [&ahead[1] - &at[1], &ahead[0] - &at[0]]
+            }
+        };
+        self.hanging.clone().moved(at, turn)
+    }
+}
+
+/// Where everything is between steps.
+struct Replay<'a> {
+    arm: &'a Arm<'a>,
+    world: &'a World,
+    task: &'a Task,
+    motion: &'a Motion,
+    limits: [Option<Range>; 2],
+    chain: Chain,
+    tip: Point,
+    /// Shapes of the arm, and whether the stroke lowers them.
+    shapes: Vec<(Covered, Solid, bool)>,
+    /// How far they keep off, and in words.
+    kept: BigInt,
+    keeps: String,
+    /// By how much what is carried may press into its supports.
+    pressed: Interval,
+    /// Obstacles and objects where they lie; none while they are carried.
+    standing: Vec<Option<Standing>>,
+    held: Option<Held>,
+    /// What has just been let go of, by its number among the obstacles.
+    released: Option<usize>,
+    /// The most by which anything misses where it is to be.
+    off: BigInt,
+}
+
+/// Where shapes are looked at that a stroke of the tool lowers: as they are, or at all heights of it.
+#[derive(Clone, Copy, PartialEq)]
+enum Tool {
+    Raised,
+    Swept,
+}
+
+impl<'a> Replay<'a> {
+    fn new(
+        arm: &'a Arm,
+        world: &'a World,
+        task: &'a Task,
+        motion: &'a Motion,
+        clearance: &Decimal,
+    ) -> Result<Self, CheckError> {
+        let (chain, covered) = (Chain::from(arm), arm.covered(world)?);
+        let kept = Interval::from(clearance).upper + guard();
+        let pressed = &arm.reach(&covered)? * &Interval::from(&Decimal::power_of_ten(PRESSED));
+        let shape = |shape: Covered| {
+            let is_lowered = task.stroke.as_ref().map_or(Ok(false), |stroke| arm.lowers(&stroke.joint, &shape))?;
+            let solid = Solid::new(&chain, On::Link(shape.body.link), &shape.body.shape, &kept);
+            Ok((shape, solid, is_lowered))
+        };
+        let shapes = covered.into_iter().map(shape).collect::<Result<_, CheckError>>()?;
+        let standing = world.obstacles.iter().map(|obstacle| Standing::new(&chain, obstacle.clone()).map(Some));
+        let standing = standing.collect::<Result<_, _>>()?;
+        Ok(Self {
+            arm,
+            world,
+            task,
+            motion,
+            limits: arm.limits(world)?,
+            tip: arm.tip()?.1.shape.points.swap_remove(0),
+            keeps: format!("farther than {clearance} from"),
+            pressed: Interval::exactly(pressed.lower),
+            chain,
+            shapes,
+            kept,
+            standing,
+            held: None,
+            released: None,
+            off: BigInt::ZERO,
+        })
+    }
+
+    /// Does a step.
+    fn step(&mut self, Matched { step, done, renewed }: &Matched, after: &[Matched]) -> Result<(), CheckError> {
+        for object in renewed {
+            let number = self.task.first + object;
+            if self.held.as_ref().is_some_and(|held| held.object == *object) {
+                return CheckError::fails("an object is carried of which there is to be a new one");
+            }
+            self.standing[number] = Some(Standing::new(&self.chain, self.world.obstacles[number].clone())?);
+        }
+        let [first, last] = done.knots;
+        let (motion, released) = (self.motion, self.released);
+        let knots = &motion.knots[..=last];
+        let piece = |knot: usize| piece(self.arm, &motion.interpolation, knots, knot, &self.limits);
+        let pieces = (first..last.max(first + 1)).map(piece).collect::<Result<Vec<Piece>, _>>()?;
+        let still = piece(last)?;
+        let [from, to] = [first, last].map(|knot| [1, 2].map(|k| Interval::from(&knots[knot][k])));
+        let target = match &step.action {
+            Action::Pick { object, .. } => Some(self.task.first + object),
+            _ => None,
+        };
+        self.free(&pieces, &from, target, Tool::Raised)?;
+        match &step.action {
+            Action::Pick { object, grasp, supports } => {
+                let then = after.iter().find_map(|next| match &next.step.action {
+                    Action::Place { supports, .. } => Some(supports.as_ref()),
+                    _ => None,
+                });
+                let then = then.map(|place| place.unwrap_or(&self.task.objects[*object].supports));
+                let supports = supports.iter().chain(then.into_iter().flatten()).copied().collect();
+                self.grasp(*object, grasp, supports, &to)?;
+                self.free(std::slice::from_ref(&still), &to, None, Tool::Swept)?;
+                self.turn(done, &to)?;
+            }
+            Action::Place { at, angle, .. } => {
+                self.turn(done, &to)?;
+                self.free(std::slice::from_ref(&still), &to, None, Tool::Swept)?;
+                self.release(at, angle.as_ref(), &to)?;
+            }
+            Action::Move(goal) => {
+                self.misses(self.arm.away(&knots[last], goal)?)?;
+                self.turn(done, &to)?;
+                self.released = None;
+            }
+        }
+        // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by.
+        if after.is_empty() {
+            self.free(&[still], &to, released, Tool::Raised)?;
+        }
+        Ok(())
+    }
+
+    fn misses(&mut self, off: BigInt) -> Result<(), CheckError> {
+        missed("target", &off)?;
+        self.off = off.max(std::mem::take(&mut self.off));
+        Ok(())
+    }
+
+    /// Whether what is held can meet an obstacle, and is to keep off it rather than to press into it by no more than it may.
+    fn meets(&self, held: &Held, obstacle: usize, tool: Tool) -> Option<bool> {
+        let own = self.task.first + held.object;
+        let [heights, others] = [own, obstacle].map(|number| self.world.obstacles[number].heights.as_ref());
+        if let (Some(lying), Some([low, high])) = (heights, others) {
+            let carried = lying.each_ref().map(|height| height + &self.task.objects[held.object].lift);
+            let [least, most] = match tool {
+                Tool::Raised => carried,
+                Tool::Swept => [lying[0].clone().min(carried[0].clone()), lying[1].clone().max(carried[1].clone())],
+            };
+            if most < *low || *high < least {
+                return None;
+            }
+        }
+        (obstacle != own).then(|| !held.supports.contains(&obstacle))
+    }
+
+    /// The parts of what is held.
+    fn hanging<'h>(
+        &'h self,
+        held: &'h Held,
+        solids: &'h [Solid],
+        kernel: Option<&'h Solid>,
+        tool: Tool,
+    ) -> Vec<Part<'h>> {
+        let all = 0..self.standing.len();
+        let part = |solid, keeps, others: bool| {
+            let meets = all.clone().map(|obstacle| self.meets(held, obstacle, tool) == Some(others)).collect();
+            Part { name: "what is carried", keeps, solid, meets }
+        };
+        let supported = kernel.map(|solid| part(solid, "no deeper than it may press into", false));
+        solids.iter().map(|solid| part(solid, &*self.keeps, true)).chain(supported).collect()
+    }
+
+    /// That no obstacle begins within what is held, its supports aside.
+    fn surrounds_none(&self, held: &Held, values: &Point, tool: Tool) -> Result<(), CheckError> {
+        let lying = held.lying(&self.chain, values);
+        for (number, standing) in self.standing.iter().enumerate() {
+            if self.meets(held, number, tool) == Some(true) {
+                let mut sides = standing.iter().flat_map(|standing| &standing.sides);
+                if sides.any(|side| lying.surrounds(side.point(), &guard()) != Some(false)) {
+                    return CheckError::fails(format!("obstacle {number} is inside what is carried"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// That the arm, with what it holds, is free on pieces that begin at a configuration. The second link may meet what has just been let
+    /// go of, and another obstacle.
+    fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: Tool) -> Result<(), CheckError> {
+        let stroke = match (tool, &self.task.stroke, &self.held) {
+            (Tool::Raised, ..) => None,
+            (Tool::Swept, Some(Stroke { travel, .. }), Some(held)) => {
+                Some(travel.as_ref().unwrap_or(&self.task.objects[held.object].lift))
+            }
+            (Tool::Swept, ..) => return Ok(()),
+        };
+        let own = |shape| {
+            let (Covered { name, body, .. }, solid, is_lowered): &(Covered, Solid, bool) = shape;
+            let lowered = stroke.filter(|_| *is_lowered).map(|by| body.lowered(by));
+            let heights = lowered.as_ref().unwrap_or(body);
+            let meets = |(number, obstacle): (usize, &Obstacle)| {
+                let is_allowed = body.link == 1 && [self.released, also].contains(&Some(number));
+                !is_allowed && !heights.passes(obstacle.heights.as_ref())
+            };
+            let meets = self.world.obstacles.iter().enumerate().map(meets).collect();
+            Part { name, keeps: &self.keeps, solid, meets }
+        };
+        let mut parts: Vec<Part> = self.shapes.iter().map(own).collect();
+        if let Some(held) = &self.held {
+            parts.extend(self.hanging(held, &held.solids, held.kernel.as_ref(), tool));
+            self.surrounds_none(held, from, tool)?;
+        }
+        stay_off(&self.chain, pieces, from, &parts, &self.standing)
+    }
+
+    /// The shapes of an object as it hangs on something, and what keeps off its supports.
+    fn hung(
+        &self,
+        chain: &Chain,
+        on: &On,
+        hanging: &Obstacle,
+        rests: bool,
+    ) -> Result<(Vec<Solid>, Option<Solid>), CheckError> {
+        let solid = |shape: &Shape, kept: &BigInt| Solid::new(chain, on.clone(), shape, kept);
+        let solids = hanging.solids()?.iter().map(|shape| solid(shape, &self.kept)).collect();
+        let kernel = rests.then(|| hanging.kernel(&self.pressed)).transpose()?;
+        Ok((solids, kernel.map(|shape| solid(&shape, &guard()))))
+    }
+
+    /// Takes an object as it lies, with the tip where it is at a configuration.
+    fn grasp(&mut self, object: usize, grasp: &Corner, supports: Vec<usize>, at: &Point) -> Result<(), CheckError> {
+        let (None, Some(Standing { obstacle: lying, .. })) =
+            (&self.held, self.standing[self.task.first + object].take())
+        else {
+            return CheckError::fails("something is carried when an object is picked");
+        };
+        let tip = self.chain.point_at(&On::Link(1), &self.tip, at);
+        self.misses(length(&minus(&tip, &lying.placed(grasp))).upper)?;
+        let (on, hanging) = if self.task.objects[object].is_level {
+            {
+                let (at, turn) = (minus(&lying.at, &tip), lying.turn.clone());
+                (On::Level(self.tip.clone()), lying.moved(at, turn))
+            }
+        } else {
+            let [sine, cosine] = lying.turn.clone();
+            let ahead = self.chain.seen_at(&sum(&lying.at, &[cosine, sine]), at);
+            let origin = self.chain.seen_at(&lying.at, at);
+            let [x, y] = minus(&ahead, &origin);
+            (On::Link(1), lying.moved(origin, [y, x]))
+        };
+        let (solids, kernel) = self.hung(&self.chain, &on, &hanging, !supports.is_empty())?;
+        self.held = Some(Held { object, on, hanging, solids, kernel, supports });
+        self.released = None;
+        Ok(())
+    }
+
+    /// Lets go of what is carried.
+    fn release(&mut self, at: &Point, angle: Option<&Interval>, values: &Point) -> Result<(), CheckError> {
+        let Some(held) = self.held.take() else { return CheckError::fails("nothing is carried that could be placed") };
+        let lying = held.lying(&self.chain, values);
+        self.misses(length(&minus(&lying.at, at)).upper)?;
+        if let Some(angle) = angle {
+            self.misses(length(&minus(&lying.turn, &angle.sin_cos())).upper)?;
+        }
+        let number = self.task.first + held.object;
+        self.standing[number] = Some(Standing::new(&self.chain, lying)?);
+        self.released = Some(number);
+        Ok(())
+    }
+
+    /// Turns what is held about the tip, while the arm stands at a configuration.
+    fn turn(&mut self, done: &Done, at: &Point) -> Result<(), CheckError> {
+        let Some(by) = &done.turn else { return Ok(()) };
+        let Some(mut held) = self.held.take_if(|held| self.task.has_wrist && matches!(held.on, On::Level(_))) else {
+            return CheckError::fails("there is no wrist, or nothing that it could turn");
+        };
+        let wrist = Chain::about(&self.chain.point_at(&On::Link(1), &self.tip, at));
+        let Some(end) = fine(&(by * &Decimal::whole(SIXTY))).filter(|end| end.abs() < LARGEST_TURN << FINE) else {
+            return CheckError::fails("the wrist turns by more than a turn");
+        };
+        let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]] };
+        let rests = held.kernel.is_some();
+        let (solids, kernel) = self.hung(&wrist, &On::Link(0), &held.hanging, rests)?;
+        let seen = |(number, standing): (usize, &Option<Standing>)| {
+            let met = standing.as_ref().filter(|_| self.meets(&held, number, Tool::Raised).is_some());
+            met.map(|standing| Standing::new(&wrist, standing.obstacle.clone())).transpose()
+        };
+        let standing = self.standing.iter().enumerate().map(seen).collect::<Result<Vec<_>, _>>()?;
+        let parts = self.hanging(&held, &solids, kernel.as_ref(), Tool::Raised);
+        self.surrounds_none(&held, at, Tool::Raised)?;
+        stay_off(&wrist, &[swept], &[0, 0].map(Interval::whole), &parts, &standing)?;
+        let angle = Interval::from(by).sin_cos();
+        held.hanging.at = turned(&held.hanging.at, &angle);
+        held.hanging.turn = both_turns(&held.hanging.turn, &angle);
+        (held.solids, held.kernel) = self.hung(&self.chain, &held.on, &held.hanging, rests)?;
+        self.held = Some(held);
+        Ok(())
+    }
+}
+
+fn minus(a: &Point, b: &Point) -> Point {
+    [&a[0] - &b[0], &a[1] - &b[1]]
+}

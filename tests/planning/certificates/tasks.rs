@@ -1,0 +1,165 @@
+//! Every random task that can be done has a certificate that holds.
+//!
+//! ```sh
+//! CPLAN_TIMES=100 cargo test --profile quick --test planning certificates::tasks -- --nocapture
+//! ```
+
+use super::drawn::{Drawn, V};
+use super::{KINDS, TRIES};
+use crate::common::dice::Dice;
+use crate::common::random::{seeds, usual};
+use cplan::input::{self, Overrides, Source};
+use cplan::model::Status;
+use cplan::space::Configuration;
+use cplan::{Planner, Problem, plan};
+use cplan_check::{CheckError, check};
+use serde_json::Value;
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+#[derive(Debug, Default)]
+struct Tally {
+    asked: usize,
+    done: [usize; KINDS as usize],
+    rigid: usize,
+    turned: usize,
+    resting: usize,
+    free_order: usize,
+    falsified: usize,
+    longest: Duration,
+}
+
+/// Objects, and steps that pick and place them, for an arm among its obstacles: the text of a world.
+fn world(dice: &mut Dice, drawn: &Drawn, mut free: impl FnMut(&mut Dice) -> Option<V>) -> Option<String> {
+    let scale = drawn.scale;
+    let has_wrist = (drawn.at, drawn.angle) == ([0.0; 2], 0.0);
+    let mut text = format!("start.joints = {:?}\n", free(dice)?);
+    let is_free = dice.chance(0.3);
+    if is_free {
+        text += "task.order = \"free\"\n";
+    }
+    if has_wrist {
+        text += "robot.wrist = { velocity = 3.0 }\n";
+    }
+    text += &drawn.world(false);
+    let mut steps = String::new();
+    for number in 0..1 + dice.below(2) {
+        let [from, to] = [free(dice)?, free(dice)?].map(|q| drawn.tip(q));
+        let size = scale * dice.within(0.01, 0.06);
+        let kind = dice.below(4);
+        let outline = match kind {
+            0 => format!("circle = {{ center = [0.0, {:?}], radius = {size:?} }}", 0.2 * size),
+            1 => format!(
+                "polygon = {:?}",
+                [[0.0, 0.0], [2.0, 0.3], [1.5, 1.0], [-0.4, 0.9]].map(|p| p.map(|c| c * size))
+            ),
+            2 => format!(
+                "polygon = {:?}",
+                [[-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]].map(|p| p.map(|c| c * size))
+            ),
+            // Like an L.
+            _ => {
+                let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
+                format!("polygon = {:?}", corners.map(|p| p.map(|c| 0.5 * c * size)))
+            }
+        };
+        let is_level = dice.chance(0.5);
+        let _ = writeln!(
+            text,
+            "[[object]]\nname = \"part {number}\"\n{outline}\nat = {from:?}\nangle = {:?}\npayload = \"{}\"",
+            dice.within(-4.0, 4.0),
+            if is_level { "level" } else { "rigid" }
+        );
+        if dice.chance(0.3) {
+            let _ = writeln!(text, "grasp = [{:?}, {:?}]", dice.within(-1.0, 1.0) * size, 0.1 * size);
+        }
+        if dice.chance(0.3) {
+            let _ = writeln!(text, "height = [0.0, {:?}]\nlift = {:?}", 0.02 * scale, dice.within(0.0, 0.1) * scale);
+        }
+        if dice.chance(0.3) && kind < 3 {
+            text += "supports = [\"obstacle 1\"]\n";
+        }
+        let angle = match is_level && has_wrist && dice.chance(0.5) {
+            true => format!(", angle = {:?}", dice.within(-4.0, 4.0)),
+            false => String::new(),
+        };
+        let _ = writeln!(
+            steps,
+            "[[step]]\npick = \"part {number}\"\n[[step]]\nplace = {{ at = {to:?}{angle} }}\ndwell = 0.1"
+        );
+    }
+    if !is_free && dice.chance(0.5) {
+        let _ = writeln!(steps, "[[step]]\nmove = {{ joints = {:?} }}", free(dice)?);
+    }
+    Some(text + &steps)
+}
+
+/// Tasks for an arm of this seed.
+fn tasks(seed: u64, tally: &mut Tally) {
+    let mut dice = Dice::new(seed.wrapping_mul(0x51a3_77c1_90d5_0b2f));
+    let kind = seed % KINDS;
+    let drawn = Drawn::new(&mut dice, kind);
+    let urdf = drawn.urdf();
+    let source = |name: &str, text: &str| Source::in_memory(name, text);
+    let scene = |world: &str| input::scene_from(source("arm.urdf", &urdf), source("world.toml", world));
+    // Slides along one line, and the like.
+    let Ok(loaded) = scene(&drawn.world(false)) else { return };
+    let free = |dice: &mut Dice| {
+        (0..TRIES).find_map(|_| {
+            let q = drawn.joints.map(|joint| {
+                let [low, high] = joint.range.unwrap_or([-3.2, 3.2]);
+                dice.within(low, high)
+            });
+            let at = Configuration::from(q);
+            (loaded.scene.clearance(at) > loaded.scene.workspace().clearance + 0.02 * drawn.scale).then_some(q)
+        })
+    };
+    for _ in 0..3 {
+        let Some(world) = world(&mut dice, &drawn, free) else { continue };
+        let Ok(problem) = scene(&world).and_then(|scene| Problem::of_scene(scene, &Overrides::default())) else {
+            continue;
+        };
+        tally.asked += 1;
+        let answer = plan(&problem, &Planner::First.into()).unwrap();
+        if answer.status() != Status::Found {
+            continue;
+        }
+        let certificate = answer.certificate(&Overrides::default()).unwrap();
+        let begun = Instant::now();
+        let judged = check(&urdf, &world, &certificate);
+        tally.longest = tally.longest.max(begun.elapsed());
+        assert!(judged.is_ok(), "seed {seed}: {judged:?}\n{urdf}\n{world}");
+        tally.done[kind as usize] += 1;
+        tally.rigid += usize::from(world.contains("rigid"));
+        tally.turned += usize::from(certificate.contains("\"turn\""));
+        tally.resting += usize::from(world.contains("supports"));
+        tally.free_order += usize::from(world.contains("task.order"));
+        // What is taken elsewhere by more than anything may miss is not what lies there.
+        let mut whole: Value = serde_json::from_str(&certificate).unwrap();
+        let far = 1e-3 * drawn.scale.max(1.0);
+        let Some((before, after)) = world.split_once("[[object]]") else { continue };
+        let Some((x, _)) = after.split_once("at = [").and_then(|(_, rest)| rest.split_once(',')) else { continue };
+        let moved: f64 = x.parse::<f64>().unwrap() + far;
+        let lies = after.replacen(&format!("at = [{x},"), &format!("at = [{moved:?},"), 1);
+        let elsewhere = format!("{before}[[object]]{lies}");
+        let refused = check(&urdf, &elsewhere, &certificate);
+        assert!(matches!(refused, Err(CheckError::Fails(_))), "seed {seed}: {refused:?}\n{elsewhere}");
+        whole["steps"].as_array_mut().unwrap().pop();
+        let refused = check(&urdf, &world, &whole.to_string());
+        assert!(matches!(refused, Err(CheckError::Fails(_))), "seed {seed}: {refused:?}");
+        tally.falsified += 2;
+    }
+}
+
+#[test]
+fn certificates_of_random_tasks_hold() {
+    let mut tally = Tally::default();
+    for seed in seeds(30) {
+        tasks(seed, &mut tally);
+    }
+    println!("{tally:?}");
+    if usual() {
+        let some = [tally.rigid, tally.turned, tally.resting, tally.free_order, tally.falsified];
+        assert!(tally.done.iter().all(|n| *n > 0) && some.iter().all(|n| *n > 0), "{tally:?}");
+    }
+}

@@ -1,0 +1,138 @@
+//! Certificates of tasks, and what the checker, which shares no code with the program, says of them.
+
+use super::{Place, shipped};
+use cplan_check::{CheckError, check};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Shipped tasks that are expected to end so, by name, and their robots.
+fn tasks(expected: &str) -> Vec<(String, String)> {
+    let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces/tasks")).unwrap();
+    let mut found = Vec::new();
+    for path in folder.map(|entry| entry.unwrap().path()) {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let robot = text.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap();
+        if text.contains(&format!("# expect: {expected}")) {
+            found.push((path.display().to_string(), shipped(&format!("robots/{robot}.urdf"))));
+        }
+    }
+    found.sort();
+    found
+}
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// The certificate with something else in it.
+fn altered(certificate: &Value, alter: impl FnOnce(&mut Value)) -> String {
+    let mut whole = certificate.clone();
+    alter(&mut whole);
+    whole.to_string()
+}
+
+/// The first joint's value in some knots, made another.
+fn moved(certificate: &mut Value, knots: std::ops::RangeInclusive<usize>, to: impl Fn(f64) -> f64) {
+    for knot in &mut certificate["motion"]["knots"].as_array_mut().unwrap()[knots] {
+        knot[1] = json!(to(knot[1].as_f64().unwrap()));
+    }
+}
+
+#[test]
+fn every_shipped_task_that_can_be_done_has_a_certificate_that_holds() {
+    let tasks = tasks("done");
+    assert!(tasks.len() >= 11, "{tasks:?}");
+    for (world, robot) in tasks {
+        let place = Place::new();
+        let done = place.run(&[&robot, &world], "--quiet --certificate c.json --output plan.json");
+        assert_eq!(done.code, 0, "{world}: {}", done.stderr);
+        let (urdf, text, certificate) = (read(&robot), read(&world), place.read("c.json"));
+        let said = check(&urdf, &text, &certificate).unwrap_or_else(|why| panic!("{world}: {why}"));
+        let [whole, plan] =
+            [&certificate, &place.read("plan.json")].map(|text| serde_json::from_str::<Value>(text).unwrap());
+        let steps = plan["steps"].as_array().unwrap();
+        assert!(
+            said.contains(&format!("does all {} steps", steps.len())) && said.contains("within 1e-"),
+            "{world}: {said}"
+        );
+        let fails = |world: &str, what: &str, certificate: &str| {
+            let judged = check(&urdf, world, certificate);
+            assert!(matches!(judged, Err(CheckError::Fails(_))), "{what}, {world}: {judged:?}");
+        };
+        // Where the first step ends the arm stands, and there something is taken.
+        let first = &steps[0];
+        assert!(["pick", "move"].contains(&first["action"].as_str().unwrap()));
+        let last = first["last_sample"].as_u64().unwrap() as usize;
+        let rest = last..=steps[1]["first_sample"].as_u64().unwrap() as usize;
+        fails(&text, "a step is missing", &altered(&whole, |c| drop(c["steps"].as_array_mut().unwrap().pop())));
+        fails(
+            &text,
+            "steps are swapped",
+            &altered(&whole, |c| {
+                let steps = c["steps"].as_array_mut().unwrap();
+                let other = if steps.len() > 2 { 2 } else { 1 };
+                (steps[0]["step"], steps[other]["step"]) = (steps[other]["step"].clone(), steps[0]["step"].clone());
+            }),
+        );
+        // Without a rest the next step begins with the same knot.
+        if rest.start() < rest.end() {
+            fails(&text, "the arm does not stand", &altered(&whole, |c| moved(c, last..=last, |q| q + 1e-9)));
+        }
+        fails(&text, "it ends elsewhere", &altered(&whole, |c| moved(c, rest.clone(), |q| q + 1e-3)));
+        if !plan["clearance"].is_null() {
+            fails(&text, "it is nearer", &altered(&whole, |c| c["clearance"] = json!(100.0)));
+        }
+        if !text.contains("wrist = ") {
+            fails(&text, "there is no wrist", &altered(&whole, |c| c["steps"][1]["turn"] = json!(3.0)));
+        }
+        // All values by a unit in the last place, as another compiler would have them.
+        let shifted = altered(&whole, |c| {
+            let all = 0..=c["motion"]["knots"].as_array().unwrap().len() - 1;
+            moved(c, all, f64::next_up);
+        });
+        check(&urdf, &text, &shifted).unwrap_or_else(|why| panic!("{world}, by a unit: {why}"));
+        // Something stands where the first object is taken.
+        let grasp = plan["events"].as_array().unwrap()[0]["tip"].clone();
+        let post = format!("{text}\n[[obstacle]]\ncircle = {{ center = {grasp}, radius = 0.01 }}\n");
+        fails(&post, "something is in the way", &certificate);
+        let more = format!("{text}\n[[step]]\nmove = {{ tip = [0.0, 0.0] }}\n");
+        assert!(check(&urdf, &more, &certificate).is_err(), "{world}: a step is left over");
+    }
+}
+
+#[test]
+fn proofs_that_a_task_cannot_be_done_have_no_certificates() {
+    for (world, robot) in tasks("infeasible") {
+        let place = Place::new();
+        let done = place.run(&[&robot, &world], "--quiet --certificate c.json");
+        assert!(done.code == 3 && !place.path("c.json").exists(), "{world}: {}", done.stderr);
+        assert!(done.stderr.contains("proofs that tasks cannot be done have no certificates yet"), "{}", done.stderr);
+    }
+}
+
+#[test]
+fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
+    let place = Place::new();
+    let files = [shipped("robots/rrbot_vertical.urdf"), shipped("workspaces/tasks/tower.toml")];
+    let options = "--quiet --certificate c.json --output plan.json --start 0.5,40deg --clearance 0.0005";
+    let done = place.run(&files, options);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let judged = |certificate: &str| check(&read(&files[0]), &read(&files[1]), certificate);
+    let said = judged(&place.read("c.json")).unwrap();
+    for part in ["start (0.5, 0.69813170079773", "with clearance 0.0005 (", "read as cubic or quartic"] {
+        assert!(said.contains(part), "{said}");
+    }
+    // Anybody's record of it, too.
+    let verify = ["verify", &files[0], &files[1], "plan.json"];
+    let options = "--quiet --certificate v.json --start 0.5,40deg --clearance 0.0005";
+    let done = place.run(&verify, options);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let said = judged(&place.read("v.json")).unwrap();
+    assert!(said.contains("does all 5 steps") && said.contains("read as quartic"), "{said}");
+    // One motion of it, with all objects where they lie at first.
+    place.write("rise.csv", "shoulder,elbow\n0.6,0.8\n0.5,0.8\n");
+    let done = place.run(&["verify", &files[0], &files[1], "rise.csv"], "--quiet --certificate r.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let said = judged(&place.read("r.json")).unwrap();
+    assert!(said.contains("to the goal (0.5, 0.8)"), "{said}");
+}
