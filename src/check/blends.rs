@@ -105,7 +105,8 @@ impl CertifiedCurve {
     /// The same, known to keep this distance from what moves, too, which is nearest here.
     #[must_use]
     pub(crate) fn among_movers(self, clearance: f64, nearest: Option<Nearest>) -> Self {
-        let nearer = |a: &Nearest| self.nearest.is_none_or(|b| a.contact.separation.distance < b.contact.separation.distance);
+        let nearer =
+            |a: &Nearest| self.nearest.is_none_or(|b| a.contact.separation.distance < b.contact.separation.distance);
         let nearest = nearest.filter(nearer).or(self.nearest);
         Self { clearance: self.clearance.min(clearance), nearest, ..self }
     }

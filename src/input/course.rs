@@ -85,6 +85,7 @@ impl CourseTable {
     }
 }
 
-const HELP: &str = "motion = { stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y] }] }, or { velocity = [vx, vy] }";
+const HELP: &str =
+    "motion = { stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y] }] }, or { velocity = [vx, vy] }";
 
 type Span = std::ops::Range<usize>;

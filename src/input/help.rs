@@ -22,7 +22,10 @@ const FORMS: [(&str, &str); 30] = [
     ("circle", "circle = { center = [x, y], radius = r }"),
     ("center", "center = [x, y]"),
     ("radius", "radius = r, metres"),
-    ("motion", "motion = { velocity = [vx, vy] }, or { stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y] }] }"),
+    (
+        "motion",
+        "motion = { velocity = [vx, vy] }, or { stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y] }] }",
+    ),
     ("stops", "stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y], angle = a }], seconds and metres"),
     ("time", "time = t, seconds since the arm's motion begins"),
     ("height", "height = [lower, upper], metres"),

@@ -1,7 +1,7 @@
 //! Obstacles in the plane.
 
-use super::{Mover, Preference};
 use super::scene_error::are_small;
+use super::{Mover, Preference};
 use crate::geometry::{Convex, ConvexError, Point, PolygonError, Pose, SimplePolygon};
 use serde::{Deserialize, Serialize};
 

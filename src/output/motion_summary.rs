@@ -98,7 +98,10 @@ fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
     let kept = clearance.map_or_else(|| "none of them can meet the arm".into(), |kept| format!("{kept:.6} m proven"));
     let stays = free_until.map_or_else(|| "for ever".into(), |until| format!("until {until:.3} s"));
     let tried = counted(*ways, "way");
-    let mut lines = vec![("moving", format!("{}, {kept}; {tried} tried; at the goal the arm may stay {stays}", counted(*obstacles, "obstacle")))];
+    let mut lines = vec![(
+        "moving",
+        format!("{}, {kept}; {tried} tried; at the goal the arm may stay {stays}", counted(*obstacles, "obstacle")),
+    )];
     lines.extend(waits.iter().map(|Wait { from, to, at }| {
         ("waits", format!("from {from:.3} to {to:.3} s at {}", configuration(arm, Configuration::from(*at))))
     }));

@@ -4,11 +4,11 @@ use crate::common::dice::Dice;
 use crate::common::{disc, rectangle};
 use crate::oracle::Oracle;
 use crate::world::{KINDS, world};
+use cplan::Problem;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Course, Heights, MotionProblem, Mover, Obstacle, Scene, Shape, Stop};
-use cplan::space::Configuration;
-use cplan::Problem;
 use cplan::motion::Trajectory;
+use cplan::space::Configuration;
 
 /// A world with obstacles that move.
 pub struct Moving {

@@ -64,14 +64,17 @@ fn waiting_at_the_start(world: &Moving) -> Option<f64> {
     // What moves, every step.
     let horizon = world.horizon() + trajectory.duration();
     let movers: Vec<_> = (0..(horizon / STEP) as usize).map(|k| world.movers_at(k as f64 * STEP)).collect();
-    let is_clear = |q, time: f64| movers.get((time / STEP).round() as usize).is_none_or(|movers| movers.room(q) > APART);
+    let is_clear =
+        |q, time: f64| movers.get((time / STEP).round() as usize).is_none_or(|movers| movers.room(q) > APART);
     let lasts = (trajectory.duration() / STEP).ceil() as usize;
     for k in 0..movers.len() - lasts {
         let delay = k as f64 * STEP;
         if !is_clear(start, delay) {
             return None;
         }
-        if steps.iter().all(|&(time, q)| is_clear(q, delay + time)) && movers[k + lasts..].iter().all(|m| m.room(goal) > APART) {
+        if steps.iter().all(|&(time, q)| is_clear(q, delay + time))
+            && movers[k + lasts..].iter().all(|m| m.room(goal) > APART)
+        {
             return Some(delay + trajectory.duration());
         }
     }

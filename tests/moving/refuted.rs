@@ -26,7 +26,8 @@ fn where_no_timing_helps_a_flood_in_place_and_time_does_not_get_through() {
             continue;
         }
         refuted += 1;
-        let standing = cplan::plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
+        let standing =
+            cplan::plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Some(trajectory) = standing.trajectory() else { panic!("{}: there was a way", world.name) };
         assert!(trajectory.duration() > 0.0);
         let path = standing.report().path.as_ref().expect("a path");

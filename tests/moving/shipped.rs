@@ -6,7 +6,8 @@ use std::path::Path;
 #[test]
 fn shipped_worlds_come_out_as_they_say() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files: Vec<_> = std::fs::read_dir(root.join("workspaces/moving")).unwrap().map(|e| e.unwrap().path()).collect();
+    let mut files: Vec<_> =
+        std::fs::read_dir(root.join("workspaces/moving")).unwrap().map(|e| e.unwrap().path()).collect();
     files.sort();
     for file in &files {
         let text = std::fs::read_to_string(file).unwrap();

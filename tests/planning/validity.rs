@@ -77,7 +77,8 @@ fn arm(change: impl Fn(&mut Arm)) -> Arm {
 /// A workspace with one obstacle, changed.
 fn workspace(change: impl Fn(&mut Workspace)) -> Workspace {
     let obstacles = vec![obstacle("post", disc(Point::new(0.9, 0.9), 0.1))];
-    let mut workspace = Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() };
+    let mut workspace =
+        Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() };
     change(&mut workspace);
     workspace
 }

@@ -72,7 +72,11 @@ impl MoverView {
         let velocity = course.velocity();
         Self {
             obstacle: ObstacleView::new(obstacle, color, grain),
-            stops: course.stops().iter().map(|s| [number(s.time), grain.length(s.at.x), grain.length(s.at.y), number(s.angle)]).collect(),
+            stops: course
+                .stops()
+                .iter()
+                .map(|s| [number(s.time), grain.length(s.at.x), grain.length(s.at.y), number(s.angle)])
+                .collect(),
             velocity: [grain.length(velocity.x), grain.length(velocity.y)],
             course: course.clone(),
         }
@@ -208,7 +212,8 @@ impl WorldView {
 
     /// The same with the C-obstacles of what moves at some times, by the number of what moves.
     pub fn timed(self, moments: &[(f64, Vec<CObstacle>)], grain: Grain) -> Self {
-        let moment = |(time, all): &(f64, Vec<CObstacle>)| MomentView { time: number(*time), c_obstacles: contours(all, grain) };
+        let moment =
+            |(time, all): &(f64, Vec<CObstacle>)| MomentView { time: number(*time), c_obstacles: contours(all, grain) };
         Self { moments: moments.iter().map(moment).collect(), ..self }
     }
 

@@ -76,7 +76,11 @@ pub fn in_time(
         let is_worth = best.as_ref().is_none_or(|best| duration < best.timed.trajectory.duration());
         if is_worth {
             let drive = &options.drive;
-            let along = |effort: Effort| Ok::<_, TimingError>(schedule(&movers, &path, &whole, drive, effort)?.and_then(|found| certified_in_time(scene, found)));
+            let along = |effort: Effort| {
+                Ok::<_, TimingError>(
+                    schedule(&movers, &path, &whole, drive, effort)?.and_then(|found| certified_in_time(scene, found)),
+                )
+            };
             let mut found = along(Effort::QUICK)?;
             let is_closed = found.is_none() && no_timing(&movers, path.path());
             if found.is_none() && !is_closed {
@@ -89,13 +93,16 @@ pub fn in_time(
                 best = Some(found);
             }
         }
-        let is_direct = best.as_ref().is_some_and(|best| best.figures.waits.is_empty() && best.figures.free_until.is_none());
+        let is_direct =
+            best.as_ref().is_some_and(|best| best.figures.waits.is_empty() && best.figures.free_until.is_none());
         if ways == WAYS || is_direct {
             break;
         }
         let Some(next) = around_what_is_met(&around, &whole.trajectory) else { break };
         around = next;
-        let Verdict::Found(other) = solve(&around, &Options { bounded: false, ..*options }, &mut |_| ()).verdict else { break };
+        let Verdict::Found(other) = solve(&around, &Options { bounded: false, ..*options }, &mut |_| ()).verdict else {
+            break;
+        };
         let Ok(other) = certify(scene, other.path().clone(), scene.workspace().clearance) else { break };
         let whole = options.drive.along(scene, &other, 1.0)?;
         way = Some((other, whole));
@@ -115,7 +122,8 @@ fn is_better(found: &InTime, than: &InTime) -> bool {
 fn reason(ways: usize, refuted: usize, scene: &Scene) -> String {
     let movers = scene.workspace().movers.len();
     let moves = if movers == 1 { "an obstacle moves".into() } else { format!("{movers} obstacles move") };
-    let tried = if ways == 1 { "the one way that was tried".into() } else { format!("the {ways} ways that were tried") };
+    let tried =
+        if ways == 1 { "the one way that was tried".into() } else { format!("the {ways} ways that were tried") };
     let known = match refuted {
         _ if refuted == ways => format!("proven: along {tried} no timing keeps clear of what moves"),
         0 => format!("along {tried} no timing was found that keeps clear of what moves"),

@@ -19,7 +19,8 @@ pub fn task(seed: u64) -> Task {
             obstacles.push(obstacle(&format!("o{i}"), piece));
         }
     }
-    let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() };
+    let workspace =
+        Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() };
     // Where the tip can be: forward kinematics of random configurations, most of them free of what stays.
     let topology = arm.topology();
     let still = placed(arm.clone(), workspace.clone());

@@ -25,7 +25,8 @@ pub fn world(kind: &str, seed: u64) -> Option<MotionProblem> {
     while obstacles.len() < count as usize {
         obstacles.extend(obstacle(&mut dice, reach, arm.base));
     }
-    let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() };
+    let workspace =
+        Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() };
     let scene = placed(arm, workspace);
     let start = free(&mut dice, &scene)?;
     let count = 1 + dice.below(3);

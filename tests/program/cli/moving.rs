@@ -16,7 +16,8 @@ fn world(motion: &str) -> String {
 fn the_arm_waits_until_the_cart_has_gone() {
     let place = Place::new();
     let [urdf, world] = moving("crossing");
-    let done = place.run(&moving("crossing"), "--output m.json --output m.csv --output m.yaml --picture m.html --picture m.svg");
+    let done = place
+        .run(&moving("crossing"), "--output m.json --output m.csv --output m.yaml --picture m.html --picture m.svg");
     assert_eq!(done.code, 0, "{}", done.stderr);
     for part in ["moving     1 obstacle", "waits      from ", "1 obstacle, 1 moving"] {
         assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
@@ -77,7 +78,10 @@ fn where_no_timing_helps_that_is_proven_and_the_answer_is_unknown() {
     let told = done.json();
     assert_eq!((&told["status"], &told["trajectory"]), (&"unknown".into(), &Value::Null));
     let reason = told["reason"].as_str().unwrap();
-    assert!(reason.contains("proven: along the one way that was tried no timing keeps clear of what moves"), "{reason}");
+    assert!(
+        reason.contains("proven: along the one way that was tried no timing keeps clear of what moves"),
+        "{reason}"
+    );
 }
 
 #[test]
