@@ -4,7 +4,7 @@ use crate::draw::color::{GREY, INK, Rgb, obstacle as obstacle_color};
 use crate::engine::task::Event;
 use crate::engine::{Kind, Plan, TaskPlan};
 use crate::geometry::Pose;
-use crate::model::{Arm, Obstacle, Part};
+use crate::model::{Arm, Mover, Obstacle, Part, Workspace};
 use crate::motion::{Body, Solid, Stage};
 use crate::space::Configuration;
 
@@ -40,11 +40,22 @@ impl Plan {
             let moved = poses.into_iter().enumerate().map(|(link, pose)| (time, LINKS + link, pose, 0.0));
             stage.poses.extend(moved);
         }
-        if let Kind::Task(plan) = self.made() {
-            with_objects(&mut stage, arm, plan);
+        match self.made() {
+            Kind::Motion(plan) => with_movers(&mut stage, plan.problem.scene().workspace(), &trajectory.time),
+            Kind::Task(plan) => with_objects(&mut stage, arm, plan),
         }
         stage.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
         Some(stage)
+    }
+}
+
+/// What moves, at each of these times.
+fn with_movers(stage: &mut Stage, workspace: &Workspace, times: &[f64]) {
+    for (number, Mover { obstacle, course }) in workspace.movers.iter().enumerate() {
+        let solid = lying((workspace.obstacles.len() + number, obstacle));
+        let body = stage.bodies.len();
+        stage.bodies.push(Body { name: format!("moving/{}", obstacle.name), solids: vec![solid] });
+        stage.poses.extend(times.iter().map(|&time| (time, body, course.pose(time), 0.0)));
     }
 }
 

@@ -3,8 +3,8 @@
 
 use crate::mcap::Decoder;
 use ::mcap::read::MessageStream;
-use cplan::geometry::{Convex, Point};
-use cplan::model::Heights;
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Course, Heights, Mover, Stop};
 use cplan::motion::Format;
 use cplan::output::FileFormat;
 use cplan::{Arm, Obstacle, Options, Problem, Workspace, plan};
@@ -177,4 +177,27 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
     };
     assert_eq!(shown.points.keys().collect::<Vec<_>>(), ["link/link 1", "link/link 2", "workspace"]);
     assert!(shown.points["workspace"].len() > 100 && shown.points["workspace"].iter().all(on_rim));
+}
+
+/// A cart that comes and stops, by its frame: the straight line between its stops.
+#[test]
+fn what_moves_has_a_frame_that_follows_its_course() {
+    let stop = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.2), angle: time / 2.0 };
+    let course = Course::new(vec![stop(0.0, 3.0), stop(0.5, 2.2)], Vector::zeros()).unwrap();
+    let cart = Mover { obstacle: Obstacle::circle("cart", [0.0, 0.0], 0.1).unwrap(), course };
+    let workspace = Workspace { movers: vec![cart], ..Workspace::new([]) };
+    let problem = Problem::new(Arm::rr([1.0, 0.8], 0.06).unwrap(), workspace, [-0.6, 0.2], [0.6, 0.2]).unwrap();
+    let file = plan(&problem, &Options::default()).unwrap().bytes(FileFormat::Result(Format::Mcap)).unwrap().unwrap();
+    let shown = shown(&file);
+    let (states, _) = crate::mcap::read(&file);
+    assert!(states.len() > 20);
+    for state in &states {
+        let time = (state.log as f64 * 1e-9).min(0.5);
+        let (at, [.., z, w]) = shown.at(state.log, "moving/cart");
+        assert!((at[0] - (3.0 - 1.6 * time)).abs() < 1e-12 && (at[1] - 0.2).abs() < 1e-12, "{time}: {at:?}");
+        assert!((z - (time / 4.0).sin()).abs() < 1e-12 && (w - (time / 4.0).cos()).abs() < 1e-12);
+    }
+    assert!(
+        shown.markers.iter().any(|marker| (marker.frame.as_str(), marker.name.as_str()) == ("moving/cart", "cart"))
+    );
 }
