@@ -39,6 +39,11 @@ impl Document {
         }
     }
 
+    /// Those of them that stand, and those that move, which the page shows and does not change.
+    fn by_motion(&self) -> Option<(Vec<Table>, Vec<Table>)> {
+        Some(self.obstacles()?.into_iter().partition(|table| !table.contains_key("motion")))
+    }
+
     /// Joint values of its start.
     pub fn start(&self) -> Option<Pair> {
         pair(self.toml.get("start")?.get("joints"))
@@ -52,7 +57,7 @@ impl Document {
 
     /// Shapes of the obstacles that the page can change, in order.
     pub fn forms(&self) -> Vec<Option<Form>> {
-        self.obstacles().unwrap_or_default().iter().map(form).collect()
+        self.by_motion().unwrap_or_default().0.iter().map(form).collect()
     }
 
     /// The text with what the state says; the same text where it says the same.
@@ -90,7 +95,7 @@ impl Document {
 
     /// Whether anything changed.
     fn change_obstacles(&self, toml: &mut DocumentMut, pieces: &[Piece]) -> Result<bool, String> {
-        let before = self.obstacles().ok_or("the text's obstacles are no [[obstacle]] tables")?;
+        let (before, moving) = self.by_motion().ok_or("the text's obstacles are no [[obstacle]] tables")?;
         let same = pieces.len() == before.len()
             && pieces.iter().zip(&before).enumerate().all(|(i, (piece, table))| {
                 let keeps = |shape: &Form| form(table).as_ref() == Some(shape);
@@ -101,7 +106,7 @@ impl Document {
         }
         let mut after = ArrayOfTables::new();
         // Tables are written in the order of their positions; those without one follow what came before.
-        let last = before.iter().filter_map(Table::position).max();
+        let last = before.iter().chain(&moving).filter_map(Table::position).max();
         let places: Vec<_> = before.iter().map(Table::position).collect();
         for (k, piece) in pieces.iter().enumerate() {
             let mut table = match piece.from {
@@ -128,6 +133,7 @@ impl Document {
             table.set_position(places.get(k).copied().flatten().or(last));
             after.push(table);
         }
+        moving.into_iter().for_each(|table| after.push(table));
         if after.is_empty() {
             toml.remove("obstacle");
         } else {
@@ -355,6 +361,20 @@ image = \"map.yaml\"
         assert_eq!(again.forms().len(), 1);
         assert_eq!(pair(again.toml["start"].get("joints")), Some([0.0, 1.5]));
         assert_eq!(pair(again.toml["goal"].get("tip")), Some([1.0, 2.0]));
+    }
+
+    /// Numbers of the page are those of what stands; what moves stays as it is.
+    #[test]
+    fn what_moves_is_no_obstacle_of_the_page() {
+        let cart = "[[obstacle]]\ncircle = { center = [0, 0], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n";
+        let text = format!("{cart}[[obstacle]]\ncircle = {{ center = [1, 2], radius = 0.5 }}\n");
+        let document = Document::parse(&text).unwrap();
+        let disc = |x: f64| Form::Circle { center: [x, 2.0], radius: 0.5 };
+        assert_eq!(document.forms(), [Some(disc(1.0))]);
+        let piece = Piece { from: Some(0), name: None, shape: Some(disc(3.0)) };
+        let state = State { start: None, goal: None, ..state(vec![piece]) };
+        let moved = document.changed(&state, None).unwrap();
+        assert_eq!(moved, text.replace("[1, 2]", "[3.0, 2.0]"));
     }
 
     #[test]
