@@ -17,6 +17,7 @@
 //! [`load_recording`] makes a recording of anyone's motion, and of a result of a task its steps, too.
 
 mod help;
+mod digest;
 mod ends;
 mod error;
 mod explorable;
@@ -56,6 +57,7 @@ mod world;
 mod world_map;
 mod wrist;
 
+pub use digest::Digests;
 pub use error::{Diagnostic, DiagnosticKind, InputError};
 pub use explorable::Explorable;
 pub use identity::{FileIdentity, read_from};

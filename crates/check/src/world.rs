@@ -2,16 +2,21 @@
 
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::interval::{Interval, Point, sum, turned};
-use crate::overlap::Shape;
-use crate::polygon::{self, Corner};
+use crate::files::Files;
+use crate::interval::Interval;
+use crate::polygon::Corner;
 use crate::sweep::Range;
-use num_bigint::Sign;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-mod sides;
+mod cells;
+mod map;
+mod obstacle;
+
+use cells::Cells;
+use obstacle::{Obstacle, Outline};
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
@@ -44,32 +49,17 @@ pub enum Goal {
     Tip(Corner),
 }
 
-/// An obstacle, as it stands in the file.
-pub struct Obstacle {
-    outline: Outline,
-    /// Where its frame's origin lies, and how it is turned.
-    at: Corner,
-    angle: Interval,
-    /// Its extent along the plane's normal; none: everywhere.
-    pub heights: Option<Range>,
-}
-
-enum Outline {
-    /// What its rings surround an odd number of times.
-    Polygon(Vec<Vec<Corner>>),
-    Polyline(Vec<Corner>),
-    Circle(Corner, Decimal),
-    Image,
-}
-
 /// Reads values of the file, with their places.
-struct Reader<'a>(&'a str);
+struct Reader<'a> {
+    text: &'a str,
+    files: &'a Files,
+}
 
 type Read<T> = Result<T, CheckError>;
 
 impl Reader<'_> {
     fn error<T>(&self, value: &Value, message: &str) -> Read<T> {
-        Err(CheckError::at(Input::World, self.0, value.span().start, message))
+        Err(CheckError::at(Input::World, self.text, value.span().start, message))
     }
 
     fn table<'v, 'i>(&self, value: &'v Value<'i>) -> Read<&'v DeTable<'i>> {
@@ -171,10 +161,23 @@ impl Reader<'_> {
         Ok(())
     }
 
+    fn heights(&self, value: &Value) -> Read<Range> {
+        let [low, high] = self.two(value, |n| self.number(n))?;
+        if low > high {
+            return self.error(value, "its upper end is below the lower one");
+        }
+        Ok([low, high])
+    }
+
+    /// The path of a file that the world names.
+    fn file(&self, name: &str) -> Read<PathBuf> {
+        Ok(self.files.path(Input::World)?.with_file_name(name))
+    }
+
     fn obstacle(&self, value: &Value) -> Read<Obstacle> {
-        let zero = || Decimal::whole(0);
         let (mut outlines, mut holes) = (Vec::new(), Vec::new());
-        let (mut at, mut angle, mut heights) = ([zero(), zero()], Interval::whole(0), None);
+        let (mut at, mut angle, mut heights) = (origin(), Interval::whole(0), None);
+        let (mut image, mut unknown_is_solid) = (None, true);
         for (key, value) in self.table(value)? {
             match &**key.get_ref() {
                 "polygon" => outlines.push(Outline::Polygon(self.rings(value)?)),
@@ -187,23 +190,21 @@ impl Reader<'_> {
                     };
                     outlines.push(Outline::Circle(self.two(center, |n| self.number(n))?, self.number(radius)?));
                 }
-                "image" => outlines.push(Outline::Image),
+                "image" => image = Some(self.text(value)?),
+                "unknown" => unknown_is_solid = self.text(value)? != "free",
                 "holes" => holes = self.rings(value)?,
                 "at" => at = self.two(value, |n| self.number(n))?,
                 "angle" => angle = Interval::around(&self.quantity(value)?),
-                "height" => {
-                    let [low, high] = self.two(value, |n| self.number(n))?;
-                    if low > high {
-                        return self.error(value, "its upper end is below the lower one");
-                    }
-                    heights = Some([low, high]);
-                }
-                "name" | "unknown" => {}
+                "height" => heights = Some(self.heights(value)?),
+                "name" => {}
                 other => {
                     return self.error(value, &format!("the checker does not know the key {other} of an obstacle"));
                 }
             }
         }
+        // What is not known is no matter if nobody asks.
+        let cells = |name: String| Cells::read(self.files, &self.file(&name)?, unknown_is_solid);
+        outlines.extend(image.map(|name| Outline::Cells(cells(name).map(Box::new))));
         let [outline] =
             <[Outline; 1]>::try_from(outlines).or_else(|_| self.error(value, "an obstacle has one shape"))?;
         let outline = match outline {
@@ -215,6 +216,36 @@ impl Reader<'_> {
         };
         Ok(Obstacle { outline, at, angle, heights })
     }
+
+    /// `[map]`: its walls come after the obstacles, and its goal is the world's if that has none.
+    fn map(&self, value: &Value, world: &mut World) -> Read<()> {
+        let (mut walls, mut wishes, mut is_framed, mut heights) = (None, None, true, None);
+        let mut unit = map::Unit { scale: Decimal::power_of_ten(3), offset: origin() };
+        for (key, value) in self.table(value)? {
+            match &**key.get_ref() {
+                "file" => walls = Some(self.file(&self.text(value)?)?),
+                "preferences" => wishes = Some(self.file(&self.text(value)?)?),
+                "scale" => unit.scale = self.number(value)?,
+                "offset" => unit.offset = self.two(value, |n| self.number(n))?,
+                "frame" => is_framed = value.get_ref().as_bool().unwrap_or(true),
+                "height" => heights = Some(self.heights(value)?),
+                other => return self.error(value, &format!("the checker does not know the key {other} of a map")),
+            }
+        }
+        let Some(walls) = walls else { return self.error(value, "the map has no file") };
+        for outline in map::walls(self.files, &walls, &unit, is_framed)? {
+            let (at, angle, heights) = (origin(), Interval::whole(0), heights.clone());
+            world.obstacles.push(Obstacle { outline, at, angle, heights });
+        }
+        if let (None, Some(path)) = (&world.goal, wishes) {
+            world.goal = Some(Goal::Tip(map::goal(self.files, &path, &unit)?));
+        }
+        Ok(())
+    }
+}
+
+fn origin() -> Corner {
+    [Decimal::whole(0), Decimal::whole(0)]
 }
 
 impl World {
@@ -222,14 +253,14 @@ impl World {
     ///
     /// # Errors
     /// What is no world, or says what the checker does not know and what could make a difference.
-    pub fn read(text: &str) -> Read<Self> {
+    pub fn read(text: &str, files: &Files) -> Read<Self> {
         let table = DeTable::parse(text).map_err(|error| {
             let at = error.span().map_or(0, |span| span.start);
             CheckError::at(Input::World, text, at, error.message())
         })?;
-        let reader = Reader(text);
+        let reader = Reader { text, files };
         let mut world = Self {
-            at: [Decimal::whole(0), Decimal::whole(0)],
+            at: origin(),
             angle: Interval::whole(0),
             joints: None,
             fixed: BTreeMap::new(),
@@ -252,64 +283,11 @@ impl World {
                         reader.list(value)?.into_iter().map(|o| reader.obstacle(o)).collect();
                     world.obstacles = list?;
                 }
-                "name" | "preference" | "sensor" => {}
+                "name" | "preference" | "sensor" | "map" => {}
                 other => return reader.error(value, &format!("the checker does not know worlds with {other} yet")),
             }
         }
+        table.get_ref().get("map").map_or(Ok(()), |map| reader.map(map, &mut world))?;
         Ok(world)
     }
-}
-
-impl Obstacle {
-    /// A convex part of it, in its place: a disc all of it, of a polyline two points that follow one another, of a polygon
-    /// a convex polygon within. Its corners are the obstacle's that are nearest to the given points.
-    ///
-    /// # Errors
-    /// Why it is no such part.
-    pub fn part(&self, given: &[Corner]) -> Result<Shape, String> {
-        let turn = self.angle.sin_cos();
-        let placed = |corner: &Corner| sum(&point(&self.at), &turned(&point(corner), &turn));
-        let named = |corners: &[&Corner]| {
-            let places: Vec<Point> = corners.iter().map(|corner| placed(corner)).collect();
-            given.iter().filter_map(|at| Some(corners[nearest(&places, &point(at))?].clone())).collect::<Vec<Corner>>()
-        };
-        let (corners, radius) = match &self.outline {
-            Outline::Circle(center, radius) => (vec![center.clone()], Interval::from(radius)),
-            Outline::Polyline(points) => {
-                let part = named(&points.iter().collect::<Vec<_>>());
-                let is_side = |side: &[Corner]| part == side || part.iter().rev().eq(side);
-                if !points.windows(2).any(is_side) {
-                    return Err("its corners are not two points that follow one another in the polyline".into());
-                }
-                (part, Interval::whole(0))
-            }
-            Outline::Polygon(rings) => {
-                let part = named(&rings.iter().flatten().collect::<Vec<_>>());
-                if !polygon::holds(rings, &part) {
-                    return Err(
-                        "its corners are not those, turning left, of a convex polygon within the obstacle".into()
-                    );
-                }
-                (part, Interval::whole(0))
-            }
-            Outline::Image => return Err("the obstacle is an image, which the checker does not know yet".into()),
-        };
-        if radius.lower.sign() == Sign::Minus {
-            return Err("its radius is negative".into());
-        }
-        Ok(Shape { points: corners.iter().map(placed).collect(), radius })
-    }
-}
-
-fn point(corner: &Corner) -> Point {
-    corner.each_ref().map(Interval::from)
-}
-
-/// Which of the places is nearest, as the middles of their enclosures have it.
-fn nearest(places: &[Point], to: &Point) -> Option<usize> {
-    let distance = |place: &Point| {
-        let [x, y] = [0, 1].map(|k| (&place[k] - &to[k]).middle().0);
-        &x * &x + &y * &y
-    };
-    (0..places.len()).min_by_key(|i| distance(&places[*i]))
 }

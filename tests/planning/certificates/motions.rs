@@ -59,7 +59,7 @@ fn ways(seed: u64, tally: &mut Tally) {
         if answer.status() != Status::Found {
             continue;
         }
-        let certificate = answer.certificate(&Overrides::default()).unwrap();
+        let certificate = answer.certificate(&Overrides::default(), None).unwrap();
         let begun = Instant::now();
         let judged = check(&urdf, &world, &certificate);
         let took = begun.elapsed();
