@@ -79,23 +79,7 @@ fn least_length(plan: &MotionPlan, asked: &Overrides, contacts: &mut Contacts) -
     let (problem, stated) = (&plan.problem, plan.answer.bound.as_ref()?);
     let motions = motions(problem, stated.metric);
     let topology = problem.scene().arm().topology();
-    let pieces = problem.goals().pieces();
-    if !pieces.iter().all(Segment::is_point) {
-        return None;
-    }
-    let goals = pieces.iter().map(|goal| inward(&topology, goal.ends()[0]));
-    let (to, goals, boxes) = match goals.collect::<Vec<_>>()[..] {
-        [goal] if asked.goal_tip.is_none() => (Some(goal), vec![goal], Vec::new()),
-        ref goals => {
-            let arm = problem.scene().arm();
-            let solutions = inverse(arm, arm.tip_at(goals[0]), problem.start()).branches;
-            if solutions.iter().any(|q| is_nearly_stretched(arm, *q)) {
-                return None;
-            }
-            let (boxes, left) = ruled_out(problem);
-            (None, [goals, &left].concat(), boxes)
-        }
-    };
+    let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
     let ways = Ways {
         topology: &topology,
         metric: stated.metric,
@@ -104,8 +88,12 @@ fn least_length(plan: &MotionPlan, asked: &Overrides, contacts: &mut Contacts) -
         about: if to.is_some() { 0.0 } else { ABOUT_A_GOAL },
         limit: stated.upper,
     };
-    let closed = claim(&motions, stated).closed(motions.scene, motions.clearance);
-    let least = LeastLength::new(&ways, closed)?;
+    let claim = claim(&motions, stated);
+    let of = |looks: usize| LeastLength::new(&ways, claim.closed(motions.scene, motions.clearance, looks));
+    let mut least = of(LOOKS[0])?;
+    if least.length < stated.lower * (1.0 - MUCH) {
+        least = of(LOOKS[1]).filter(|closer| closer.length > least.length).unwrap_or(least);
+    }
     let wall = |wall: &ClosedSegment| {
         let (shape, part) = contacts.numbers(wall.pair);
         let [from, to] = wall.ends.map(<[f64; 2]>::from);
@@ -129,6 +117,43 @@ fn least_length(plan: &MotionPlan, asked: &Overrides, contacts: &mut Contacts) -
     let boxes: Vec<Stuck> = boxes.iter().map(|stuck| contacts.stuck(stuck)).collect();
     let boxes = (!boxes.is_empty()).then(|| ("boxes", lines(&boxes)));
     Some(boxes.into_iter().chain([("bound", format!("{{ {members} }}"))]).collect())
+}
+
+/// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, ...
+const LOOKS: [usize; 2] = [60, 300];
+
+/// ... and more if the bound loses more than this share: where shapes come apart slowly, as in a slot, walls end too early.
+const MUCH: f64 = 1e-3;
+
+/// Where a bound leads to.
+struct Ends {
+    /// One configuration, if it is about that; or else the goal, wherever the tip is at the place.
+    to: Option<Configuration>,
+    /// All that may count as goals.
+    goals: Vec<Configuration>,
+    /// About those that are none.
+    boxes: Vec<StuckBox>,
+}
+
+impl Ends {
+    /// None where goals are a curve, or not told from what is beside them.
+    fn of(problem: &MotionProblem, asked: &Overrides) -> Option<Self> {
+        let (arm, pieces) = (problem.scene().arm(), problem.goals().pieces());
+        let topology = arm.topology();
+        if !pieces.iter().all(Segment::is_point) {
+            return None;
+        }
+        let goals: Vec<Configuration> = pieces.iter().map(|goal| inward(&topology, goal.ends()[0])).collect();
+        if let ([goal], None) = (&goals[..], asked.goal_tip) {
+            return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
+        }
+        let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
+        if solved.free.is_some() || solved.branches.iter().any(|q| is_nearly_stretched(arm, *q)) {
+            return None;
+        }
+        let (boxes, left) = ruled_out(problem);
+        Some(Self { to: None, goals: [goals, left].concat(), boxes })
+    }
 }
 
 /// What a checker leaves open of where the tip is at a place, as a share of the way: it looks for these configurations itself, down to a

@@ -228,3 +228,47 @@ fn a_certificate_can_be_a_part_of_the_result() {
     let done = place.run(&files, "--quiet --certificate m.csv --output m.csv");
     done.refused(1, &["m.csv", "one file"]);
 }
+
+/// A block of 1 m along x as an STL, a little thinner in its middle: its hull is what counts.
+fn stl() -> String {
+    let ring = |x: f64, half: f64| [[x, -half, -half], [x, half, -half], [x, half, half], [x, -half, half]];
+    let rings = [ring(-0.5, 0.05), ring(0.0, 0.02), ring(0.5, 0.05)];
+    let mut text = "solid block\n".to_owned();
+    for [from, to] in [[0, 1], [1, 2]].map(|pair| pair.map(|k| rings[k])) {
+        for k in 0..4 {
+            let next = (k + 1) % 4;
+            for triangle in [[from[k], from[next], to[k]], [from[next], to[next], to[k]]] {
+                let corners = triangle.map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).concat();
+                text += &format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n");
+            }
+        }
+    }
+    text + "endsolid block\n"
+}
+
+/// Meshes of links: motions, bounds and proofs are about their hulls.
+#[test]
+fn arms_of_meshes_have_certificates_that_hold() {
+    let place = Place::new();
+    place.write("block.stl", stl());
+    let boxed = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
+    let urdf = boxed
+        .replace("<box size=\"1.0 0.1 0.1\"/>", "<mesh filename=\"block.stl\"/>")
+        .replace("<box size=\"0.8 0.1 0.1\"/>", "<mesh filename=\"block.stl\" scale=\"0.8 1 1\"/>");
+    assert_eq!(urdf.matches("mesh").count(), 2);
+    place.write("arm.urdf", urdf);
+    for (world, code, part) in
+        [("shelf", 0, "is shorter than"), ("limits_open", 0, "is shorter than"), ("limits_closed", 3, "no motion of")]
+    {
+        let world = shipped(&format!("workspaces/{world}.toml"));
+        let done = place.run(&["arm.urdf", &world], "--quiet --certificate c.json");
+        assert_eq!(done.code, code, "{world}: {}", done.stderr);
+        let judged = || check_files(&place.path("arm.urdf"), world.as_ref(), &place.path("c.json"));
+        let said = judged().unwrap_or_else(|why| panic!("{world}: {why}"));
+        assert!(said.contains(part), "{said}");
+        // Another mesh is another robot.
+        place.write("block.stl", format!("{}\n", stl()));
+        assert!(matches!(judged(), Err(CheckError::Fails(why)) if why.contains("block.stl")), "{world}");
+        place.write("block.stl", stl());
+    }
+}
