@@ -193,18 +193,20 @@ impl Ends {
 /// part in 10^12 of the joints' ranges.
 const ABOUT_A_GOAL: f64 = 1e-6;
 
-/// Sine of the least angle between the ways in which the joints move the tip, about: nearer to one line a checker does not tell
-/// configurations that put the tip at a place from those beside them.
-const STRETCHED: f64 = 0.1;
+/// The area between the ways in which the joints move the tip, as a share of the square of both together: with less a checker does not tell
+/// configurations that put the tip at a place from those beside them, as it cuts both joints' ranges in equal shares.
+const STRETCHED: f64 = 0.015;
 
 fn is_nearly_stretched(arm: &Arm, q: Configuration) -> bool {
     const STEP: f64 = 1e-6;
+    let ranges = arm.topology().ranges;
     let moved = |k: usize| {
-        let step = Configuration::from_fn(|i, _| if i == k { STEP } else { 0.0 });
-        (arm.tip_at(q + step) - arm.tip_at(q - step)) / (2.0 * STEP)
+        let (lower, upper) = ranges[k].domain();
+        let step = Configuration::from_fn(|i, _| if i == k { STEP * (upper - lower) } else { 0.0 });
+        arm.tip_at(q + step) - arm.tip_at(q - step)
     };
     let [a, b] = [moved(0), moved(1)];
-    cross(a, b).abs() <= STRETCHED * a.norm_squared().max(b.norm_squared())
+    cross(a, b).abs() <= STRETCHED * (a.norm() + b.norm()).powi(2)
 }
 
 /// Members of a certificate, by name, as they are written.
