@@ -14,7 +14,7 @@ pub enum Subject {
 }
 
 /// All, with the names of their files.
-pub const PICTURES: [(&str, Subject); 12] = [
+pub const PICTURES: [(&str, Subject); 13] = [
     ("shortest", Subject::Answer("planar_2r", "workbench", Method::Shortest)),
     ("visibility", Subject::Answer("planar_2r", "workbench", Method::Visibility)),
     ("trapezoid", Subject::Answer("planar_2r", "workbench", Method::Trapezoid)),

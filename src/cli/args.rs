@@ -195,7 +195,8 @@ pub struct PlanArgs {
     /// Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
-    /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact arithmetic.
+    /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact arithmetic. If FILE is a
+    /// .json of --output, too, it becomes the member `certificate` of that.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]

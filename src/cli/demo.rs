@@ -50,7 +50,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     folder(&args.dir)?;
     args.plan.output.insert(0, result);
     args.plan.picture.insert(0, picture.clone());
-    let code = plan::answer(&args.plan, || {
+    let code = plan::answer(&args.plan, None, || {
         scene_from(
             Source::in_memory("built-in scara.urdf", ROBOT),
             Source::in_memory("built-in scara_cell.toml", WORLD),

@@ -6,9 +6,10 @@ use super::result_files::ResultFiles;
 use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN, words};
 use crate::engine::{Options, Plan, Problem, plan_with};
-use crate::input::{self, InputError, LoadedScene};
+use crate::input::{self, Digests, InputError, LoadedScene};
 use crate::model::Status;
 use crate::motion::write_whole;
+use std::path::Path;
 use std::time::Instant;
 
 /// Plans, writes what was asked for, and returns the exit code.
@@ -16,19 +17,27 @@ use std::time::Instant;
 /// # Errors
 /// Bad input and I/O.
 pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
-    answer(args, || input::load_scene(&files.urdf, &files.world))
+    answer(args, Some(files), || input::load_scene(&files.urdf, &files.world))
 }
 
-/// The same for a scene from anywhere. Nothing is loaded if the command line is wrong.
+/// The same for a scene from anywhere, if need be from no files. Nothing is loaded if the command line is wrong.
 ///
 /// # Errors
 /// Bad input and I/O.
-pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputError>) -> Result<u8, Failure> {
-    let sinks = sinks::sinks_with(&args.output, &args.picture, args.certificate.as_deref())?;
+pub fn answer(
+    args: &PlanArgs,
+    given: Option<&Files>,
+    load: impl FnOnce() -> Result<LoadedScene, InputError>,
+) -> Result<u8, Failure> {
+    let certificate = args.certificate.as_deref();
+    let within = certificate.filter(|path| sinks::is_json_among(path, &args.output));
+    let sinks = sinks::sinks_with(&args.output, &args.picture, certificate.filter(|_| within.is_none()))?;
     let options = words::options(args.planner, &args.options, &args.motion, &args.message)?;
     let options = Options { timings: args.timings, ..options };
     let begun = Instant::now();
     let loaded = load()?;
+    let given = given.filter(|_| certificate.is_some());
+    let about = given.map(|files| Digests::of(&files.urdf, &files.world)).transpose()?;
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     if args.per_step && !loaded.has_steps() {
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));
@@ -42,7 +51,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     problem.robot().warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
     let begun = Instant::now();
-    let written = written(&plan, &sinks, &files, args)?;
+    let written = written(&plan, &sinks, &files, about.as_ref(), args)?;
     let after = [("write", begun.elapsed())];
     let code = match plan.status() {
         Status::Found => DONE,
@@ -57,8 +66,23 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
 ///
 /// # Errors
 /// I/O, or a picture that cannot be made of pixels.
-fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles, args: &PlanArgs) -> Result<Vec<String>, Failure> {
-    let mut written = files.write(plan)?;
+fn written(
+    plan: &Plan,
+    sinks: &[Sink],
+    files: &ResultFiles,
+    about: Option<&Digests>,
+    args: &PlanArgs,
+) -> Result<Vec<String>, Failure> {
+    let certificate =
+        args.certificate.as_deref().and_then(|path| match plan.certificate(&args.query.overrides(), about) {
+            Ok(certificate) => Some((path, certificate)),
+            Err(why) => {
+                sinks::say(&format!("warning: {} is not written: {why}", shown(path, sinks)));
+                None
+            }
+        });
+    let certificate = certificate.as_ref().map(|(path, certificate)| (*path, certificate.as_str()));
+    let mut written = files.write(plan, certificate)?;
     let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.plays()));
     let seen = || if plays { plan.view_with_replay() } else { plan.view() };
     let (mut view, mut spaces) = (None, None);
@@ -72,15 +96,18 @@ fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles, args: &PlanArgs) ->
                 let mut progress = sinks::pictures_done(path, &args.print);
                 write_whole(path, &format.bytes_with(view.get_or_insert_with(seen), &mut progress)?)?;
             }
-            Sink::Certificate(path) => match plan.certificate(&args.query.overrides()) {
-                Ok(certificate) => write_whole(path, certificate.as_bytes())?,
-                Err(why) => {
-                    sinks::say(&format!("warning: {} is not written: {why}", path.display()));
-                    continue;
-                }
+            Sink::Certificate(path) => match certificate {
+                Some((_, certificate)) => write_whole(path, certificate.as_bytes())?,
+                None => continue,
             },
         }
         written.push(sink.path().display().to_string());
     }
     Ok(written)
+}
+
+/// What would be written of a certificate: a file, or a part of one.
+fn shown(path: &Path, sinks: &[Sink]) -> String {
+    let is_file = sinks.iter().any(|sink| matches!(sink, Sink::Certificate(own) if own == path));
+    if is_file { path.display().to_string() } else { format!("the certificate in {}", path.display()) }
 }

@@ -45,12 +45,12 @@ impl ResultFiles {
         Ok(files)
     }
 
-    /// Writes all files or, as far as can be foreseen, none; says on stderr which have no room for a result without a trajectory. The
-    /// names of those that are written, for people.
+    /// Writes all files or, as far as can be foreseen, none; says on stderr which have no room for a result without a trajectory. Into one
+    /// of them goes a certificate, if there is one to go there. The names of those that are written, for people.
     ///
     /// # Errors
     /// I/O.
-    pub fn write(&self, plan: &Plan) -> Result<Vec<String>, Failure> {
+    pub fn write(&self, plan: &Plan, certificate: Option<(&Path, &str)>) -> Result<Vec<String>, Failure> {
         let report = plan.report();
         let mut files = Vec::new();
         let mut names = Vec::new();
@@ -62,6 +62,10 @@ impl ResultFiles {
                 names.push(self.span(path));
                 self.warn_of_more(path);
             } else if let Some(bytes) = plan.bytes(FileFormat::Result(*format))? {
+                let bytes = match certificate {
+                    Some((into, certificate)) if into == path => with_certificate(bytes, certificate),
+                    _ => bytes,
+                };
                 files.push((path.clone(), bytes));
                 names.push(path.display().to_string());
             } else {
@@ -102,4 +106,12 @@ impl ResultFiles {
             sinks::say(&format!("warning: {} is left from another task, and perhaps more files", next.display()));
         }
     }
+}
+
+/// A result in JSON with a certificate as its last member.
+fn with_certificate(mut json: Vec<u8>, certificate: &str) -> Vec<u8> {
+    let end = json.iter().rposition(|byte| *byte == b'}').map_or(0, |end| json[..end].trim_ascii_end().len());
+    json.truncate(end);
+    json.extend(format!(",\n  \"certificate\": {}\n}}\n", certificate.trim_end()).bytes());
+    json
 }

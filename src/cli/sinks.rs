@@ -64,6 +64,13 @@ pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option
     Ok(sinks)
 }
 
+/// Whether a file is a result in JSON that is written anyway: then a certificate has a place in it.
+#[must_use]
+pub fn is_json_among(path: &Path, results: &[PathBuf]) -> bool {
+    let is_json = CSpaceFormat::from_path(path).is_none() && matches!(Format::from_path(path), Ok(Format::Json));
+    is_json && results.iter().any(|result| result == path)
+}
+
 /// Refuses to write two outputs onto one file, however they are spelt.
 ///
 /// # Errors

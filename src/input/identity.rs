@@ -66,3 +66,9 @@ pub fn read_from(path: &Path) -> Option<PathBuf> {
     let read = READ.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
     read.iter().find(|(_, known)| known.is(&identity)).map(|(path, _)| path.clone())
 }
+
+/// The paths of all inputs that this process has read.
+pub(super) fn files_read() -> Vec<PathBuf> {
+    let read = READ.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    read.iter().map(|(path, _)| path.clone()).collect()
+}

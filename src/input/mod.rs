@@ -18,6 +18,7 @@
 
 mod course;
 mod help;
+mod digest;
 mod ends;
 mod error;
 mod explorable;
@@ -57,6 +58,7 @@ mod world;
 mod world_map;
 mod wrist;
 
+pub use digest::Digests;
 pub use error::{Diagnostic, DiagnosticKind, InputError};
 pub use explorable::Explorable;
 pub use identity::{FileIdentity, read_from};

@@ -127,9 +127,16 @@ impl<'a> Mover<'a> {
 }
 
 impl Arm<'_> {
-    /// Whether the tip may be at a place in some configuration of a region. The domain is cut in four, again and again; parts are
-    /// dropped that have nothing of the region, or in whose middle the tip is farther from the place than it can move within.
-    pub fn may_reach(&self, tip: &Body, place: &Point, domain: &Domain, region: impl Fn(&Rectangle) -> bool) -> bool {
+    /// Rectangles that hold all configurations that put the tip at a place, but what is left out. The domain is cut in four, again and again;
+    /// parts are dropped that are left out, or in whose middle the tip is farther from the place than it can move within. Parts that touch
+    /// are put together; what a cut makes more of than `most` is not cut.
+    pub fn places(
+        &self,
+        (tip, place): (&Body, &Point),
+        domain: &Domain,
+        most: usize,
+        is_left_out: impl Fn(&Rectangle) -> bool,
+    ) -> Vec<Rectangle> {
         let mover = Mover::new(self, tip);
         let is_far = |rectangle: &Rectangle| {
             let cell = Cell::from(rectangle);
@@ -140,29 +147,43 @@ impl Arm<'_> {
             let middle = Decimal::middle(low, high);
             [[low.clone(), middle.clone()], [middle, high.clone()]]
         };
-        let (mut waiting, mut looked_at) = (vec![(domain.whole(), 0)], 0);
-        while let Some((rectangle, cuts)) = waiting.pop() {
-            looked_at += 1;
-            if !region(&rectangle) || is_far(&rectangle) {
-                continue;
+        let mut parts = vec![domain.whole()];
+        for _ in 0..MOST_CUTS {
+            let mut smaller = Vec::new();
+            for part in &parts {
+                let [first, second] = part.each_ref().map(halves);
+                let four = first.iter().flat_map(|a| second.iter().map(move |b| [a.clone(), b.clone()]));
+                smaller.extend(four.filter(|part| !is_left_out(part) && !is_far(part)));
             }
-            if cuts == MOST_CUTS || looked_at > MOST_RECTANGLES {
-                return true;
+            if smaller.len() > most {
+                break;
             }
-            let [first, second] = rectangle.each_ref().map(halves);
-            for a in &first {
-                waiting.extend(second.each_ref().map(|b| ([a.clone(), b.clone()], cuts + 1)));
-            }
+            parts = smaller;
         }
-        false
+        let mut merged: Vec<Rectangle> = Vec::new();
+        for mut part in parts {
+            while let Some(other) = merged.iter().position(|other| (0..2).all(|k| touch(&other[k], &part[k]))) {
+                let other = merged.swap_remove(other);
+                part = [0, 1].map(|k| hull(&part[k], &other[k]));
+            }
+            merged.push(part);
+        }
+        merged
     }
+}
+
+/// Whether two ranges have a number in common.
+fn touch(a: &Range, b: &Range) -> bool {
+    a[0] <= b[1] && b[0] <= a[1]
+}
+
+/// The least range that holds two.
+fn hull(a: &Range, b: &Range) -> Range {
+    [(&a[0]).min(&b[0]).clone(), (&a[1]).max(&b[1]).clone()]
 }
 
 /// How often the domain is cut where the tip may be at a place: a part in 10^12 of each range is left.
 const MOST_CUTS: u32 = 40;
-
-/// Parts of the domain that are looked at before the place counts as reached.
-const MOST_RECTANGLES: usize = 20_000;
 
 /// What a joint does at a value.
 enum Moved {

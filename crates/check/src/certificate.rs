@@ -4,9 +4,11 @@ use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::motion::Motion;
 use crate::polygon::Corner;
+use crate::sweep::Rectangle;
 use crate::task::Done;
 use crate::world::World;
 use serde::Deserialize;
+use serde_json::value::RawValue;
 
 /// What certificates of this form begin with.
 pub const FORMAT: &str = "cplan certificate 1";
@@ -17,6 +19,10 @@ pub const FORMAT: &str = "cplan certificate 1";
 pub struct Certificate {
     format: String,
     pub answer: Answer,
+    /// The SHA-256 of the two files that it is about, in hex, and of those that they name.
+    pub urdf: Option<String>,
+    pub world: Option<String>,
+    pub others: Option<Vec<String>>,
     /// What was asked, where it was not the world's own.
     pub start: Option<[Decimal; 2]>,
     pub goal: Option<[Decimal; 2]>,
@@ -31,7 +37,7 @@ pub struct Certificate {
     pub shapes: Vec<ShapeName>,
     #[serde(default)]
     pub parts: Vec<PartName>,
-    /// That there is no motion.
+    /// That there is no motion; or what is no goal of a bound, because it is not free.
     pub boxes: Option<Vec<StuckBox>>,
     /// That none is shorter.
     pub bound: Option<Bound>,
@@ -49,6 +55,19 @@ impl Certificate {
         }
         Ok(clearance)
     }
+
+    /// The boxes, if there are any, as they are.
+    ///
+    /// # Errors
+    /// One that is turned inside out.
+    pub fn rectangles(&self) -> Result<Vec<Rectangle>, CheckError> {
+        let ranges = |stuck: &StuckBox| [0, 1].map(|k| [stuck.lower[k].clone(), stuck.upper[k].clone()]);
+        let boxes: Vec<Rectangle> = self.boxes.iter().flatten().map(ranges).collect();
+        match boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
+            Some(empty) => CheckError::fails(format!("box {empty}: an upper end is below the lower one")),
+            None => Ok(boxes),
+        }
+    }
 }
 
 /// What is certified.
@@ -60,11 +79,19 @@ pub enum Answer {
     NoShorter,
 }
 
-/// Reads a certificate.
+/// A result of cplan, as far as it matters here.
+#[derive(Deserialize)]
+struct Containing<'a> {
+    #[serde(borrow)]
+    certificate: &'a RawValue,
+}
+
+/// Reads a certificate, or the one in a result of cplan.
 ///
 /// # Errors
 /// What is none, or of another form.
 pub fn read(text: &str) -> Result<Certificate, CheckError> {
+    let text = serde_json::from_str::<Containing>(text).map_or(text, |result| result.certificate.get());
     let read: Result<Certificate, _> = serde_json::from_str(text);
     let certificate = read.map_err(|error| {
         let message = format!("this is no certificate: {error}");
@@ -76,14 +103,15 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
     }
     let Certificate { answer, motion, steps, boxes, bound, .. } = &certificate;
     let evidence = [motion.is_some(), boxes.is_some(), bound.is_some()];
+    let is_to_the_goal = bound.as_ref().is_some_and(|bound| bound.to.is_none());
     let fits = match answer {
-        Answer::Found => evidence[..2] == [true, false],
+        Answer::Found => evidence[0] && (is_to_the_goal || !evidence[1]),
         Answer::Infeasible => steps.is_none() && evidence == [false, true, false],
-        Answer::NoShorter => steps.is_none() && evidence == [false, false, true],
+        Answer::NoShorter => steps.is_none() && !evidence[0] && evidence[2] && (is_to_the_goal || !evidence[1]),
     };
     if !fits {
-        let message =
-            "\"found\" has a motion, and may have steps or a bound; \"infeasible\" has boxes; \"no_shorter\" a bound";
+        let message = "\"found\" has a motion, and may have steps or a bound; \"infeasible\" has boxes; \"no_shorter\" a bound; \
+                       with a bound there are boxes only if it does not say \"to\" where";
         return Err(CheckError::in_file(Input::Certificate, message));
     }
     Ok(certificate)
@@ -126,8 +154,8 @@ pub struct StuckBox {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bound {
-    /// Where to.
-    pub to: [Decimal; 2],
+    /// Where to; by default to the goal.
+    pub to: Option<[Decimal; 2]>,
     pub length: Decimal,
     #[serde(default)]
     pub metric: Metric,

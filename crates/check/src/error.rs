@@ -14,7 +14,7 @@ pub enum Input {
 }
 
 /// Why a certificate is not accepted.
-#[derive(Debug, Error, PartialEq)]
+#[derive(Debug, Clone, Error, PartialEq)]
 pub enum CheckError {
     /// A file cannot be read, or says what the checker does not know.
     #[error("{message}")]

@@ -38,6 +38,7 @@ mod certificate;
 mod curve;
 mod decimal;
 mod error;
+mod files;
 mod free;
 mod interval;
 mod motion;
@@ -54,9 +55,11 @@ pub use error::{CheckError, Input};
 use arm::{Cell, Mover};
 use certificate::{Answer, Certificate};
 use decimal::Decimal;
+use files::Files;
 use interval::{Interval, Point};
 use overlap::Shape;
 use robot::{Arm, Body};
+use std::path::{Path, PathBuf};
 use sweep::{Domain, Range, Reached, Rectangle};
 use world::{Goal, World};
 
@@ -64,18 +67,40 @@ use world::{Goal, World};
 ///
 /// # Errors
 /// [`CheckError::Fails`] with the first part that does not hold, [`CheckError::Input`] for files that are wrong or that say
-/// what the checker does not know.
+/// what the checker does not know; also if they name other files, which have no place here.
 pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, CheckError> {
+    judged([urdf, world, certificate], [None, None])
+}
+
+/// The same of three files. What the URDF and the world name is looked for beside them.
+///
+/// # Errors
+/// As [`check`], and files that cannot be read.
+pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<String, CheckError> {
+    let read = |input: Input, path: &Path| {
+        let message = |error| format!("{error}: give a URDF, a world file and a certificate");
+        std::fs::read_to_string(path).map_err(|error| CheckError::in_file(input, message(error)))
+    };
+    let texts = [read(Input::Urdf, urdf)?, read(Input::World, world)?, read(Input::Certificate, certificate)?];
+    judged(texts.each_ref().map(String::as_str), [urdf, world].map(|path| Some(path.to_owned())))
+}
+
+/// Checks a certificate of texts, and where they are from.
+fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) -> Result<String, CheckError> {
     let certificate = certificate::read(certificate)?;
-    let world = World::read(world)?;
+    let files = Files::new(&certificate, [urdf, world], given)?;
+    // A byte order mark says nothing.
+    let [urdf, world] = [urdf, world].map(|text| text.strip_prefix('\u{feff}').unwrap_or(text));
+    let world = World::read(world, &files)?;
     let document = roxmltree::Document::parse(urdf).map_err(|error| CheckError::Input {
         input: Input::Urdf,
         line: Some(error.pos().row as usize),
         message: error.to_string(),
     })?;
-    let arm = Arm::read(&document, &world)?;
+    let arm = Arm::read(&document, &world, &files)?;
     match certificate.answer {
         Answer::Found => {
+            world.moving.clone().map_or(Ok(()), Err)?;
             let found = match &certificate.steps {
                 Some(steps) => return task::found(&arm, &world, &certificate, steps),
                 None => motion::found(&arm, &world, &certificate)?,
@@ -96,36 +121,28 @@ fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     let start = start(arm, &domain, world, certificate)?;
     let goal = GoalRegion::of(arm, &domain, world, certificate)?;
     let clearance = certificate.clearance(world)?;
-    let stuck = certificate.boxes.as_deref().unwrap_or_default();
-    let boxes: Vec<Rectangle> =
-        stuck.iter().map(|b| [0, 1].map(|k| [b.lower[k].clone(), b.upper[k].clone()])).collect();
-    if let Some(empty) = boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
-        return CheckError::fails(format!("box {empty}: an upper end is below the lower one"));
-    }
+    let boxes = certificate.rectangles()?;
     let Some(reached) = Reached::new(&domain, &boxes, &start) else {
         return CheckError::fails("the boxes leave more gaps than the checker looks at");
     };
-    if goal.may_meet(arm, &domain, &reached) {
+    if !goal.places(arm, &domain, MOST_PARTS, |part| !reached.meets(part)).is_empty() {
         return CheckError::fails("the boxes do not separate the goal from the start");
     }
     let contacts = Contacts::new(arm, world, certificate, clearance)?;
-    for (number, (stuck, ranges)) in stuck.iter().zip(&boxes).enumerate() {
-        let (body, part) = contacts.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
-        if !Mover::new(arm, body).overlaps(part, &Cell::from(ranges)) {
-            return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
-        }
-    }
+    contacts.hold(arm, certificate, &boxes)?;
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
-    let tip = match &goal {
-        GoalRegion::Configuration(_) => String::new(),
-        GoalRegion::Tip { link, .. } => format!(", a place of the tip \"{link}\","),
-    };
     Ok(format!(
-        "no motion of \"{first}\" and \"{second}\" leads from the start{} to the goal{}{tip} with clearance {clearance}",
+        "no motion of \"{first}\" and \"{second}\" leads from the start{} to the goal{} with clearance {clearance}",
         shown(certificate.start.as_ref()),
-        shown(certificate.goal.as_ref().or(certificate.goal_tip.as_ref()))
+        goal.named(certificate)
     ))
 }
+
+/// Parts of the domain in which the tip may be at a place, at the most, if it is to be shut off there, ...
+const MOST_PARTS: usize = 2000;
+
+/// ... and if it is only to be known where.
+const FEW_PARTS: usize = 500;
 
 /// The configurations that are to be reached.
 enum GoalRegion<'a> {
@@ -150,11 +167,26 @@ impl<'a> GoalRegion<'a> {
         Ok(Self::Tip { link, tip: Box::new(tip), place })
     }
 
-    /// Whether some of it may be among what is reached.
-    fn may_meet(&self, arm: &Arm, domain: &Domain, reached: &Reached) -> bool {
+    /// What holds all of it but what is left out.
+    fn places(
+        &self,
+        arm: &Arm,
+        domain: &Domain,
+        most: usize,
+        is_left_out: impl Fn(&Rectangle) -> bool,
+    ) -> Vec<Rectangle> {
         match self {
-            Self::Configuration(goal) => reached.meets(goal),
-            Self::Tip { tip, place, .. } => arm.may_reach(tip, place, domain, |part| reached.meets(part)),
+            Self::Configuration(goal) => [goal.clone()].into_iter().filter(|goal| !is_left_out(goal)).collect(),
+            Self::Tip { tip, place, .. } => arm.places((tip, place), domain, most, is_left_out),
+        }
+    }
+
+    /// What was asked in place of the world's goal, in words.
+    fn named(&self, certificate: &Certificate) -> String {
+        let own = shown(certificate.goal.as_ref().or(certificate.goal_tip.as_ref()));
+        match self {
+            Self::Configuration(_) => own,
+            Self::Tip { link, .. } => format!("{own}, a place of the tip \"{link}\","),
         }
     }
 }
@@ -166,16 +198,25 @@ fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     };
     let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
     let start = start(arm, &domain, world, certificate)?;
-    let goal = place(arm, &domain, "bound", Some(&bound.to), None)?;
-    bound::holds(arm, bound, &start, &[goal])?;
+    let boxes = certificate.rectangles()?;
+    let (goals, to) = match &bound.to {
+        Some(to) => (vec![place(arm, &domain, "bound", Some(to), None)?], shown(Some(to))),
+        None => {
+            let goal = GoalRegion::of(arm, &domain, world, certificate)?;
+            let is_stuck = |part: &Rectangle| boxes.iter().any(|stuck| within(part, stuck));
+            (goal.places(arm, &domain, FEW_PARTS, is_stuck), format!(" the goal{}", goal.named(certificate)))
+        }
+    };
+    bound::holds(arm, bound, &start, &goals)?;
     let contacts = Contacts::new(arm, world, certificate, certificate.clearance(world)?)?;
+    contacts.hold(arm, certificate, &boxes)?;
     for (number, wall) in bound.walls.iter().enumerate() {
         let (body, part) = contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?;
         if !bound::closes(arm, wall, body, part) {
             return CheckError::fails(format!("wall {number}: along it the shape can come off the part"));
         }
     }
-    let [from, to] = [certificate.start.as_ref(), Some(&bound.to)].map(shown);
+    let from = shown(certificate.start.as_ref());
     Ok(format!("no motion from the start{from} to{to} is shorter than {}", bound.length))
 }
 
@@ -194,14 +235,29 @@ impl<'a> Contacts<'a> {
             _ => Err(CheckError::in_file(Input::Certificate, "a shape has one number, of a bar 0")),
         });
         let parts = certificate.parts.iter().enumerate().map(|(number, name)| {
-            let part = world.obstacles.get(name.obstacle).ok_or_else(|| "there is no such obstacle".to_owned());
-            let part = part.and_then(|obstacle| {
-                let Shape { points, radius } = obstacle.part(&name.corners)?;
-                Ok((Shape { points, radius: &radius + &Interval::from(clearance) }, obstacle.heights.as_ref()))
-            });
-            part.map_err(|why| CheckError::Fails(format!("part {number}, of obstacle {}: {why}", name.obstacle)))
+            let Some(obstacle) = world.obstacles.get(name.obstacle) else {
+                return CheckError::fails(format!("part {number}: there is no obstacle {}", name.obstacle));
+            };
+            let Shape { points, radius } = obstacle.part(&name.corners).map_err(|why| match why {
+                CheckError::Fails(why) => {
+                    CheckError::Fails(format!("part {number}, of obstacle {}: {why}", name.obstacle))
+                }
+                input => input,
+            })?;
+            Ok((Shape { points, radius: &radius + &Interval::from(clearance) }, obstacle.heights.as_ref()))
         });
         Ok(Self { bodies: bodies.collect::<Result<_, _>>()?, parts: parts.collect::<Result<_, _>>()? })
+    }
+
+    /// That in all of each box the shape is too near the part.
+    fn hold(&self, arm: &Arm, certificate: &Certificate, boxes: &[Rectangle]) -> Result<(), CheckError> {
+        for (number, (stuck, ranges)) in certificate.boxes.iter().flatten().zip(boxes).enumerate() {
+            let (body, part) = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
+            if !Mover::new(arm, body).overlaps(part, &Cell::from(ranges)) {
+                return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
+            }
+        }
+        Ok(())
     }
 
     /// A shape and a part that can meet.
@@ -214,6 +270,11 @@ impl<'a> Contacts<'a> {
         }
         Ok((body, part))
     }
+}
+
+/// Whether a rectangle is part of another.
+fn within(part: &Rectangle, whole: &Rectangle) -> bool {
+    (0..2).all(|k| whole[k][0] <= part[k][0] && part[k][1] <= whole[k][1])
 }
 
 /// What was asked in place of the world's, in words.

@@ -1,7 +1,7 @@
 //! `cplan-check URDF WORLD CERTIFICATE`.
 #![forbid(unsafe_code)]
 
-use cplan_check::{CheckError, Input, check};
+use cplan_check::{CheckError, Input, check_files};
 use std::process::ExitCode;
 
 const USAGE: &str = "Checks a certificate of cplan in exact arithmetic.
@@ -26,17 +26,7 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    let mut texts = Vec::new();
-    for path in paths {
-        match std::fs::read_to_string(path) {
-            Ok(text) => texts.push(text),
-            Err(error) => {
-                eprintln!("{path}: {error}: give a URDF, a world file and a certificate");
-                return ExitCode::FAILURE;
-            }
-        }
-    }
-    match check(&texts[0], &texts[1], &texts[2]) {
+    match check_files(paths[0].as_ref(), paths[1].as_ref(), paths[2].as_ref()) {
         Ok(proven) => {
             println!("holds: {proven}");
             ExitCode::SUCCESS

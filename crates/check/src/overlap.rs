@@ -10,7 +10,8 @@ pub struct Shape {
     pub radius: Interval,
 }
 
-type Exact = [BigInt; 2];
+/// A point in units.
+pub type Exact = [BigInt; 2];
 
 fn cross(u: &Exact, v: &Exact) -> BigInt {
     &u[0] * &v[1] - &u[1] * &v[0]
@@ -25,7 +26,7 @@ fn minus(u: &Exact, v: &Exact) -> Exact {
 }
 
 /// The corners of the convex hull, turning left; no three in a line (Andrew 1979).
-fn hull(mut points: Vec<Exact>) -> Vec<Exact> {
+pub fn hull(mut points: Vec<Exact>) -> Vec<Exact> {
     points.sort();
     points.dedup();
     if points.len() < 3 {

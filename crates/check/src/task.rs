@@ -415,12 +415,10 @@ impl<'a> Replay<'a> {
             return CheckError::fails("something is carried when an object is picked");
         };
         let tip = self.chain.point_at(&On::Link(1), &self.tip, at);
-        self.misses(length(&minus(&tip, &lying.placed(grasp))).upper)?;
+        self.misses(length(&minus(&tip, &lying.placed(&grasp.each_ref().map(Interval::from)))).upper)?;
         let (on, hanging) = if self.task.objects[object].is_level {
-            {
-                let (at, turn) = (minus(&lying.at, &tip), lying.turn.clone());
-                (On::Level(self.tip.clone()), lying.moved(at, turn))
-            }
+            let (at, turn) = (minus(&lying.at, &tip), lying.turn.clone());
+            (On::Level(self.tip.clone()), lying.moved(at, turn))
         } else {
             let [sine, cosine] = lying.turn.clone();
             let ahead = self.chain.seen_at(&sum(&lying.at, &[cosine, sine]), at);

@@ -2,19 +2,27 @@
 
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::interval::{Interval, Point, sum, turned};
-use crate::overlap::Shape;
-use crate::polygon::{self, Corner};
+use crate::files::Files;
+use crate::interval::{Interval, Point};
+use crate::polygon::Corner;
 use crate::sweep::Range;
-use num_bigint::Sign;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::rc::Rc;
 use task::Task;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+mod cells;
 mod hung;
-mod sides;
+mod map;
+mod obstacle;
 pub mod task;
+
+pub use obstacle::Obstacle;
+
+use cells::Cells;
+use obstacle::Outline;
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
@@ -36,8 +44,10 @@ pub struct World {
     /// The link whose origin is the tip, if it says one.
     pub tip: Option<String>,
     pub clearance: Decimal,
-    /// Those that stay where they are, then the objects where they lie at first.
+    /// Those of the file that stand, then the map's walls, then the objects where they lie at first.
     pub obstacles: Vec<Obstacle>,
+    /// Why it says nothing of a motion that it is free: the checker knows no time, and something moves.
+    pub moving: Option<CheckError>,
     /// What is to be done, if it says it in steps.
     pub task: Option<Task>,
 }
@@ -50,35 +60,17 @@ pub enum Goal {
     Tip(Corner),
 }
 
-/// An obstacle, as it stands in the file.
-#[derive(Clone)]
-pub struct Obstacle {
-    pub name: Option<String>,
-    outline: Outline,
-    /// Where its frame's origin lies, and sine and cosine of how it is turned.
-    pub at: Point,
-    pub turn: Point,
-    /// Its extent along the plane's normal; none: everywhere.
-    pub heights: Option<Range>,
-}
-
-#[derive(Clone)]
-enum Outline {
-    /// What its rings surround an odd number of times.
-    Polygon(Vec<Vec<Corner>>),
-    Polyline(Vec<Corner>),
-    Circle(Corner, Decimal),
-    Image,
-}
-
 /// Reads values of the file, with their places.
-struct Reader<'a>(&'a str);
+struct Reader<'a> {
+    text: &'a str,
+    files: &'a Files,
+}
 
 type Read<T> = Result<T, CheckError>;
 
 impl Reader<'_> {
     fn error<T>(&self, value: &Value, message: &str) -> Read<T> {
-        Err(CheckError::at(Input::World, self.0, value.span().start, message))
+        Err(CheckError::at(Input::World, self.text, value.span().start, message))
     }
 
     fn table<'v, 'i>(&self, value: &'v Value<'i>) -> Read<&'v DeTable<'i>> {
@@ -181,10 +173,25 @@ impl Reader<'_> {
         Ok(())
     }
 
+    fn heights(&self, value: &Value) -> Read<Range> {
+        let [low, high] = self.two(value, |n| self.number(n))?;
+        if low > high {
+            return self.error(value, "its upper end is below the lower one");
+        }
+        Ok([low, high])
+    }
+
+    /// The path of a file that the world names.
+    fn file(&self, name: &str) -> Read<PathBuf> {
+        Ok(self.files.path(Input::World)?.with_file_name(name))
+    }
+
+    /// An obstacle, or an object as one where it lies at first.
     fn obstacle(&self, value: &Value, is_object: bool) -> Read<Obstacle> {
         let (mut outlines, mut holes) = (Vec::new(), Vec::new());
-        let (mut at, mut turn, mut heights) = ([0, 0].map(Interval::whole), [0, 1].map(Interval::whole), None);
+        let ([mut at, mut turn], mut heights) = (no_turn(), None);
         let mut name = None;
+        let (mut image, mut unknown_is_solid) = (None, true);
         for (key, value) in self.table(value)? {
             match &**key.get_ref() {
                 "polygon" => outlines.push(Outline::Polygon(self.rings(value)?)),
@@ -197,19 +204,15 @@ impl Reader<'_> {
                     };
                     outlines.push(Outline::Circle(self.two(center, |n| self.number(n))?, self.number(radius)?));
                 }
-                "image" => outlines.push(Outline::Image),
+                "image" => image = Some(self.text(value)?),
+                "unknown" => unknown_is_solid = self.text(value)? != "free",
                 "holes" => holes = self.rings(value)?,
                 "at" => at = point(&self.two(value, |n| self.number(n))?),
                 "angle" => turn = Interval::around(&self.quantity(value)?).sin_cos(),
-                "height" => {
-                    let [low, high] = self.two(value, |n| self.number(n))?;
-                    if low > high {
-                        return self.error(value, "its upper end is below the lower one");
-                    }
-                    heights = Some([low, high]);
-                }
+                "height" => heights = Some(self.heights(value)?),
                 "name" => name = Some(self.text(value)?),
-                "unknown" => {}
+                // What moves is set apart.
+                "motion" if !is_object => {}
                 // Of objects: read elsewhere.
                 "pallet" | "lift" | "mass" | "payload" | "grasp" | "supports" | "renew" if is_object => {}
                 other => {
@@ -217,6 +220,9 @@ impl Reader<'_> {
                 }
             }
         }
+        // What is not known is no matter if nobody asks.
+        let cells = |name: String| Cells::read(self.files, &self.file(&name)?, unknown_is_solid);
+        outlines.extend(image.map(|name| Outline::Cells(cells(name).map(Rc::new))));
         let [outline] =
             <[Outline; 1]>::try_from(outlines).or_else(|_| self.error(value, "an obstacle has one shape"))?;
         let outline = match outline {
@@ -228,6 +234,61 @@ impl Reader<'_> {
         };
         Ok(Obstacle { name, outline, at, turn, heights })
     }
+
+    /// All obstacles. Those that move are none: the checker knows no time.
+    fn obstacles(&self, list: &Value, world: &mut World) -> Read<()> {
+        for (index, value) in self.list(list)?.into_iter().enumerate() {
+            let mut obstacle = self.obstacle(value, false)?;
+            let name = obstacle.name.get_or_insert_with(|| format!("obstacle {}", index + 1));
+            if self.table(value)?.get("motion").is_some() {
+                let message = format!("obstacle \"{name}\" moves: the checker knows no time, and so no motion in it");
+                let error = CheckError::at(Input::World, self.text, value.span().start, message);
+                world.moving.get_or_insert(error);
+            } else {
+                world.obstacles.push(obstacle);
+            }
+        }
+        Ok(())
+    }
+
+    /// `[map]`: its walls come after the obstacles, and its goal is the world's if that has none.
+    fn map(&self, value: &Value, world: &mut World) -> Read<()> {
+        let (mut walls, mut wishes, mut is_framed, mut heights) = (None, None, true, None);
+        let mut unit = map::Unit { scale: Decimal::power_of_ten(3), offset: origin() };
+        for (key, value) in self.table(value)? {
+            match &**key.get_ref() {
+                "file" => walls = Some(self.file(&self.text(value)?)?),
+                "preferences" => wishes = Some(self.file(&self.text(value)?)?),
+                "scale" => unit.scale = self.number(value)?,
+                "offset" => unit.offset = self.two(value, |n| self.number(n))?,
+                "frame" => is_framed = value.get_ref().as_bool().unwrap_or(true),
+                "height" => heights = Some(self.heights(value)?),
+                other => return self.error(value, &format!("the checker does not know the key {other} of a map")),
+            }
+        }
+        let Some(walls) = walls else { return self.error(value, "the map has no file") };
+        for outline in map::walls(self.files, &walls, &unit, is_framed)? {
+            let ([at, turn], heights) = (no_turn(), heights.clone());
+            world.obstacles.push(Obstacle { name: None, outline, at, turn, heights });
+        }
+        if let (None, Some(path)) = (&world.goal, wishes) {
+            world.goal = Some(Goal::Tip(map::goal(self.files, &path, &unit)?));
+        }
+        Ok(())
+    }
+}
+
+fn origin() -> Corner {
+    [Decimal::whole(0), Decimal::whole(0)]
+}
+
+fn point(corner: &Corner) -> Point {
+    corner.each_ref().map(Interval::from)
+}
+
+/// The place, and sine and cosine of the turn, of what is where its frame is.
+fn no_turn() -> [Point; 2] {
+    [point(&origin()), [0, 1].map(Interval::whole)]
 }
 
 impl World {
@@ -235,14 +296,14 @@ impl World {
     ///
     /// # Errors
     /// What is no world, or says what the checker does not know and what could make a difference.
-    pub fn read(text: &str) -> Read<Self> {
+    pub fn read(text: &str, files: &Files) -> Read<Self> {
         let table = DeTable::parse(text).map_err(|error| {
             let at = error.span().map_or(0, |span| span.start);
             CheckError::at(Input::World, text, at, error.message())
         })?;
-        let reader = Reader(text);
+        let reader = Reader { text, files };
         let mut world = Self {
-            at: [Decimal::whole(0), Decimal::whole(0)],
+            at: origin(),
             angle: Interval::whole(0),
             joints: None,
             fixed: BTreeMap::new(),
@@ -253,6 +314,7 @@ impl World {
             tip: None,
             clearance: Decimal::whole(0),
             obstacles: Vec::new(),
+            moving: None,
             task: None,
         };
         for (key, value) in table.get_ref() {
@@ -261,81 +323,15 @@ impl World {
                 "start" => world.start = Some(reader.place(value)?),
                 "goal" => world.goal = Some(reader.place(value)?),
                 "clearance" => world.clearance = reader.number(value)?,
-                "obstacle" => {
-                    let list: Read<Vec<Obstacle>> =
-                        reader.list(value)?.into_iter().map(|o| reader.obstacle(o, false)).collect();
-                    world.obstacles = list?;
-                }
+                "obstacle" => reader.obstacles(value, &mut world)?,
                 "name" | "preference" | "sensor" => {}
-                // What is to be done refers to all else.
-                "object" | "pallet" | "step" | "task" => {}
+                // These refer to all else.
+                "map" | "object" | "pallet" | "step" | "task" => {}
                 other => return reader.error(value, &format!("the checker does not know worlds with {other} yet")),
             }
         }
+        table.get_ref().get("map").map_or(Ok(()), |map| reader.map(map, &mut world))?;
         reader.task(table.get_ref(), &mut world)?;
         Ok(world)
     }
-}
-
-impl Obstacle {
-    /// A convex part of it, in its place: a disc all of it, of a polyline two points that follow one another, of a polygon
-    /// a convex polygon within. Its corners are the obstacle's that are nearest to the given points.
-    ///
-    /// # Errors
-    /// Why it is no such part.
-    pub fn part(&self, given: &[Corner]) -> Result<Shape, String> {
-        let placed = |corner: &Corner| self.placed(corner);
-        let named = |corners: &[&Corner]| {
-            let places: Vec<Point> = corners.iter().map(|corner| placed(corner)).collect();
-            given.iter().filter_map(|at| Some(corners[nearest(&places, &point(at))?].clone())).collect::<Vec<Corner>>()
-        };
-        let (corners, radius) = match &self.outline {
-            Outline::Circle(center, radius) => (vec![center.clone()], Interval::from(radius)),
-            Outline::Polyline(points) => {
-                let part = named(&points.iter().collect::<Vec<_>>());
-                let is_side = |side: &[Corner]| part == side || part.iter().rev().eq(side);
-                if !points.windows(2).any(is_side) {
-                    return Err("its corners are not two points that follow one another in the polyline".into());
-                }
-                (part, Interval::whole(0))
-            }
-            Outline::Polygon(rings) => {
-                let part = named(&rings.iter().flatten().collect::<Vec<_>>());
-                if !polygon::holds(rings, &part) {
-                    return Err(
-                        "its corners are not those, turning left, of a convex polygon within the obstacle".into()
-                    );
-                }
-                (part, Interval::whole(0))
-            }
-            Outline::Image => return Err("the obstacle is an image, which the checker does not know yet".into()),
-        };
-        if radius.lower.sign() == Sign::Minus {
-            return Err("its radius is negative".into());
-        }
-        Ok(Shape { points: corners.iter().map(placed).collect(), radius })
-    }
-
-    /// The same elsewhere.
-    pub fn moved(self, at: Point, turn: Point) -> Self {
-        Self { at, turn, ..self }
-    }
-
-    /// A point of its frame in its place.
-    pub fn placed(&self, corner: &Corner) -> Point {
-        sum(&self.at, &turned(&point(corner), &self.turn))
-    }
-}
-
-fn point(corner: &Corner) -> Point {
-    corner.each_ref().map(Interval::from)
-}
-
-/// Which of the places is nearest, as the middles of their enclosures have it.
-fn nearest(places: &[Point], to: &Point) -> Option<usize> {
-    let distance = |place: &Point| {
-        let [x, y] = [0, 1].map(|k| (&place[k] - &to[k]).middle().0);
-        &x * &x + &y * &y
-    };
-    (0..places.len()).min_by_key(|i| distance(&places[*i]))
 }

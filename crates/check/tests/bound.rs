@@ -189,3 +189,65 @@ fn nothing_that_is_longer_than_the_optimum_holds() {
     }
     assert!(held > random::times(10) && longest > 0.9 * optimum, "{held} {longest}");
 }
+
+/// Two bars of 1 m, of which the second collides.
+const ARM: &str = r#"<robot name="r">
+  <link name="base"/>
+  <joint name="a" type="revolute">
+    <parent link="base"/> <child link="upper"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
+  </joint>
+  <link name="upper"/>
+  <joint name="b" type="revolute">
+    <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
+  </joint>
+  <link name="fore"> <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1 0.1 0.1"/> </geometry> </collision> </link>
+  <joint name="c" type="fixed"> <parent link="fore"/> <child link="tip"/> <origin xyz="1 0 0"/> </joint>
+  <link name="tip"/>
+</robot>"#;
+
+/// The tip is at (1, 1) with the elbow at (1, 0) or at (0, 1): joint values (0, pi/2) and (pi/2, -pi/2).
+#[test]
+fn to_wherever_the_tip_is_at_a_place() {
+    let world = |place: &str| {
+        format!(
+            "start.joints = [0, 1]\ngoal.tip = {place}\nobstacle = [{{ circle = {{ center = [1, 0.5], radius = 0.1 }} }}]"
+        )
+    };
+    let certificate = |length: f64, boxes: &str| {
+        format!(
+            r#"{{"format": "cplan certificate 1", "answer": "no_shorter", {boxes}
+                 "shapes": [{{"link": "fore", "collision": 0}}], "parts": [{{"obstacle": 0}}],
+                 "bound": {{"length": {length}, "walls": [], "potentials": []}}}}"#
+        )
+    };
+    let of = |place: &str, length: f64, boxes: &str| code(ARM, &world(place), &certificate(length, boxes));
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let (near, far) = (quarter - 1.0, quarter.hypot(quarter + 1.0));
+    assert_eq!((of("[1, 1]", near - 1e-9, ""), of("[1, 1]", near + 1e-9, "")), (0, 3));
+    // The nearer one is in the disc.
+    let about = |half: f64| {
+        format!(
+            r#""boxes": [{{"lower": [{}, {}], "upper": [{half}, {}], "shape": 0, "part": 0}}],"#,
+            -half,
+            quarter - half,
+            quarter + half
+        )
+    };
+    let stuck = about(0.02);
+    assert_eq!((of("[1, 1]", far - 1e-9, &stuck), of("[1, 1]", far + 1e-9, &stuck)), (0, 3));
+    assert_eq!(of("[1, 1]", near, &about(0.1)), 3, "it comes off the disc there");
+    assert_eq!(of("[1, 1]", far - 1e-9, &about(1e-14)), 3, "the box is no larger than what is not known");
+    let said = check(ARM, &world("[1, 1]"), &certificate(3.0, &stuck)).unwrap();
+    assert_eq!(said, "no motion from the start to the goal, a place of the tip \"tip\", is shorter than 3");
+    // Stretched, two become one, which is known less well; out of reach is no way at all.
+    assert_eq!((of("[2, 0]", 0.8, ""), of("[2, 0]", 1.0 + 1e-9, ""), of("[2.1, 0]", 100.0, "")), (0, 3, 0));
+    // With the tip on the first axis the first joint is free, and the second at half a turn: outside the limits.
+    assert_eq!(of("[0, 0]", 100.0, ""), 0);
+    let wide = ARM.replace("2.9", "3.2");
+    let of = |length: f64| code(&wide, &world("[0, 0]"), &certificate(length, ""));
+    let near = 2.0 * quarter - 1.0;
+    assert_eq!((of(near - 0.4), of(near + 1e-9)), (0, 3));
+    // Where it is said, boxes have no say.
+    let said = certificate(1.0, &stuck).replace("\"length\"", "\"to\": [1, 1], \"length\"");
+    assert_eq!(code(ARM, &world("[1, 1]"), &said), 1);
+}

@@ -328,11 +328,11 @@ fn bad_input_is_named() {
         "soft",
     );
     let worlds = |text: &str, part: &str| bad(&arm(), &world(text), &good, Input::World, part);
-    worlds("[[obstacle]]\nimage = \"map.yaml\"", "images");
+    worlds("[[obstacle]]\nimage = \"map.yaml\"", "check_files");
     worlds("[[obstacle]]\npolygon = [[0, 0], [1, 1]]", "too few");
     worlds("[[obstacle]]\npolyline = [[0, 0]]", "too few");
     worlds("[[obstacle]]\ncircle = { center = [9, 9], radius = -1 }", "no radius");
-    worlds("[map]\nfile = \"m\"", "map");
+    worlds("[map]\nfile = \"m\"", "check_files");
     worlds("[[object]]\nname = \"m\"", "one shape");
     let bars = arm().replace(
         "<collision> <origin xyz=\"0.4 0 0\"/> <geometry> <box size=\"0.8 0.1 0.1\"/> </geometry> </collision>",

@@ -101,9 +101,6 @@ impl CheckedBound {
 /// legs, and places a hair apart.
 const ROUNDING: [f64; 2] = [1e-9, 1e-12];
 
-/// Looks along a wall in either direction, where a checker is to look as well that takes longer.
-const FEW_LOOKS: usize = 60;
-
 /// How much farther inside barriers may be than they were found, either way, radians or metres.
 const INSIDE: [f64; 9] = [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4];
 
@@ -111,14 +108,14 @@ const INSIDE: [f64; 9] = [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-
 const SEAM: f64 = 1e-7;
 
 impl LengthClaim {
-    /// The walls as far as they are seen closed, and the barriers that are, with few looks: these a little farther inside what is
-    /// closed, where they hardly are. What ends at a seam goes a little past it.
+    /// The walls as far as they are seen closed, and the barriers that are, with so many looks along each in either direction: barriers a
+    /// little farther inside what is closed, where they hardly are. What ends at a seam goes a little past it.
     #[must_use]
-    pub fn closed(&self, scene: &Scene, clearance: f64) -> Vec<ClosedSegment> {
+    pub fn closed(&self, scene: &Scene, clearance: f64, looks: usize) -> Vec<ClosedSegment> {
         let (scene, mut closed) = (&*scene.inner(), Vec::new());
         let seen = |ends: [Configuration; 2], pair: Pair| {
             checkpoint();
-            held(scene, pair, ends, clearance, FEW_LOOKS)
+            held(scene, pair, ends, clearance, looks)
         };
         let circle = scene.arm().topology().ranges[0].is_circle();
         for (number, slice) in self.slices.iter().enumerate() {

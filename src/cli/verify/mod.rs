@@ -10,7 +10,7 @@ use super::{DONE, REFUTED, UNKNOWN};
 use crate::draw::{Picture, View};
 use crate::engine::certificate_of_recording;
 use crate::engine::findings::{MotionFindings, Verdict, verify};
-use crate::input::{self, Overrides};
+use crate::input::{self, Digests, Overrides};
 use crate::model::Scene;
 use crate::motion::write_whole;
 use crate::output::{PictureFormat, contours, title_of};
@@ -24,6 +24,7 @@ use crate::space::Recording;
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
     let mut loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
+    let about = Digests::of(&args.files.urdf, &args.files.world)?;
     loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let mut recorded = input::load_recording(&args.trajectory, &loaded)?;
     if args.torque || recorded.has_torques {
@@ -48,9 +49,11 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
             Sink::Picture(format, path) => draw(scene, recording, &findings, *format, path)?,
             Sink::Certificate(path) if matches!(findings.verdict, Verdict::Free) => {
                 let (start, goal) = if args.anywhere { (None, None) } else { loaded.ends(&overrides(args))? };
-                let certificate =
-                    certificate_of_recording(recording, recorded.steps.as_deref(), &overrides(args), [start, goal]);
-                write_whole(path, certificate.as_bytes())?;
+                let (steps, asked) = (recorded.steps.as_deref(), (&overrides(args), &about));
+                match certificate_of_recording(scene, recording, steps, asked, [start, goal]) {
+                    Ok(certificate) => write_whole(path, certificate.as_bytes())?,
+                    Err(why) => sinks::say(&format!("warning: {} is not written: {why}", path.display())),
+                }
             }
             Sink::Certificate(path) => {
                 sinks::say(&format!("warning: {} is not written: the motion is not accepted", path.display()));

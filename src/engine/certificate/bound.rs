@@ -48,6 +48,8 @@ pub(super) struct Ways<'a> {
     pub metric: Metric,
     pub start: Configuration,
     pub goals: &'a [Configuration],
+    /// How near to a goal a way may end, as a share of the limit.
+    pub about: f64,
     /// No way that is longer counts.
     pub limit: f64,
 }
@@ -124,6 +126,11 @@ impl Ways<'_> {
         (self.metric.norm(to - from) * (1.0 - SHORTER) - self.less()).max(0.0)
     }
 
+    /// How far it is to a goal at the least.
+    fn to_goal(&self, displacement: Configuration) -> f64 {
+        (self.metric.norm(displacement) - self.about * self.limit).max(0.0)
+    }
+
     /// The turns of a joint that carry values from `low` to `high` to where ways get.
     fn turns(&self, joint: usize, low: f64, high: f64) -> std::ops::RangeInclusive<i64> {
         let JointRange::Circle = self.topology.ranges[joint] else { return 0..=0 };
@@ -181,7 +188,7 @@ impl<'a> Plane<'a> {
                     JointRange::Interval { lower, upper } => value[k] <= lower || value[k] >= upper,
                     JointRange::Circle => false,
                 };
-                let rest = goals.iter().map(|goal| ways.metric.norm(goal - at)).fold(f64::INFINITY, f64::min);
+                let rest = goals.iter().map(|goal| ways.to_goal(goal - at)).fold(f64::INFINITY, f64::min);
                 let line = (value[0].to_bits(), copy.turns[0]);
                 let is_within = runs.get(&line).is_some_and(|runs| runs.iter().any(|run| run.holds(at[1])));
                 if !is_outside(0)
@@ -206,7 +213,8 @@ impl<'a> Plane<'a> {
         for _ in 0..MOST_LOOKED {
             if let Some(from) = next {
                 for goal in &self.goals {
-                    let length = from.potential + self.ways.leg(from.at, *goal);
+                    let leg = self.ways.leg(from.at, *goal) - self.ways.about * self.ways.limit;
+                    let length = from.potential + leg.max(0.0);
                     if length < best && !self.is_barred(from.at, from.line, *goal, None) {
                         best = length;
                     }
@@ -250,15 +258,13 @@ impl<'a> Plane<'a> {
         let start = self.start();
         let mut needed = BTreeSet::new();
         for from in self.corners.iter().filter_map(known).chain([start]) {
-            let grows = |to: Configuration, potential: f64| {
-                from.potential + self.ways.metric.norm(to - from.at) < potential + self.ways.less() / 4.0
-            };
-            for goal in self.goals.iter().filter(|goal| grows(**goal, length)) {
+            let grows = |leg: f64, potential: f64| from.potential + leg < potential + self.ways.less() / 4.0;
+            for goal in self.goals.iter().filter(|goal| grows(self.ways.to_goal(**goal - from.at), length)) {
                 self.bar(from, *goal, None, &mut needed);
             }
             for corner in self.corners.iter() {
                 let potential = self.potential(length, reached, corner).unwrap_or(length - corner.rest);
-                if grows(corner.at, potential) {
+                if grows(self.ways.metric.norm(corner.at - from.at), potential) {
                     self.bar(from, corner.at, Some(corner.line), &mut needed);
                 }
             }

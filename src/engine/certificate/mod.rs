@@ -10,10 +10,10 @@ use super::bound::{claim, motions};
 use super::motion_plan::MotionPlan;
 use super::{Kind, Plan, TaskPlan};
 use crate::check::{Cell, ClosedSegment, StuckBox};
-use crate::geometry::Point;
-use crate::input::{Overrides, TipPoint};
-use crate::model::{MotionProblem, OutlineSource, Pair, Scene, Shape, Status, inverse};
-use crate::space::{Metric, Segment};
+use crate::geometry::{Point, cross};
+use crate::input::{Digests, Overrides, TipPoint};
+use crate::model::{Arm, MotionProblem, OutlineSource, Pair, Scene, Shape, Status, inverse};
+use crate::space::{Configuration, JointRange, Metric, Segment, Topology};
 use bound::{LeastLength, Ways};
 use serde::Serialize;
 use serde_json::json;
@@ -29,6 +29,9 @@ pub enum NoCertificate {
     /// The proof that a task cannot be done.
     #[error("proofs that tasks cannot be done have no certificates yet")]
     Task,
+    /// A motion in a world in which something moves: the checker knows no time.
+    #[error("motions among what moves have no certificates yet")]
+    Moving,
 }
 
 /// A box as it stands in a certificate.
@@ -41,25 +44,26 @@ struct Stuck {
 }
 
 impl Plan {
-    /// The certificate of the answer, where it has one. What `asked` says in place of the world file is in it.
+    /// The certificate of the answer, where it has one. What `asked` says in place of the world file is in it, and which `files` it is about.
     ///
     /// # Errors
     /// [`NoCertificate`].
-    pub fn certificate(&self, asked: &Overrides) -> Result<String, NoCertificate> {
+    pub fn certificate(&self, asked: &Overrides, files: Option<&Digests>) -> Result<String, NoCertificate> {
         let plan = match self.made() {
             Kind::Motion(plan) => plan,
-            Kind::Task(plan) => return self.certificate_of_task(plan, asked),
+            Kind::Task(plan) => return self.certificate_of_task(plan, asked, files),
         };
         let problem = &plan.problem;
         let mut contacts = Contacts::new(problem.scene());
         let (answer, evidence) = match (self.trajectory(), plan.answer.verdict.proof()) {
             (Some(trajectory), _) => {
+                among_what_stands(problem.scene())?;
                 let mut evidence = vec![motion::evidence(problem.scene().arm(), trajectory)];
-                evidence.extend(least_length(plan, &mut contacts));
+                evidence.extend(least_length(plan, asked, &mut contacts).into_iter().flatten());
                 ("found", evidence)
             }
             (None, Some(proof)) => {
-                let stuck = [proof.stuck(), &ruled_out(problem)].concat();
+                let stuck = [proof.stuck(), &ruled_out(problem).0].concat();
                 let boxes: Vec<Stuck> = stuck.iter().map(|stuck| contacts.stuck(stuck)).collect();
                 ("infeasible", vec![("boxes", lines(&boxes))])
             }
@@ -70,7 +74,8 @@ impl Plan {
         } else {
             vec![("shapes", lines(&contacts.shapes)), ("parts", lines(&contacts.parts))]
         };
-        Ok(written(answer, said(problem, asked), named.into_iter().chain(evidence)))
+        let said = [about(files), said(problem, asked)].concat();
+        Ok(written(answer, said, named.into_iter().chain(evidence)))
     }
 
     /// The same of a task that can be done.
@@ -78,6 +83,7 @@ impl Plan {
         &self,
         TaskPlan { task, .. }: &TaskPlan,
         asked: &Overrides,
+        files: Option<&Digests>,
     ) -> Result<String, NoCertificate> {
         let (Some(trajectory), Some(figures)) = (self.trajectory(), &self.report().task) else {
             return Err(match self.status() {
@@ -85,29 +91,42 @@ impl Plan {
                 status => NoCertificate::Answer(status),
             });
         };
-        let start = asked.start.map(|_| ("start", json!(task.start)));
+        let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
         let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
+        let said = about(files).into_iter().chain(start).chain(clearance).collect();
         let evidence = [motion::evidence(&task.arm, trajectory), task::steps(&figures.steps)];
-        Ok(written("found", start.into_iter().chain(clearance).collect(), evidence))
+        Ok(written("found", said, evidence))
     }
 }
 
-/// That no motion is shorter than the bound, up to a hair; none where nothing is known of that, or there are several goals.
-fn least_length(plan: &MotionPlan, contacts: &mut Contacts) -> Option<(&'static str, String)> {
+/// That nothing moves in a scene but the arm.
+fn among_what_stands(scene: &Scene) -> Result<(), NoCertificate> {
+    if scene.workspace().movers.is_empty() { Ok(()) } else { Err(NoCertificate::Moving) }
+}
+
+/// That no motion is shorter than the bound, up to a hair; none where nothing is known of that, or goals are a curve.
+///
+/// To one configuration, or to wherever the tip is at the place that was asked for: then the boxes about those of these configurations that are
+/// not free come first.
+fn least_length(plan: &MotionPlan, asked: &Overrides, contacts: &mut Contacts) -> Option<Evidence> {
     let (problem, stated) = (&plan.problem, plan.answer.bound.as_ref()?);
     let motions = motions(problem, stated.metric);
     let topology = problem.scene().arm().topology();
-    let [goal] = problem.goals().pieces() else { return None };
-    let goal = goal.is_point().then(|| goal.ends()[0])?;
+    let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
     let ways = Ways {
         topology: &topology,
         metric: stated.metric,
         start: topology.wrap(motions.start),
-        goals: &[goal],
+        goals: &goals,
+        about: if to.is_some() { 0.0 } else { ABOUT_A_GOAL },
         limit: stated.upper,
     };
-    let closed = claim(&motions, stated).closed(motions.scene, motions.clearance);
-    let least = LeastLength::new(&ways, closed)?;
+    let claim = claim(&motions, stated);
+    let of = |looks: usize| LeastLength::new(&ways, claim.closed(motions.scene, motions.clearance, looks));
+    let mut least = of(LOOKS[0])?;
+    if least.length < stated.lower * (1.0 - MUCH) {
+        least = of(LOOKS[1]).filter(|closer| closer.length > least.length).unwrap_or(least);
+    }
     let wall = |wall: &ClosedSegment| {
         let (shape, part) = contacts.numbers(wall.pair);
         let [from, to] = wall.ends.map(<[f64; 2]>::from);
@@ -124,12 +143,74 @@ fn least_length(plan: &MotionPlan, contacts: &mut Contacts) -> Option<(&'static 
         Metric::Weighted { weights } => json!({ "weights": weights }),
         Metric::Time { speeds } => json!({ "speeds": speeds }),
     };
-    let (to, length) = (json!(goal), least.length);
-    let (walls, potentials) = (lines(&walls), lines(&potentials));
+    let to = to.map_or_else(String::new, |to| format!("\"to\": {}, ", json!(to)));
+    let (length, walls, potentials) = (least.length, lines(&walls), lines(&potentials));
     let members =
-        format!(r#""to": {to}, "length": {length}, "metric": {metric}, "walls": {walls}, "potentials": {potentials}"#);
-    Some(("bound", format!("{{ {members} }}")))
+        format!(r#"{to}"length": {length}, "metric": {metric}, "walls": {walls}, "potentials": {potentials}"#);
+    let boxes: Vec<Stuck> = boxes.iter().map(|stuck| contacts.stuck(stuck)).collect();
+    let boxes = (!boxes.is_empty()).then(|| ("boxes", lines(&boxes)));
+    Some(boxes.into_iter().chain([("bound", format!("{{ {members} }}"))]).collect())
 }
+
+/// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, ...
+const LOOKS: [usize; 2] = [60, 300];
+
+/// ... and more if the bound loses more than this share: where shapes come apart slowly, as in a slot, walls end too early.
+const MUCH: f64 = 1e-3;
+
+/// Where a bound leads to.
+struct Ends {
+    /// One configuration, if it is about that; or else the goal, wherever the tip is at the place.
+    to: Option<Configuration>,
+    /// All that may count as goals.
+    goals: Vec<Configuration>,
+    /// About those that are none.
+    boxes: Vec<StuckBox>,
+}
+
+impl Ends {
+    /// None where goals are a curve, or not told from what is beside them.
+    fn of(problem: &MotionProblem, asked: &Overrides) -> Option<Self> {
+        let (arm, pieces) = (problem.scene().arm(), problem.goals().pieces());
+        let topology = arm.topology();
+        if !pieces.iter().all(Segment::is_point) {
+            return None;
+        }
+        let goals: Vec<Configuration> = pieces.iter().map(|goal| inward(&topology, goal.ends()[0])).collect();
+        if let ([goal], None) = (&goals[..], asked.goal_tip) {
+            return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
+        }
+        let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
+        if solved.free.is_some() || solved.branches.iter().any(|q| is_nearly_stretched(arm, *q)) {
+            return None;
+        }
+        let (boxes, left) = ruled_out(problem);
+        Some(Self { to: None, goals: [goals, left].concat(), boxes })
+    }
+}
+
+/// What a checker leaves open of where the tip is at a place, as a share of the way: it looks for these configurations itself, down to a
+/// part in 10^12 of the joints' ranges.
+const ABOUT_A_GOAL: f64 = 1e-6;
+
+/// The area between the ways in which the joints move the tip, as a share of the square of both together: with less a checker does not tell
+/// configurations that put the tip at a place from those beside them, as it cuts both joints' ranges in equal shares.
+const STRETCHED: f64 = 0.015;
+
+fn is_nearly_stretched(arm: &Arm, q: Configuration) -> bool {
+    const STEP: f64 = 1e-6;
+    let ranges = arm.topology().ranges;
+    let moved = |k: usize| {
+        let (lower, upper) = ranges[k].domain();
+        let step = Configuration::from_fn(|i, _| if i == k { STEP * (upper - lower) } else { 0.0 });
+        arm.tip_at(q + step) - arm.tip_at(q - step)
+    };
+    let [a, b] = [moved(0), moved(1)];
+    cross(a, b).abs() <= STRETCHED * (a.norm() + b.norm()).powi(2)
+}
+
+/// Members of a certificate, by name, as they are written.
+type Evidence = Vec<(&'static str, String)>;
 
 /// The text of a certificate, a member a line.
 fn written(answer: &str, said: Said, evidence: impl IntoIterator<Item = (&'static str, String)>) -> String {
@@ -150,10 +231,19 @@ fn lines(entries: &[impl Serialize]) -> String {
     format!("[\n{}\n  ]", entries.join(",\n"))
 }
 
+/// The files that it is about.
+fn about(files: Option<&Digests>) -> Said {
+    let Some(Digests { urdf, world, others }) = files else { return Said::new() };
+    let others = (!others.is_empty()).then(|| ("others", json!(others)));
+    [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).collect()
+}
+
 /// What was said in place of the world file.
 fn said(problem: &MotionProblem, asked: &Overrides) -> Said {
-    let start = asked.start.map(|_| ("start", json!(problem.start())));
-    let goal = asked.goal.map(|_| ("goal", json!(problem.goals().pieces()[0].ends()[0])));
+    let topology = problem.scene().arm().topology();
+    let written = |q| json!(inward(&topology, q));
+    let start = asked.start.map(|_| ("start", written(problem.start())));
+    let goal = asked.goal.map(|_| ("goal", written(problem.goals().pieces()[0].ends()[0])));
     let tip = asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y])));
     let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
     start.into_iter().chain(goal).chain(tip).chain(clearance).collect()
@@ -169,25 +259,27 @@ const MARGINS: [f64; 6] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
 const MOST_HALVINGS: u32 = 12;
 
 /// Boxes about the IK solutions that are no goals because they are not free. A checker knows but where the tip is to be, and so
-/// that these are among what is to be reached.
-fn ruled_out(problem: &MotionProblem) -> Vec<StuckBox> {
+/// that these are among what is to be reached. With them the middles of what no box was found for.
+fn ruled_out(problem: &MotionProblem) -> (Vec<StuckBox>, Vec<Configuration>) {
     let (scene, goals) = (problem.scene(), problem.goals());
     let (arm, topology) = (scene.arm(), scene.arm().topology());
-    let Some(goal) = goals.pieces().first() else { return Vec::new() };
+    let Some(goal) = goals.pieces().first() else { return (vec![], vec![]) };
     let solved = inverse(arm, arm.tip_at(goal.ends()[0]), problem.start());
     let is_goal = |piece: &Segment| goals.contains(&topology, piece.at(0.5), SAME);
     let solutions = solved.solutions(arm).into_iter().flat_map(|piece| piece.wrapped(&topology));
     let mut waiting: Vec<(Segment, u32)> = solutions.filter(|piece| !is_goal(piece)).map(|piece| (piece, 0)).collect();
-    let mut boxes = Vec::new();
+    let (mut boxes, mut left) = (Vec::new(), Vec::new());
     while let Some((piece, halvings)) = waiting.pop() {
         if let Some(stuck) = stuck_about(scene, &piece) {
             boxes.push(stuck);
         } else if !piece.is_point() && halvings < MOST_HALVINGS {
             let halves = [[0.0, 0.5], [0.5, 1.0]].map(|[a, b]| Segment::new(piece.at(a), piece.at(b)));
             waiting.extend(halves.map(|half| (half, halvings + 1)));
+        } else {
+            left.push(piece.at(0.5));
         }
     }
-    boxes
+    (boxes, left)
 }
 
 /// The widest box about a piece in all of which something remains that is in its way.
@@ -264,6 +356,21 @@ fn part_of(scene: &Scene, pair: Pair) -> serde_json::Value {
             json!({ "obstacle": obstacle, "corners": corners })
         }
     }
+}
+
+/// Room that doubles leave next to a limit, as a share of it. What is given in degrees, or in more digits than a double has, lies up to two
+/// units in the last place inside the double that stands for it.
+const BESIDE_A_LIMIT: f64 = 4.0 * f64::EPSILON;
+
+/// A configuration as it is written: at a limit a hair inside.
+fn inward(topology: &Topology, q: Configuration) -> Configuration {
+    Configuration::from_fn(|k, _| match topology.ranges[k] {
+        JointRange::Interval { lower, upper } => {
+            let [lower, upper] = [lower + BESIDE_A_LIMIT * lower.abs(), upper - BESIDE_A_LIMIT * upper.abs()];
+            q[k].min(upper).max(lower)
+        }
+        JointRange::Circle => q[k],
+    })
 }
 
 /// The ends of a box. Where it ends with the domain it goes on a little: limits are decimals and half a turn is no number at

@@ -1,11 +1,11 @@
 //! Evidence for a motion: what its consumers play, which is all that it takes to check it.
 
 use super::task::steps_of_recording;
-use super::{Said, lines, written};
-use crate::input::{Overrides, TipPoint};
-use crate::model::{Arm, Goal, RecordedStep};
+use super::{NoCertificate, about, among_what_stands, inward, lines, written};
+use crate::input::{Digests, Overrides, TipPoint};
+use crate::model::{Arm, Goal, RecordedStep, Scene};
 use crate::motion::Trajectory;
-use crate::space::{Configuration, Interpolation, Recording};
+use crate::space::{Configuration, Interpolation, Recording, Topology};
 use serde_json::{Value, json};
 
 /// The evidence of a planned motion: as readers of tables and of ROS 2's messages join its samples, and as its JSON says.
@@ -13,6 +13,7 @@ pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, Str
     // With a limit on the jerk the samples' JSON says the same cubics.
     let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
     let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
+    let position = &written_inward(&arm.topology(), position);
     if is_smooth {
         played(&["cubic"], time, &[position, velocity])
     } else {
@@ -21,29 +22,37 @@ pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, Str
 }
 
 /// The certificate of a recorded motion, as its format joins samples: from the world's start to its goal, or those that are
-/// `asked` for; where there are none (`ends`), from and to where it leads. Of a recorded task from the start through all its steps.
+/// `asked` for; where there are none (`ends`), from and to where it leads. Of a recorded task from the start through all its steps. It is
+/// about these `files`.
+///
+/// # Errors
+/// [`NoCertificate::Moving`].
 pub fn recorded(
+    scene: &Scene,
     recording: &Recording,
     steps: Option<&[RecordedStep]>,
-    asked: &Overrides,
+    (asked, files): (&Overrides, &Digests),
     ends: [Option<Goal>; 2],
-) -> String {
+) -> Result<String, NoCertificate> {
+    among_what_stands(scene)?;
+    let topology = &scene.arm().topology();
     let q = recording.positions();
     let own = [q[0], q[q.len() - 1]];
-    let mut said = Said::new();
+    let mut said = about(Some(files));
     for (k, (end, is_asked)) in ends.iter().zip([asked.start.is_some(), asked.goal.is_some()]).enumerate() {
         let name = ["start", "goal"][k];
         match end {
-            Some(Goal::Joints(q)) if is_asked => said.push((name, json!(q))),
+            Some(Goal::Joints(q)) if is_asked => said.push((name, json!(inward(topology, *q)))),
             Some(_) => {}
             None if k == 1 && steps.is_some() => {}
-            None => said.push((name, json!(own[k]))),
+            None => said.push((name, json!(inward(topology, own[k])))),
         }
     }
     said.extend(asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y]))));
     said.extend(asked.clearance.map(|clearance| ("clearance", json!(clearance))));
     let counted: Vec<f64> = (0..q.len()).map(|k| k as f64).collect();
     let rows = |values: &[Configuration]| values.iter().map(|&q| q.into()).collect::<Vec<[f64; 2]>>();
+    let positions = written_inward(topology, &rows(q));
     let [velocities, accelerations] =
         [recording.velocities(), recording.accelerations()].map(|values| values.map(rows).unwrap_or_default());
     let (reading, columns) = match recording.interpolation() {
@@ -52,9 +61,14 @@ pub fn recorded(
         Interpolation::Quartic => ("quartic", 3),
         Interpolation::Quintic => ("quintic", 3),
     };
-    let all = [&rows(q), &velocities, &accelerations];
+    let all = [&positions, &velocities, &accelerations];
     let motion = played(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
-    written("found", said, [motion].into_iter().chain(steps.map(steps_of_recording)))
+    Ok(written("found", said, [motion].into_iter().chain(steps.map(steps_of_recording))))
+}
+
+/// Values of the joints as they are written.
+fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    positions.iter().map(|&q| inward(topology, q.into()).into()).collect()
 }
 
 /// Knots of a time and the rows of some columns.

@@ -101,7 +101,7 @@ fn closed(seed: u64, tally: &mut Tally) -> Vec<Closed> {
         if answer.status() != Status::Infeasible {
             continue;
         }
-        let certificate = answer.certificate(&Overrides::default()).unwrap();
+        let certificate = answer.certificate(&Overrides::default(), None).unwrap();
         let begun = Instant::now();
         let judged = check(&urdf, &world, &certificate);
         tally.checking += begun.elapsed();

@@ -20,6 +20,8 @@ use std::time::{Duration, Instant};
 struct Tally {
     found: [usize; KINDS as usize],
     tips: usize,
+    /// Bounds on the ways to several configurations at once.
+    to_tips: usize,
     oblique: usize,
     largest: usize,
     checking: Duration,
@@ -59,11 +61,12 @@ fn ways(seed: u64, tally: &mut Tally) {
         if answer.status() != Status::Found {
             continue;
         }
-        let certificate = answer.certificate(&Overrides::default()).unwrap();
+        let certificate = answer.certificate(&Overrides::default(), None).unwrap();
         let begun = Instant::now();
         let judged = check(&urdf, &world, &certificate);
         let took = begun.elapsed();
-        assert!(judged.is_ok(), "seed {seed}, {turn}: {judged:?}\n{urdf}\n{world}");
+        let Ok(said) = judged else { panic!("seed {seed}, {turn}: {judged:?}\n{urdf}\n{world}") };
+        tally.to_tips += usize::from(said.contains("to the goal, a place of the tip \"tool\", is shorter"));
         tally.found[kind as usize] += 1;
         tally.oblique += usize::from(drawn.has_oblique_cylinder());
         tally.tips += usize::from(matches!(drawn.goal, Goal::Tip(_)));
@@ -80,5 +83,5 @@ fn certificates_of_random_motions_hold() {
         ways(seed, &mut tally);
     }
     println!("{tally:?}");
-    assert!(!usual() || tally.found.iter().all(|count| *count > 3) && tally.tips > 3, "{tally:?}");
+    assert!(!usual() || tally.found.iter().all(|count| *count > 3) && tally.to_tips > 0, "{tally:?}");
 }

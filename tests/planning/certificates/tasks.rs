@@ -124,7 +124,7 @@ fn tasks(seed: u64, tally: &mut Tally) {
         if answer.status() != Status::Found {
             continue;
         }
-        let certificate = answer.certificate(&Overrides::default()).unwrap();
+        let certificate = answer.certificate(&Overrides::default(), None).unwrap();
         let begun = Instant::now();
         let judged = check(&urdf, &world, &certificate);
         tally.longest = tally.longest.max(begun.elapsed());

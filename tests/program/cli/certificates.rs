@@ -1,9 +1,16 @@
 //! `--certificate`, and what the checker, which shares no code with the program, says of it.
 
 use super::{FREE, Place, shipped};
-use cplan_check::{CheckError, check};
+use cplan_check::{CheckError, check, check_files};
 use serde_json::Value;
 use std::path::Path;
+
+/// The certificate without the digests of its files: about whatever files are given.
+pub fn without_digests(certificate: &str) -> String {
+    let mut whole: Value = serde_json::from_str(certificate).unwrap();
+    ["urdf", "world", "others"].iter().for_each(|name| drop(whole.as_object_mut().unwrap().remove(*name)));
+    whole.to_string()
+}
 
 /// Shipped worlds without a way, and their robots.
 fn closed() -> Vec<(String, String)> {
@@ -44,7 +51,9 @@ fn every_shipped_world_without_a_way_has_a_certificate_that_holds() {
         assert!((0..count).rev().any(|k| matches!(without(k), Err(CheckError::Fails(_)))), "{world}");
         if let Some(twin) = world.strip_suffix("_closed.toml") {
             let open = read(&format!("{twin}_open.toml"));
-            assert!(matches!(judged(&open, &certificate), Err(CheckError::Fails(_))), "{twin}");
+            let anywhere = without_digests(&certificate);
+            judged(&read(&world), &anywhere).unwrap_or_else(|why| panic!("{world}: {why}"));
+            assert!(matches!(judged(&open, &anywhere), Err(CheckError::Fails(_))), "{twin}");
         }
     }
 }
@@ -110,7 +119,7 @@ fn a_robot_that_stands_elsewhere_has_a_certificate_too() {
     let done = place.run(&files, "--quiet --certificate c.json");
     assert_eq!(done.code, 3, "{}", done.stderr);
     let urdf = std::fs::read_to_string(&files[0]).unwrap();
-    let judged = |world: &str| check(&urdf, world, &place.read("c.json"));
+    let judged = |world: &str| check(&urdf, world, &without_digests(&place.read("c.json")));
     let world = place.read("world.toml");
     judged(&world).unwrap();
     for other in ["at = [2, 1]", "at = [2.1, -1]"] {
@@ -134,7 +143,9 @@ fn whatever_stands_for_a_link_is_named() {
         assert!(certificate.contains(named), "{certificate}");
         let judged = |urdf: &str| check(urdf, &place.read("world.toml"), &certificate);
         judged(&place.read("arm.urdf")).unwrap_or_else(|why| panic!("{tag}: {why}"));
-        assert!(matches!(judged(&whole), Err(CheckError::Fails(_))), "{tag}");
+        assert!(matches!(judged(&whole), Err(CheckError::Fails(why)) if why.contains("another URDF")), "{tag}");
+        let anywhere = check(&whole, &place.read("world.toml"), &without_digests(&certificate));
+        assert!(matches!(anywhere, Err(CheckError::Fails(_))), "{tag}");
     }
 }
 
@@ -147,4 +158,117 @@ fn answers_that_have_no_certificate_yet_say_so() {
     assert!(!place.path("c.json").exists());
     let done = place.plan(FREE, "--quiet --certificate world.toml");
     done.refused(1, &["world.toml is the input"]);
+}
+
+/// A certificate is about its files, byte by byte, and about those that they name.
+#[test]
+fn certificates_are_bound_to_their_files() {
+    let place = Place::new();
+    let read = |path: &String| std::fs::read_to_string(path).unwrap();
+    let den = |file: &str| read(&shipped(&format!("workspaces/{file}")));
+    place.write("arm.urdf", read(&shipped("robots/planar_2r.urdf")));
+    place.write("den.toml", den("den.toml"));
+    place.write("den.yaml", den("den.yaml"));
+    let picture = std::fs::read(shipped("workspaces/den.pgm")).unwrap();
+    place.write("den.pgm", &picture);
+    let done = place.run(&["arm.urdf", "den.toml"], "--quiet --certificate c.json --output m.csv");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let [urdf, world, certificate] = ["arm.urdf", "den.toml", "c.json"].map(|file| place.path(file));
+    let judged = || check_files(&urdf, &world, &certificate);
+    judged().unwrap();
+    for (file, named) in [("arm.urdf", "another URDF"), ("den.toml", "another world"), ("den.yaml", "den.yaml")] {
+        let whole = place.read(file);
+        place.write(file, format!("{whole}\n"));
+        let Err(CheckError::Fails(why)) = judged() else { panic!("{file}") };
+        assert!(why.contains(named), "{why}");
+        place.write(file, &whole);
+    }
+    // A pixel that is a shade lighter.
+    let mut other = picture.clone();
+    *other.last_mut().unwrap() ^= 1;
+    place.write("den.pgm", &other);
+    assert!(matches!(judged(), Err(CheckError::Fails(why)) if why.contains("den.pgm")));
+    place.write("den.pgm", &picture);
+    // What is verified is bound to the same files, not to the trajectory.
+    let done = place.run(&["verify", "arm.urdf", "den.toml", "m.csv"], "--quiet --certificate v.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let digests = |file: &str| {
+        let whole: Value = serde_json::from_str(&place.read(file)).unwrap();
+        ["urdf", "world", "others"].map(|name| whole[name].clone())
+    };
+    assert_eq!(digests("c.json"), digests("v.json"));
+    assert_eq!(digests("c.json")[2].as_array().unwrap().len(), 2);
+    check_files(&urdf, &world, &place.path("v.json")).unwrap();
+}
+
+/// Beside the result, or in it: there readers of the result pass over it, and the checker finds it.
+#[test]
+fn a_certificate_can_be_a_part_of_the_result() {
+    let place = Place::new();
+    let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/limits_open.toml")];
+    let done = place.run(&files, "--quiet --certificate r.json --output r.json --output m.csv");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.run(&files, "--quiet --certificate c.json --output plain.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let value = |file: &str| serde_json::from_str::<Value>(&place.read(file)).unwrap();
+    let mut whole = value("r.json");
+    assert_eq!(whole.as_object_mut().unwrap().remove("certificate").unwrap(), value("c.json"));
+    assert_eq!(whole, value("plain.json"));
+    let judged = |file: &str| check_files(files[0].as_ref(), files[1].as_ref(), place.path(file).as_ref());
+    assert_eq!(judged("r.json").unwrap(), judged("c.json").unwrap());
+    assert!(matches!(judged("plain.json"), Err(CheckError::Input { .. })));
+    let done = place.run(&["verify", &files[0], &files[1], "r.json"], "--quiet");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    // Without a way the boxes of the proof are looked at again, from the same file.
+    let closed = [files[0].clone(), shipped("workspaces/limits_closed.toml")];
+    assert_eq!(place.run(&closed, "--quiet --certificate r.json --output r.json").code, 3);
+    check_files(closed[0].as_ref(), closed[1].as_ref(), place.path("r.json").as_ref()).unwrap();
+    let done = place.run(&["recheck", &closed[0], &closed[1]], "--proof r.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.run(&files, "--quiet --certificate m.csv --output m.csv");
+    done.refused(1, &["m.csv", "one file"]);
+}
+
+/// A block of 1 m along x as an STL, a little thinner in its middle: its hull is what counts.
+fn stl() -> String {
+    let ring = |x: f64, half: f64| [[x, -half, -half], [x, half, -half], [x, half, half], [x, -half, half]];
+    let rings = [ring(-0.5, 0.05), ring(0.0, 0.02), ring(0.5, 0.05)];
+    let mut text = "solid block\n".to_owned();
+    for [from, to] in [[0, 1], [1, 2]].map(|pair| pair.map(|k| rings[k])) {
+        for k in 0..4 {
+            let next = (k + 1) % 4;
+            for triangle in [[from[k], from[next], to[k]], [from[next], to[next], to[k]]] {
+                let corners = triangle.map(|[x, y, z]| format!("vertex {x} {y} {z}\n")).concat();
+                text += &format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n");
+            }
+        }
+    }
+    text + "endsolid block\n"
+}
+
+/// Meshes of links: motions, bounds and proofs are about their hulls.
+#[test]
+fn arms_of_meshes_have_certificates_that_hold() {
+    let place = Place::new();
+    place.write("block.stl", stl());
+    let boxed = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
+    let urdf = boxed
+        .replace("<box size=\"1.0 0.1 0.1\"/>", "<mesh filename=\"block.stl\"/>")
+        .replace("<box size=\"0.8 0.1 0.1\"/>", "<mesh filename=\"block.stl\" scale=\"0.8 1 1\"/>");
+    assert_eq!(urdf.matches("mesh").count(), 2);
+    place.write("arm.urdf", urdf);
+    for (world, code, part) in
+        [("shelf", 0, "is shorter than"), ("limits_open", 0, "is shorter than"), ("limits_closed", 3, "no motion of")]
+    {
+        let world = shipped(&format!("workspaces/{world}.toml"));
+        let done = place.run(&["arm.urdf", &world], "--quiet --certificate c.json");
+        assert_eq!(done.code, code, "{world}: {}", done.stderr);
+        let judged = || check_files(&place.path("arm.urdf"), world.as_ref(), &place.path("c.json"));
+        let said = judged().unwrap_or_else(|why| panic!("{world}: {why}"));
+        assert!(said.contains(part), "{said}");
+        // Another mesh is another robot.
+        place.write("block.stl", format!("{}\n", stl()));
+        assert!(matches!(judged(), Err(CheckError::Fails(why)) if why.contains("block.stl")), "{world}");
+        place.write("block.stl", stl());
+    }
 }

@@ -1,12 +1,12 @@
 //! All that of an arm can collide, by outlines that cover at least its projection.
 
-use super::{Arm, Body, OBLIQUE, Pose, Read, Solid, child, is_nearly_one};
-use crate::decimal::Decimal;
+use super::solid::Outline;
+use super::tree::{Read, child};
+use super::{Arm, Body};
 use crate::error::{CheckError, Input};
-use crate::interval::{Interval, Point, length};
+use crate::interval::{Interval, length};
 use crate::sweep::{Axis, Range};
 use crate::world::World;
-use num_bigint::Sign;
 
 /// A shape of the arm, and what it is called.
 pub struct Covered {
@@ -15,9 +15,6 @@ pub struct Covered {
     /// The link that it belongs to.
     link: String,
 }
-
-/// Sides of the polygon round an oblique cylinder's end.
-const SIDES: u32 = 32;
 
 impl Arm<'_> {
     /// All shapes that the joints move: collision shapes, or where one of the two parts of the arm has none, its visual
@@ -54,33 +51,11 @@ impl Arm<'_> {
             }
             for (number, (node, solid)) in self.solids(name, kind)?.into_iter().enumerate() {
                 let pose = self.tree.pose(name)?.after(&self.tree.origin(node)?);
-                let body = self.cover(last, &pose, &solid)?;
+                let body = self.project(last, &pose, &solid, Outline::Around);
                 found.push(Covered { name: format!("link \"{name}\", {kind} {number}"), body, link: name.into() });
             }
         }
         Ok(found)
-    }
-
-    /// What covers a solid in the plane, and its heights.
-    fn cover(&self, link: usize, pose: &Pose, solid: &Solid) -> Read<Body> {
-        let mut body = self.project(link, pose, solid)?;
-        let normal = self.plane.normal;
-        let unit = [0, 1, 2].map(|k| pose.rows[k][2].clone());
-        match solid {
-            Solid::Box(half) => {
-                let along = |k: usize| &half[k] * &pose.rows[normal][k].abs();
-                let reach = &(&along(0) + &along(1)) + &along(2);
-                body.heights = [&pose.at[normal] - &reach, &pose.at[normal] + &reach];
-            }
-            Solid::Cylinder { radius, half } if !unit[normal].abs().is_whole(1) => {
-                let joint = if link == 0 { self.base.clone() } else { [0, 1].map(|k| &self.base[k] + &self.offset[k]) };
-                let center = [0, 1].map(|k| &pose.at[self.plane.across[k]] - &joint[k]);
-                let along = self.plane.across.map(|k| unit[k].clone());
-                (body.shape.points, body.shape.radius) = oblique(&center, &along, &unit[normal].abs(), radius, half);
-            }
-            Solid::Cylinder { .. } | Solid::Capsule { .. } => {}
-        }
-        Ok(body)
     }
 
     /// Whether a joint that lowers the tool carries a shape.
@@ -134,60 +109,4 @@ impl Arm<'_> {
             (None, Axis::Line(range)) => Some(range.clone()),
         }))
     }
-}
-
-impl Body {
-    /// The same at all heights from where it is to where it is lowered by a length.
-    pub fn lowered(&self, by: &Decimal) -> Self {
-        let [low, high] = &self.heights;
-        let by = Interval::from(by);
-        let least = if by.lower.sign() == Sign::Minus { low.clone() } else { low - &by };
-        let most = if by.lower.sign() == Sign::Minus { high - &by } else { high.clone() };
-        Self { link: self.link, shape: self.shape.clone(), heights: [least, most] }
-    }
-
-    /// Whether its heights and these are known to have none in common.
-    pub fn passes(&self, heights: Option<&Range>) -> bool {
-        let Some([low, high]) = heights.map(|range| range.each_ref().map(Interval::from)) else { return false };
-        self.heights[1].upper < low.lower || high.upper < self.heights[0].lower
-    }
-}
-
-/// A core and a radius that cover the projection of a cylinder: the hull of two ellipses, of half-axes `radius` across the
-/// projected axis and `radius * tilt` along it, at its ends.
-fn oblique(
-    center: &Point,
-    along: &Point,
-    tilt: &Interval,
-    radius: &Interval,
-    half: &Interval,
-) -> (Vec<Point>, Interval) {
-    let end = along.each_ref().map(|c| c * half);
-    let both = |by: &Point| [[0, 1].map(|k| &center[k] + &by[k]), [0, 1].map(|k| &center[k] - &by[k])];
-    let length = length(along);
-    // A turn by so much that its enclosure says nothing is such a case, too.
-    if is_nearly_one(tilt) || length.lower.sign() != Sign::Plus {
-        return (both(&end).to_vec(), radius.clone());
-    }
-    let direction = along.each_ref().map(|c| c.divided(&length));
-    let across = [-&(&direction[1] * radius), &direction[0] * radius];
-    let bulge = direction.each_ref().map(|c| &(c * radius) * tilt);
-    let plus = |a: &Point, b: &Point| [0, 1].map(|k| &a[k] + &b[k]);
-    let minus = |a: &Point, b: &Point| [0, 1].map(|k| &a[k] - &b[k]);
-    let points = if tilt.upper <= Interval::whole(1).over(OBLIQUE).upper {
-        let end = plus(&end, &bulge);
-        [plus(&end, &across), minus(&end, &across)].iter().flat_map(both).collect()
-    } else {
-        // The sides touch the ellipse halfway between corners.
-        let half_step = Interval::pi().over(SIDES);
-        let grown = &half_step.sin_cos()[1];
-        let rim = (0..SIDES).flat_map(|i| {
-            let [sine, cosine] = (&half_step * &Interval::whole(2 * i as i32 + 1)).sin_cos();
-            let by = |k: usize| (&(&bulge[k] * &cosine) + &(&across[k] * &sine)).divided(grown);
-            let offset = [by(0), by(1)];
-            [plus(&plus(center, &end), &offset), plus(&minus(center, &end), &offset)]
-        });
-        rim.collect()
-    };
-    (points, Interval::whole(0))
 }

@@ -1,6 +1,7 @@
 //! What of an object keeps off others while it hangs on the arm.
 
-use super::{Obstacle, Outline, Read};
+use super::obstacle::Outline;
+use super::{Obstacle, Read, point};
 use crate::error::{CheckError, Input};
 use crate::interval::{Interval, Point, length, sum, times};
 use crate::overlap::Shape;
@@ -56,13 +57,13 @@ impl Obstacle {
     fn hull(&self, corners: &[Corner]) -> Shape {
         let radius =
             if let Outline::Circle(_, radius) = &self.outline { Interval::from(radius) } else { Interval::whole(0) };
-        Shape { points: corners.iter().map(|corner| self.placed(corner)).collect(), radius }
+        Shape { points: corners.iter().map(|corner| self.placed(&point(corner))).collect(), radius }
     }
 
     /// The corners that it is the hull of, turning left, up to the radius of a disc; none if it is not convex.
     fn convex(&self) -> Option<Vec<Corner>> {
         match &self.outline {
-            Outline::Circle(center, radius) => (radius.sign() == Sign::Plus).then(|| vec![center.clone()]),
+            Outline::Circle(center, radius) => (radius.sign() != Sign::Minus).then(|| vec![center.clone()]),
             Outline::Polygon(rings) => {
                 let [ring] = &rings[..] else { return None };
                 let mut ring = ring.clone();
@@ -78,7 +79,7 @@ impl Obstacle {
                 }
                 is_convex(&ring).then_some(ring)
             }
-            Outline::Polyline(_) | Outline::Image => None,
+            Outline::Polyline(_) | Outline::Cells(_) => None,
         }
     }
 }

@@ -245,9 +245,9 @@ impl Reader<'_> {
         let mut all = Vec::new();
         for value in self.list(list)? {
             let (name, before) = (self.text(value)?, all.len());
-            let is_named = |(number, obstacle): &(usize, &Obstacle)| match &obstacle.name {
-                Some(own) => *own == name || objects.get(number.wrapping_sub(first)).is_some_and(|o| o.family == name),
-                None => name == format!("obstacle {}", number + 1),
+            let is_named = |(number, obstacle): &(usize, &Obstacle)| {
+                let family = objects.get(number.wrapping_sub(first)).map(|object| &object.family);
+                [obstacle.name.as_ref(), family].contains(&Some(&name))
             };
             all.extend(world.obstacles.iter().enumerate().filter(is_named).map(|(number, _)| number));
             if all.len() == before {

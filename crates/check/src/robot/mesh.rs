@@ -1,0 +1,92 @@
+//! Meshes: the corners of their triangles, whose convex hull stands for them.
+
+use crate::decimal::Decimal;
+use crate::error::{CheckError, Input};
+use crate::files::Files;
+use num_bigint::BigInt;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Bytes of a binary STL before its triangles, of each triangle, and of its normal before its corners.
+const HEADER: usize = 84;
+const TRIANGLE: usize = 50;
+const NORMAL: usize = 12;
+
+/// A corner, as STL has it: in single precision.
+type Single = [u32; 3];
+
+/// The corners of an STL, as text or in bytes, each once.
+///
+/// # Errors
+/// A file that is not found or not read, or another format.
+pub fn vertices(files: &Files, name: &str) -> Result<Vec<[Decimal; 3]>, CheckError> {
+    let wrong = |why: &str| CheckError::in_file(Input::Urdf, format!("mesh \"{name}\": {why}"));
+    if !name.to_lowercase().ends_with(".stl") {
+        return Err(wrong("the checker knows meshes as STL: convert it"));
+    }
+    let urdf = files.path(Input::Urdf)?;
+    let path = candidates(name, urdf).into_iter().find(|path| path.is_file());
+    let bytes = files.bytes(Input::Urdf, &path.ok_or_else(|| wrong("it is not there"))?)?;
+    let count =
+        bytes.get(HEADER - 4..HEADER).map(|count| count.iter().rev().fold(0, |sum, b| sum << 8 | usize::from(*b)));
+    let corners = match count {
+        Some(count) if bytes.len() == HEADER + TRIANGLE * count => in_bytes(&bytes[HEADER..]),
+        _ => std::str::from_utf8(&bytes).ok().and_then(as_text).ok_or_else(|| wrong("it is no STL"))?,
+    };
+    let points: Option<Vec<[Decimal; 3]>> = corners.into_iter().map(exactly).collect();
+    points.filter(|points| !points.is_empty()).ok_or_else(|| wrong("it has no corners, or some that are not finite"))
+}
+
+fn in_bytes(triangles: &[u8]) -> BTreeSet<Single> {
+    let corners = triangles.chunks_exact(TRIANGLE).flat_map(|triangle| triangle[NORMAL..NORMAL + 36].chunks_exact(12));
+    let number = |bytes: &[u8]| bytes.iter().rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte));
+    corners.map(|corner| [0, 4, 8].map(|at| number(&corner[at..at + 4]))).collect()
+}
+
+fn as_text(text: &str) -> Option<BTreeSet<Single>> {
+    let mut words = text.strip_prefix("solid")?.split_whitespace();
+    let mut corners = BTreeSet::new();
+    while words.any(|word| word == "vertex") {
+        let mut number = || Some(words.next()?.parse::<f32>().ok()?.to_bits());
+        corners.insert([number()?, number()?, number()?]);
+    }
+    Some(corners)
+}
+
+/// The numbers that these bits stand for, which are dyadic.
+fn exactly(corner: Single) -> Option<[Decimal; 3]> {
+    let number = |bits: u32| {
+        let (exponent, fraction) = (bits >> 23 & 0xff, bits & 0x7f_ffff);
+        let digits = BigInt::from(if exponent == 0 { fraction } else { fraction | 1 << 23 });
+        let signed = if bits >> 31 == 1 { -digits } else { digits };
+        // A unit of the last digit is 2^(exponent - 150).
+        let exponent = exponent.max(1);
+        (exponent < 0xff)
+            .then(|| Decimal::dyadic(&(signed << exponent.saturating_sub(150)), 150_u32.saturating_sub(exponent)))
+    };
+    let [x, y, z] = corner.map(number);
+    Some([x?, y?, z?])
+}
+
+/// Where a mesh may be: as a path from the URDF on, or in a package that lies beside one of the folders about it or where
+/// `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` say.
+fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
+    let Some(rest) = name.strip_prefix("package://") else {
+        return vec![urdf.with_file_name(name.strip_prefix("file://").unwrap_or(name))];
+    };
+    let (package, inside) = rest.split_once('/').unwrap_or((rest, ""));
+    let from = |variable: &str| {
+        let paths = std::env::var_os(variable).unwrap_or_default();
+        std::env::split_paths(&paths).filter(|path| !path.as_os_str().is_empty()).collect::<Vec<_>>()
+    };
+    let urdf = urdf.canonicalize().unwrap_or_else(|_| urdf.to_owned());
+    let above = urdf.ancestors().skip(1).map(Path::to_owned);
+    let ros = from("ROS_PACKAGE_PATH");
+    let ament = from("AMENT_PREFIX_PATH").into_iter().map(|path| path.join("share"));
+    let is_package = |folder: &Path| folder.file_name().is_some_and(|name| name == package);
+    let named = |folder: PathBuf| {
+        let own = is_package(&folder).then(|| folder.clone());
+        own.into_iter().chain([folder.join(package)]).map(|package| package.join(inside))
+    };
+    above.chain(ros).chain(ament).flat_map(named).collect()
+}

@@ -1,0 +1,218 @@
+//! Solids, and what they cover in the plane.
+
+use super::mesh;
+use super::pose::{Pose, Vector};
+use super::tree::{Read, Tree};
+use super::{Arm, Body, Plane};
+use crate::decimal::Decimal;
+use crate::error::CheckError;
+use crate::interval::{BITS, Interval, Point, length};
+use crate::overlap::{Shape, hull};
+use crate::sweep::Range;
+use num_bigint::{BigInt, Sign};
+use roxmltree::Node;
+
+/// Steps along half of the ellipse that a cylinder's end is in the plane.
+const ELLIPSE_STEPS: i32 = 16;
+
+/// From this share of its radius on, an oblique cylinder's end is taken as a disc or, lying, a rectangle.
+const OBLIQUE: u32 = 200;
+
+/// A cylinder whose axis is out of the plane by less than this power of a half counts as lying.
+const LYING: u64 = 44;
+
+/// A solid about its origin; cylinders and capsules along z.
+pub enum Solid {
+    /// The convex hull of points.
+    Hull(Vec<Vector>),
+    Cylinder {
+        radius: Interval,
+        half: Interval,
+    },
+    /// `half` is half the length between the centres of the caps: 0 for a sphere.
+    Capsule {
+        radius: Interval,
+        half: Interval,
+    },
+}
+
+/// What an outline is to be, where it is not the projection itself.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Outline {
+    /// Part of the projection.
+    Within,
+    /// All of it, and maybe more.
+    Around,
+}
+
+impl<'a> Tree<'a> {
+    /// A solid of the URDF; none if it has no size.
+    pub fn solid(&self, node: Node<'a, 'a>) -> Read<Option<Solid>> {
+        let half = |n: &Decimal| Interval::from(n).half();
+        let read = |name: &str| self.number(node, name);
+        let (numbers, solid) = match node.tag_name().name() {
+            "box" => {
+                let size = self.numbers::<3>(node, "size")?;
+                let half = size.each_ref().map(half);
+                let signed = |i: usize, k: usize| if i >> k & 1 == 0 { half[k].clone() } else { -&half[k] };
+                (size.to_vec(), Solid::Hull((0..8).map(|i| [0, 1, 2].map(|k| signed(i, k))).collect()))
+            }
+            "sphere" => {
+                let radius = read("radius")?;
+                (vec![radius.clone()], Solid::Capsule { radius: Interval::from(&radius), half: Interval::whole(0) })
+            }
+            kind @ ("cylinder" | "capsule") => {
+                let (radius, length) = (read("radius")?, read("length")?);
+                let (r, half) = (Interval::from(&radius), half(&length));
+                let is_round = kind == "capsule";
+                let solid =
+                    if is_round { Solid::Capsule { radius: r, half } } else { Solid::Cylinder { radius: r, half } };
+                (vec![radius, length], solid)
+            }
+            "mesh" => {
+                let scale = if node.has_attribute("scale") {
+                    self.numbers::<3>(node, "scale")?
+                } else {
+                    [1; 3].map(Decimal::whole)
+                };
+                let points = match mesh::vertices(self.files, self.text(node, "filename")?) {
+                    Err(CheckError::Input { message, .. }) => return self.error(node, message),
+                    points => points?,
+                };
+                let scaled = |p: [Decimal; 3]| [0, 1, 2].map(|k| Interval::from(&(&p[k] * &scale[k])));
+                return Ok(Some(Solid::Hull(points.into_iter().map(scaled).collect())));
+            }
+            other => return self.error(node, format!("the checker does not know the shape {other} yet")),
+        };
+        if numbers.iter().any(|n| n.sign() == Sign::Minus) {
+            return self.error(node, "a size is negative");
+        }
+        Ok(numbers.iter().any(|n| n.sign() != Sign::NoSign).then_some(solid))
+    }
+}
+
+impl Arm<'_> {
+    /// What a solid covers in the plane.
+    pub fn project(&self, link: usize, pose: &Pose, solid: &Solid, outline: Outline) -> Body {
+        let Plane { across, normal } = self.plane;
+        let joint = if link == 0 { self.base.clone() } else { [0, 1].map(|k| &self.base[k] + &self.offset[k]) };
+        let center = [0, 1].map(|k| &pose.at[across[k]] - &joint[k]);
+        let unit = pose.direction(&[0, 0, 1].map(Interval::whole));
+        let (along, tilt) = (across.map(|k| unit[k].clone()), unit[normal].abs());
+        let beside = |by: &Point| [[0, 1].map(|k| &center[k] + &by[k]), [0, 1].map(|k| &center[k] - &by[k])];
+        let height = &pose.at[normal];
+        let about = |reach: &Interval| [height - reach, height + reach];
+        let (shape, heights) = match solid {
+            Solid::Hull(points) => {
+                let placed: Vec<Vector> = points.iter().map(|p| pose.direction(p)).collect();
+                let flat = placed.iter().map(|p| [0, 1].map(|k| &center[k] + &p[across[k]]));
+                let ends = |p: &Vector| [p[normal].lower.clone(), p[normal].upper.clone()];
+                let [least, most] = [true, false].map(|least| {
+                    let [lower, upper] = [0, 1].map(|k| {
+                        let all = placed.iter().map(|p| ends(p)[k].clone());
+                        if least { all.min() } else { all.max() }.expect("a hull has points")
+                    });
+                    height + &Interval { lower, upper }
+                });
+                (hull_of(flat, outline), [least, most])
+            }
+            Solid::Capsule { radius, half } => {
+                let points =
+                    if half.is_whole(0) { vec![center.clone()] } else { beside(&along.map(|c| &c * half)).to_vec() };
+                (Shape { points, radius: radius.clone() }, about(&(&(half * &tilt) + radius)))
+            }
+            Solid::Cylinder { radius, half } if tilt.is_whole(1) => {
+                (Shape { points: vec![center.clone()], radius: radius.clone() }, about(half))
+            }
+            Solid::Cylinder { radius, half } => {
+                let (offsets, round) = oblique(&along, &tilt, radius, half, outline);
+                let points = offsets.iter().flat_map(beside).collect();
+                (Shape { points, radius: round }, about(&(&(half * &tilt) + &(radius * &length(&along)))))
+            }
+        };
+        Body { link, shape, heights }
+    }
+}
+
+/// The hull of points, by those of its corners: of the middles of their enclosures it is found without rounding, and each point is as
+/// far from there as that of any enclosure.
+fn hull_of(points: impl Iterator<Item = Point>, outline: Outline) -> Shape {
+    let mut error = BigInt::ZERO;
+    let middles = points.map(|p| {
+        p.map(|c| {
+            let (middle, radius) = c.middle();
+            error = radius.max(std::mem::take(&mut error));
+            middle
+        })
+    });
+    let ring = hull(middles.collect());
+    let widened = |middle: BigInt| Interval { lower: &middle - &error, upper: middle + &error };
+    let points = ring.into_iter().map(|p| p.map(widened)).collect();
+    // A point is off its middle, and a corner off its own, by less than two errors across and along together.
+    let room = if outline == Outline::Around { Interval::exactly(&error * 4) } else { Interval::whole(0) };
+    Shape { points, radius: room }
+}
+
+/// A core and a radius for the projection of a cylinder that does not stand: the hull of two ellipses, of half-axes `radius` across the
+/// projected axis and `radius * tilt` along it, at its ends. Points of the core are as far beyond the middle as they are before it.
+fn oblique(
+    along: &Point,
+    tilt: &Interval,
+    radius: &Interval,
+    half: &Interval,
+    outline: Outline,
+) -> (Vec<Point>, Interval) {
+    let plus = |a: &Point, b: &Point| [0, 1].map(|k| &a[k] + &b[k]);
+    let end = along.each_ref().map(|c| c * half);
+    let length = length(along);
+    let (one, least) = (Interval::whole(1), Interval::whole(1).over(OBLIQUE));
+    // A turn by so much that its enclosure says nothing is such a case, too.
+    if length.lower.sign() != Sign::Plus || tilt.lower >= (&one - &least).lower {
+        return (vec![end], if outline == Outline::Around { radius.clone() } else { radius * tilt });
+    }
+    let onward = along.each_ref().map(|c| c.divided(&length));
+    let across = [-&(&onward[1] * radius), &onward[0] * radius];
+    let bulge = onward.map(|c| &(&c * radius) * tilt);
+    // Half an ellipse, in steps of half a side.
+    let step = Interval::pi().over(2 * ELLIPSE_STEPS as u32);
+    let rim = |k: i32| {
+        let [sine, cosine] = (&step * &Interval::whole(k)).sin_cos();
+        plus(&across.each_ref().map(|c| c * &cosine), &bulge.each_ref().map(|c| c * &sine))
+    };
+    let half_way: Vec<Point> = match outline {
+        Outline::Around if tilt.upper <= least.upper => [false, true]
+            .map(|turned| plus(&bulge, &across.each_ref().map(|c| if turned { -c } else { c.clone() })))
+            .to_vec(),
+        // The sides touch the ellipse halfway between corners.
+        Outline::Around => {
+            let grown = &step.sin_cos()[1];
+            (0..ELLIPSE_STEPS).map(|k| rim(2 * k + 1).map(|c| c.divided(grown))).collect()
+        }
+        Outline::Within if tilt.upper.bits() + LYING < u64::from(BITS) => [0, 2 * ELLIPSE_STEPS].map(rim).to_vec(),
+        Outline::Within => (0..=ELLIPSE_STEPS).map(|k| rim(2 * k)).collect(),
+    };
+    (half_way.iter().map(|by| plus(&end, by)).collect(), Interval::whole(0))
+}
+
+impl Body {
+    /// The same at all heights from where it is to where it is lowered by a length.
+    pub fn lowered(&self, by: &Decimal) -> Self {
+        let [low, high] = &self.heights;
+        let by = Interval::from(by);
+        let least = if by.lower.sign() == Sign::Minus { low.clone() } else { low - &by };
+        let most = if by.lower.sign() == Sign::Minus { high - &by } else { high.clone() };
+        Self { link: self.link, shape: self.shape.clone(), heights: [least, most] }
+    }
+
+    /// Whether its heights and these are known to have some in common.
+    pub fn is_at(&self, heights: Option<&Range>) -> bool {
+        let Some([low, high]) = heights.map(|range| range.each_ref().map(Interval::from)) else { return true };
+        self.heights[0].upper <= high.lower && low.upper <= self.heights[1].lower
+    }
+
+    /// Whether its heights and these are known to have none in common.
+    pub fn passes(&self, heights: Option<&Range>) -> bool {
+        let Some([low, high]) = heights.map(|range| range.each_ref().map(Interval::from)) else { return false };
+        self.heights[1].upper < low.lower || high.upper < self.heights[0].lower
+    }
+}

@@ -1,0 +1,142 @@
+//! Line maps, and the goal of a preference file.
+
+use super::Outline;
+use crate::decimal::Decimal;
+use crate::error::{CheckError, Input};
+use crate::files::Files;
+use crate::polygon::Corner;
+use std::collections::VecDeque;
+use std::path::Path;
+
+/// What is in the world's unit: maps have one of their own.
+pub struct Unit {
+    pub scale: Decimal,
+    pub offset: Corner,
+}
+
+impl Unit {
+    fn place(&self, p: &Corner) -> Corner {
+        [0, 1].map(|k| &(&p[k] * &self.scale) + &self.offset[k])
+    }
+}
+
+/// The lines of a file that say something, and what it is called.
+struct Text<'a> {
+    name: &'a str,
+    lines: Vec<(usize, &'a str)>,
+    next: usize,
+}
+
+impl<'a> Text<'a> {
+    fn new(name: &'a str, text: &'a str) -> Self {
+        let lines = text.lines().enumerate().map(|(number, line)| (number + 1, line.trim()));
+        let lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).collect();
+        Self { name, lines, next: 0 }
+    }
+
+    fn wrong<T>(&self, expected: &str) -> Result<T, CheckError> {
+        let place = self.lines.get(self.next).map_or_else(|| "at its end".to_owned(), |(n, _)| format!("line {n}"));
+        Err(CheckError::in_file(Input::World, format!("{}, {place}: expected {expected}", self.name)))
+    }
+
+    fn word(&mut self, word: &str) -> Result<(), CheckError> {
+        if self.lines.get(self.next).is_none_or(|(_, line)| *line != word) {
+            return self.wrong(word);
+        }
+        self.next += 1;
+        Ok(())
+    }
+
+    /// Numbers, after a key and a colon where there is a key.
+    fn numbers<const N: usize>(&mut self, key: &str) -> Result<[Decimal; N], CheckError> {
+        let line = self.lines.get(self.next).map(|(_, line)| *line);
+        let after = |line: &'a str| match key {
+            "" => Some(line),
+            key => line.strip_prefix(key)?.trim_start().strip_prefix(':'),
+        };
+        let words = line.and_then(after).map(|rest| rest.split_whitespace().map(str::parse::<Decimal>));
+        let numbers = words.and_then(|words| words.collect::<Result<Vec<_>, _>>().ok()?.try_into().ok());
+        let Some(numbers) = numbers else { return self.wrong(&format!("{key} {N} numbers")) };
+        self.next += 1;
+        Ok(numbers)
+    }
+
+    /// The corners of the whole map.
+    fn bounds(&mut self) -> Result<[Corner; 2], CheckError> {
+        self.word("2D-Map")?;
+        Ok([self.numbers("LineMinPos")?, self.numbers("LineMaxPos")?])
+    }
+}
+
+fn text_of(files: &Files, path: &Path) -> Result<String, CheckError> {
+    let text = String::from_utf8(files.bytes(Input::World, path)?);
+    text.map_err(|_| CheckError::in_file(Input::World, format!("{} is no text", path.display())))
+}
+
+/// The walls of a line map: lines that follow one another and share an end are one.
+///
+/// # Errors
+/// What is no line map.
+pub fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec<Outline>, CheckError> {
+    let (name, content) = (path.display().to_string(), text_of(files, path)?);
+    let mut text = Text::new(&name, &content);
+    let [[left, low], [right, high]] = text.bounds()?;
+    let [count] = text.numbers("NumLines")?;
+    text.word("LINES")?;
+    let mut walls: Vec<VecDeque<Corner>> = Vec::new();
+    let mut lines = 0;
+    while text.word("DATA").is_err() {
+        let [a, b, c, d] = text.numbers::<4>("")?;
+        let (from, to) = ([a, b], [c, d]);
+        lines += 1;
+        let is_point = from == to;
+        // At its end, else at its beginning.
+        let open = walls.last_mut().and_then(|wall| {
+            let at_end = [wall.back(), wall.front()].map(|end| end.is_some_and(|end| *end == from || *end == to));
+            let end = at_end.iter().position(|found| *found)?;
+            Some((wall, end == 0))
+        });
+        match open {
+            Some((wall, at_end)) => {
+                let end = if at_end { wall.back() } else { wall.front() };
+                let other = if end == Some(&from) { to } else { from };
+                match (is_point, at_end) {
+                    (true, _) => {}
+                    (false, true) => wall.push_back(other),
+                    (false, false) => wall.push_front(other),
+                }
+            }
+            None => walls.push(if is_point { [from].into() } else { [from, to].into() }),
+        }
+    }
+    if count != Decimal::whole(lines) || text.next != text.lines.len() {
+        return text.wrong("as many lines as NumLines says, and nothing after DATA");
+    }
+    if is_framed {
+        let corner = |x: &Decimal, y: &Decimal| [x.clone(), y.clone()];
+        let [a, b] = [corner(&left, &low), corner(&right, &high)];
+        walls.push([a.clone(), corner(&right, &low), b, corner(&left, &high), a].into());
+    }
+    let outline = |wall: &VecDeque<Corner>| {
+        let mut points: Vec<Corner> = wall.iter().map(|p| unit.place(p)).collect();
+        if points.len() > 1 { Outline::Polyline(points) } else { Outline::Circle(points.remove(0), Decimal::whole(0)) }
+    };
+    Ok(walls.iter().map(outline).collect())
+}
+
+/// The middle of the goal of a preference file.
+///
+/// # Errors
+/// What is no preference file, up to there.
+pub fn goal(files: &Files, path: &Path, unit: &Unit) -> Result<Corner, CheckError> {
+    let (name, content) = (path.display().to_string(), text_of(files, path)?);
+    let mut text = Text::new(&name, &content);
+    text.bounds()?;
+    let [count] = text.numbers("NumGoal")?;
+    if count != Decimal::whole(1) {
+        return text.wrong("one goal");
+    }
+    text.word("GOAL")?;
+    let [a, b, c, d] = text.numbers::<4>("")?;
+    Ok(unit.place(&[Decimal::middle(&a, &c), Decimal::middle(&b, &d)]))
+}

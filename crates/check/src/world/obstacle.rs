@@ -1,0 +1,154 @@
+//! Obstacles: convex parts of them, and what a shape has to stay off.
+
+use super::cells::Cells;
+use super::point;
+use crate::decimal::Decimal;
+use crate::error::{CheckError, Input};
+use crate::interval::{BITS, Interval, Point, sum, turned};
+use crate::overlap::Shape;
+use crate::polygon::{self, Corner, edges, surrounds};
+use crate::sweep::Range;
+use num_bigint::{BigInt, Sign};
+use std::rc::Rc;
+
+/// An obstacle, as it stands in the file.
+#[derive(Clone)]
+pub struct Obstacle {
+    pub name: Option<String>,
+    pub(super) outline: Outline,
+    /// Where its frame's origin lies, and sine and cosine of how it is turned.
+    pub at: Point,
+    pub turn: Point,
+    /// Its extent along the plane's normal; none: everywhere.
+    pub heights: Option<Range>,
+}
+
+#[derive(Clone)]
+pub enum Outline {
+    /// What its rings surround an odd number of times.
+    Polygon(Vec<Vec<Corner>>),
+    Polyline(Vec<Corner>),
+    /// A disc; of radius 0 a point.
+    Circle(Corner, Decimal),
+    /// Squares of a picture, or why they are not known.
+    Cells(Result<Rc<Cells>, CheckError>),
+}
+
+impl Obstacle {
+    /// The same elsewhere.
+    pub fn moved(self, at: Point, turn: Point) -> Self {
+        Self { at, turn, ..self }
+    }
+
+    /// A point of its frame in its place.
+    pub fn placed(&self, p: &Point) -> Point {
+        sum(&self.at, &turned(p, &self.turn))
+    }
+
+    /// A point of the plane in its frame.
+    fn own(&self, p: &Point) -> Point {
+        let [sine, cosine] = &self.turn;
+        turned(&[0, 1].map(|k| &p[k] - &self.at[k]), &[-sine, cosine.clone()])
+    }
+
+    /// A convex part of it, in its place: a disc all of it, of a polyline two points that follow one another, of a polygon
+    /// a convex polygon within, of a picture a rectangle of solid squares. Its corners are the obstacle's that are nearest to the given points.
+    ///
+    /// # Errors
+    /// Why it is no such part; as [`CheckError::Input`] if the obstacle is not known.
+    pub fn part(&self, given: &[Corner]) -> Result<Shape, CheckError> {
+        let placed = |p: &Point| self.placed(p);
+        let named = |corners: &[&Corner]| {
+            let places: Vec<Point> = corners.iter().map(|corner| placed(&point(corner))).collect();
+            given.iter().filter_map(|at| Some(corners[nearest(&places, &point(at))?].clone())).collect::<Vec<Corner>>()
+        };
+        let shape = |corners: &[Corner], radius: Interval| Shape {
+            points: corners.iter().map(|corner| placed(&point(corner))).collect(),
+            radius,
+        };
+        let thin = Interval::whole(0);
+        match &self.outline {
+            Outline::Circle(_, radius) if radius.sign() == Sign::Minus => CheckError::fails("its radius is negative"),
+            Outline::Circle(center, radius) => Ok(shape(std::slice::from_ref(center), Interval::from(radius))),
+            Outline::Polyline(points) => {
+                let part = named(&points.iter().collect::<Vec<_>>());
+                let is_side = |side: &[Corner]| part == side || part.iter().rev().eq(side);
+                match points.windows(2).any(is_side) {
+                    true => Ok(shape(&part, thin)),
+                    false => {
+                        CheckError::fails("its corners are not two points that follow one another in the polyline")
+                    }
+                }
+            }
+            Outline::Polygon(rings) => {
+                let part = named(&rings.iter().flatten().collect::<Vec<_>>());
+                match polygon::holds(rings, &part) {
+                    true => Ok(shape(&part, thin)),
+                    false => CheckError::fails(
+                        "its corners are not those, turning left, of a convex polygon within the obstacle",
+                    ),
+                }
+            }
+            Outline::Cells(cells) => {
+                let cells = cells.as_ref().map_err(Clone::clone)?;
+                let given: Vec<Point> = given.iter().map(|p| self.own(&point(p))).collect();
+                match cells.part(&given) {
+                    Some(corners) => Ok(Shape { points: corners.iter().map(placed).collect(), radius: thin }),
+                    None => CheckError::fails("its corners are not those of a rectangle of solid squares"),
+                }
+            }
+        }
+    }
+
+    /// The segments of its border, or its disc, in their places. What is connected, touches none of them and is not inside is off
+    /// the obstacle.
+    ///
+    /// # Errors
+    /// An obstacle that the checker does not know, or that is none.
+    pub fn sides(&self) -> Result<Vec<Shape>, CheckError> {
+        let side = |points: &[Point], radius: Interval| Shape {
+            points: points.iter().map(|p| self.placed(p)).collect(),
+            radius,
+        };
+        let thin = |a: &Corner, b: &Corner| side(&[point(a), point(b)], Interval::whole(0));
+        match &self.outline {
+            Outline::Polygon(rings) if rings.iter().all(|ring| ring.len() > 2) => {
+                Ok(rings.iter().flat_map(|ring| edges(ring)).map(|(a, b)| thin(a, b)).collect())
+            }
+            Outline::Polyline(points) if points.len() > 1 => {
+                Ok(points.windows(2).map(|ends| thin(&ends[0], &ends[1])).collect())
+            }
+            Outline::Circle(center, radius) if radius.sign() != Sign::Minus => {
+                Ok(vec![side(&[point(center)], Interval::from(radius))])
+            }
+            Outline::Cells(cells) => {
+                let cells = cells.as_ref().map_err(Clone::clone)?;
+                Ok(cells.border().iter().map(|ends| side(ends, Interval::whole(0))).collect())
+            }
+            _ => Err(CheckError::in_file(Input::World, "an obstacle has too few points, or no radius")),
+        }
+    }
+
+    /// Whether a point is inside that is farther than this from all of its border. None if the point is not known well enough
+    /// to say.
+    pub fn surrounds(&self, at: &Point, farther: &BigInt) -> Option<bool> {
+        let own = self.own(at).map(|c| c.middle());
+        // What stands in for the point is nearer to it than any ring.
+        let is_near = own.iter().map(|(_, radius)| radius).sum::<BigInt>() < *farther;
+        let own = own.map(|(middle, _)| middle);
+        is_near.then(|| match &self.outline {
+            Outline::Polygon(rings) => surrounds(rings, &own.map(|middle| Decimal::dyadic(&middle, BITS))),
+            Outline::Cells(Ok(cells)) => cells.holds(&own.map(Interval::exactly)),
+            Outline::Cells(Err(_)) | Outline::Polyline(_) | Outline::Circle(..) => false,
+        })
+    }
+}
+
+/// Which of the places is nearest, as the middles of their enclosures have it.
+fn nearest(places: &[Point], to: &Point) -> Option<usize> {
+    let distance = |place: &Point| {
+        let [x, y] = [0, 1].map(|k| (&place[k] - &to[k]).middle().0);
+        &x * &x + &y * &y
+    };
+    (0..places.len()).min_by_key(|i| distance(&places[*i]))
+}

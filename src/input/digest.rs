@@ -1,0 +1,38 @@
+//! Digests of the files that a problem was read from.
+
+use super::identity::{FileIdentity, files_read};
+use super::source::read_bytes;
+use super::{Diagnostic, InputError};
+use sha2::{Digest, Sha256};
+use std::path::Path;
+
+/// SHA-256 of files, in hex.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Digests {
+    /// The URDF.
+    pub urdf: String,
+    /// The world file.
+    pub world: String,
+    /// All others that were read, which these name, in ascending order.
+    pub others: Vec<String>,
+}
+
+impl Digests {
+    /// Those of a URDF, a world and all other files that this process has read so far.
+    ///
+    /// # Errors
+    /// A file that can no longer be read.
+    pub fn of(urdf: &Path, world: &Path) -> Result<Self, InputError> {
+        let given: Vec<FileIdentity> = [urdf, world].into_iter().filter_map(FileIdentity::of).collect();
+        let is_other =
+            |path: &Path| FileIdentity::of(path).is_some_and(|other| !given.iter().any(|one| one.is(&other)));
+        let others = files_read().into_iter().filter(|path| is_other(path)).map(|path| digest(&path));
+        let mut others: Vec<String> = others.collect::<Result<_, _>>()?;
+        others.sort();
+        Ok(Self { urdf: digest(urdf)?, world: digest(world)?, others })
+    }
+}
+
+fn digest(path: &Path) -> Result<String, Diagnostic> {
+    Ok(Sha256::digest(read_bytes(path)?).iter().map(|byte| format!("{byte:02x}")).collect())
+}
