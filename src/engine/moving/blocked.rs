@@ -20,6 +20,32 @@ pub struct Movers<'a> {
     legs: Vec<Vec<Vec<Stretch>>>,
 }
 
+/// A part of the arm at a posture, and how far it deviates from there: all pairs with it share that.
+pub struct Around {
+    part: (usize, usize),
+    /// A disc that holds it.
+    disc: (Point, f64),
+    /// Farthest that a point of it moves, metres.
+    moves: f64,
+}
+
+impl Around {
+    /// That of a pair's part; what is known if it is of the same.
+    pub fn of<'k>(known: &'k mut Option<Self>, posture: &Posture, deviation: Deviation, pair: Pair) -> &'k Self {
+        let part = (pair.link, pair.part);
+        if known.as_ref().is_none_or(|known| known.part != part) {
+            let (disc, moves) = (posture.place(pair, deviation), posture.farthest_motion(pair, deviation));
+            *known = Some(Self { part, disc, moves });
+        }
+        known.as_ref().expect("just made")
+    }
+
+    /// Farthest that a point of the part moves, metres.
+    pub fn moves(&self) -> f64 {
+        self.moves
+    }
+}
+
 /// A piece of a mover along a leg of its course.
 struct Stretch {
     leg: Leg,
@@ -66,14 +92,14 @@ impl<'a> Movers<'a> {
         &self.legs[pair.obstacle - self.scene.workspace().obstacles.len()][pair.piece]
     }
 
-    /// The times at which a pair is, or may be, nearer than the clearance while the configuration is no farther from the posture's than `deviation`:
+    /// The times at which a pair is, or may be, nearer than the clearance while the configuration deviates from the posture's as far as the part is known to be `around`:
     /// a superset, in no order. Whether there are any.
     ///
     /// A shape that slides past another one, grown by how far the arm's part moves, meets it for one interval of time, in closed form
     /// ([`sliding`]); where it turns, time is halved.
-    pub fn near_times(&self, posture: &Posture, deviation: Deviation, pair: Pair, out: &mut Vec<Interval>) -> bool {
+    pub fn near_times(&self, posture: &Posture, around: &Around, pair: Pair, out: &mut Vec<Interval>) -> bool {
         let before = out.len();
-        let (center, around) = posture.place(pair, deviation);
+        let Around { disc: (center, around), moves, .. } = *around;
         let around = around + self.clearance;
         // The part where it is, once it is needed.
         let mut placed = None;
@@ -95,7 +121,6 @@ impl<'a> Movers<'a> {
             let (part, grow, step) = placed.get_or_insert_with(|| {
                 let part = self.scene.part(pair).at(&posture.pose(pair.link));
                 let scale = part.reach_from(Point::origin()) + piece.reach_from(Point::origin());
-                let moves = posture.farthest_motion(pair, deviation);
                 (part, moves + self.clearance + ROOM * scale, moves.max(STEP * scale))
             });
             match slide {
@@ -122,9 +147,10 @@ impl<'a> Movers<'a> {
 
     /// The times at which nothing that moves is nearer to the arm at a posture than the clearance; in order.
     pub fn safe_intervals(&self, posture: &Posture) -> Vec<Interval> {
-        let mut near = Vec::new();
+        let (mut near, mut known) = (Vec::new(), None);
         for &pair in self.scene.moving_pairs() {
-            self.near_times(posture, Deviation::Box([0.0; 2]), pair, &mut near);
+            let around = Around::of(&mut known, posture, Deviation::Box([0.0; 2]), pair);
+            self.near_times(posture, around, pair, &mut near);
         }
         merge_in_place(&mut near);
         complement(&near)

@@ -1,6 +1,6 @@
 //! Proofs that no timing helps: that whoever goes along a path, in whatever way, meets what moves.
 
-use super::blocked::{Movers, complement};
+use super::blocked::{Around, Movers, complement};
 use crate::check::{Deviation, Posture};
 use crate::geometry::{Convex, Interval, Ordered, Point, merge_in_place, separation};
 use crate::interrupt::checkpoint;
@@ -102,7 +102,9 @@ fn met_times(movers: &Movers, posture: &Posture, deviation: Deviation, pair: Pai
     let Some(mover) = scene.mover(pair) else { return };
     // Only when they are near at all.
     let mut near = Vec::new();
-    if !movers.near_times(posture, Deviation::Box([0.0; 2]), pair, &mut near) {
+    let mut known = None;
+    let still = Around::of(&mut known, posture, Deviation::Box([0.0; 2]), pair);
+    if !movers.near_times(posture, still, pair, &mut near) {
         return;
     }
     merge_in_place(&mut near);

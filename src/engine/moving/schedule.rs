@@ -1,7 +1,7 @@
 //! When to go along a certified path, and where to wait.
 
 use super::blocked::Movers;
-use super::departures::{blocked_departures, first_departure};
+use super::departures::{Fineness, blocked_departures, first_departure};
 use crate::check::{CertifiedCurve, CertifiedPath, Posture};
 use crate::geometry::{Interval, Ordered};
 use crate::interrupt::checkpoint;
@@ -21,17 +21,19 @@ pub struct Effort {
     most_stops: usize,
     /// Whether they are spread over the path where there is nothing better.
     spread: bool,
-    /// Stretches of motions are looked at until no point of the arm moves farther in one than this share of its reach.
-    finest: f64,
+    /// How finely motions are looked at.
+    fineness: Fineness,
     /// Whether the arm may go back along the path, too.
     backward: bool,
 }
 
 impl Effort {
     /// Enough for most, in milliseconds.
-    pub const QUICK: Self = Self { most_stops: 8, spread: false, finest: 1e-2, backward: false };
+    pub const QUICK: Self =
+        Self { most_stops: 6, spread: false, fineness: Fineness { motion: 2e-2, time: 1e-2 }, backward: false };
     /// For what is tight.
-    pub const THOROUGH: Self = Self { most_stops: 12, spread: true, finest: 2e-3, backward: true };
+    pub const THOROUGH: Self =
+        Self { most_stops: 12, spread: true, fineness: Fineness { motion: 2e-3, time: 2e-3 }, backward: true };
 }
 
 /// A time at which the arm stands still on its way.
@@ -94,8 +96,7 @@ pub fn schedule(
 ) -> Result<Option<Scheduled>, TimingError> {
     let at = places(movers, path.path(), effort);
     let safe: Vec<Vec<Interval>> = at.iter().map(|&distance| safe_at(movers, path.path(), distance)).collect();
-    let finest = effort.finest * movers.scene().arm().reach();
-    let departures = blocked_departures(movers, &whole.trajectory.pieces(), finest);
+    let departures = blocked_departures(movers, &whole.trajectory.pieces(), effort.fineness);
     let legs = BTreeMap::from([((0, at.len() - 1), (whole.clone(), departures))]);
     let mut stops = Stops { movers, path, drive, effort, at, safe, legs };
     let Some((way, free_until)) = stops.search()? else { return Ok(None) };
@@ -110,8 +111,7 @@ impl Stops<'_> {
             checkpoint();
             let part = self.path.part(self.at[from], self.at[to]);
             let timed = self.drive.along(self.movers.scene(), &part, 1.0)?;
-            let finest = self.effort.finest * self.movers.scene().arm().reach();
-            let blocked = blocked_departures(self.movers, &timed.trajectory.pieces(), finest);
+            let blocked = blocked_departures(self.movers, &timed.trajectory.pieces(), self.effort.fineness);
             self.legs.insert((from, to), (timed, blocked));
         }
         Ok(&self.legs[&(from, to)])
