@@ -108,6 +108,10 @@ fn motions_that_are_none_are_refused_with_their_place() {
     assert!(told["message"].as_str().unwrap().contains("hits moving obstacle \"cart\""), "{told}");
 }
 
+/// A task, and something that moves far off.
+const TASK: &str = "[start]\njoints = [-0.9, 0.4]\n[[step]]\nmove = { joints = [1.0, 0.2] }\n";
+const FAR: &str = "circle = { center = [0, 0], radius = 0.1 }\nat = [3, 3]\nmotion = { velocity = [0.1, 0] }\n";
+
 #[test]
 fn what_knows_no_time_refuses_what_moves() {
     let place = Place::new();
@@ -116,7 +120,7 @@ fn what_knows_no_time_refuses_what_moves() {
         let done = place.run(&[command, &urdf, &world], "");
         done.refused(1, &["obstacle \"cart\" moves", "remove its motion"]);
     }
-    place.write("task.toml", format!("[start]\njoints = [-0.9, 0.4]\n[[step]]\nmove = {{ joints = [1.0, 0.2] }}\n[[obstacle]]\nname = \"cart\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [3, 3]\nmotion = {{ velocity = [0.1, 0] }}\n"));
+    place.write("task.toml", format!("{TASK}[[obstacle]]\nname = \"cart\"\n{FAR}"));
     place.run(&[urdf.as_str(), "task.toml"], "").refused(1, &["obstacle \"cart\" moves"]);
 }
 
