@@ -49,6 +49,12 @@ pub enum TaskError {
     /// A group without steps.
     #[error("a group of steps in any order has no steps")]
     EmptyGroup,
+    /// An obstacle moves: tasks are planned among what stands.
+    #[error("obstacle \"{obstacle}\" moves, and tasks are planned among what stands")]
+    Moves {
+        /// The obstacle's name.
+        obstacle: String,
+    },
     /// Objects begin anew that cannot.
     #[error("an object is renewed that does not exist, or is carried then")]
     Renewed,
@@ -64,6 +70,9 @@ impl Task {
     pub fn check(&self) -> Result<Scene, TaskError> {
         let at_first: Vec<_> = self.objects.iter().map(|object| Some(object.at)).collect();
         self.objects.iter().try_for_each(check_object)?;
+        if let Some(mover) = self.workspace.movers.first() {
+            return Err(TaskError::Moves { obstacle: mover.obstacle.name.clone() });
+        }
         let scene = Scene::new(self.arm.clone(), self.obstacles(&at_first))?;
         let mut names: BTreeSet<&str> = self.workspace.obstacles.iter().map(|o| o.name.as_str()).collect();
         if let Some(object) = self.objects.iter().find(|object| !names.insert(&object.name)) {

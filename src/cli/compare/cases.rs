@@ -92,6 +92,9 @@ impl Cases {
                 warnings.push(warning.clone());
             }
         }
+        for member in &suite.members {
+            member.scene.require_standing("planners are compared among what stands")?;
+        }
         let mut name = suite.name.clone();
         let overrides = args.query.overrides();
         let (bases, refused) =
@@ -170,7 +173,6 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
         if member.scene.has_steps() {
             member.scene.clone().problem(overrides)?;
         }
-        member.scene.require_standing("planners are compared among what stands")?;
         let scene = member.scene.keeping(overrides.clearance)?.scene;
         let nowhere = Configuration::zeros();
         Ok((member.name, MotionProblem::trusted(scene, nowhere, nowhere)))
