@@ -89,6 +89,9 @@ offset = [0, 0]
 frame = false
 height = [0.0, 3.0]
 [[obstacle]]
+circle = { center = [0, 0], radius = 0.1 }
+motion = { stops = [{ time = 0, at = [3, 3] }, { time = 2, at = [3, 4], angle = "30deg" }], velocity = [0, 0.1] }
+[[obstacle]]
 polygon = [[0, 0], [1, 0], [1, 1]]
 holes = [[[0.1, 0.1], [0.2, 0.1], [0.2, 0.2]]]
 [[obstacle]]

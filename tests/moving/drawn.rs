@@ -64,10 +64,24 @@ impl Moving {
         Oracle::new(&Scene::new(arm, workspace).expect("a scene"))
     }
 
+    /// Farthest that a point of anything that moves gets in a second, metres.
+    pub fn fastest(&self) -> f64 {
+        let of = |mover: &Mover| {
+            let pieces = mover.obstacle.pieces.iter();
+            let reach = pieces.map(|piece| piece.reach_from(Point::origin())).fold(0.0, f64::max);
+            let legs = mover.course.stops().windows(2).map(|ends| {
+                let [a, b] = [ends[0], ends[1]];
+                ((b.at - a.at).norm() + (b.angle - a.angle).abs() * reach) / (b.time - a.time)
+            });
+            legs.fold(mover.course.velocity().norm(), f64::max)
+        };
+        self.problem.scene().workspace().movers.iter().map(of).fold(0.0, f64::max)
+    }
+
     /// The time after which nothing moves any more, or nothing that moves is near.
     pub fn horizon(&self) -> f64 {
         let movers = &self.problem.scene().workspace().movers;
-        movers.iter().flat_map(|m| m.course.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 12.0
+        movers.iter().flat_map(|m| m.course.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 8.0
     }
 }
 

@@ -33,7 +33,7 @@ impl Effort {
         Self { most_stops: 6, spread: false, fineness: Fineness { motion: 2e-2, time: 1e-2 }, backward: false };
     /// For what is tight.
     pub const THOROUGH: Self =
-        Self { most_stops: 12, spread: true, fineness: Fineness { motion: 2e-3, time: 2e-3 }, backward: true };
+        Self { most_stops: 12, spread: true, fineness: Fineness { motion: 4e-3, time: 2e-3 }, backward: true };
 }
 
 /// A time at which the arm stands still on its way.
@@ -99,12 +99,36 @@ pub fn schedule(
     let departures = blocked_departures(movers, &whole.trajectory.pieces(), effort.fineness);
     let legs = BTreeMap::from([((0, at.len() - 1), (whole.clone(), departures))]);
     let mut stops = Stops { movers, path, drive, effort, at, safe, legs };
-    let Some((way, free_until)) = stops.search()? else { return Ok(None) };
+    let Some((mut way, mut free_until)) = stops.search()? else { return Ok(None) };
+    // Looked at more finely, the same stops can be left sooner.
+    let mut closer = stops.along(&way);
+    if let Some((sooner, until)) = closer.search()?
+        && (until == free_until || until == f64::INFINITY)
+    {
+        (way, free_until, stops) = (sooner, until, closer);
+    }
     let (timed, waits) = stops.driven(&way)?;
     Ok(Some(Scheduled { timed, waits, free_until }))
 }
 
 impl Stops<'_> {
+    /// The same with the stops of a way alone, whose motions are looked at finely.
+    fn along(&self, way: &[(usize, f64)]) -> Self {
+        let stops: Vec<usize> = way.iter().map(|(stop, _)| *stop).collect();
+        let fineness = Effort::THOROUGH.fineness;
+        let legs = self.legs.iter().filter_map(|(&(from, to), (timed, _))| {
+            let [from, to] = [from, to].map(|stop| stops.iter().position(|&kept| kept == stop));
+            let (from, to) = (from?, to?);
+            let blocked = blocked_departures(self.movers, &timed.trajectory.pieces(), fineness);
+            Some(((from, to), (timed.clone(), blocked)))
+        });
+        let legs = legs.collect();
+        let at = stops.iter().map(|&stop| self.at[stop]).collect();
+        let safe = stops.iter().map(|&stop| self.safe[stop].clone()).collect();
+        let effort = Effort { fineness, ..self.effort };
+        Self { effort, at, safe, legs, ..*self }
+    }
+
     /// The motion from one stop to another.
     fn leg(&mut self, from: usize, to: usize) -> Result<&(Timed, Vec<Interval>), TimingError> {
         if !self.legs.contains_key(&(from, to)) {

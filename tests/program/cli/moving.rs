@@ -88,15 +88,18 @@ fn where_no_timing_helps_that_is_proven_and_the_answer_is_unknown() {
 fn motions_that_are_none_are_refused_with_their_place() {
     let place = Place::new();
     for (motion, parts) in [
-        ("{ }", ["world.toml:8:10", "neither stops nor a velocity"]),
-        ("{ velocity = [0.1] }", ["world.toml:8", "two numbers"]),
-        ("{ velocity = [inf, 0] }", ["world.toml:8", "not a finite number"]),
-        ("{ stops = [] }", ["world.toml:8", "a course needs a stop"]),
-        ("{ stops = [{ time = -1, at = [3, 3] }] }", ["world.toml:8", "must not be negative"]),
-        ("{ stops = [{ time = 1, at = [3, 3] }, { time = 1, at = [4, 3] }] }", ["world.toml:8", "does not come after"]),
-        ("{ stops = [{ time = 1e9, at = [3, 3] }] }", ["world.toml:8", "before 1e6 s"]),
-        ("{ speed = 1 }", ["world.toml:8", "unknown field `speed`"]),
-        ("3", ["world.toml:8", "motion = { velocity = [vx, vy] }"]),
+        ("{ }", ["world.toml: line 8, column 10", "neither stops nor a velocity"]),
+        ("{ velocity = [0.1] }", ["world.toml: line 8", "two numbers"]),
+        ("{ velocity = [inf, 0] }", ["world.toml: line 8", "not a finite number"]),
+        ("{ stops = [] }", ["world.toml: line 8", "a course needs a stop"]),
+        ("{ stops = [{ time = -1, at = [3, 3] }] }", ["world.toml: line 8", "must not be negative"]),
+        (
+            "{ stops = [{ time = 1, at = [3, 3] }, { time = 1, at = [4, 3] }] }",
+            ["world.toml: line 8", "does not come after"],
+        ),
+        ("{ stops = [{ time = 1e9, at = [3, 3] }] }", ["world.toml: line 8", "before 1e6 s"]),
+        ("{ speed = 1 }", ["world.toml: line 8", "unknown field `speed`"]),
+        ("3", ["world.toml: line 8", "motion = { velocity = [vx, vy] }"]),
     ] {
         place.plan(world(motion), "").refused(1, &parts);
     }
