@@ -97,7 +97,7 @@ fn motions_that_are_none_are_refused_with_their_place() {
             "{ stops = [{ time = 1, at = [3, 3] }, { time = 1, at = [4, 3] }] }",
             ["world.toml: line 8", "does not come after"],
         ),
-        ("{ stops = [{ time = 1e9, at = [3, 3] }] }", ["world.toml: line 8", "before 1e6 s"]),
+        ("{ stops = [{ time = 1e9, at = [3, 3] }] }", ["world.toml: line 8", "too large (at most 1e6)"]),
         ("{ speed = 1 }", ["world.toml: line 8", "unknown field `speed`"]),
         ("3", ["world.toml: line 8", "motion = { velocity = [vx, vy] }"]),
     ] {

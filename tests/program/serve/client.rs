@@ -58,7 +58,12 @@ impl Page {
     /// The next message.
     pub fn next(&mut self) -> Value {
         loop {
-            match self.socket.read().unwrap() {
+            let message = match self.socket.read() {
+                // A signal is no answer.
+                Err(tungstenite::Error::Io(error)) if error.kind() == std::io::ErrorKind::Interrupted => continue,
+                read => read.unwrap(),
+            };
+            match message {
                 Message::Text(text) => return serde_json::from_str(&text).unwrap(),
                 Message::Binary(_) => panic!("a file that nobody asked for"),
                 Message::Close(_) => panic!("closed"),
