@@ -11,7 +11,6 @@ mod oracle;
 mod refuted;
 mod shipped;
 #[path = "../planning/random_worlds/solid.rs"]
-#[allow(dead_code, reason = "other test programs use more of it")]
 mod solid;
 #[path = "../planning/random_worlds/world.rs"]
 mod world;

@@ -55,9 +55,7 @@ fn gets_through(world: &Moving, path: &Path) -> bool {
         let time = look as f64 * STEP;
         let mut next = vec![false; PLACES + 1];
         for k in (0..=PLACES).filter(|&k| there[k]) {
-            for n in k.saturating_sub(reach[k])..=(k + reach[k]).min(PLACES) {
-                next[n] = true;
-            }
+            next[k.saturating_sub(reach[k])..=(k + reach[k]).min(PLACES)].fill(true);
         }
         let movers = world.movers_at(time);
         for (k, place) in places.iter().enumerate() {

@@ -282,7 +282,7 @@ fn numbers_are_those_of_obstacles_then_walls_then_objects() {
     infeasible(0.0, "0, \"corners\": [[0.3, 0.3], [0.3, -0.3]]").unwrap();
     infeasible(0.0, "2").unwrap();
     let wall = "\"corners\": [[-0.3, 0.5], [0.3, 0.5]]";
-    infeasible(1.5707, &format!("1, {wall}")).unwrap();
+    infeasible(1.56, &format!("1, {wall}")).unwrap();
     for part in ["1", &format!("0, {wall}"), "3"] {
         assert!(matches!(infeasible(0.0, part), Err(CheckError::Fails(_))), "{part}");
     }

@@ -60,7 +60,7 @@ impl Page {
         loop {
             let message = match self.socket.read() {
                 // A signal is no answer.
-                Err(tungstenite::Error::Io(error)) if error.kind() == std::io::ErrorKind::Interrupted => continue,
+                Err(Error::Io(error)) if error.kind() == std::io::ErrorKind::Interrupted => continue,
                 read => read.unwrap(),
             };
             match message {
