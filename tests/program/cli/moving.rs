@@ -98,7 +98,7 @@ fn motions_that_are_none_are_refused_with_their_place() {
             ["world.toml: line 8", "does not come after"],
         ),
         ("{ stops = [{ time = 1e9, at = [3, 3] }] }", ["world.toml: line 8", "too large (at most 1e6)"]),
-        ("{ speed = 1 }", ["world.toml: line 8", "unknown field `speed`"]),
+        ("{ speed = 1 }", ["world.toml: line 8", "unknown key `speed`"]),
         ("3", ["world.toml: line 8", "motion = { velocity = [vx, vy] }"]),
     ] {
         place.plan(world(motion), "").refused(1, &parts);
