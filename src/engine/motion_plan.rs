@@ -7,7 +7,7 @@ use super::options::Options;
 use super::{Answer, Bound, Report, Verdict};
 use crate::check::CertifiedCurve;
 use crate::model::MotionProblem;
-use crate::motion::{Objective, Optimum, Timed, TimingError};
+use crate::motion::{Fastest, Objective, Optimum, Timed, TimingError};
 
 /// A verdict, and the motion that follows from it.
 #[derive(Debug, Clone)]
@@ -47,7 +47,12 @@ impl MotionPlan {
             && let Some((timed, fastest)) = driven.take()
         {
             match in_time(&problem, certified, timed, options)? {
-                Ok(InTime { timed, figures }) => (driven, timing) = (Some((timed, fastest)), Some(figures)),
+                Ok(InTime { timed, figures }) => {
+                    // The bound stays; the duration has its waits now.
+                    let duration = timed.trajectory.duration();
+                    let fastest = fastest.map(|fastest| Fastest::new(duration, fastest.lower_bound));
+                    (driven, timing) = (Some((timed, fastest)), Some(figures));
+                }
                 Err(reason) => answer.verdict = Verdict::Unknown(reason),
             }
         }

@@ -224,12 +224,6 @@ impl Course {
         Drift { middle, velocity: Vector::zeros(), turn: 0.0, half, any }
     }
 
-    /// The time from which it stands still for ever; none if it never does.
-    #[must_use]
-    pub fn rests_from(&self) -> Option<f64> {
-        (self.velocity == Vector::zeros()).then(|| self.stops[self.stops.len() - 1].time)
-    }
-
     fn leg(&self, time: f64) -> &Leg {
         let next = self.legs.partition_point(|leg| leg.from <= time);
         &self.legs[next.saturating_sub(1)]
@@ -296,10 +290,8 @@ mod tests {
         assert_eq!(place(&stays, 0.5), [0.0, 0.0, 0.0]);
         assert_eq!(place(&stays, 2.0), [0.5, 1.0, 0.5]);
         assert_eq!(place(&stays, 99.0), [1.0, 2.0, 1.0]);
-        assert_eq!(stays.rests_from(), Some(3.0));
         let leaves = Course::new(stops, Vector::new(0.5, 0.0)).unwrap();
         assert_eq!(place(&leaves, 5.0), [2.0, 2.0, 1.0]);
-        assert_eq!(leaves.rests_from(), None);
         assert_eq!(place(&Course::conveyor([1.0, 0.0], [0.0, -0.25]).unwrap(), 4.0), [1.0, -1.0, 0.0]);
     }
 

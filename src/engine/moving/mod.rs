@@ -72,8 +72,10 @@ pub fn in_time(
     while let Some((path, whole)) = way.take() {
         ways += 1;
         let duration = whole.trajectory.duration();
-        // A way that takes longer without a wait than what is known is none.
-        let is_worth = best.as_ref().is_none_or(|best| duration < best.timed.trajectory.duration());
+        // A way that takes longer without a wait than what is known is none, if the arm can stay where that ends.
+        let is_worth = best
+            .as_ref()
+            .is_none_or(|best| best.figures.free_until.is_some() || duration < best.timed.trajectory.duration());
         if is_worth {
             let drive = &options.drive;
             let along = |effort: Effort| {

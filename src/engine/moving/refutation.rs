@@ -20,7 +20,7 @@ const STEP: f64 = 1e-3;
 
 /// A stretch of a path.
 struct Stretch {
-    /// When each posture of it meets something that does not stand still, or has come to stand: the times that are left.
+    /// The times that are left: at all others each of its postures meets something that moves.
     left: Vec<Interval>,
     /// What it takes at least to go from one end to the other, seconds.
     takes: f64,
