@@ -1,5 +1,6 @@
 //! The shipped worlds in which something moves, each with the outcome that it states.
 
+use cplan::motion::{Drive, Objective};
 use cplan::{Options, Outcome, Problem, plan};
 use std::path::Path;
 
@@ -25,4 +26,17 @@ fn shipped_worlds_come_out_as_they_say() {
         }
     }
     assert!(files.len() >= 5);
+}
+
+/// With the least time asked for, the duration that is told beside its bound has the waits in it.
+#[test]
+fn the_duration_beside_its_bound_is_that_of_the_motion() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let problem =
+        Problem::load(root.join("robots/planar_2r.urdf"), root.join("workspaces/moving/crossing.toml")).unwrap();
+    let drive = Drive { optimize: Objective::Time, ..Drive::default() };
+    let plan = plan(&problem, &Options { drive, ..Options::default() }).unwrap();
+    let (duration, fastest) = (plan.trajectory().unwrap().duration(), plan.report().fastest.unwrap());
+    assert_eq!(fastest.duration, duration);
+    assert!(duration > 2.9 && fastest.lower_bound < duration);
 }
