@@ -29,7 +29,7 @@ impl Grid {
     #[must_use]
     pub fn center(&self, index: usize) -> Configuration {
         let step = self.step();
-        let (i, j) = (index / self.cells[1], index % self.cells[1]);
+        let [i, j] = self.place(index);
         Configuration::new(
             self.topology.ranges[0].domain().0 + (i as f64 + 0.5) * step[0],
             self.topology.ranges[1].domain().0 + (j as f64 + 0.5) * step[1],
@@ -51,13 +51,24 @@ impl Grid {
     /// The up to four cells that share a side with `index`, across the seam of a circle too, in the order
     /// `-q1, +q1, -q2, +q2`.
     pub fn neighbors(&self, index: usize) -> impl Iterator<Item = usize> {
-        [(0, false), (0, true), (1, false), (1, true)].into_iter().filter_map(move |(k, up)| self.beside(index, k, up))
+        let at = self.place(index);
+        [(0, false), (0, true), (1, false), (1, true)]
+            .into_iter()
+            .filter_map(move |(k, up)| self.beside_place(at, k, up))
     }
 
     /// The cell that shares a side with `index`, up or down axis `k`, across the seam of a circle too; none beyond a limit.
     #[must_use]
     pub fn beside(&self, index: usize, k: usize, up: bool) -> Option<usize> {
-        let mut at = [index / self.cells[1], index % self.cells[1]];
+        self.beside_place(self.place(index), k, up)
+    }
+
+    /// Row and column of a cell.
+    fn place(&self, index: usize) -> [usize; 2] {
+        [index / self.cells[1], index % self.cells[1]]
+    }
+
+    fn beside_place(&self, mut at: [usize; 2], k: usize, up: bool) -> Option<usize> {
         let last = self.cells[k] - 1;
         let (end, beyond) = if up { (last, 0) } else { (0, last) };
         at[k] = match at[k] {
