@@ -2,7 +2,7 @@
 
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
-use super::{Arm, Dynamics, Grip, Mover, Obstacle, Part, Payload, SceneError, Workspace};
+use super::{Arm, Dynamics, Grip, Heights, Mover, Obstacle, Part, Payload, SceneError, Workspace};
 use crate::geometry::{Convex, Separation, seams, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
@@ -47,11 +47,31 @@ pub struct Scene {
     allowed_contacts: Vec<usize>,
     /// Parts of link 2 that are the arm's own; those that follow are the payload's.
     own_parts: usize,
+    /// Which heights can meet.
+    meet: Meet,
     pairs: Vec<Pair>,
     /// The same with what moves.
     moving: Vec<Pair>,
     /// Of each obstacle, what a level payload makes of its pieces, and of supports what is met of them.
     differences: Vec<Vec<Convex>>,
+}
+
+/// Whether heights meet, where rounding leaves it open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Meet {
+    /// They do: for what is to be free.
+    Perhaps,
+    /// They do not: for proofs that something is in the way.
+    Surely,
+}
+
+impl Meet {
+    fn holds(self, a: Heights, b: Heights) -> bool {
+        match self {
+            Self::Perhaps => a.meet(b),
+            Self::Surely => a.surely_meet(b),
+        }
+    }
 }
 
 /// What a payload's part can meet.
@@ -97,10 +117,20 @@ impl Scene {
     /// [`Scene::handling`] of what is known to be valid.
     #[must_use]
     pub(crate) fn handling_trusted(
+        arm: Arm,
+        workspace: Workspace,
+        payload: Option<Payload>,
+        allowed_contacts: &[usize],
+    ) -> Self {
+        Self::assembled(arm, workspace, payload, allowed_contacts, Meet::Perhaps)
+    }
+
+    fn assembled(
         mut arm: Arm,
         workspace: Workspace,
         payload: Option<Payload>,
         allowed_contacts: &[usize],
+        meet: Meet,
     ) -> Self {
         debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
         let own_parts = arm.links[1].parts.len();
@@ -111,7 +141,8 @@ impl Scene {
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
                 let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
-                for (obstacle, o) in workspace.obstacles.iter().enumerate().filter(|(_, o)| p.heights.meet(o.heights)) {
+                let as_high = |(_, o): &(usize, &Obstacle)| meet.holds(p.heights, o.heights);
+                for (obstacle, o) in workspace.obstacles.iter().enumerate().filter(as_high) {
                     let pieces = match meetable {
                         Some(meetable) => meetable[obstacle].clone(),
                         None if link == 1 && allowed_contacts.contains(&obstacle) => 0..0,
@@ -121,15 +152,20 @@ impl Scene {
                 }
             }
         }
-        let moving = moving_pairs(&arm, &workspace);
+        let moving = moving_pairs(&arm, &workspace, meet);
         let allowed_contacts = allowed_contacts.to_vec();
-        Self { arm, workspace, payload, allowed_contacts, own_parts, pairs, moving, differences }
+        Self { arm, workspace, payload, allowed_contacts, own_parts, meet, pairs, moving, differences }
     }
 
-    /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within.
+    /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within, and what is as
+    /// high as each other for certain.
     #[must_use]
     pub(crate) fn inner(&self) -> Cow<'_, Self> {
-        if self.arm.links.iter().flat_map(|link| &link.parts).all(|part| part.inner.is_none()) {
+        let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
+        let obstacles = || self.workspace.obstacles.iter().chain(self.workspace.movers.iter().map(|m| &m.obstacle));
+        let heights = || parts().flat_map(|part| obstacles().map(|obstacle| (part.heights, obstacle.heights)));
+        let is_exact = self.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
+        if is_exact && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
         let shrink = |part: &mut Part| {
@@ -137,13 +173,17 @@ impl Scene {
                 part.shape = inner;
             }
         };
-        Cow::Owned(self.reshaped(shrink, |obstacle| obstacle.pieces.clone()))
+        Cow::Owned(self.remade(shrink, |obstacle| obstacle.pieces.clone(), Meet::Surely))
     }
 
     /// The same scene with other shapes for the arm's own parts and for the pieces of obstacles; each part stays one part,
     /// each obstacle one obstacle, and what is carried stays as it is.
     #[must_use]
     pub(crate) fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
+        self.remade(reshape, pieces, self.meet)
+    }
+
+    fn remade(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>, meet: Meet) -> Self {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
         arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(reshape);
@@ -151,7 +191,7 @@ impl Scene {
         for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
             obstacle.pieces = pieces;
         }
-        Self::handling_trusted(arm, workspace, self.payload.clone(), &self.allowed_contacts)
+        Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, meet)
     }
 
     /// The same scene with another distance to keep, metres.
@@ -161,8 +201,9 @@ impl Scene {
     pub fn with_clearance(mut self, clearance: f64) -> Result<Self, SceneError> {
         check_clearance(clearance)?;
         let (payload, allowed_contacts) = (self.payload.take(), std::mem::take(&mut self.allowed_contacts));
+        let meet = self.meet;
         let (arm, workspace) = self.into_parts();
-        Ok(Self::handling_trusted(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts))
+        Ok(Self::assembled(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts, meet))
     }
 
     /// The same scene at a time: what moves stands where it is then, after all that stands.
@@ -175,7 +216,7 @@ impl Scene {
         let (payload, allowed_contacts) = (scene.payload.take(), std::mem::take(&mut scene.allowed_contacts));
         let (arm, mut workspace) = scene.into_parts();
         workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| mover.at(time)));
-        Self::handling_trusted(arm, workspace, payload, &allowed_contacts)
+        Self::assembled(arm, workspace, payload, &allowed_contacts, self.meet)
     }
 
     /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
@@ -302,6 +343,20 @@ impl Scene {
         pair.link == 1 && pair.part >= self.own_parts
     }
 
+    /// Which of the payload's pieces a pair is about; none if it is about the arm itself, or about what is made of pieces for supports.
+    #[must_use]
+    pub(crate) fn payload_piece(&self, pair: Pair) -> Option<&Convex> {
+        self.payload.as_ref().filter(|_| self.is_payload(pair))?.pieces.get(pair.part - self.own_parts)
+    }
+
+    /// The piece of the obstacle that a pair is about, in its place, whatever is made of it for a payload.
+    #[must_use]
+    pub(crate) fn obstacle_piece(&self, pair: Pair) -> &Convex {
+        let pieces = &self.workspace.obstacles[pair.obstacle].pieces;
+        // What is made of them comes after them, all for one piece of the payload after all for another.
+        &pieces[pair.piece % pieces.len()]
+    }
+
     /// What a pair's part belongs to, in words: `link "forearm" (body "gripper")`, `payload "part"`.
     #[must_use]
     pub fn describe_part(&self, pair: Pair) -> String {
@@ -318,13 +373,13 @@ impl Scene {
 }
 
 /// The parts of an arm and what moves that is as high.
-fn moving_pairs(arm: &Arm, workspace: &Workspace) -> Vec<Pair> {
+fn moving_pairs(arm: &Arm, workspace: &Workspace, meet: Meet) -> Vec<Pair> {
     let first = workspace.obstacles.len();
     let mut pairs = Vec::new();
     for (link, l) in arm.links.iter().enumerate() {
         for (part, p) in l.parts.iter().enumerate() {
             for (mover, Mover { obstacle, .. }) in workspace.movers.iter().enumerate() {
-                let pieces = if p.heights.meet(obstacle.heights) { 0..obstacle.pieces.len() } else { 0..0 };
+                let pieces = if meet.holds(p.heights, obstacle.heights) { 0..obstacle.pieces.len() } else { 0..0 };
                 pairs.extend(pieces.map(|piece| Pair { link, part, obstacle: first + mover, piece }));
             }
         }

@@ -17,6 +17,9 @@ pub struct Heights {
     pub upper: f64,
 }
 
+/// Heights are sums of products of what the files say: they are known to this, metres, at least.
+const ROUNDING: f64 = 1e-9;
+
 impl Heights {
     /// The extent that holds all heights.
     pub const ALL: Heights = Heights { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
@@ -27,10 +30,20 @@ impl Heights {
         Heights { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
-    /// Whether the two extents share a height; touching counts.
+    /// Whether the two extents may share a height: touching counts, and so does what is apart by mere rounding.
     #[must_use]
     pub fn meet(self, other: Heights) -> bool {
-        self.lower <= other.upper && other.lower <= self.upper
+        self.meet_within(other, ROUNDING)
+    }
+
+    /// Whether the two extents share a height for certain, by more than rounding.
+    #[must_use]
+    pub fn surely_meet(self, other: Heights) -> bool {
+        self.meet_within(other, -ROUNDING)
+    }
+
+    fn meet_within(self, other: Heights, apart: f64) -> bool {
+        self.lower <= other.upper + apart && other.lower <= self.upper + apart
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
+use crate::impossible::Case;
 use crate::motion::Motion;
 use crate::polygon::Corner;
 use crate::sweep::Rectangle;
@@ -39,6 +40,8 @@ pub struct Certificate {
     pub parts: Vec<PartName>,
     /// That there is no motion; or what is no goal of a bound, because it is not free.
     pub boxes: Option<Vec<StuckBox>>,
+    /// That a task cannot be done.
+    pub cases: Option<Vec<Case>>,
     /// That none is shorter.
     pub bound: Option<Bound>,
 }
@@ -54,19 +57,6 @@ impl Certificate {
             return Err(CheckError::in_file(Input::World, "the clearance is negative"));
         }
         Ok(clearance)
-    }
-
-    /// The boxes, if there are any, as they are.
-    ///
-    /// # Errors
-    /// One that is turned inside out.
-    pub fn rectangles(&self) -> Result<Vec<Rectangle>, CheckError> {
-        let ranges = |stuck: &StuckBox| [0, 1].map(|k| [stuck.lower[k].clone(), stuck.upper[k].clone()]);
-        let boxes: Vec<Rectangle> = self.boxes.iter().flatten().map(ranges).collect();
-        match boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
-            Some(empty) => CheckError::fails(format!("box {empty}: an upper end is below the lower one")),
-            None => Ok(boxes),
-        }
     }
 }
 
@@ -101,30 +91,35 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
         let message = format!("its format is \"{}\": the checker knows \"{FORMAT}\"", certificate.format);
         return Err(CheckError::in_file(Input::Certificate, message));
     }
-    let Certificate { answer, motion, steps, boxes, bound, .. } = &certificate;
+    let Certificate { answer, motion, steps, boxes, cases, bound, .. } = &certificate;
     let evidence = [motion.is_some(), boxes.is_some(), bound.is_some()];
+    let has_cases = cases.is_some();
     let is_to_the_goal = bound.as_ref().is_some_and(|bound| bound.to.is_none());
     let fits = match answer {
-        Answer::Found => evidence[0] && (is_to_the_goal || !evidence[1]),
-        Answer::Infeasible => steps.is_none() && evidence == [false, true, false],
-        Answer::NoShorter => steps.is_none() && !evidence[0] && evidence[2] && (is_to_the_goal || !evidence[1]),
+        Answer::Found => !has_cases && evidence[0] && (is_to_the_goal || !evidence[1]),
+        Answer::Infeasible => steps.is_none() && evidence == [false, !has_cases, false],
+        Answer::NoShorter => {
+            steps.is_none() && !has_cases && !evidence[0] && evidence[2] && (is_to_the_goal || !evidence[1])
+        }
     };
     if !fits {
-        let message = "\"found\" has a motion, and may have steps or a bound; \"infeasible\" has boxes; \"no_shorter\" a bound; \
+        let message = "\"found\" has a motion, and may have steps or a bound; \"infeasible\" has boxes, of a task cases; \"no_shorter\" a bound; \
                        with a bound there are boxes only if it does not say \"to\" where";
         return Err(CheckError::in_file(Input::Certificate, message));
     }
     Ok(certificate)
 }
 
-/// A shape of the URDF: its number among those of its kind that the link has.
+/// A shape of the URDF, by its number among those of its kind that the link has, or of what is carried.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ShapeName {
-    pub link: String,
+    pub link: Option<String>,
     pub collision: Option<usize>,
     pub visual: Option<usize>,
     pub bar: Option<usize>,
+    /// Corners of a convex part of what is carried, in its own frame; none of a disc.
+    pub carried: Option<Vec<Corner>>,
 }
 
 /// A convex part of an obstacle.
@@ -148,6 +143,19 @@ pub struct StuckBox {
     pub shape: usize,
     /// Into the parts.
     pub part: usize,
+}
+
+/// Boxes as they are.
+///
+/// # Errors
+/// One that is turned inside out.
+pub fn rectangles(boxes: &[StuckBox]) -> Result<Vec<Rectangle>, CheckError> {
+    let ranges = |stuck: &StuckBox| [0, 1].map(|k| [stuck.lower[k].clone(), stuck.upper[k].clone()]);
+    let boxes: Vec<Rectangle> = boxes.iter().map(ranges).collect();
+    match boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
+        Some(empty) => CheckError::fails(format!("box {empty}: an upper end is below the lower one")),
+        None => Ok(boxes),
+    }
 }
 
 /// That no motion is shorter than a length.

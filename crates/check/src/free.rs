@@ -4,6 +4,7 @@ use crate::curve::{HALVINGS, Piece, Tube};
 use crate::interval::{BITS, Interval, Point, both_turns, length, sum, times, turned};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Motion};
+use crate::world::Obstacle;
 use num_bigint::BigInt;
 use std::cell::OnceCell;
 
@@ -208,6 +209,15 @@ impl Chain {
     /// The same at a configuration.
     pub fn point_at(&self, on: &On, a: &Point, values: &Point) -> Point {
         self.still(&self.hanging(on, a), values)
+    }
+
+    /// What lies in the plane, as it hangs on the second link that takes it at a configuration.
+    pub fn hung(&self, lying: &Obstacle, values: &Point) -> Obstacle {
+        let [sine, cosine] = lying.turn.clone();
+        let ahead = self.seen_at(&sum(&lying.at, &[cosine, sine]), values);
+        let origin = self.seen_at(&lying.at, values);
+        let [x, y] = minus(&ahead, &origin);
+        lying.clone().moved(origin, [y, x])
     }
 
     /// A point of the plane as it is seen from the second link's joint at a configuration.

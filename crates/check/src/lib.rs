@@ -35,11 +35,13 @@
 mod arm;
 mod bound;
 mod certificate;
+mod contacts;
 mod curve;
 mod decimal;
 mod error;
 mod files;
 mod free;
+mod impossible;
 mod interval;
 mod motion;
 mod overlap;
@@ -52,15 +54,14 @@ mod world;
 
 pub use error::{CheckError, Input};
 
-use arm::{Cell, Mover};
-use certificate::{Answer, Certificate};
+use certificate::{Answer, Certificate, rectangles};
+use contacts::{Among, Contacts};
 use decimal::Decimal;
 use files::Files;
 use interval::{Interval, Point};
-use overlap::Shape;
 use robot::{Arm, Body};
 use std::path::{Path, PathBuf};
-use sweep::{Domain, Range, Reached, Rectangle};
+use sweep::{Domain, Reached, Rectangle};
 use world::{Goal, World};
 
 /// Checks a certificate: the texts of the three files. What it proves is returned in words.
@@ -110,7 +111,10 @@ fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) ->
                 None => Ok(found),
             }
         }
-        Answer::Infeasible => infeasible(&arm, &world, &certificate),
+        Answer::Infeasible => match &certificate.cases {
+            Some(cases) => impossible::infeasible(&arm, &world, &certificate, cases),
+            None => infeasible(&arm, &world, &certificate),
+        },
         Answer::NoShorter => no_shorter(&arm, &world, &certificate),
     }
 }
@@ -121,15 +125,15 @@ fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     let start = start(arm, &domain, world, certificate)?;
     let goal = GoalRegion::of(arm, &domain, world, certificate)?;
     let clearance = certificate.clearance(world)?;
-    let boxes = certificate.rectangles()?;
+    let stuck = certificate.boxes.as_deref().unwrap_or_default();
+    let boxes = rectangles(stuck)?;
     let Some(reached) = Reached::new(&domain, &boxes, &start) else {
         return CheckError::fails("the boxes leave more gaps than the checker looks at");
     };
     if !goal.places(arm, &domain, MOST_PARTS, |part| !reached.meets(part)).is_empty() {
         return CheckError::fails("the boxes do not separate the goal from the start");
     }
-    let contacts = Contacts::new(arm, world, certificate, clearance)?;
-    contacts.hold(arm, certificate, &boxes)?;
+    Contacts::new(arm, &Among::all(world), certificate, clearance).hold(arm, stuck, &boxes)?;
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
     Ok(format!(
         "no motion of \"{first}\" and \"{second}\" leads from the start{} to the goal{} with clearance {clearance}",
@@ -198,7 +202,8 @@ fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     };
     let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
     let start = start(arm, &domain, world, certificate)?;
-    let boxes = certificate.rectangles()?;
+    let stuck = certificate.boxes.as_deref().unwrap_or_default();
+    let boxes = rectangles(stuck)?;
     let (goals, to) = match &bound.to {
         Some(to) => (vec![place(arm, &domain, "bound", Some(to), None)?], shown(Some(to))),
         None => {
@@ -208,68 +213,17 @@ fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
         }
     };
     bound::holds(arm, bound, &start, &goals)?;
-    let contacts = Contacts::new(arm, world, certificate, certificate.clearance(world)?)?;
-    contacts.hold(arm, certificate, &boxes)?;
+    let among = Among::all(world);
+    let contacts = Contacts::new(arm, &among, certificate, certificate.clearance(world)?);
+    contacts.hold(arm, stuck, &boxes)?;
     for (number, wall) in bound.walls.iter().enumerate() {
         let (body, part) = contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?;
-        if !bound::closes(arm, wall, body, part) {
+        if !bound::closes(arm, wall, body, &part) {
             return CheckError::fails(format!("wall {number}: along it the shape can come off the part"));
         }
     }
     let from = shown(certificate.start.as_ref());
     Ok(format!("no motion from the start{from} to{to} is shorter than {}", bound.length))
-}
-
-/// The shapes and the parts of obstacles that a certificate names, parts grown by the clearance.
-struct Contacts<'a> {
-    bodies: Vec<Body>,
-    parts: Vec<(Shape, Option<&'a Range>)>,
-}
-
-impl<'a> Contacts<'a> {
-    fn new(arm: &Arm, world: &'a World, certificate: &Certificate, clearance: &Decimal) -> Result<Self, CheckError> {
-        let bodies = certificate.shapes.iter().map(|name| match (name.collision, name.visual, name.bar) {
-            (Some(number), None, None) => arm.body(&name.link, "collision", number),
-            (None, Some(number), None) => arm.body(&name.link, "visual", number),
-            (None, None, Some(0)) => arm.bar(&name.link),
-            _ => Err(CheckError::in_file(Input::Certificate, "a shape has one number, of a bar 0")),
-        });
-        let parts = certificate.parts.iter().enumerate().map(|(number, name)| {
-            let Some(obstacle) = world.obstacles.get(name.obstacle) else {
-                return CheckError::fails(format!("part {number}: there is no obstacle {}", name.obstacle));
-            };
-            let Shape { points, radius } = obstacle.part(&name.corners).map_err(|why| match why {
-                CheckError::Fails(why) => {
-                    CheckError::Fails(format!("part {number}, of obstacle {}: {why}", name.obstacle))
-                }
-                input => input,
-            })?;
-            Ok((Shape { points, radius: &radius + &Interval::from(clearance) }, obstacle.heights.as_ref()))
-        });
-        Ok(Self { bodies: bodies.collect::<Result<_, _>>()?, parts: parts.collect::<Result<_, _>>()? })
-    }
-
-    /// That in all of each box the shape is too near the part.
-    fn hold(&self, arm: &Arm, certificate: &Certificate, boxes: &[Rectangle]) -> Result<(), CheckError> {
-        for (number, (stuck, ranges)) in certificate.boxes.iter().flatten().zip(boxes).enumerate() {
-            let (body, part) = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
-            if !Mover::new(arm, body).overlaps(part, &Cell::from(ranges)) {
-                return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
-            }
-        }
-        Ok(())
-    }
-
-    /// A shape and a part that can meet.
-    fn pair(&self, shape: usize, part: usize, who: impl Fn() -> String) -> Result<(&Body, &Shape), CheckError> {
-        let (Some(body), Some((part, heights))) = (self.bodies.get(shape), self.parts.get(part)) else {
-            return CheckError::fails(format!("{} names a shape or a part that is not there", who()));
-        };
-        if !body.is_at(*heights) {
-            return CheckError::fails(format!("{}: the shape passes over or under the obstacle", who()));
-        }
-        Ok((body, part))
-    }
 }
 
 /// Whether a rectangle is part of another.

@@ -59,8 +59,8 @@ pub struct Body {
     /// 0 or 1: the last joint that moves it.
     pub link: usize,
     pub shape: Shape,
-    /// Its extent along the normal.
-    heights: [Interval; 2],
+    /// Its extent along the normal; none: everywhere.
+    pub heights: Option<[Interval; 2]>,
 }
 
 /// Which coordinates of the root frame are those of the plane, and which is the height.
@@ -241,7 +241,7 @@ impl<'a> Arm<'a> {
         let most = Interval { lower: a.lower.max(b.lower), upper: a.upper.max(b.upper) };
         let heights = [&least - &radius, &most + &radius];
         let shape = Shape { points: vec![[Interval::whole(0), Interval::whole(0)], end], radius };
-        Ok(Body { link: last, shape, heights })
+        Ok(Body { link: last, shape, heights: Some(heights) })
     }
 
     /// That nothing that moves with a joint and not with the next has a shape of a kind.

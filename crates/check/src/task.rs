@@ -420,11 +420,7 @@ impl<'a> Replay<'a> {
             let (at, turn) = (minus(&lying.at, &tip), lying.turn.clone());
             (On::Level(self.tip.clone()), lying.moved(at, turn))
         } else {
-            let [sine, cosine] = lying.turn.clone();
-            let ahead = self.chain.seen_at(&sum(&lying.at, &[cosine, sine]), at);
-            let origin = self.chain.seen_at(&lying.at, at);
-            let [x, y] = minus(&ahead, &origin);
-            (On::Link(1), lying.moved(origin, [y, x]))
+            (On::Link(1), self.chain.hung(&lying, at))
         };
         let (solids, kernel) = self.hung(&self.chain, &on, &hanging, !supports.is_empty())?;
         self.held = Some(Held { object, on, hanging, solids, kernel, supports });

@@ -1,6 +1,7 @@
 //! Evidence for an answer that a checker of its own can hold against the two files: `docs/certificates.md`.
 
 mod bound;
+mod contacts;
 mod motion;
 mod task;
 
@@ -8,16 +9,17 @@ pub use motion::recorded as certificate_of_recording;
 
 use super::bound::{claim, motions};
 use super::motion_plan::MotionPlan;
+use super::task::TaskVerdict;
 use super::{Kind, Plan, TaskPlan};
 use crate::check::{Cell, ClosedSegment, StuckBox};
-use crate::geometry::{Point, cross};
+use crate::geometry::cross;
 use crate::input::{Digests, Overrides, TipPoint};
-use crate::model::{Arm, MotionProblem, OutlineSource, Pair, Scene, Shape, Status, inverse};
+use crate::model::{Arm, MotionProblem, Scene, Status, inverse};
 use crate::space::{Configuration, JointRange, Metric, Segment, Topology};
 use bound::{LeastLength, Ways};
+use contacts::Contacts;
 use serde::Serialize;
 use serde_json::json;
-use std::collections::BTreeMap;
 use thiserror::Error;
 
 /// Why an answer has no certificate.
@@ -26,8 +28,11 @@ pub enum NoCertificate {
     /// Neither a motion nor a proof.
     #[error("the answer is \"{}\", which claims nothing", .0.name())]
     Answer(Status),
-    /// The proof that a task cannot be done.
-    #[error("proofs that tasks cannot be done have no certificates yet")]
+    /// A proof that a task cannot be done, of a kind that the checker does not know.
+    #[error(
+        "the proof that the task cannot be done is of a kind that has no certificate: it has to be about one step of a fixed order and the \
+             motions of the arm, not about turns of a wrist, strokes or supports"
+    )]
     Task,
     /// A motion in a world in which something moves: the checker knows no time.
     #[error("motions among what moves have no certificates yet")]
@@ -69,33 +74,31 @@ impl Plan {
             }
             (None, None) => return Err(NoCertificate::Answer(self.status())),
         };
-        let named = if contacts.shapes.is_empty() {
-            Vec::new()
-        } else {
-            vec![("shapes", lines(&contacts.shapes)), ("parts", lines(&contacts.parts))]
-        };
         let said = [about(files), said(problem, asked)].concat();
-        Ok(written(answer, said, named.into_iter().chain(evidence)))
+        Ok(written(answer, said, contacts.named().into_iter().chain(evidence)))
     }
 
-    /// The same of a task that can be done.
+    /// The same of a task.
     fn certificate_of_task(
         &self,
-        TaskPlan { task, .. }: &TaskPlan,
+        TaskPlan { task, answer }: &TaskPlan,
         asked: &Overrides,
         files: Option<&Digests>,
     ) -> Result<String, NoCertificate> {
-        let (Some(trajectory), Some(figures)) = (self.trajectory(), &self.report().task) else {
-            return Err(match self.status() {
-                Status::Infeasible => NoCertificate::Task,
-                status => NoCertificate::Answer(status),
-            });
-        };
         let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
         let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
         let said = about(files).into_iter().chain(start).chain(clearance).collect();
-        let evidence = [motion::evidence(&task.arm, trajectory), task::steps(&figures.steps)];
-        Ok(written("found", said, evidence))
+        match (&answer.verdict, self.trajectory(), &self.report().task) {
+            (TaskVerdict::Infeasible(impossible), ..) => {
+                let evidence = task::cases(task, impossible.step.number).ok_or(NoCertificate::Task)?;
+                Ok(written("infeasible", said, evidence))
+            }
+            (_, Some(trajectory), Some(figures)) => {
+                let evidence = [motion::evidence(&task.arm, trajectory), task::steps(&figures.steps)];
+                Ok(written("found", said, evidence))
+            }
+            _ => Err(NoCertificate::Answer(self.status())),
+        }
     }
 }
 
@@ -294,68 +297,6 @@ fn stuck_about(scene: &Scene, piece: &Segment) -> Option<StuckBox> {
         let claims = obstructions.iter().map(|o| StuckBox { cell: Cell { lower, upper }, pair: o.contact.pair });
         claims.into_iter().find(|stuck| stuck.holds(scene, scene.workspace().clearance))
     })
-}
-
-/// The shapes and the parts of obstacles that evidence names, each once.
-struct Contacts<'a> {
-    scene: &'a Scene,
-    shapes: Vec<serde_json::Value>,
-    parts: Vec<serde_json::Value>,
-    shape_numbers: BTreeMap<(usize, usize), usize>,
-    part_numbers: BTreeMap<(usize, usize), usize>,
-}
-
-impl<'a> Contacts<'a> {
-    fn new(scene: &'a Scene) -> Self {
-        Self { scene, shapes: vec![], parts: vec![], shape_numbers: BTreeMap::new(), part_numbers: BTreeMap::new() }
-    }
-
-    /// The numbers of a pair's shape and part.
-    fn numbers(&mut self, pair: Pair) -> (usize, usize) {
-        let Pair { link, part, obstacle, piece } = pair;
-        let shape = *self.shape_numbers.entry((link, part)).or_insert_with(|| {
-            self.shapes.push(shape(self.scene, link, part));
-            self.shapes.len() - 1
-        });
-        let part = *self.part_numbers.entry((obstacle, piece)).or_insert_with(|| {
-            self.parts.push(part_of(self.scene, pair));
-            self.parts.len() - 1
-        });
-        (shape, part)
-    }
-
-    /// A box as it is written.
-    fn stuck(&mut self, stuck: &StuckBox) -> Stuck {
-        let (shape, part) = self.numbers(stuck.pair);
-        let [lower, upper] = reaching_out(self.scene, stuck);
-        Stuck { lower, upper, shape, part }
-    }
-}
-
-/// A part of a link by its URDF link and its number among the shapes there. A bar is the last of a link's parts.
-fn shape(scene: &Scene, link: usize, part: usize) -> serde_json::Value {
-    let link = &scene.arm().links[link];
-    let body = &link.parts[part].body;
-    let number = link.parts[..part].iter().filter(|part| part.body == *body).count();
-    match link.source {
-        OutlineSource::Visual => json!({ "link": body, "visual": number }),
-        OutlineSource::Bar if part + 1 == link.parts.len() => json!({ "link": body, "bar": 0 }),
-        OutlineSource::Collision | OutlineSource::Bar | OutlineSource::None => {
-            json!({ "link": body, "collision": number })
-        }
-    }
-}
-
-/// A piece of an obstacle by its corners; a disc is all there is of its obstacle.
-fn part_of(scene: &Scene, pair: Pair) -> serde_json::Value {
-    let obstacle = pair.obstacle;
-    match scene.workspace().obstacles[obstacle].shape {
-        Shape::Circle { .. } => json!({ "obstacle": obstacle }),
-        Shape::Polygon(_) | Shape::Polyline(_) | Shape::Pieces => {
-            let corners: Vec<[f64; 2]> = scene.piece(pair).core().iter().map(|&Point { coords: p }| p.into()).collect();
-            json!({ "obstacle": obstacle, "corners": corners })
-        }
-    }
 }
 
 /// Room that doubles leave next to a limit, as a share of it. What is given in degrees, or in more digits than a double has, lies up to two

@@ -1,9 +1,14 @@
 //! Evidence for a task: besides the motion which part of it does which step, and how the wrist turns what is carried. Where all objects
 //! are then follows from the world.
 
-use super::lines;
-use crate::engine::task::StepReport;
-use crate::model::RecordedStep;
+use super::contacts::Contacts;
+use super::{Evidence, Stuck, is_nearly_stretched, lines, stuck_about};
+use crate::check::StuckBox;
+use crate::engine::task::{RefutedCase, StepReport, refuted};
+use crate::engine::{Options, Verdict, solve};
+use crate::geometry::{Convex, Point, Vector};
+use crate::model::{MotionProblem, RecordedStep, Scene, Task};
+use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
 
 /// The steps of a planned task, whose motion is among the results.
@@ -29,4 +34,61 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
         None => json!({ "step": step, "knots": knots }),
         Some(turn) => json!({ "step": step, "knots": knots, "turn": turn }),
     }
+}
+
+/// By which share objects are taken for smaller than they are, so that evidence has room for rounding of how they lie and hang.
+const SMALLER: f64 = 1e-6;
+
+/// Half the sides of the rectangles that hold IK solutions, as shares of the joints' ranges: a checker finds them to a part in 10^12.
+const ABOUT_IK_SOLUTIONS: f64 = 1e-9;
+
+/// That the steps up to one cannot be done, case by case; none where the proof is of a kind that the checker does not know.
+pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
+    let mut smaller = task.clone();
+    smaller.objects.iter_mut().flat_map(|object| &mut object.pieces).for_each(|piece| *piece = shrunk(piece));
+    let cases = refuted(&smaller, last, rule_out)?;
+    let (empty, arm) = (Scene::trusted(task.arm.clone(), task.workspace.clone()), &task.arm);
+    let mut contacts = Contacts::new(&empty);
+    let mut all = Vec::new();
+    for RefutedCase { step, from, scene, stuck } in &cases {
+        let is_known = |stuck: &StuckBox| !scene.is_payload(stuck.pair) || scene.payload_piece(stuck.pair).is_some();
+        if from.is_some_and(|q| is_nearly_stretched(arm, q)) || !stuck.iter().all(is_known) {
+            return None;
+        }
+        contacts = contacts.among(scene);
+        let boxes: Vec<Stuck> = stuck.iter().map(|stuck| contacts.stuck(stuck)).collect();
+        let from = from.map(|q| {
+            let ranges = arm.topology().ranges.map(|range| range.domain());
+            [0, 1].map(|k| {
+                let room = ABOUT_IK_SOLUTIONS * (ranges[k].1 - ranges[k].0);
+                [q[k] - room, q[k] + room]
+            })
+        });
+        all.push(match from {
+            None => json!({ "step": step, "boxes": boxes }),
+            Some(from) => json!({ "step": step, "from": from, "boxes": boxes }),
+        });
+    }
+    Some(contacts.named().into_iter().chain([("cases", lines(&all))]).collect())
+}
+
+/// What rules out a motion: its ends are not free, or colliding configurations separate them.
+fn rule_out(scene: &Scene, ends: [Configuration; 2]) -> Option<Vec<StuckBox>> {
+    let is_free = |q: &Configuration| scene.obstructions(*q).is_empty();
+    if let Some(end) = ends.iter().find(|end| !is_free(end)) {
+        return stuck_about(scene, &Segment::new(*end, *end)).map(|stuck| vec![stuck]);
+    }
+    let problem = MotionProblem::trusted(scene.clone(), ends[0], ends[1]);
+    match solve(&problem, &Options { bounded: false, ..Options::default() }, &mut |_| {}).verdict {
+        Verdict::Infeasible(proof) => Some(proof.stuck().to_vec()),
+        Verdict::Found(_) | Verdict::Unknown(_) => None,
+    }
+}
+
+/// A little smaller, about its middle.
+fn shrunk(piece: &Convex) -> Convex {
+    let core = piece.core();
+    let middle = core.iter().map(|p| p.coords).sum::<Vector>() / core.len() as f64;
+    let keeps = 1.0 - SMALLER;
+    piece.mapped(|p| Point::from(middle + (p.coords - middle) * keeps), piece.radius() * keeps)
 }

@@ -275,6 +275,9 @@ pub(super) fn of_legs(options: &Options) -> Options {
     Options { planner, bounded: false, ..*options }
 }
 
+/// What is deeper than this in the way, metres, or nearer than the clearance by more, is so for certain: IK solutions are rounded.
+const CERTAIN: f64 = 1e-9;
+
 /// Refuses a configuration in which something is hit; `when` is when the arm is there, in words.
 pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
     let hits = scene.obstructions(q);
@@ -283,7 +286,9 @@ pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Resul
     }
     let words: Vec<String> = hits.iter().map(|hit| scene.explain(hit)).collect();
     let blockers = Blockers::AtEnd(distinct(hits.iter().map(|hit| hit.contact.pair.obstacle)));
-    Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", words.join("; ")), true) })
+    let most = scene.workspace().clearance - CERTAIN;
+    let is_proven = scene.inner().obstructions(q).iter().any(|hit| hit.contact.separation.distance < most);
+    Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", words.join("; ")), is_proven) })
 }
 
 /// A path that is free among all objects, found among few of them, which are those that a path among fewer hits; a proof that there is

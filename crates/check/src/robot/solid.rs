@@ -130,7 +130,7 @@ impl Arm<'_> {
                 (Shape { points, radius: round }, about(&(&(half * &tilt) + &(radius * &length(&along)))))
             }
         };
-        Body { link, shape, heights }
+        Body { link, shape, heights: Some(heights) }
     }
 }
 
@@ -197,22 +197,27 @@ fn oblique(
 impl Body {
     /// The same at all heights from where it is to where it is lowered by a length.
     pub fn lowered(&self, by: &Decimal) -> Self {
-        let [low, high] = &self.heights;
         let by = Interval::from(by);
-        let least = if by.lower.sign() == Sign::Minus { low.clone() } else { low - &by };
-        let most = if by.lower.sign() == Sign::Minus { high - &by } else { high.clone() };
-        Self { link: self.link, shape: self.shape.clone(), heights: [least, most] }
+        let is_raised = by.lower.sign() == Sign::Minus;
+        let heights = self.heights.as_ref().map(|[low, high]| {
+            let [least, most] = [low - &by, high - &by];
+            if is_raised { [low.clone(), most] } else { [least, high.clone()] }
+        });
+        Self { link: self.link, shape: self.shape.clone(), heights }
+    }
+
+    /// Its heights and others; none where one of them is everywhere.
+    fn beside(&self, heights: Option<&Range>) -> Option<(&[Interval; 2], [Interval; 2])> {
+        Some((self.heights.as_ref()?, heights?.each_ref().map(Interval::from)))
     }
 
     /// Whether its heights and these are known to have some in common.
     pub fn is_at(&self, heights: Option<&Range>) -> bool {
-        let Some([low, high]) = heights.map(|range| range.each_ref().map(Interval::from)) else { return true };
-        self.heights[0].upper <= high.lower && low.upper <= self.heights[1].lower
+        self.beside(heights).is_none_or(|(own, [low, high])| own[0].upper <= high.lower && low.upper <= own[1].lower)
     }
 
     /// Whether its heights and these are known to have none in common.
     pub fn passes(&self, heights: Option<&Range>) -> bool {
-        let Some([low, high]) = heights.map(|range| range.each_ref().map(Interval::from)) else { return false };
-        self.heights[1].upper < low.lower || high.upper < self.heights[0].lower
+        self.beside(heights).is_some_and(|(own, [low, high])| own[1].upper < low.lower || high.upper < own[0].lower)
     }
 }

@@ -1,0 +1,158 @@
+//! The shapes and the parts of obstacles that evidence names, and whether they overlap.
+
+use crate::arm::{Cell, Mover};
+use crate::certificate::{Certificate, PartName, ShapeName, StuckBox};
+use crate::decimal::Decimal;
+use crate::error::{CheckError, Input};
+use crate::interval::{Interval, Point};
+use crate::overlap::Shape;
+use crate::polygon::Corner;
+use crate::robot::{Arm, Body};
+use crate::sweep::{Range, Rectangle};
+use crate::world::{Obstacle, World};
+use std::borrow::Cow;
+
+/// What stands where, and what the arm carries.
+pub struct Among<'a> {
+    /// Obstacles and objects in their places; none of what is carried, or is not known where it lies.
+    pub standing: Vec<Option<Cow<'a, Obstacle>>>,
+    /// Obstacles that the second link is free to meet.
+    pub allowed: Vec<usize>,
+    pub carried: Option<Carried>,
+}
+
+impl<'a> Among<'a> {
+    /// All as it is in the world file.
+    pub fn all(world: &'a World) -> Self {
+        Self {
+            standing: world.obstacles.iter().map(|o| Some(Cow::Borrowed(o))).collect(),
+            allowed: vec![],
+            carried: None,
+        }
+    }
+}
+
+/// What hangs on the arm.
+pub struct Carried {
+    /// As it lies to the second link; or else, if a wrist keeps it level, to the tip.
+    pub hanging: Obstacle,
+    pub is_level: bool,
+    pub heights: Option<[Interval; 2]>,
+    /// What it may touch.
+    pub supports: Vec<usize>,
+}
+
+impl Carried {
+    /// A convex part of it that is named by its corners in its own frame, as it hangs.
+    fn part(&self, corners: &[Corner]) -> Result<Shape, CheckError> {
+        let own = self.hanging.clone().moved([0, 0].map(Interval::whole), [0, 1].map(Interval::whole));
+        let Shape { points, radius } = own.part(corners)?;
+        Ok(Shape { points: points.iter().map(|p| self.hanging.placed(p)).collect(), radius })
+    }
+}
+
+/// A shape that evidence names.
+struct Named {
+    /// Of what is kept level it is the tip.
+    body: Body,
+    is_carried: bool,
+    /// What is kept level, as seen from the tip.
+    about_tip: Option<Shape>,
+}
+
+/// A part of an obstacle that evidence names, grown by the clearance.
+struct Part<'a> {
+    obstacle: usize,
+    shape: Shape,
+    heights: Option<&'a Range>,
+}
+
+/// All that evidence may name, or why it may not.
+pub struct Contacts<'a> {
+    among: &'a Among<'a>,
+    shapes: Vec<Result<Named, CheckError>>,
+    parts: Vec<Result<Part<'a>, CheckError>>,
+}
+
+impl<'a> Contacts<'a> {
+    pub fn new(arm: &Arm, among: &'a Among, certificate: &Certificate, clearance: &Decimal) -> Self {
+        let shapes = certificate.shapes.iter().map(|name| named(arm, among, name)).collect();
+        let part = |(number, name): (usize, &PartName)| {
+            let fails = |why: &str| CheckError::Fails(format!("part {number}, of obstacle {}: {why}", name.obstacle));
+            let Some(obstacle) = among.standing.get(name.obstacle) else { return Err(fails("there is none")) };
+            let Some(obstacle) = obstacle else { return Err(fails("it is carried, or not known to stand anywhere")) };
+            let Shape { points, radius } = obstacle.part(&name.corners).map_err(|why| match why {
+                CheckError::Fails(why) => fails(&why),
+                input => input,
+            })?;
+            let shape = Shape { points, radius: &radius + &Interval::from(clearance) };
+            Ok(Part { obstacle: name.obstacle, shape, heights: obstacle.heights.as_ref() })
+        };
+        Self { among, shapes, parts: certificate.parts.iter().enumerate().map(part).collect() }
+    }
+
+    /// That in all of each box the shape is too near the part.
+    pub fn hold(&self, arm: &Arm, stuck: &[StuckBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
+        for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
+            let (body, part) = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
+            if !Mover::new(arm, body).overlaps(&part, &Cell::from(ranges)) {
+                return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
+            }
+        }
+        Ok(())
+    }
+
+    /// A shape and a part that can meet.
+    pub fn pair(
+        &self,
+        shape: usize,
+        part: usize,
+        who: impl Fn() -> String,
+    ) -> Result<(&Body, Cow<'_, Shape>), CheckError> {
+        let fails = |why: &str| CheckError::fails(format!("{}{why}", who()));
+        let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {
+            return fails(" names a shape or a part that is not there");
+        };
+        let Named { body, is_carried, about_tip } = shape.as_ref().map_err(Clone::clone)?;
+        let part = part.as_ref().map_err(Clone::clone)?;
+        if !body.is_at(part.heights) {
+            return fails(": the shape passes over or under the obstacle");
+        }
+        let may_meet = if *is_carried {
+            self.among.carried.as_ref().is_some_and(|carried| carried.supports.contains(&part.obstacle))
+        } else {
+            body.link == 1 && self.among.allowed.contains(&part.obstacle)
+        };
+        if may_meet {
+            return fails(": the shape may meet the obstacle");
+        }
+        let Some(Shape { points, radius }) = about_tip else { return Ok((body, Cow::Borrowed(&part.shape))) };
+        // It meets the part exactly where the tip is at a difference of a point of the part and one of it.
+        let from = |p: &Point| points.iter().map(|c| [&p[0] - &c[0], &p[1] - &c[1]]).collect::<Vec<Point>>();
+        let points = part.shape.points.iter().flat_map(from).collect();
+        Ok((body, Cow::Owned(Shape { points, radius: &part.shape.radius + radius })))
+    }
+}
+
+fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError> {
+    let own = |body: Result<Body, CheckError>| Ok(Named { body: body?, is_carried: false, about_tip: None });
+    match (&name.link, name.collision, name.visual, name.bar, &name.carried) {
+        (Some(link), Some(number), None, None, None) => own(arm.body(link, "collision", number)),
+        (Some(link), None, Some(number), None, None) => own(arm.body(link, "visual", number)),
+        (Some(link), None, None, Some(0), None) => own(arm.bar(link)),
+        (None, None, None, None, Some(corners)) => {
+            let Some(carried) = &among.carried else { return CheckError::fails("a shape is carried where nothing is") };
+            let (shape, heights) = (carried.part(corners)?, carried.heights.clone());
+            Ok(match carried.is_level {
+                false => Named { body: Body { link: 1, shape, heights }, is_carried: true, about_tip: None },
+                true => {
+                    let tip = Body { heights, ..arm.tip()?.1 };
+                    Named { body: tip, is_carried: true, about_tip: Some(shape) }
+                }
+            })
+        }
+        _ => {
+            Err(CheckError::in_file(Input::Certificate, "a shape has a link and one number, of a bar 0, or is carried"))
+        }
+    }
+}
