@@ -136,12 +136,7 @@ impl<'a> Replay<'a> {
 
     /// The configurations in which a step may end, after one that ends in a rectangle.
     fn region(&self, domain: &Domain, step: &Step, from: Option<&Rectangle>) -> Result<GoalRegion<'a>, CheckError> {
-        let unknown = || {
-            Err(CheckError::in_file(
-                Input::World,
-                format!("step {}: the checker does not know where it ends", step.number),
-            ))
-        };
+        let unknown = || CheckError::fails(format!("where step {} ends depends on what is not known", step.number));
         let (link, tip) = self.arm.tip()?;
         let tip_at = |place: Point| Ok(GoalRegion::Tip { link, tip: Box::new(self.arm.tip()?.1), place });
         match &step.action {

@@ -39,8 +39,11 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
 /// By which share objects are taken for smaller than they are, so that evidence has room for rounding of how they lie and hang.
 const SMALLER: f64 = 1e-6;
 
-/// Half the sides of the rectangles that hold IK solutions, as shares of the joints' ranges: a checker finds them to a part in 10^12.
-const ABOUT_IK_SOLUTIONS: f64 = 1e-9;
+/// Half the sides of the rectangles that hold IK solutions, as shares of the joints' ranges. A checker finds them to a part in 10^12, ...
+const ABOUT_IK_SOLUTIONS: f64 = 1e-10;
+
+/// ... and less well those where something is let go of that was taken in one of these rectangles.
+const AFTER_ANOTHER: f64 = 1e-8;
 
 /// That the steps up to one cannot be done, case by case; none where the proof is of a kind that the checker does not know.
 pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
@@ -51,6 +54,7 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let mut contacts = Contacts::new(&empty);
     let mut all = Vec::new();
     for RefutedCase { step, from, scene, stuck } in &cases {
+        let share = if scene.payload().is_some() { ABOUT_IK_SOLUTIONS } else { AFTER_ANOTHER };
         let is_known = |stuck: &StuckBox| !scene.is_payload(stuck.pair) || scene.payload_piece(stuck.pair).is_some();
         if from.is_some_and(|q| is_nearly_stretched(arm, q)) || !stuck.iter().all(is_known) {
             return None;
@@ -60,7 +64,7 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
         let from = from.map(|q| {
             let ranges = arm.topology().ranges.map(|range| range.domain());
             [0, 1].map(|k| {
-                let room = ABOUT_IK_SOLUTIONS * (ranges[k].1 - ranges[k].0);
+                let room = share * (ranges[k].1 - ranges[k].0);
                 [q[k] - room, q[k] + room]
             })
         });

@@ -2,6 +2,7 @@
 
 use super::state::State;
 use crate::check::StuckBox;
+use crate::geometry::Point;
 use crate::model::{Action, Grip, Holding, Item, Scene, Step, Task};
 use crate::space::Configuration;
 use std::sync::Arc;
@@ -50,13 +51,19 @@ impl Walk<'_> {
         let task = self.task;
         let mut cases = Vec::new();
         let mut states = vec![State::at_start(task)];
-        let (mut is_start, mut is_just_taken) = (true, false);
+        let mut is_start = true;
+        // The step before.
+        let mut before: Option<&Step> = None;
         for item in &task.items {
             let step = match item {
                 Item::Step(step) => step,
                 Item::Renew(_) => continue,
                 Item::AnyOrder(_) => return None,
             };
+            let taken = before.and_then(|before| match before.action {
+                Action::Pick { grasp, .. } => Some(grasp),
+                _ => None,
+            });
             let is_new = cases.iter().all(|case: &RefutedCase| case.step != step.number);
             let is_looked_at = is_new && step.number >= self.first;
             let (mut next, mut own): (Vec<State>, Vec<RefutedCase>) = (Vec::new(), Vec::new());
@@ -66,7 +73,7 @@ impl Walk<'_> {
                     return None;
                 }
                 let from = (!is_start).then_some(state.q);
-                let scene = self.scene(state, step, is_just_taken);
+                let scene = self.scene(state, step, taken.is_some());
                 let mut case = RefutedCase { step: step.number, from, scene, stuck: Vec::new() };
                 for way in &candidates.ways {
                     match is_looked_at.then(|| rule_out(&case.scene, [state.q, way.to])).flatten() {
@@ -76,7 +83,11 @@ impl Walk<'_> {
                 }
                 own.push(case);
             }
-            if own.iter().any(|case| !case.stuck.is_empty()) || next.is_empty() {
+            // Where what turns with the arm is let go of depends on where it was taken.
+            let is_open = matches!(step.action, Action::Place { angle: None, .. })
+                && taken.is_some_and(|grasp| grasp != Point::origin());
+            let is_asked = is_open && is_new && step.number + 1 >= self.first;
+            if own.iter().any(|case| !case.stuck.is_empty()) || next.is_empty() || is_asked {
                 cases.append(&mut own);
             }
             if next.is_empty() {
@@ -91,7 +102,7 @@ impl Walk<'_> {
                 return None;
             }
             (states, is_start) = (next, false);
-            is_just_taken = matches!(step.action, Action::Pick { .. });
+            before = Some(step);
         }
         None
     }

@@ -1,4 +1,5 @@
-//! Every random task that can be done has a certificate that holds.
+//! Every random task that can be done has a certificate that holds, and so have those that cannot but for the kinds of proofs that are said
+//! to have none.
 //!
 //! ```sh
 //! CPLAN_TIMES=100 cargo test --profile quick --test planning certificates::tasks -- --nocapture
@@ -26,8 +27,15 @@ struct Tally {
     resting: usize,
     free_order: usize,
     falsified: usize,
+    impossible: usize,
+    step_by_step: usize,
+    carrying: usize,
+    without: usize,
     longest: Duration,
 }
+
+/// Where walls may be put into a world.
+const WALLS: &str = "# walls\n";
 
 /// Objects, and steps that pick and place them, for an arm among its obstacles: the text of a world.
 fn world(dice: &mut Dice, drawn: &Drawn, mut free: impl FnMut(&mut Dice) -> Option<V>) -> Option<String> {
@@ -42,6 +50,7 @@ fn world(dice: &mut Dice, drawn: &Drawn, mut free: impl FnMut(&mut Dice) -> Opti
         text += "robot.wrist = { velocity = 3.0 }\n";
     }
     text += &drawn.world(false);
+    text += WALLS;
     let mut steps = String::new();
     for number in 0..1 + dice.below(2) {
         let [from, to] = [free(dice)?, free(dice)?].map(|q| drawn.tip(q));
@@ -94,6 +103,72 @@ fn world(dice: &mut Dice, drawn: &Drawn, mut free: impl FnMut(&mut Dice) -> Opti
     Some(text + &steps)
 }
 
+/// Two walls, so many times as far away as things are.
+fn walls(dice: &mut Dice, drawn: &Drawn, far: f64) -> String {
+    let mut text = String::new();
+    for number in 0..2 {
+        let [x, y] = drawn.tip(drawn.joints.map(|joint| {
+            let [low, high] = joint.range.unwrap_or([-3.2, 3.2]);
+            dice.within(low, high)
+        }));
+        let [half, thin] = [dice.within(0.1, 0.6), dice.within(0.01, 0.05)].map(|side| side * drawn.scale);
+        let [half, thin] = if dice.chance(0.5) { [half, thin] } else { [thin, half] };
+        let away = (far - 1.0) * drawn.scale;
+        let corners = [[-half, -thin], [half, -thin], [half, thin], [-half, thin]].map(|[a, b]| [x + a + away, y + b]);
+        let _ = writeln!(text, "[[obstacle]]\nname = \"wall {number}\"\npolygon = {corners:?}");
+    }
+    text
+}
+
+/// If it is proven that a task cannot be done, the certificate of that, which holds, and does not without its boxes or a case.
+fn impossible(seed: u64, [urdf, world]: [&str; 2], problem: &Problem, tally: &mut Tally) -> Option<String> {
+    let answer = plan(problem, &Planner::First.into()).unwrap();
+    if answer.status() != Status::Infeasible {
+        return None;
+    }
+    let Ok(certificate) = answer.certificate(&Overrides::default(), None) else {
+        tally.without += 1;
+        println!(
+            "WITHOUT free={} turn={} rests={} moves={} seed {seed}",
+            world.contains("task.order"),
+            world.contains(", angle = "),
+            world.contains("supports"),
+            world.contains("move = ")
+        );
+        return None;
+    };
+    let begun = Instant::now();
+    let judged = check(urdf, world, &certificate);
+    tally.longest = tally.longest.max(begun.elapsed());
+    if judged.is_err() && std::env::var("CPLAN_COUNT").is_ok() {
+        println!("BAD seed {seed}: {judged:?}\n{world}\n{certificate}");
+        return None;
+    }
+    assert!(judged.is_ok(), "seed {seed}: {judged:?}\n{urdf}\n{world}\n{certificate}");
+    let whole: Value = serde_json::from_str(&certificate).unwrap();
+    let cases = whole["cases"].as_array().unwrap();
+    tally.impossible += 1;
+    tally.step_by_step += usize::from(cases.iter().any(|case| case["step"] != cases[0]["step"]));
+    tally.carrying += usize::from(certificate.contains("\"carried\""));
+    for (number, case) in cases.iter().enumerate() {
+        let mut falsified = vec![whole.clone()];
+        falsified[0]["cases"].as_array_mut().unwrap().remove(number);
+        if !case["boxes"].as_array().unwrap().is_empty() {
+            falsified.push(whole.clone());
+            falsified[1]["cases"][number]["boxes"] = Value::Array(Vec::new());
+        }
+        for falsified in falsified {
+            let refused = check(urdf, world, &falsified.to_string());
+            assert!(
+                matches!(refused, Err(CheckError::Fails(_))),
+                "seed {seed}, case {number}: {refused:?}\n{falsified}"
+            );
+            tally.falsified += 1;
+        }
+    }
+    Some(certificate)
+}
+
 /// Tasks for an arm of this seed.
 fn tasks(seed: u64, tally: &mut Tally) {
     let mut dice = Dice::new(seed.wrapping_mul(0x51a3_77c1_90d5_0b2f));
@@ -121,7 +196,20 @@ fn tasks(seed: u64, tally: &mut Tally) {
         };
         tally.asked += 1;
         let answer = plan(&problem, &Planner::First.into()).unwrap();
+        let of_walls = dice.bits();
+        let walls = [1.0, 100.0].map(|far| walls(&mut Dice::new(of_walls), &drawn, far));
+        let [among, beside] = walls.map(|walls| world.replace(WALLS, &walls));
+        if let Ok(problem) = scene(&among).and_then(|scene| Problem::of_scene(scene, &Overrides::default())) {
+            let is_impossible = impossible(seed, [&urdf, &among], &problem, tally);
+            // Far away the same walls are in nobody's way.
+            if let Some(certificate) = is_impossible.filter(|_| answer.status() == Status::Found) {
+                let refused = check(&urdf, &beside, &certificate);
+                assert!(matches!(refused, Err(CheckError::Fails(_))), "seed {seed}: {refused:?}\n{beside}");
+                tally.falsified += 1;
+            }
+        }
         if answer.status() != Status::Found {
+            impossible(seed, [&urdf, &world], &problem, tally);
             continue;
         }
         let certificate = answer.certificate(&Overrides::default(), None).unwrap();
@@ -160,6 +248,7 @@ fn certificates_of_random_tasks_hold() {
     println!("{tally:?}");
     if usual() {
         let some = [tally.rigid, tally.turned, tally.resting, tally.free_order, tally.falsified];
+        let some = [&some[..], &[tally.impossible, tally.step_by_step, tally.carrying]].concat();
         assert!(tally.done.iter().all(|n| *n > 0) && some.iter().all(|n| *n > 0), "{tally:?}");
     }
 }
