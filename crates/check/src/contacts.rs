@@ -91,6 +91,16 @@ impl<'a> Contacts<'a> {
         Self { among, shapes, parts: certificate.parts.iter().enumerate().map(part).collect() }
     }
 
+    /// Where all that is named can be there.
+    ///
+    /// # Errors
+    /// The first that is not.
+    pub fn complete(self) -> Result<Self, CheckError> {
+        let errors = self.shapes.iter().filter_map(|shape| shape.as_ref().err());
+        let first = errors.chain(self.parts.iter().filter_map(|part| part.as_ref().err())).next().cloned();
+        first.map_or(Ok(self), Err)
+    }
+
     /// That in all of each box the shape is too near the part.
     pub fn hold(&self, arm: &Arm, stuck: &[StuckBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {

@@ -133,7 +133,7 @@ fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     if !goal.places(arm, &domain, MOST_PARTS, |part| !reached.meets(part)).is_empty() {
         return CheckError::fails("the boxes do not separate the goal from the start");
     }
-    Contacts::new(arm, &Among::all(world), certificate, clearance).hold(arm, stuck, &boxes)?;
+    Contacts::new(arm, &Among::all(world), certificate, clearance).complete()?.hold(arm, stuck, &boxes)?;
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
     Ok(format!(
         "no motion of \"{first}\" and \"{second}\" leads from the start{} to the goal{} with clearance {clearance}",
@@ -214,7 +214,7 @@ fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     };
     bound::holds(arm, bound, &start, &goals)?;
     let among = Among::all(world);
-    let contacts = Contacts::new(arm, &among, certificate, certificate.clearance(world)?);
+    let contacts = Contacts::new(arm, &among, certificate, certificate.clearance(world)?).complete()?;
     contacts.hold(arm, stuck, &boxes)?;
     for (number, wall) in bound.walls.iter().enumerate() {
         let (body, part) = contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?;
