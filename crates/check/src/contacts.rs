@@ -79,7 +79,9 @@ impl<'a> Contacts<'a> {
         let shapes = certificate.shapes.iter().map(|name| named(arm, among, name)).collect();
         let part = |(number, name): (usize, &PartName)| {
             let fails = |why: &str| CheckError::Fails(format!("part {number}, of obstacle {}: {why}", name.obstacle));
-            let Some(obstacle) = among.standing.get(name.obstacle) else { return Err(fails("there is none")) };
+            let Some(obstacle) = among.standing.get(name.obstacle) else {
+                return CheckError::fails(format!("part {number}: there is no obstacle {}", name.obstacle));
+            };
             let Some(obstacle) = obstacle else { return Err(fails("it is carried, or not known to stand anywhere")) };
             let Shape { points, radius } = obstacle.part(&name.corners).map_err(|why| match why {
                 CheckError::Fails(why) => fails(&why),
