@@ -353,7 +353,8 @@ pub struct VerifyArgs {
     /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
-    /// Write the evidence that an accepted motion is free, which `cplan-check URDF WORLD FILE` checks in exact arithmetic.
+    /// Write the evidence that an accepted motion is free, and of a task that it does all steps, which `cplan-check URDF WORLD FILE` checks in exact
+    /// arithmetic.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]
