@@ -275,8 +275,8 @@ pub(super) fn of_legs(options: &Options) -> Options {
     Options { planner, bounded: false, ..*options }
 }
 
-/// What is deeper than this in the way, metres, or nearer than the clearance by more, is so for certain: IK solutions are rounded.
-const CERTAIN: f64 = 1e-9;
+/// IK solutions are rounded: what is in the way at one is so for certain if it is at all that are this far beside it, radians and metres.
+const BESIDE: f64 = 1e-9;
 
 /// Refuses a configuration in which something is hit; `when` is when the arm is there, in words.
 pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
@@ -286,8 +286,9 @@ pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Resul
     }
     let words: Vec<String> = hits.iter().map(|hit| scene.explain(hit)).collect();
     let blockers = Blockers::AtEnd(distinct(hits.iter().map(|hit| hit.contact.pair.obstacle)));
-    let most = scene.workspace().clearance - CERTAIN;
-    let is_proven = scene.inner().obstructions(q).iter().any(|hit| hit.contact.separation.distance < most);
+    let certain = scene.inner();
+    let beside = [[0.0, 0.0], [BESIDE, 0.0], [-BESIDE, 0.0], [0.0, BESIDE], [0.0, -BESIDE]];
+    let is_proven = beside.iter().all(|&by| !certain.obstructions(q + Configuration::from(by)).is_empty());
     Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", words.join("; ")), is_proven) })
 }
 

@@ -237,7 +237,15 @@ fn certificates_of_random_tasks_hold() {
     println!("{tally:?}");
     if usual() {
         let some = [tally.rigid, tally.turned, tally.resting, tally.free_order, tally.falsified];
-        let some = [&some[..], &[tally.impossible, tally.step_by_step, tally.carrying]].concat();
-        assert!(tally.done.iter().all(|n| *n > 0) && some.iter().all(|n| *n > 0), "{tally:?}");
+        let is_some = some.iter().all(|n| *n > 0) && tally.impossible > 10;
+        assert!(tally.done.iter().all(|n| *n > 0) && is_some, "{tally:?}");
     }
+}
+
+/// Where an object that turns with the arm is let go of depends on where it was taken.
+#[test]
+fn the_step_after_a_rigid_place_is_impossible() {
+    let mut tally = Tally::default();
+    tasks(5 << 32, &mut tally);
+    assert!(tally.step_by_step > 0, "{tally:?}");
 }

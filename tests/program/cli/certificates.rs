@@ -150,12 +150,8 @@ fn whatever_stands_for_a_link_is_named() {
 }
 
 #[test]
-fn answers_that_have_no_certificate_yet_say_so() {
+fn a_certificate_does_not_take_the_place_of_its_input() {
     let place = Place::new();
-    let gate = [shipped("robots/gantry.urdf"), shipped("workspaces/tasks/board_and_gate.toml")];
-    let done = place.run(&gate, "--quiet --certificate c.json");
-    assert!(done.stderr.contains("c.json is not written: proofs that tasks"), "{}", done.stderr);
-    assert!(!place.path("c.json").exists());
     let done = place.plan(FREE, "--quiet --certificate world.toml");
     done.refused(1, &["world.toml is the input"]);
 }

@@ -134,7 +134,7 @@ fn every_shipped_task_that_cannot_be_done_has_a_certificate_that_holds() {
 fn proofs_of_other_kinds_have_no_certificate() {
     let place = Place::new();
     let rigid = read(&shipped("workspaces/tasks/slot_rigid.toml"));
-    place.write("free.toml", &rigid.replace("[start]", "[task]\norder = \"free\"\n\n[start]"));
+    place.write("free.toml", rigid.replace("[start]", "[task]\norder = \"free\"\n\n[start]"));
     let done = place.run(&[&shipped("robots/scara.urdf"), "free.toml"], "--quiet --certificate c.json");
     assert!(done.code == 3 && !place.path("c.json").exists(), "{}", done.stderr);
     assert!(
