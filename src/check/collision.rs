@@ -1,6 +1,7 @@
 //! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
 
 use super::deviation::{Bounded, Deviation, Posture};
+use crate::geometry::Separation;
 use crate::interrupt::checkpoint;
 use crate::model::{Contact, Drift, Pair, Scene};
 use crate::space::{Configuration, Piece, Recording};
@@ -105,20 +106,22 @@ pub fn certify_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> 
     check_pairs(scene, scene.moving_pairs().into(), recording, clearance)
 }
 
+/// What a recording first comes too near to of what moves, or cannot be told apart from that; none if it is free. How free is not asked, which is a
+/// small part of the cost.
+pub(crate) fn met_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> Option<Encounter> {
+    let pieces = recording.pieces();
+    let mut search = Search::new(scene, scene.moving_pairs(), &pieces, clearance);
+    search.tightness = 0.0;
+    search.run();
+    match search.verdict() {
+        CollisionCheck::Collision { first, .. } | CollisionCheck::Undecided(first) => Some(first),
+        CollisionCheck::Free { .. } => None,
+    }
+}
+
 fn check_pairs(scene: &Scene, pairs: Cow<[Pair]>, recording: &Recording, clearance: f64) -> CollisionCheck {
     let pieces = recording.pieces();
-    let mut search = Search {
-        scene,
-        pairs: &pairs,
-        pieces: &pieces,
-        required: clearance,
-        proven: f64::INFINITY,
-        least: None,
-        hit: None,
-        open: None,
-        evaluations: 0,
-        budget: MAX_EVALUATIONS,
-    };
+    let mut search = Search::new(scene, &pairs, &pieces, clearance);
     search.look_around();
     search.run();
     search.verdict()
@@ -146,11 +149,24 @@ impl Span {
         if pieces == 1 { Span::Part(0, 0.0, 1.0) } else { Span::Pieces(0, pieces) }
     }
 
+    /// From one place to a later one, or more.
+    fn between(from: Place, to: Place) -> Self {
+        if from.0 == to.0 { Span::Part(from.0, from.1, to.1) } else { Span::Pieces(from.0, to.0 + 1) }
+    }
+
     /// The configuration in the middle of it, and how far it deviates from that.
     pub(crate) fn deviation(self, pieces: &[Piece]) -> (Configuration, Deviation) {
         match self {
             Span::Pieces(first, end) => around(&pieces[first..end]),
             Span::Part(index, from, to) => along(&pieces[index], from, to, 0.0),
+        }
+    }
+
+    /// The place halfway along it.
+    pub(crate) fn middle(self) -> Place {
+        match self {
+            Span::Pieces(first, end) => (first + (end - first) / 2, 0.0),
+            Span::Part(piece, from, to) => (piece, (from + to) / 2.0),
         }
     }
 
@@ -188,6 +204,8 @@ struct Search<'a> {
     pairs: &'a [Pair],
     pieces: &'a [Piece],
     required: f64,
+    /// A bound is accepted if it is at least this share of the least distance seen.
+    tightness: f64,
     /// Least of the bounds that were accepted.
     proven: f64,
     /// Least distance seen.
@@ -201,28 +219,71 @@ struct Search<'a> {
     budget: usize,
 }
 
-impl Search<'_> {
-    /// Places all over the motion.
+impl<'a> Search<'a> {
+    fn new(scene: &'a Scene, pairs: &'a [Pair], pieces: &'a [Piece], required: f64) -> Self {
+        Self {
+            scene,
+            pairs,
+            pieces,
+            required,
+            tightness: TIGHTNESS,
+            proven: f64::INFINITY,
+            least: None,
+            hit: None,
+            open: None,
+            evaluations: 0,
+            budget: MAX_EVALUATIONS,
+        }
+    }
+
+    /// Places all over the motion, but for stretches in which each pair is shown to be neither in contact nor nearer than any before.
     fn look_around(&mut self) {
         let count = self.pieces.len();
         let (stride, shares) = (count.div_ceil(LOOKS), LOOKS.div_ceil(count));
-        for index in (0..count).step_by(stride) {
-            (0..shares).for_each(|i| self.look((index, i as f64 / shares as f64)));
-        }
-        self.look((count - 1, 1.0));
-    }
-
-    /// Every pair at a place, but for those that discs around both show to be neither in contact nor nearer than any before.
-    fn look(&mut self, place: Place) {
-        let posture = Posture::new(self.scene, self.pieces[place.0].at(place.1));
-        for &pair in self.pairs {
-            let seen = self.least.map_or(f64::INFINITY, |e| e.contact.separation.distance);
-            let drift = self.drift(pair, place, place);
-            let apart = apart(&posture, pair, STILL, drift.as_ref());
-            if apart <= 0.0 || apart < self.required || apart < seen {
-                self.see(place, Contact { pair, separation: bound(&posture, pair, STILL, drift.as_ref()).here });
+        let place = |look: usize| (look / shares * stride, (look % shares) as f64 / shares as f64);
+        let mut open = vec![(0, count.div_ceil(stride) * shares, self.pairs.to_vec())];
+        while let Some((from, to, mut pairs)) = open.pop() {
+            if to - from == 1 {
+                self.look(place(from), &pairs);
+                continue;
+            }
+            let span = Span::between(place(from), place(to - 1));
+            let (middle, deviation) = span.deviation(self.pieces);
+            let posture = Posture::new(self.scene, middle);
+            let [begins, ends] = span.ends();
+            pairs.retain(|&pair| {
+                let drift = self.drift(pair, begins, ends);
+                let enough = |_| self.required.max(self.seen());
+                self.is_of_interest(apart(&posture, pair, deviation, drift.as_ref()))
+                    && self.is_of_interest(bound(&posture, pair, deviation, drift.as_ref(), enough).least)
+            });
+            if !pairs.is_empty() {
+                let half = from.midpoint(to);
+                open.extend([(half, to, pairs.clone()), (from, half, pairs)]);
             }
         }
+        self.look((count - 1, 1.0), self.pairs);
+    }
+
+    /// Some pairs at a place, but for those that discs around both show to be of no interest.
+    fn look(&mut self, place: Place, pairs: &[Pair]) {
+        let posture = Posture::new(self.scene, self.pieces[place.0].at(place.1));
+        for &pair in pairs {
+            let drift = self.drift(pair, place, place);
+            if self.is_of_interest(apart(&posture, pair, STILL, drift.as_ref())) {
+                self.see(place, Contact { pair, separation: here(&posture, pair, drift.as_ref()) });
+            }
+        }
+    }
+
+    /// Whether a pair that comes no nearer than this may be in contact, or nearer than any before.
+    fn is_of_interest(&self, apart: f64) -> bool {
+        apart <= 0.0 || apart < self.required || apart < self.seen()
+    }
+
+    /// Least distance seen.
+    fn seen(&self) -> f64 {
+        self.least.map_or(f64::INFINITY, |e| e.contact.separation.distance)
     }
 
     /// What the obstacle of a pair does between two places, if it moves.
@@ -248,8 +309,8 @@ impl Search<'_> {
 
     /// Whether a bound proves enough. Once there is a contact it is only asked whether it is the first.
     fn suffices(&self, bound: f64) -> bool {
-        let seen = self.least.map_or(f64::INFINITY, |e| e.contact.separation.distance);
-        let target = if self.hit.is_some() { self.required } else { (TIGHTNESS * seen).max(self.required) };
+        let is_tight = self.tightness > 0.0 && self.hit.is_none();
+        let target = if is_tight { (self.tightness * self.seen()).max(self.required) } else { self.required };
         bound > 0.0 && bound >= target
     }
 
@@ -287,7 +348,7 @@ impl Search<'_> {
                     return false;
                 }
             }
-            let bounded = bound(&posture, pair, deviation, drift.as_ref());
+            let bounded = bound(&posture, pair, deviation, drift.as_ref(), |_| f64::INFINITY);
             if let Span::Part(index, from, to) = span {
                 self.see((index, (from + to) / 2.0), Contact { pair, separation: bounded.here });
             }
@@ -307,7 +368,7 @@ impl Search<'_> {
             let posture = Posture::new(self.scene, at);
             for &pair in pairs {
                 let drift = self.drift(pair, place, place);
-                let separation = bound(&posture, pair, STILL, drift.as_ref()).here;
+                let separation = here(&posture, pair, drift.as_ref());
                 let contact = Contact { pair, separation };
                 self.see(place, contact);
                 if nearest.is_none_or(|n| separation.distance < n.contact.separation.distance) {
@@ -334,12 +395,23 @@ impl Search<'_> {
     }
 }
 
-/// Distance of a pair in the middle of a span, and the least that it comes to in it.
-fn bound(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> Bounded {
+/// Distance of a pair in the middle of a span, and the least that it comes to in it, but for the trouble of a better bound than one that is enough.
+fn bound(
+    posture: &Posture,
+    pair: Pair,
+    deviation: Deviation,
+    drift: Option<&Drift>,
+    enough: impl Fn(f64) -> f64,
+) -> Bounded {
     match drift {
-        Some(drift) => posture.bound_moving(pair, deviation, drift),
-        None => posture.bound(pair, deviation),
+        Some(drift) => posture.bound_moving(pair, deviation, drift, enough),
+        None => posture.bound_up_to(pair, deviation, enough),
     }
+}
+
+/// Distance of a pair at a moment.
+fn here(posture: &Posture, pair: Pair, drift: Option<&Drift>) -> Separation {
+    bound(posture, pair, STILL, drift, |_| f64::NEG_INFINITY).here
 }
 
 /// The same by discs around both.

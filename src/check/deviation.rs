@@ -144,11 +144,17 @@ impl<'a> Posture<'a> {
         self.least(self.shapes(pair), deviation, enough)
     }
 
-    /// [`Posture::bound`] with something that moves: the posture is that in the middle of a span of time, the deviation what the arm does in it.
-    pub(crate) fn bound_moving(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> Bounded {
+    /// [`Posture::bound_up_to`] with something that moves: the posture is that in the middle of a span of time, the deviation what the arm does in it.
+    pub(crate) fn bound_moving(
+        &self,
+        pair: Pair,
+        deviation: Deviation,
+        drift: &Drift,
+        enough: impl Fn(f64) -> f64,
+    ) -> Bounded {
         let standing = self.shapes(pair);
         let piece = standing.piece.at(&drift.middle);
-        self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, |_| f64::INFINITY)
+        self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, enough)
     }
 
     /// [`Posture::apart`] from something that moves.

@@ -3,8 +3,8 @@
 use super::turning::ROUNDING;
 use super::{Convex, Point, Vector, cross};
 
-/// Closed interval of `s` for which `part` moved by `s * direction` comes within `grow >= 0` of `piece`; as both are
-/// convex there is one or none. `direction` is a unit vector. Exact up to [`ROUNDING`]; touching counts. `O(n m)`.
+/// Closed interval of `s` for which `part` moved by `s * direction` comes within `grow` of `piece` (or as deep as minus that, but no
+/// deeper than both are round); as both are convex there is one or none. `direction` is a unit vector. Exact up to [`ROUNDING`]; touching counts. `O(n m)`.
 #[must_use]
 pub fn sliding(part: &Convex, direction: Vector, piece: &Convex, grow: f64) -> Option<[f64; 2]> {
     let part_track = along_and_across(part.core().iter(), Vector::zeros(), direction);

@@ -16,7 +16,7 @@ pub use schedule::{Scheduled, Wait};
 
 use super::options::Options;
 use super::{Verdict, solve};
-use crate::check::{CertifiedPath, CollisionCheck, Nearest, certify, certify_in_time};
+use crate::check::{CertifiedPath, CollisionCheck, Nearest, certify, certify_in_time, met_in_time};
 use crate::model::{MotionProblem, Scene};
 use crate::motion::{Timed, TimingError, Trajectory};
 use crate::space::{Configuration, GoalSet, Interpolation, Recording, Segment};
@@ -36,6 +36,13 @@ pub struct InTime {
     pub timed: Timed,
     /// What there is to say of it.
     pub figures: Timing,
+}
+
+impl InTime {
+    /// See [`Scheduled::rank`].
+    fn rank(&self) -> (bool, f64) {
+        (self.figures.free_until.is_some(), self.timed.trajectory.duration())
+    }
 }
 
 /// What there is to say of a motion among obstacles that move.
@@ -78,22 +85,23 @@ pub fn in_time(
             .is_none_or(|best| best.figures.free_until.is_some() || duration < best.timed.trajectory.duration());
         if is_worth {
             let drive = &options.drive;
+            // Only what is sooner counts, once the arm can stay where what is known ends.
+            let for_good = best.as_ref().filter(|best| best.figures.free_until.is_none());
+            let before = for_good.map_or(f64::INFINITY, |best| best.timed.trajectory.duration());
             let along = |effort: Effort| {
-                Ok::<_, TimingError>(
-                    schedule(&movers, &path, &whole, drive, effort)?.and_then(|found| certified_in_time(scene, found)),
-                )
+                let found = schedule(&movers, &path, &whole, drive, effort, before)?;
+                let better = found.filter(|found| best.as_ref().is_none_or(|best| found.rank() < best.rank()));
+                Ok::<_, TimingError>(better.and_then(|found| certified_in_time(scene, found)))
             };
             let mut found = along(Effort::QUICK)?;
-            let is_closed = found.is_none() && no_timing(&movers, path.path());
-            if found.is_none() && !is_closed {
-                found = along(Effort::THOROUGH)?;
+            if found.is_none() && for_good.is_none() {
+                let is_closed = no_timing(&movers, path.path());
+                refuted += usize::from(is_closed);
+                if !is_closed {
+                    found = along(Effort::THOROUGH)?;
+                }
             }
-            refuted += usize::from(is_closed);
-            if let Some(found) = found
-                && best.as_ref().is_none_or(|best| is_better(&found, best))
-            {
-                best = Some(found);
-            }
+            best = found.or(best);
         }
         let is_direct =
             best.as_ref().is_some_and(|best| best.figures.waits.is_empty() && best.figures.free_until.is_none());
@@ -113,12 +121,6 @@ pub fn in_time(
         Some(best) => Ok(InTime { figures: Timing { ways, ..best.figures }, ..best }),
         None => Err(reason(ways, refuted, scene)),
     })
-}
-
-/// Whether a motion is to be had rather than another: one after which the arm can stay, then the sooner one.
-fn is_better(found: &InTime, than: &InTime) -> bool {
-    let rank = |it: &InTime| (it.figures.free_until.is_some(), it.timed.trajectory.duration());
-    rank(found) < rank(than)
 }
 
 fn reason(ways: usize, refuted: usize, scene: &Scene) -> String {
@@ -172,10 +174,7 @@ fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
 fn around_what_is_met(problem: &MotionProblem, trajectory: &Trajectory) -> Option<MotionProblem> {
     let scene = problem.scene();
     let [cubic, _] = recordings(trajectory)?;
-    let met = match certify_in_time(scene, &cubic, scene.workspace().clearance) {
-        CollisionCheck::Collision { first, .. } | CollisionCheck::Undecided(first) => first,
-        CollisionCheck::Free { .. } => return None,
-    };
+    let met = met_in_time(scene, &cubic, scene.workspace().clearance)?;
     let mover = scene.mover(met.contact.pair)?.at(met.moment.time);
     let (arm, mut workspace) = scene.clone().into_parts();
     workspace.obstacles.push(mover);

@@ -2,40 +2,59 @@
 
 use super::blocked::{Around, Movers, complement};
 use crate::check::{Deviation, Posture};
-use crate::geometry::{Convex, Interval, Ordered, Point, merge_in_place, separation};
+use crate::geometry::{Interval, Ordered, merge_in_place};
 use crate::interrupt::checkpoint;
-use crate::model::{Leg, Pair};
+use crate::model::Arm;
 use crate::space::{Configuration, Path};
+use std::cell::OnceCell;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
 /// Stretches that a path is cut into, at least.
 const STRETCHES: usize = 64;
 
-/// Overlaps count if they are deeper than this share of the lengths involved: far more than rounding.
-const DEEPER: f64 = 1e-9;
-
 /// Times of overlap are found to this, seconds.
 const STEP: f64 = 1e-3;
 
+/// What a stretch takes at least is lowered by this share of it: far more than rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// A stretch of a path.
 struct Stretch {
-    /// The times that are left: at all others each of its postures meets something that moves.
-    left: Vec<Interval>,
+    /// Its middle, and how far it goes to either side.
+    middle: Configuration,
+    half: Configuration,
     /// What it takes at least to go from one end to the other, seconds.
     takes: f64,
+    /// The times that are left, once they are asked for: at all others each of its postures meets something that moves.
+    left: OnceCell<Vec<Interval>>,
 }
 
-/// Whether it is proven that no motion along a path, forwards and backwards as it pleases and at whatever speeds the joints allow, gets from its start to its end without
+impl Stretch {
+    fn left(&self, movers: &Movers) -> &[Interval] {
+        self.left.get_or_init(|| {
+            let posture = Posture::new(movers.scene(), self.middle);
+            let (mut met, mut known) = (Vec::new(), None);
+            for &meeting in movers.meetings() {
+                let around = Around::of(&mut known, movers, &posture, Deviation::Along(self.half), meeting);
+                movers.met(around, meeting, STEP, &mut met);
+            }
+            merge_in_place(&mut met);
+            complement(&met)
+        })
+    }
+}
+
+/// Whether it is proven that no motion along a path gets to its end, forwards and backwards as it pleases and at whatever speeds the joints allow, without
 /// coming nearer to what moves than the clearance, or meeting it.
 ///
 /// Place on the path and time are a plane. For each of some stretches of the path the times are found at which all of its postures overlap
 /// something that moves, deeper than the arm moves in the stretch; of what is left only that counts which is reached: from the
 /// start at time 0, on to neighbouring stretches at times that are left in both, not faster than the joints' top speeds.
 pub fn no_timing(movers: &Movers, path: &Path) -> bool {
-    let stretches = stretches(movers, path);
+    let stretches = stretches(path, movers.scene().arm());
     let Some(first) = stretches.first() else { return false };
-    if first.left.first().is_none_or(|left| left[0] > 0.0) {
+    if first.left(movers).first().is_none_or(|left| left[0] > 0.0) {
         return true;
     }
     // When a stretch's first (0) or second (1) end can be reached at the soonest, within one of the times that are left.
@@ -50,8 +69,8 @@ pub fn no_timing(movers: &Movers, path: &Path) -> bool {
         if stretch + 1 == stretches.len() && end == 1 {
             return false;
         }
-        let Stretch { left, takes } = &stretches[stretch];
-        let until = left[gap][1];
+        let takes = stretches[stretch].takes;
+        let until = stretches[stretch].left(movers)[gap][1];
         let mut reach = |stretch: usize, gap: usize, end: usize, time: f64| {
             if known.get(&(stretch, gap, end)).is_none_or(|known| time < *known) {
                 known.insert((stretch, gap, end), time);
@@ -62,7 +81,9 @@ pub fn no_timing(movers: &Movers, path: &Path) -> bool {
             reach(stretch, gap, 1 - end, time + takes);
         }
         let beyond = if end == 1 { stretch + 1 } else { stretch.wrapping_sub(1) };
-        for (other, &[begins, ends]) in stretches.get(beyond).iter().flat_map(|next| next.left.iter().enumerate()) {
+        for (other, &[begins, ends]) in
+            stretches.get(beyond).iter().flat_map(|next| next.left(movers).iter().enumerate())
+        {
             let at = time.max(begins);
             if at <= until.min(ends) {
                 reach(beyond, other, 1 - end, at);
@@ -72,73 +93,18 @@ pub fn no_timing(movers: &Movers, path: &Path) -> bool {
     true
 }
 
-fn stretches(movers: &Movers, path: &Path) -> Vec<Stretch> {
-    let scene = movers.scene();
+fn stretches(path: &Path, arm: &Arm) -> Vec<Stretch> {
     let length = path.length();
-    let speeds = scene.arm().joints.each_ref().map(|joint| joint.velocity);
+    let speeds = arm.joints.each_ref().map(|joint| joint.velocity);
     let mut stretches = Vec::new();
     for (a, b) in path.segments() {
         let parts = ((b - a).norm() / length * STRETCHES as f64).ceil().max(1.0) as usize;
         for part in 0..parts {
             let at = |k: usize| a + (b - a) * (k as f64 / parts as f64);
             let half: Configuration = (at(part + 1) - at(part)) / 2.0;
-            let posture = Posture::new(scene, at(part) + half);
-            let deviation = Deviation::Along(half);
-            let mut met = Vec::new();
-            for &pair in scene.moving_pairs() {
-                met_times(movers, &posture, deviation, pair, &mut met);
-            }
-            merge_in_place(&mut met);
-            let takes = (0..2).map(|k| 2.0 * half[k].abs() / speeds[k]).fold(0.0, f64::max);
-            stretches.push(Stretch { left: complement(&met), takes: takes * (1.0 - DEEPER) });
+            let takes = (0..2).map(|k| 2.0 * half[k].abs() / speeds[k]).fold(0.0, f64::max) * (1.0 - ROUNDING);
+            stretches.push(Stretch { middle: at(part) + half, half, takes, left: OnceCell::new() });
         }
     }
     stretches
-}
-
-/// Times at which a pair overlaps, grown by the clearance, all over the deviation: a subset of them, in no order.
-fn met_times(movers: &Movers, posture: &Posture, deviation: Deviation, pair: Pair, out: &mut Vec<Interval>) {
-    let scene = movers.scene();
-    let Some(mover) = scene.mover(pair) else { return };
-    // Only when they are near at all.
-    let mut near = Vec::new();
-    let mut known = None;
-    let still = Around::of(&mut known, posture, Deviation::Box([0.0; 2]), pair);
-    if !movers.near_times(posture, still, pair, &mut near) {
-        return;
-    }
-    merge_in_place(&mut near);
-    let (part, piece) = (scene.part(pair).at(&posture.pose(pair.link)), scene.piece(pair));
-    let scale = part.reach_from(Point::origin()) + piece.reach_from(Point::origin());
-    let deeper = posture.farthest_motion(pair, deviation) - scene.workspace().clearance + DEEPER * scale;
-    for leg in mover.course.legs() {
-        for &[from, to] in &near {
-            let (from, to) = (from.max(leg.from), to.min(leg.to));
-            if from <= to {
-                met_in(&part, piece, leg, [from, to], deeper, out);
-            }
-        }
-    }
-}
-
-fn met_in(part: &Convex, piece: &Convex, leg: &Leg, within: Interval, deeper: f64, out: &mut Vec<Interval>) {
-    let depth = |time: f64| -separation(part, &piece.at(&leg.pose(time))).distance;
-    if leg.is_still() {
-        if depth(leg.from) > deeper {
-            out.push(within);
-        }
-        return;
-    }
-    let speed = leg.speed(piece.reach_from(Point::origin()));
-    let mut open = vec![within];
-    while let Some([from, to]) = open.pop() {
-        checkpoint();
-        let (middle, half) = (f64::midpoint(from, to), (to - from) / 2.0);
-        let (here, drifts) = (depth(middle), speed * half);
-        if here - drifts > deeper {
-            out.push([from, to]);
-        } else if here + drifts > deeper && to - from > STEP {
-            open.extend([[middle, to], [from, middle]]);
-        }
-    }
 }

@@ -1,7 +1,7 @@
 //! When to go along a certified path, and where to wait.
 
 use super::blocked::Movers;
-use super::departures::{Fineness, blocked_departures, first_departure};
+use super::departures::{blocked_departures, first_departure};
 use crate::check::{CertifiedCurve, CertifiedPath, Posture};
 use crate::geometry::{Interval, Ordered};
 use crate::interrupt::checkpoint;
@@ -21,19 +21,15 @@ pub struct Effort {
     most_stops: usize,
     /// Whether they are spread over the path where there is nothing better.
     spread: bool,
-    /// How finely motions are looked at.
-    fineness: Fineness,
     /// Whether the arm may go back along the path, too.
     backward: bool,
 }
 
 impl Effort {
     /// Enough for most, in milliseconds.
-    pub const QUICK: Self =
-        Self { most_stops: 6, spread: false, fineness: Fineness { motion: 2e-2, time: 1e-2 }, backward: false };
+    pub const QUICK: Self = Self { most_stops: 6, spread: false, backward: false };
     /// For what is tight.
-    pub const THOROUGH: Self =
-        Self { most_stops: 12, spread: true, fineness: Fineness { motion: 4e-3, time: 2e-3 }, backward: true };
+    pub const THOROUGH: Self = Self { most_stops: 12, spread: true, backward: true };
 }
 
 /// A time at which the arm stands still on its way.
@@ -58,6 +54,13 @@ pub struct Scheduled {
     pub free_until: f64,
 }
 
+impl Scheduled {
+    /// Of motions that one is to be had which ranks lowest: one after which the arm can stay, then the soonest.
+    pub fn rank(&self) -> (bool, f64) {
+        (self.free_until < f64::INFINITY, self.timed.trajectory.duration())
+    }
+}
+
 /// Departures along a path that some stops divide.
 struct Stops<'a> {
     movers: &'a Movers<'a>,
@@ -68,8 +71,8 @@ struct Stops<'a> {
     at: Vec<f64>,
     /// When the arm may stand there.
     safe: Vec<Vec<Interval>>,
-    /// Motions from one stop to another, and the times at which they must not begin.
-    legs: BTreeMap<(usize, usize), (Timed, Vec<Interval>)>,
+    /// Motions from one stop to another.
+    legs: BTreeMap<(usize, usize), Timed>,
 }
 
 /// A way to be at a stop in one of its safe intervals: when, from which other and when that was left.
@@ -93,50 +96,26 @@ pub fn schedule(
     whole: &Timed,
     drive: &Drive,
     effort: Effort,
+    before: f64,
 ) -> Result<Option<Scheduled>, TimingError> {
     let at = places(movers, path.path(), effort);
-    let safe: Vec<Vec<Interval>> = at.iter().map(|&distance| safe_at(movers, path.path(), distance)).collect();
-    let departures = blocked_departures(movers, &whole.trajectory.pieces(), effort.fineness);
-    let legs = BTreeMap::from([((0, at.len() - 1), (whole.clone(), departures))]);
+    let safe_at = |&distance: &f64| movers.safe_intervals(&posture_at(movers, path.path(), distance));
+    let safe: Vec<Vec<Interval>> = at.iter().map(safe_at).collect();
+    let legs = BTreeMap::from([((0, at.len() - 1), whole.clone())]);
     let mut stops = Stops { movers, path, drive, effort, at, safe, legs };
-    let Some((mut way, mut free_until)) = stops.search()? else { return Ok(None) };
-    // Looked at more finely, the same stops can be left sooner.
-    let mut closer = stops.along(&way);
-    if let Some((sooner, until)) = closer.search()?
-        && (until == free_until || until == f64::INFINITY)
-    {
-        (way, free_until, stops) = (sooner, until, closer);
-    }
+    let Some((way, free_until)) = stops.search(before)? else { return Ok(None) };
     let (timed, waits) = stops.driven(&way)?;
     Ok(Some(Scheduled { timed, waits, free_until }))
 }
 
 impl Stops<'_> {
-    /// The same with the stops of a way alone, whose motions are looked at finely.
-    fn along(&self, way: &[(usize, f64)]) -> Self {
-        let stops: Vec<usize> = way.iter().map(|(stop, _)| *stop).collect();
-        let fineness = Effort::THOROUGH.fineness;
-        let legs = self.legs.iter().filter_map(|(&(from, to), (timed, _))| {
-            let [from, to] = [from, to].map(|stop| stops.iter().position(|&kept| kept == stop));
-            let (from, to) = (from?, to?);
-            let blocked = blocked_departures(self.movers, &timed.trajectory.pieces(), fineness);
-            Some(((from, to), (timed.clone(), blocked)))
-        });
-        let legs = legs.collect();
-        let at = stops.iter().map(|&stop| self.at[stop]).collect();
-        let safe = stops.iter().map(|&stop| self.safe[stop].clone()).collect();
-        let effort = Effort { fineness, ..self.effort };
-        Self { effort, at, safe, legs, ..*self }
-    }
-
     /// The motion from one stop to another.
-    fn leg(&mut self, from: usize, to: usize) -> Result<&(Timed, Vec<Interval>), TimingError> {
+    fn leg(&mut self, from: usize, to: usize) -> Result<&Timed, TimingError> {
         if !self.legs.contains_key(&(from, to)) {
             checkpoint();
             let part = self.path.part(self.at[from], self.at[to]);
             let timed = self.drive.along(self.movers.scene(), &part, 1.0)?;
-            let blocked = blocked_departures(self.movers, &timed.trajectory.pieces(), self.effort.fineness);
-            self.legs.insert((from, to), (timed, blocked));
+            self.legs.insert((from, to), timed);
         }
         Ok(&self.legs[&(from, to)])
     }
@@ -150,7 +129,7 @@ impl Stops<'_> {
 
     /// The earliest way to the last stop, as stops and the times at which they are left (the last: reached), and until when it is safe there.
     #[expect(clippy::type_complexity, reason = "the stops of a way with their times, and one time more")]
-    fn search(&mut self) -> Result<Option<(Vec<(usize, f64)>, f64)>, TimingError> {
+    fn search(&mut self, before: f64) -> Result<Option<(Vec<(usize, f64)>, f64)>, TimingError> {
         let last = self.at.len() - 1;
         let mut known: BTreeMap<(usize, usize), Arrival> = BTreeMap::new();
         let mut open = BinaryHeap::new();
@@ -161,8 +140,8 @@ impl Stops<'_> {
         known.insert((0, 0), Arrival { time: 0.0, from: None });
         open.push(Reverse((Ordered(0.0), 0, 0)));
         let mut fallback = None;
-        // When the goal is known to be reached for good.
-        let mut soonest_for_good = f64::INFINITY;
+        // What does not reach the goal for good sooner than this is of no use.
+        let mut soonest_for_good = before;
         while let Some(Reverse((Ordered(time), stop, interval))) = open.pop() {
             if known[&(stop, interval)].time < time {
                 continue;
@@ -179,25 +158,36 @@ impl Stops<'_> {
             // The goal first: what is known to be reached sooner needs no other way.
             for next in (0..=last).rev().filter(|&next| next != stop && (backward || next > stop)) {
                 let soonest = time + self.least(stop, next);
-                if next != last && soonest + self.least(next, last) >= soonest_for_good {
+                let onwards = self.least(next, last);
+                if next != last && soonest + onwards >= soonest_for_good {
                     continue;
                 }
-                let targets: Vec<usize> = (0..self.safe[next].len())
-                    .filter(|&k| {
-                        let [_, ends] = self.safe[next][k];
-                        ends >= soonest && known.get(&(next, k)).is_none_or(|known| known.time > soonest)
-                    })
-                    .collect();
+                let is_target = |&k: &usize| {
+                    let [_, ends] = self.safe[next][k];
+                    ends >= soonest && known.get(&(next, k)).is_none_or(|known| known.time > soonest)
+                };
+                let targets: Vec<usize> = (0..self.safe[next].len()).filter(is_target).collect();
                 if targets.is_empty() {
                     continue;
                 }
-                let (timed, blocked) = self.leg(stop, next)?;
-                let lasts = timed.trajectory.duration();
-                let blocked = blocked.clone();
-                for target in targets {
-                    let [begins, ends] = self.safe[next][target];
-                    let from = time.max(begins - lasts);
-                    let Some(departs) = first_departure(&blocked, from, leaves_by.min(ends - lasts)) else { continue };
+                let trajectory = &self.leg(stop, next)?.trajectory;
+                let lasts = trajectory.duration();
+                let pieces = trajectory.pieces();
+                // When to depart for each of them.
+                let windows: Vec<(usize, Interval)> = targets
+                    .into_iter()
+                    .map(|target| {
+                        let [begins, ends] = self.safe[next][target];
+                        let by = leaves_by.min(ends - lasts).min(soonest_for_good - onwards - lasts);
+                        (target, [time.max(begins - lasts), by])
+                    })
+                    .filter(|(_, [from, to])| from <= to)
+                    .collect();
+                let (Some((_, [first, _])), Some((_, [_, end]))) = (windows.first(), windows.last()) else { continue };
+                let blocked = blocked_departures(self.movers, &pieces, [*first, *end]);
+                for (target, [from, to]) in windows {
+                    let Some(departs) = first_departure(&blocked, from, to) else { continue };
+                    let ends = self.safe[next][target][1];
                     let arrives = departs + lasts;
                     if known.get(&(next, target)).is_none_or(|known| arrives < known.time) {
                         if next == last && ends == f64::INFINITY {
@@ -225,7 +215,7 @@ impl Stops<'_> {
                 trajectory = self.drive.along(self.movers.scene(), &start, 1.0)?.trajectory;
             }
             let at = self.path.path().part(self.at[from], self.at[from]).start();
-            let (timed, _) = self.leg(from, to)?;
+            let timed = self.leg(from, to)?;
             trajectory.then(pause, &timed.trajectory);
             let begins = trajectory.duration() - timed.trajectory.duration();
             if pause > 0.0 {
@@ -257,9 +247,9 @@ fn way(known: &BTreeMap<(usize, usize), Arrival>, end: (usize, usize)) -> Vec<(u
     stops
 }
 
-/// When the arm may stand at a distance along a path.
-fn safe_at(movers: &Movers, path: &Path, distance: f64) -> Vec<Interval> {
-    movers.safe_intervals(&Posture::new(movers.scene(), path.part(distance, distance).start()))
+/// The arm at a distance along a path.
+fn posture_at<'a>(movers: &Movers<'a>, path: &Path, distance: f64) -> Posture<'a> {
+    Posture::new(movers.scene(), path.part(distance, distance).start())
 }
 
 /// Where the arm may wait: the ends of the path; the ends of its parts that nothing ever comes near to; and, with more effort, some places more.
@@ -269,7 +259,7 @@ fn places(movers: &Movers, path: &Path, effort: Effort) -> Vec<f64> {
         return vec![0.0];
     }
     let looks: Vec<f64> = (0..=LOOKS).map(|k| length * k as f64 / LOOKS as f64).collect();
-    let is_calm = |&distance: &f64| safe_at(movers, path, distance) == [[0.0, f64::INFINITY]];
+    let is_calm = |&distance: &f64| movers.is_calm(&posture_at(movers, path, distance));
     let calm: Vec<bool> = looks.iter().map(is_calm).collect();
     let is_end = |&k: &usize| calm[k] && (!calm[k - 1] || !calm[k + 1]);
     let mut stops: Vec<usize> = (1..LOOKS).filter(is_end).take(effort.most_stops).collect();
