@@ -11,8 +11,8 @@ use std::cell::OnceCell;
 /// What is looked at is larger than it is by this share of the lengths involved: far more than rounding, far less than anybody sees.
 const ROOM: f64 = 1e-9;
 
-/// Obstacles that turn are followed in steps in which they move by no more than this share of the lengths involved, or than the arm's part does: contact
-/// may seem to begin so much earlier and to end so much later.
+/// Obstacles that turn are followed in steps in which they move by no more than this share of the lengths involved, or than a quarter of what the arm's
+/// part does: contact may seem to begin so much earlier and to end so much later.
 const STEP: f64 = 1e-3;
 
 /// A single posture.
@@ -280,7 +280,7 @@ impl<'a> Movers<'a> {
                 let is_near = separation(part, piece).distance <= grow;
                 out.extend(is_near.then_some([earliest, latest]));
             }
-            None => stretch.turning(around, meeting.within, [grow, around.moves.max(STEP * scale)], out),
+            None => stretch.turning(around, meeting.within, [grow, (around.moves / 4.0).max(STEP * scale)], out),
         }
         out.len() > before
     }

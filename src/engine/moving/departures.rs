@@ -36,11 +36,10 @@ pub fn blocked_departures(movers: &Movers, pieces: &[Piece], window: Interval) -
             let (mut departures, mut open) = (Vec::new(), Vec::new());
             for meeting in meetings {
                 let around = Around::of(&mut known, movers, &posture, deviation, meeting);
+                moves = moves.max(around.moves());
                 times.clear();
-                if movers.near(around, meeting, &mut times) {
-                    moves = moves.max(around.moves());
-                    merge_in_place(&mut times);
-                }
+                movers.near(around, meeting, &mut times);
+                merge_in_place(&mut times);
                 for &[from, to] in &times {
                     let departing = [(from - ends).max(window[0]), (to - begins).min(window[1])];
                     if let Some([first, last]) = uncovered(&blocked, departing) {
