@@ -55,9 +55,20 @@ pub struct Scheduled {
 }
 
 impl Scheduled {
-    /// Of motions that one is to be had which ranks lowest: one after which the arm can stay, then the soonest.
-    pub fn rank(&self) -> (bool, f64) {
-        (self.free_until < f64::INFINITY, self.timed.trajectory.duration())
+    /// Seconds, waits included.
+    pub fn duration(&self) -> f64 {
+        self.timed.trajectory.duration()
+    }
+
+    /// Whether the arm may stay where it ends.
+    pub fn is_for_good(&self) -> bool {
+        self.free_until == f64::INFINITY
+    }
+
+    /// Whether this one is to be had rather than another: one after which the arm can stay, then the sooner one.
+    pub fn is_better_than(&self, other: &Self) -> bool {
+        let rank = |it: &Self| (!it.is_for_good(), it.duration());
+        rank(self) < rank(other)
     }
 }
 
@@ -82,8 +93,8 @@ struct Arrival {
     from: Option<(usize, usize, f64)>,
 }
 
-/// The earliest motion along a path, from rest to rest between some places on it at which it may wait; none if there is none. `whole` is the motion
-/// without a wait.
+/// The earliest motion along a path, from rest to rest between some places on it at which it may wait; none if there is none, or none that ends for
+/// good before a time. `whole` is the motion without a wait.
 ///
 /// Safe intervals (Phillips, Likhachev 2011): who is at a stop at all within an interval in which it is safe had best be there as early as possible.
 /// It arrives where it can stay for ever, if that is possible.
