@@ -1,9 +1,59 @@
-//! Motions among what moves, from the loaded world to a motion that is certified in time, or the proof that no timing helps.
+//! Motions among what moves, from the loaded world to a motion that is certified in time, or the proof that no timing helps. First the median over
+//! worlds that are drawn, of ten movers each.
 
-use cplan::{Options, Problem, plan};
+#[path = "../tests/common/mod.rs"]
+mod common;
+#[path = "../tests/moving/drawn.rs"]
+#[allow(dead_code, reason = "the tests use more of it")]
+mod drawn;
+#[path = "../tests/planning/random_worlds/oracle.rs"]
+#[allow(dead_code, reason = "the tests use more of it")]
+mod oracle;
+#[path = "../tests/planning/random_worlds/solid.rs"]
+mod solid;
+#[path = "../tests/planning/random_worlds/world.rs"]
+#[allow(dead_code, reason = "the tests use more of it")]
+mod world;
+
+use cplan::{Options, Outcome, Problem, plan};
 use criterion::{Criterion, criterion_group, criterion_main};
+use drawn::Moving;
 use std::hint::black_box;
 use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Worlds that are drawn, and obstacles that move in each.
+const WORLDS: usize = 100;
+const MOVERS: u64 = 10;
+
+fn drawn_worlds(_: &mut Criterion) {
+    let options = Options { bounded: false, ..Options::default() };
+    let (mut times, mut found, mut proven): (Vec<Duration>, _, _) = (Vec::new(), 0, 0);
+    let kinds = |seed| world::KINDS.into_iter().filter_map(move |kind| Moving::drawn(kind, seed, Some(MOVERS)));
+    for world in (0..).flat_map(kinds) {
+        let problem = world.asked();
+        let clock = Instant::now();
+        let plan = plan(black_box(&problem), &options).expect("the defaults make sense");
+        let took = clock.elapsed();
+        match plan.outcome() {
+            Outcome::Found(_) => found += 1,
+            Outcome::Unknown(reason) if reason.contains("move") => {
+                proven += usize::from(reason.contains("proven: along"))
+            }
+            // Among what stands already there is no way, or none known.
+            _ => continue,
+        }
+        times.push(took);
+        if times.len() == WORLDS {
+            break;
+        }
+    }
+    times.sort_unstable();
+    let [median, most] = [WORLDS / 2, WORLDS * 9 / 10].map(|k| times[k].as_secs_f64() * 1e3);
+    println!(
+        "{WORLDS} worlds of {MOVERS} movers: median {median:.1} ms, nine in ten {most:.1} ms; {found} found, {proven} proven impossible along the ways tried"
+    );
+}
 
 fn moving(c: &mut Criterion) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -18,5 +68,5 @@ fn moving(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, moving);
+criterion_group!(benches, drawn_worlds, moving);
 criterion_main!(benches);

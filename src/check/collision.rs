@@ -25,6 +25,9 @@ const FINEST: f64 = 1.0 / (1u64 << 40) as f64;
 /// how fine it pays to look.
 const LOOKS: usize = 1024;
 
+/// Of so many of these one is looked at first.
+const COARSE: usize = 32;
+
 /// A single configuration.
 const STILL: Deviation = Deviation::Box([0.0; 2]);
 
@@ -241,7 +244,12 @@ impl<'a> Search<'a> {
         let count = self.pieces.len();
         let (stride, shares) = (count.div_ceil(LOOKS), LOOKS.div_ceil(count));
         let place = |look: usize| (look / shares * stride, (look % shares) as f64 / shares as f64);
-        let mut open = vec![(0, count.div_ceil(stride) * shares, self.pairs.to_vec())];
+        let looks = count.div_ceil(stride) * shares;
+        // Some first: what they show to be near makes the rest of less interest.
+        for look in (0..looks).step_by(COARSE) {
+            self.look(place(look), self.pairs);
+        }
+        let mut open = vec![(0, looks, self.pairs.to_vec())];
         while let Some((from, to, mut pairs)) = open.pop() {
             if to - from == 1 {
                 self.look(place(from), &pairs);
@@ -296,7 +304,9 @@ impl<'a> Search<'a> {
     fn see(&mut self, place: Place, contact: Contact) {
         let distance = contact.separation.distance;
         let encounter = Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact };
-        let nearer = |than: &Encounter| distance < than.contact.separation.distance;
+        // Of those that are as near the earliest.
+        let rank = |of: &Encounter| (of.contact.separation.distance, of.moment.time);
+        let nearer = |than: &Encounter| rank(&encounter) < rank(than);
         if self.least.as_ref().is_none_or(nearer) {
             self.least = Some(encounter);
         }

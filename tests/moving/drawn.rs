@@ -17,8 +17,8 @@ pub struct Moving {
 }
 
 impl Moving {
-    /// Of a kind of arm and a seed; none if the draw has no free start.
-    pub fn drawn(kind: &str, seed: u64) -> Option<Self> {
+    /// Of a kind of arm and a seed; none if the draw has no free start. Some move, or so many.
+    pub fn drawn(kind: &str, seed: u64, movers: Option<u64>) -> Option<Self> {
         let standing = world(kind, seed)?;
         let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9).wrapping_add(u64::from(kind.as_bytes()[1])));
         let (start, goals) = (standing.start(), standing.goals().clone());
@@ -27,7 +27,8 @@ impl Moving {
         let reach = arm.reach();
         // Halfway there is where it hurts.
         let halfway = arm.tip_at((start + goals.pieces()[0].ends()[0]) / 2.0);
-        workspace.movers = (0..2 + dice.below(4)).map(|_| mover(&mut dice, arm.base, reach, halfway)).collect();
+        let count = movers.unwrap_or_else(|| 2 + dice.below(4));
+        workspace.movers = (0..count).map(|_| mover(&mut dice, arm.base, reach, halfway)).collect();
         let scene = Scene::new(arm, workspace).expect("a scene");
         let problem = MotionProblem::new(scene, start, goals).ok()?;
         Some(Self { name: format!("{kind} {seed}"), problem })
@@ -35,7 +36,7 @@ impl Moving {
 
     /// Those of these seeds, of all kinds.
     pub fn all(seeds: std::ops::Range<u64>) -> impl Iterator<Item = Self> {
-        seeds.flat_map(|seed| KINDS.iter().filter_map(move |kind| Self::drawn(kind, seed)))
+        seeds.flat_map(|seed| KINDS.iter().filter_map(move |kind| Self::drawn(kind, seed, None)))
     }
 
     pub fn asked(&self) -> Problem {

@@ -5,8 +5,8 @@ use super::departures::{blocked_departures, first_departure};
 use crate::check::{CertifiedCurve, CertifiedPath, Posture};
 use crate::geometry::{Interval, Ordered};
 use crate::interrupt::checkpoint;
-use crate::motion::{Drive, Timed, TimingError, Trajectory};
-use crate::space::Path;
+use crate::motion::{Drive, Limits, Timed, TimingError, Trajectory, least_duration};
+use crate::space::{Metric, Path};
 use serde::Serialize;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
@@ -80,6 +80,8 @@ struct Stops<'a> {
     effort: Effort,
     /// Distances along the path, ascending; the first and the last are its ends.
     at: Vec<f64>,
+    /// Seconds up to there at the joints' top speeds.
+    gone: Vec<f64>,
     /// When the arm may stand there.
     safe: Vec<Vec<Interval>>,
     /// Motions from one stop to another.
@@ -113,7 +115,10 @@ pub fn schedule(
     let safe_at = |&distance: &f64| movers.safe_intervals(&posture_at(movers, path.path(), distance));
     let safe: Vec<Vec<Interval>> = at.iter().map(safe_at).collect();
     let legs = BTreeMap::from([((0, at.len() - 1), whole.clone())]);
-    let mut stops = Stops { movers, path, drive, effort, at, safe, legs };
+    let speeds = movers.scene().arm().joints.each_ref().map(|joint| joint.velocity);
+    let metric = Metric::Time { speeds };
+    let gone = at.iter().map(|&distance| metric.length(&path.path().part(0.0, distance))).collect();
+    let mut stops = Stops { movers, path, drive, effort, at, gone, safe, legs };
     let Some((way, free_until)) = stops.search(before)? else { return Ok(None) };
     let (timed, waits) = stops.driven(&way)?;
     Ok(Some(Scheduled { timed, waits, free_until }))
@@ -131,11 +136,10 @@ impl Stops<'_> {
         Ok(&self.legs[&(from, to)])
     }
 
-    /// No motion between two stops takes less: at top speed all the way.
+    /// About the least that a motion from rest to rest between two stops takes: blends cut corners.
     fn least(&self, from: usize, to: usize) -> f64 {
-        let speeds = self.movers.scene().arm().joints.each_ref().map(|joint| joint.velocity);
-        let part = self.path.path().part(self.at[from], self.at[to]);
-        part.segments().map(|(a, b)| ((b - a)[0].abs() / speeds[0]).max((b - a)[1].abs() / speeds[1])).sum()
+        let limits = Limits::from(&self.movers.scene().arm().joints);
+        least_duration((self.gone[to] - self.gone[from]).abs(), &limits)
     }
 
     /// The earliest way to the last stop, as stops and the times at which they are left (the last: reached), and until when it is safe there.
@@ -170,12 +174,10 @@ impl Stops<'_> {
             for next in (0..=last).rev().filter(|&next| next != stop && (backward || next > stop)) {
                 let soonest = time + self.least(stop, next);
                 let onwards = self.least(next, last);
-                if next != last && soonest + onwards >= soonest_for_good {
-                    continue;
-                }
                 let is_target = |&k: &usize| {
-                    let [_, ends] = self.safe[next][k];
-                    ends >= soonest && known.get(&(next, k)).is_none_or(|known| known.time > soonest)
+                    let [begins, ends] = self.safe[next][k];
+                    let is_of_use = next == last || soonest.max(begins) + onwards < soonest_for_good;
+                    is_of_use && ends >= soonest && known.get(&(next, k)).is_none_or(|known| known.time > soonest)
                 };
                 let targets: Vec<usize> = (0..self.safe[next].len()).filter(is_target).collect();
                 if targets.is_empty() {
