@@ -28,6 +28,7 @@ struct Term {
 type Terms = Vec<Term>;
 
 /// How two joints move what they carry.
+#[derive(Clone)]
 pub struct Chain {
     motions: [Motion; 2],
     base: Point,

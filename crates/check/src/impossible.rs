@@ -2,28 +2,37 @@
 
 use crate::certificate::{Certificate, StuckBox, rectangles};
 use crate::contacts::{Among, Carried, Contacts};
+use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::free::Chain;
 use crate::interval::{Interval, Point, sum, turned};
 use crate::polygon::Corner;
-use crate::robot::Arm;
+use crate::robot::{Arm, Joint, Motion};
 use crate::sweep::{Domain, Reached, Rectangle};
-use crate::world::task::{Action, Group, Node, Step, Task};
+use crate::world::task::{Action, Carrying, Group, Node, Step, Task};
 use crate::world::{Goal, Obstacle, World};
-use crate::{FEW_PARTS, GoalRegion, MOST_PARTS, place, shown, start, within};
+use crate::{GoalRegion, MOST_PARTS, place, shown, start, within};
 use serde::Deserialize;
 use std::borrow::Cow;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// Some of the configurations from which a step may begin, and boxes of configurations that are not free then.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// The step's number in the world file, from 1.
+    /// The step's number in the world file, from 1; one more than the last: when all is done.
     step: usize,
+    /// In free order: the picks of the pairs that are done before, of which the last one was done last; in whichever order if it does not say.
+    after: Option<Vec<usize>>,
     /// Where the arm is before it; the start if it does not say.
     from: Option<Rectangle>,
     boxes: Vec<StuckBox>,
 }
+
+/// Ways to be somewhere in the course of free orders beyond these are not followed.
+const MOST_BRANCHES: usize = 1000;
 
 /// That the steps of a world cannot all be done.
 pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[Case]) -> Result<String, CheckError> {
@@ -33,73 +42,268 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
     }
     let clearance = certificate.clearance(world)?;
     let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
-    let mut steps = Vec::new();
-    in_order(&task.steps, cases, &mut steps)?;
-    let mut replay = Replay::new(arm, world, task);
     let at_start = start(arm, &domain, world, certificate)?;
-    let of = |step: &Step| cases.iter().filter(|case| case.step == step.number).collect::<Vec<&Case>>();
-    // Where the arm may be; none where nobody asks.
-    let mut at = Some(vec![at_start.clone()]);
-    for (index, step) in steps.iter().enumerate() {
-        let (own, number) = (of(step), step.number);
-        if own.is_empty() {
-            let is_asked = steps.get(index + 1).is_some_and(|next| !of(next).is_empty());
-            let all = || Ok(replay.region(&domain, step, None)?.places(arm, &domain, FEW_PARTS, |_| false));
-            at = is_asked.then(all).transpose()?;
-        } else {
-            let from = |case: &Case| case.from.clone().unwrap_or_else(|| at_start.clone());
-            let begins = |part: &Rectangle| own.iter().any(|case| within(part, &from(case)));
-            if !at.is_some_and(|at| at.iter().all(begins)) {
-                return CheckError::fails(format!("step {number} may begin where no case does"));
-            }
-            let mut left = Vec::new();
-            for case in &own {
-                let from = from(case);
-                let boxes = rectangles(&case.boxes)?;
-                let Some(reached) = Reached::new(&domain, &boxes, &from) else {
-                    return CheckError::fails("the boxes leave more gaps than the checker looks at");
-                };
-                let region = replay.region(&domain, step, Some(&from))?;
-                left.extend(region.places(arm, &domain, MOST_PARTS, |part| !reached.meets(part)));
-                let among = replay.among(step, &steps[index..], &from);
-                let held = Contacts::new(arm, &among, certificate, clearance).hold(arm, &case.boxes, &boxes);
-                held.map_err(|why| match why {
-                    CheckError::Fails(why) => CheckError::Fails(format!("a case of step {number}: {why}")),
-                    input => input,
-                })?;
-            }
-            at = Some(left);
-        }
-        if at.as_ref().is_some_and(Vec::is_empty) {
-            let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
-            let start = shown(certificate.start.as_ref());
-            return Ok(format!(
-                "no motion of \"{first}\" and \"{second}\" from the start{start} on does the steps up to step {number} with clearance {clearance}"
-            ));
-        }
-        replay.after(step);
+    let mut steps = Vec::new();
+    in_file_order(&task.steps, &mut steps);
+    let begin = Branch {
+        replay: Replay::new(arm, world, task, &steps),
+        at: Some(vec![at_start.clone()]),
+        ends: Ok(Vec::new()),
+        done: None,
+    };
+    let proof = Proof { arm, domain: &domain, certificate, clearance: &clearance, cases, at_start: &at_start };
+    let mut last = 0;
+    let done = proof.group(&task.steps, vec![begin], &mut last)?;
+    if !done.is_empty() && proof.stays(done, steps[steps.len() - 1])? {
+        return CheckError::fails("the cases leave open that all steps are done");
     }
-    CheckError::fails("the cases leave open that all steps are done")
+    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
+    let start = shown(certificate.start.as_ref());
+    Ok(format!(
+        "no motion of \"{first}\" and \"{second}\" from the start{start} on does the steps up to step {last} with clearance {clearance}"
+    ))
 }
 
-/// The steps as they are done the first time.
-fn in_order<'a>(group: &'a Group, cases: &[Case], steps: &mut Vec<&'a Step>) -> Result<(), CheckError> {
-    let before = steps.len();
+/// All steps, those of a group in free order as they stand in the file.
+fn in_file_order<'a>(group: &'a Group, steps: &mut Vec<&'a Step>) {
     for node in &group.nodes {
         match node {
             Node::Step(step) => steps.push(step),
-            Node::Group(group) => in_order(group, cases, steps)?,
+            Node::Group(group) => in_file_order(group, steps),
         }
     }
-    let last = cases.iter().map(|case| case.step).max();
-    if group.is_free && steps[before..].iter().any(|step| Some(step.number) <= last) {
-        let message = "the checker does not know proofs about steps in any order, or after them";
-        return Err(CheckError::in_file(Input::Certificate, message));
+}
+
+/// What has been done, and where the arm may be then.
+#[derive(Clone)]
+struct Branch<'a> {
+    replay: Replay<'a>,
+    /// All configurations in which it may be; if it is not known, those in which the step before ends at all.
+    at: Option<Vec<Rectangle>>,
+    /// Where the step before ends.
+    ends: Result<Vec<GoalRegion<'a>>, CheckError>,
+    /// In a group in free order, if that counts: the picks of the pairs that are done, the last one last.
+    done: Option<Vec<usize>>,
+}
+
+/// What a certificate says of steps, as far as it is true.
+#[derive(Clone, Copy)]
+struct Proof<'a> {
+    arm: &'a Arm<'a>,
+    domain: &'a Domain,
+    certificate: &'a Certificate,
+    clearance: &'a Decimal,
+    cases: &'a [Case],
+    at_start: &'a Rectangle,
+}
+
+impl<'a> Proof<'a> {
+    /// What may be after the steps of a group; nothing if they cannot all be done. `last` is the last one that was looked at.
+    fn group(self, group: &'a Group, before: Vec<Branch<'a>>, last: &mut usize) -> Result<Vec<Branch<'a>>, CheckError> {
+        let after = self.once(group, before.clone(), last)?;
+        if group.repeat == 1 || after.is_empty() {
+            return Ok(after);
+        }
+        // What rules something out the first time need not do so the last time.
+        Self { cases: &[], ..self }.once(group, before, last)
     }
-    Ok(())
+
+    fn once(self, group: &'a Group, before: Vec<Branch<'a>>, last: &mut usize) -> Result<Vec<Branch<'a>>, CheckError> {
+        if group.is_free {
+            let mut steps = Vec::new();
+            in_file_order(group, &mut steps);
+            *last = steps[steps.len() - 1].number;
+            let after = before.into_iter().map(|branch| self.in_any_order(&steps, branch));
+            return Ok(after.collect::<Result<Vec<_>, _>>()?.concat());
+        }
+        let mut branches = before;
+        for node in group.nodes.iter() {
+            branches = match node {
+                _ if branches.is_empty() => break,
+                Node::Group(group) => self.group(group, branches, last)?,
+                Node::Step(step) => {
+                    *last = step.number;
+                    let after = branches.into_iter().map(|branch| self.step(branch, step));
+                    merged(after.collect::<Result<Vec<_>, _>>()?.into_iter().flatten())
+                }
+            };
+        }
+        Ok(branches)
+    }
+
+    /// Whether the arm can stay where the last step ends. It has come there by what may be touched until then.
+    fn stays(self, branches: Vec<Branch<'a>>, last: &Step) -> Result<bool, CheckError> {
+        let own: Vec<&Case> = self.cases.iter().filter(|case| case.step == last.number + 1).collect();
+        if own.is_empty() || matches!(last.action, Action::Move(_)) {
+            return Ok(true);
+        }
+        for branch in &branches {
+            let here = |from: &Rectangle| Ok(GoalRegion::Configuration(from.clone()));
+            if !self.left(branch, last.number + 1, None, &own, here)?.is_empty() {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// What may be after a step; nothing if it cannot be done.
+    fn step(self, mut branch: Branch<'a>, step: &'a Step) -> Result<Option<Branch<'a>>, CheckError> {
+        let own: Vec<&Case> = self.cases.iter().filter(|case| case.is_about(step, branch.done.as_deref())).collect();
+        let region = |from: &Rectangle| branch.replay.region(self.domain, step, Some(from));
+        let picked = branch.replay.picked(step);
+        let at = if own.is_empty() { None } else { Some(self.left(&branch, step.number, picked, &own, region)?) };
+        if at.as_ref().is_some_and(Vec::is_empty) {
+            return Ok(None);
+        }
+        let ends = branch.replay.region(self.domain, step, None).map(|region| vec![region]);
+        branch.replay.after(step);
+        Ok(Some(Branch { at, ends, ..branch }))
+    }
+
+    /// Where a step may end as far as its cases tell, of what it ends in after a case.
+    fn left(
+        self,
+        branch: &Branch,
+        number: usize,
+        picked: Option<usize>,
+        own: &[&Case],
+        region: impl Fn(&Rectangle) -> Result<GoalRegion<'a>, CheckError>,
+    ) -> Result<Vec<Rectangle>, CheckError> {
+        let from = |case: &Case| case.from.clone().unwrap_or_else(|| self.at_start.clone());
+        let begins = |part: &Rectangle| own.iter().any(|case| within(part, &from(case)));
+        if !self.at(branch)?.iter().all(begins) {
+            return CheckError::fails(format!("step {number} may begin where no case does"));
+        }
+        let mut left = Vec::new();
+        for case in own {
+            let from = from(case);
+            let boxes = rectangles(&case.boxes)?;
+            let Some(reached) = Reached::new(self.domain, &boxes, &from) else {
+                return CheckError::fails("the boxes leave more gaps than the checker looks at");
+            };
+            left.extend(region(&from)?.places(self.arm, self.domain, MOST_PARTS, |part| !reached.meets(part)));
+            let among = branch.replay.among(picked, &from);
+            let contacts = Contacts::new(self.arm, &among, self.certificate, self.clearance);
+            contacts.hold(self.arm, &case.boxes, &boxes).map_err(|why| match why {
+                CheckError::Fails(why) => CheckError::Fails(format!("a case of step {number}: {why}")),
+                input => input,
+            })?;
+        }
+        Ok(left)
+    }
+
+    /// Where the arm may be.
+    fn at(self, branch: &Branch) -> Result<Vec<Rectangle>, CheckError> {
+        if let Some(at) = &branch.at {
+            return Ok(at.clone());
+        }
+        let places = |region: &GoalRegion| region.places(self.arm, self.domain, MOST_PARTS, |_| false);
+        Ok(branch.ends.as_ref().map_err(Clone::clone)?.iter().flat_map(places).collect())
+    }
+
+    /// What may be after pairs of a pick and a place in any order.
+    fn in_any_order(self, steps: &[&'a Step], entry: Branch<'a>) -> Result<Vec<Branch<'a>>, CheckError> {
+        let pairs: Vec<&[&Step]> = steps.chunks(2).collect();
+        let numbers: Vec<usize> = steps.iter().filter_map(|step| entry.replay.picked(step)).collect();
+        let own_cases = |pair: &[&Step], is_ordered: bool| {
+            let about = |case: &Case| pair.iter().any(|step| step.number == case.step);
+            self.cases.iter().any(|case| case.after.is_some() == is_ordered && about(case))
+        };
+        // What holds with others of its objects nowhere holds in whichever order.
+        let alone = |own: usize| {
+            let mut replay = entry.replay.clone();
+            numbers.iter().filter(|other| **other != numbers[own]).for_each(|other| replay.standing[*other] = None);
+            replay
+        };
+        let after = |own: usize| {
+            let mut replay = alone(own);
+            replay.after(pairs[own][0]);
+            let end = replay.region(self.domain, pairs[own][1], None);
+            replay.after(pairs[own][1]);
+            (end, replay.standing[numbers[own]].take())
+        };
+        let (ends, lying): (Vec<_>, Vec<_>) = (0..pairs.len()).map(after).unzip();
+        let all_but = |own: Option<usize>| {
+            let others = ends.iter().enumerate().filter(|(other, _)| Some(*other) != own);
+            others.map(|(_, end)| end.clone()).collect::<Result<Vec<_>, _>>()
+        };
+        let is_once = (1..numbers.len()).all(|k| !numbers[..k].contains(&numbers[k]));
+        for own in (0..pairs.len()).filter(|own| is_once && own_cases(pairs[*own], false)) {
+            let others = Branch { at: None, ends: all_but(Some(own)), ..entry.clone() };
+            let anywhere = || Ok([self.at(&entry)?, self.at(&others)?].concat());
+            let at = own_cases(&pairs[own][..1], false).then(anywhere).transpose()?;
+            let picked = self.step(Branch { replay: alone(own), at, ..entry.clone() }, pairs[own][0])?;
+            if picked.map(|branch| self.step(branch, pairs[own][1])).transpose()?.flatten().is_none() {
+                return Ok(Vec::new());
+            }
+        }
+        if !is_once || !own_cases(steps, true) {
+            let mut all = Branch { at: None, ends: all_but(None), ..entry };
+            for (number, lying) in numbers.iter().zip(lying) {
+                all.replay.standing[*number] = lying.filter(|_| is_once);
+            }
+            all.replay.released = numbers;
+            return Ok(vec![all]);
+        }
+        let mut branches = vec![Branch { done: Some(Vec::new()), ..entry }];
+        for _ in 0..pairs.len() {
+            let mut next = Vec::new();
+            for branch in &branches {
+                let done = branch.done.as_deref().unwrap_or_default();
+                for pair in pairs.iter().filter(|pair| !done.contains(&pair[0].number)) {
+                    let Some(picked) = self.step(branch.clone(), pair[0])? else { continue };
+                    let Some(placed) = self.step(picked, pair[1])? else { continue };
+                    next.push(Branch { done: Some([done, &[pair[0].number]].concat()), ..placed });
+                }
+            }
+            branches = merged(next);
+            if branches.len() > MOST_BRANCHES {
+                return CheckError::fails("steps in free order can be done in more ways than the checker looks at");
+            }
+        }
+        branches.iter_mut().for_each(|branch| branch.done = None);
+        Ok(branches)
+    }
+}
+
+impl Case {
+    /// Whether it is about a step, in free order after these picks. What is let go of last may be touched until the next pick has ended:
+    /// up to there it counts which that is.
+    fn is_about(&self, step: &Step, done: Option<&[usize]>) -> bool {
+        let sorted = |picks: &[usize]| picks.iter().copied().collect::<BTreeSet<usize>>();
+        let is_after = match (&self.after, done) {
+            (None, None) => true,
+            (Some(after), Some(done)) => {
+                let is_pick = matches!(step.action, Action::Pick { .. });
+                sorted(after) == sorted(done) && (!is_pick || after.last() == done.last())
+            }
+            _ => false,
+        };
+        self.step == step.number && is_after
+    }
+}
+
+/// Those with the same behind them as one: in free order the same pairs, in whichever order, the same one last.
+fn merged<'a>(branches: impl IntoIterator<Item = Branch<'a>>) -> Vec<Branch<'a>> {
+    let mut all: BTreeMap<_, Branch> = BTreeMap::new();
+    for branch in branches {
+        let mut key = branch.done.clone().unwrap_or_default();
+        key.sort_unstable();
+        match all.entry((key, branch.replay.released.clone())) {
+            Entry::Vacant(vacant) => {
+                vacant.insert(branch);
+            }
+            Entry::Occupied(mut same) => {
+                let same = same.get_mut();
+                same.at = same.at.take().zip(branch.at).map(|(a, b)| [a, b].concat());
+            }
+        }
+    }
+    all.into_values().collect()
 }
 
 /// How an object is carried.
+#[derive(Clone)]
 enum Hanging {
     /// Level: as it lies to the tip.
     Level(Obstacle),
@@ -110,14 +314,17 @@ enum Hanging {
 }
 
 /// What is carried.
+#[derive(Clone)]
 struct Held<'a> {
     object: usize,
     grasp: &'a Corner,
-    supports: &'a [usize],
+    /// What it may touch.
+    supports: Vec<usize>,
     hanging: Hanging,
 }
 
 /// Where everything is before a step, as far as it does not depend on how the steps before it were done.
+#[derive(Clone)]
 struct Replay<'a> {
     arm: &'a Arm<'a>,
     world: &'a World,
@@ -125,20 +332,31 @@ struct Replay<'a> {
     chain: Chain,
     standing: Vec<Option<Cow<'a, Obstacle>>>,
     held: Option<Held<'a>>,
-    released: Option<usize>,
+    /// What has just been let go of, or may have been.
+    released: Vec<usize>,
+    /// All steps in the order of the file.
+    steps: &'a [&'a Step],
 }
 
 impl<'a> Replay<'a> {
-    fn new(arm: &'a Arm, world: &'a World, task: &'a Task) -> Self {
+    fn new(arm: &'a Arm, world: &'a World, task: &'a Task, steps: &'a [&'a Step]) -> Self {
         let Among { standing, .. } = Among::all(world);
-        Self { arm, world, task, chain: Chain::from(arm), standing, held: None, released: None }
+        Self { arm, world, task, chain: Chain::from(arm), standing, held: None, released: Vec::new(), steps }
+    }
+
+    /// The number of what a step picks.
+    fn picked(&self, step: &Step) -> Option<usize> {
+        match &step.action {
+            Action::Pick { object, .. } => Some(self.task.first + object),
+            _ => None,
+        }
     }
 
     /// The configurations in which a step may end, after one that ends in a rectangle.
     fn region(&self, domain: &Domain, step: &Step, from: Option<&Rectangle>) -> Result<GoalRegion<'a>, CheckError> {
         let unknown = || CheckError::fails(format!("where step {} ends depends on what is not known", step.number));
         let (link, tip) = self.arm.tip()?;
-        let tip_at = |place: Point| Ok(GoalRegion::Tip { link, tip: Box::new(self.arm.tip()?.1), place });
+        let tip_at = |place: Point| Ok(GoalRegion::Tip { link, tip: Rc::new(self.arm.tip()?.1), place });
         match &step.action {
             Action::Move(Goal::Tip(at)) => tip_at(at.each_ref().map(Interval::from)),
             Action::Move(goal @ Goal::Joints(_)) => {
@@ -156,7 +374,7 @@ impl<'a> Replay<'a> {
                     (Hanging::Taken(lying), _, Some(from)) => {
                         let mut origin = tip;
                         origin.shape.points = vec![self.chain.seen_at(&lying.at, &values(from))];
-                        Ok(GoalRegion::Tip { link, tip: Box::new(origin), place: at.clone() })
+                        Ok(GoalRegion::Tip { link, tip: Rc::new(origin), place: at.clone() })
                     }
                     (_, Some(angle), _) => tip_at(sum(at, &turned(&grasp, &angle.sin_cos()))),
                     _ if grasp.iter().all(|c| c.is_whole(0)) => tip_at(at.clone()),
@@ -166,12 +384,8 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// What is where while a step is done from a configuration in a rectangle; `after` are the step and those after it.
-    fn among(&self, step: &Step, after: &[&Step], from: &Rectangle) -> Among<'_> {
-        let picked = match &step.action {
-            Action::Pick { object, .. } => Some(self.task.first + object),
-            _ => None,
-        };
+    /// What is where while a step is done from a configuration in a rectangle.
+    fn among(&self, picked: Option<usize>, from: &Rectangle) -> Among<'_> {
         let carried = self.held.as_ref().and_then(|held| {
             let (hanging, is_level) = match &held.hanging {
                 Hanging::Level(hanging) => (hanging.clone(), true),
@@ -179,30 +393,30 @@ impl<'a> Replay<'a> {
                 Hanging::Somehow => return None,
             };
             let object = &self.task.objects[held.object];
-            let then = after.iter().find_map(|next| match &next.action {
-                Action::Place { supports, .. } => Some(supports.as_ref().unwrap_or(&object.supports)),
-                _ => None,
-            });
-            let supports = held.supports.iter().chain(then.into_iter().flatten()).copied().collect();
             let lift = Interval::from(&object.lift);
             let lying = self.world.obstacles[self.task.first + held.object].heights.as_ref();
             let heights = lying.map(|range| range.each_ref().map(|height| &Interval::from(height) + &lift));
-            Some(Carried { hanging, is_level, heights, supports })
+            Some(Carried { hanging, is_level, heights, supports: held.supports.clone() })
         });
-        let allowed = self.released.into_iter().chain(picked).collect();
+        let allowed = self.released.iter().copied().chain(picked).collect();
         Among { standing: self.standing.clone(), allowed, carried }
     }
 
     /// Takes a step as done.
     fn after(&mut self, step: &'a Step) {
         let first = self.task.first;
-        self.released = None;
+        self.released = Vec::new();
         match &step.action {
             Action::Pick { object, grasp, supports } => {
                 let lying = self.standing[first + object].take();
-                let hanging = match (lying, self.task.objects[*object].is_level) {
+                let after = self.steps[step.number..].iter().copied();
+                let Carrying { supports, may_turn } = self.task.carrying(*object, supports, after);
+                // What nothing turns is level.
+                let slides = |joint: &Joint| matches!(joint.motion, Motion::Slide(_));
+                let is_level = self.task.objects[*object].is_level || self.arm.joints.iter().all(slides);
+                let hanging = match (lying, is_level) {
                     (Some(lying), false) => Hanging::Taken(lying.into_owned()),
-                    (Some(lying), true) if !self.task.has_wrist => {
+                    (Some(lying), true) if !may_turn => {
                         let tip = lying.placed(&grasp.each_ref().map(Interval::from));
                         let (at, turn) = (minus(&lying.at, &tip), lying.turn.clone());
                         Hanging::Level(lying.into_owned().moved(at, turn))
@@ -221,7 +435,7 @@ impl<'a> Replay<'a> {
                 let number = first + held.object;
                 let lying = |turn| Cow::Owned(self.world.obstacles[number].clone().moved(at.clone(), turn));
                 self.standing[number] = turn.map(lying);
-                self.released = Some(number);
+                self.released = vec![number];
             }
             Action::Move(_) => {
                 if let Some(held) = &mut self.held

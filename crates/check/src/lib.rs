@@ -61,6 +61,7 @@ use files::Files;
 use interval::{Interval, Point};
 use robot::{Arm, Body};
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use sweep::{Domain, Reached, Rectangle};
 use world::{Goal, World};
 
@@ -149,11 +150,12 @@ const MOST_PARTS: usize = 2000;
 const FEW_PARTS: usize = 500;
 
 /// The configurations that are to be reached.
+#[derive(Clone)]
 enum GoalRegion<'a> {
     /// What encloses one.
     Configuration(Rectangle),
     /// All that put the tip, the origin of a link, at a place.
-    Tip { link: &'a str, tip: Box<Body>, place: Point },
+    Tip { link: &'a str, tip: Rc<Body>, place: Point },
 }
 
 impl<'a> GoalRegion<'a> {
@@ -168,7 +170,7 @@ impl<'a> GoalRegion<'a> {
         };
         let place = tip.each_ref().map(Interval::from);
         let (link, tip) = arm.tip()?;
-        Ok(Self::Tip { link, tip: Box::new(tip), place })
+        Ok(Self::Tip { link, tip: Rc::new(tip), place })
     }
 
     /// What holds all of it but what is left out.

@@ -12,7 +12,7 @@ use crate::polygon::Corner;
 use crate::robot::{Arm, Covered};
 use crate::scene::{Part, Standing, stay_off};
 use crate::sweep::Range;
-use crate::world::task::{Action, Group, Node, Step, Stroke, Task};
+use crate::world::task::{Action, Carrying, Group, Node, Step, Stroke, Task};
 use crate::world::{Obstacle, World};
 use num_bigint::BigInt;
 use serde::Deserialize;
@@ -170,7 +170,7 @@ struct Held {
     /// Its shapes, and what keeps off supports if it has any.
     solids: Vec<Solid>,
     kernel: Option<Solid>,
-    supports: Vec<usize>,
+    carrying: Carrying,
 }
 
 impl Held {
@@ -282,13 +282,8 @@ impl<'a> Replay<'a> {
         self.free(&pieces, &from, target, Tool::Raised)?;
         match &step.action {
             Action::Pick { object, grasp, supports } => {
-                let then = after.iter().find_map(|next| match &next.step.action {
-                    Action::Place { supports, .. } => Some(supports.as_ref()),
-                    _ => None,
-                });
-                let then = then.map(|place| place.unwrap_or(&self.task.objects[*object].supports));
-                let supports = supports.iter().chain(then.into_iter().flatten()).copied().collect();
-                self.grasp(*object, grasp, supports, &to)?;
+                let carrying = self.task.carrying(*object, supports, after.iter().map(|next| next.step));
+                self.grasp(*object, grasp, carrying, &to)?;
                 self.free(std::slice::from_ref(&still), &to, None, Tool::Swept)?;
                 self.turn(done, &to)?;
             }
@@ -330,7 +325,7 @@ impl<'a> Replay<'a> {
                 return None;
             }
         }
-        (obstacle != own).then(|| !held.supports.contains(&obstacle))
+        (obstacle != own).then(|| !held.carrying.supports.contains(&obstacle))
     }
 
     /// The parts of what is held.
@@ -408,7 +403,7 @@ impl<'a> Replay<'a> {
     }
 
     /// Takes an object as it lies, with the tip where it is at a configuration.
-    fn grasp(&mut self, object: usize, grasp: &Corner, supports: Vec<usize>, at: &Point) -> Result<(), CheckError> {
+    fn grasp(&mut self, object: usize, grasp: &Corner, carrying: Carrying, at: &Point) -> Result<(), CheckError> {
         let (None, Some(Standing { obstacle: lying, .. })) =
             (&self.held, self.standing[self.task.first + object].take())
         else {
@@ -422,8 +417,8 @@ impl<'a> Replay<'a> {
         } else {
             (On::Link(1), self.chain.hung(&lying, at))
         };
-        let (solids, kernel) = self.hung(&self.chain, &on, &hanging, !supports.is_empty())?;
-        self.held = Some(Held { object, on, hanging, solids, kernel, supports });
+        let (solids, kernel) = self.hung(&self.chain, &on, &hanging, !carrying.supports.is_empty())?;
+        self.held = Some(Held { object, on, hanging, solids, kernel, carrying });
         self.released = None;
         Ok(())
     }
@@ -445,8 +440,8 @@ impl<'a> Replay<'a> {
     /// Turns what is held about the tip, while the arm stands at a configuration.
     fn turn(&mut self, done: &Done, at: &Point) -> Result<(), CheckError> {
         let Some(by) = &done.turn else { return Ok(()) };
-        let Some(mut held) = self.held.take_if(|held| self.task.has_wrist && matches!(held.on, On::Level(_))) else {
-            return CheckError::fails("there is no wrist, or nothing that it could turn");
+        let Some(mut held) = self.held.take_if(|held| held.carrying.may_turn && matches!(held.on, On::Level(_))) else {
+            return CheckError::fails("there is no wrist, or nothing that it is to turn");
         };
         let wrist = Chain::about(&self.chain.point_at(&On::Link(1), &self.tip, at));
         let Some(end) = fine(&(by * &Decimal::whole(SIXTY))).filter(|end| end.abs() < LARGEST_TURN << FINE) else {

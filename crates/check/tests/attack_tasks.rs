@@ -383,7 +383,11 @@ impl Claim {
                 released = None;
             }
             if let Some(by) = turn {
-                let Some((object, grip)) = held.as_mut().filter(|(object, _)| self.objects[*object].is_level) else {
+                // It keeps its own where its place asks for none.
+                let may_turn = |object: usize| {
+                    self.objects[object].is_level && matches!(self.actions[2 * object + 1], Action::Place(_, Some(_)))
+                };
+                let Some((object, grip)) = held.as_mut().filter(|(object, _)| may_turn(*object)) else {
                     return wrong;
                 };
                 let of = |angle: f64| Pose { at: [0.0, 0.0], angle }.after(*grip);

@@ -52,7 +52,18 @@ fn certificate(shapes: &str, cases: &str) -> String {
 
 /// Whether it holds, by its exit code, and what is said.
 fn judged(world: &str, certificate: &str) -> (i32, String) {
-    match check(GANTRY, world, certificate) {
+    of_robot(GANTRY, world, certificate)
+}
+
+/// The same of an arm of which the second joint turns.
+fn turning(world: &str, certificate: &str) -> (i32, String) {
+    let (before, second) = GANTRY.split_once("name=\"y\" type=\"prismatic\"").unwrap();
+    let second = second.replace("xyz=\"0 1 0\"", "xyz=\"0 0 1\"");
+    of_robot(&format!("{before}name=\"y\" type=\"revolute\"{second}"), world, certificate)
+}
+
+fn of_robot(robot: &str, world: &str, certificate: &str) -> (i32, String) {
+    match check(robot, world, certificate) {
         Ok(said) => (0, said),
         Err(CheckError::Fails(why)) => (3, why),
         Err(CheckError::Input { message, .. }) => (1, message),
@@ -114,14 +125,19 @@ fn what_the_block_may_do_proves_nothing() {
     says(among("", 0.1, "supports = [\"sill\"]", STEPS), 3, "the shape may meet the obstacle");
     let resting = STEPS.replace("[3, 1]", "[3, 1], supports = [\"lintel\"]");
     says(among("", 0.1, "", &resting), 3, "the shape may meet the obstacle");
-    // A wrist may turn it; and what turns with the arm is another case, though not on a gantry.
-    says(among(", wrist = { velocity = 1 }", 0.1, "", STEPS), 3, "carried where nothing is");
+    // A wrist may turn it, if its place asks for an angle; and what turns with the arm is another case, though not on a gantry.
+    says(among(", wrist = { velocity = 1 }", 0.1, "", STEPS), 0, "step 2");
+    let turned = STEPS.replace("[3, 1]", "[3, 1], angle = 0");
+    says(among("", 0.1, "", &turned), 0, "step 2");
+    says(among(", wrist = { velocity = 1 }", 0.1, "", &turned), 3, "carried where nothing is");
     says(among("", 0.1, "payload = \"rigid\"", STEPS), 0, "step 2");
     let after = STEPS.replacen("[[step]]\nplace", "[[step]]\nmove = { joints = [1, 1] }\n[[step]]\nplace", 1);
     let third = format!(r#"{{{}, "boxes": [{}]}}"#, FROM.replace("2,", "3,"), boxes().join(", "));
-    let after = |payload: &str| judged(&world("", 0.1, payload, &after), &certificate(SHAPES, &third));
-    says(after("payload = \"rigid\""), 3, "carried where nothing is");
-    says(after(""), 0, "step 3");
+    let after = |payload: &str| world("", 0.1, payload, &after);
+    let certificate_of_third = certificate(SHAPES, &third);
+    says(turning(&after("payload = \"rigid\""), &certificate_of_third), 3, "carried where nothing is");
+    says(judged(&after("payload = \"rigid\""), &certificate_of_third), 0, "step 3");
+    says(judged(&after(""), &certificate_of_third), 0, "step 3");
     // Over the walls.
     let high = "height = [0, 0.1]\nlift = 0.2";
     let low = |world: String| world.replace("name = \"sill\"", "name = \"sill\"\nheight = [0, 0.15]");
@@ -168,15 +184,172 @@ fn objects_lie_where_they_were_let_go_of() {
     says(judged(&lane(&back(3.0, 1.0)), &certificate(4, [3.0, 1.0], 1.5)), 3, "its corners are not those");
     // Of what turns with the arm it is not known how it lies.
     let rigid = lane(&back(3.0, 1.0)).replace("payload = \"level\"", "payload = \"rigid\"");
-    says(judged(&rigid, &certificate(4, [3.0, 1.0], 2.0)), 3, "not known to stand anywhere");
+    says(turning(&rigid, &certificate(4, [3.0, 1.0], 2.0)), 3, "not known to stand anywhere");
+    says(judged(&rigid, &certificate(4, [3.0, 1.0], 2.0)), 0, "up to step 4");
+}
+
+/// Two blocks that change places, in any order, and then the head goes somewhere.
+fn swap(task: &str, [a, b]: [[f64; 2]; 2], after: &str) -> String {
+    let block = |name: &str, at: [f64; 2], to: [f64; 2]| {
+        let object = format!(
+            "[[object]]\nname = \"{name}\"\nat = {at:?}\npolygon = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]\n"
+        );
+        let steps = format!("[[step.steps]]\npick = \"{name}\"\n[[step.steps]]\nplace = {{ at = {to:?} }}\n");
+        [object, steps]
+    };
+    let [first, second] = [block("a", [1.0, 1.0], a), block("b", [3.0, 1.0], b)];
+    format!(
+        "robot = {{ payload = \"level\" }}\nstart.joints = [0, 1]\n{}{}[[step]]\n{task}\n{}{}{after}",
+        first[0], second[0], first[1], second[1]
+    )
+}
+
+/// A case of a step in which the configurations about a place are not free.
+fn about(step: usize, after: &str, from: &str, [x, y]: [f64; 2], shape: usize, part: usize) -> String {
+    let [lower, upper] = [[x - 0.01, y - 0.01], [x + 0.01, y + 0.01]];
+    format!(
+        r#"{{"step": {step}, {after} {from} "boxes": [{{"lower": {lower:?}, "upper": {upper:?}, "shape": {shape}, "part": {part}}}]}}"#
+    )
+}
+
+/// The rectangle about a place.
+fn from([x, y]: [f64; 2]) -> String {
+    format!(r#""from": [[{}, {}], [{}, {}]],"#, x - 1e-6, x + 1e-6, y - 1e-6, y + 1e-6)
+}
+
+const HEAD: &str = r#"{"link": "head", "collision": 0}"#;
+
+/// About a block that is carried (shape 0) or the head (shape 1), and obstacles that lie somewhere.
+fn among_blocks(lying: &[(usize, [f64; 2])], cases: &[String]) -> String {
+    let part = |(obstacle, [x, y]): &(usize, [f64; 2])| {
+        let corners = [[x - 0.1, y - 0.1], [x + 0.1, y - 0.1], [x + 0.1, y + 0.1], [x - 0.1, y + 0.1]];
+        format!(r#"{{"obstacle": {obstacle}, "corners": {corners:?}}}"#)
+    };
+    format!(
+        r#"{{"format": "cplan certificate 1", "answer": "infeasible",
+        "shapes": [{{"carried": [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]}}, {HEAD}],
+        "parts": [{}], "cases": [{}]}}"#,
+        lying.iter().map(part).collect::<Vec<_>>().join(", "),
+        cases.join(", ")
+    )
+}
+
+const A: [f64; 2] = [1.0, 1.0];
+const B: [f64; 2] = [3.0, 1.0];
+
+/// What does not depend on the order holds in whichever.
+#[test]
+fn a_block_does_not_pass_a_gap_in_whichever_order() {
+    let case = format!(r#"{{{FROM}, "boxes": [{}]}}"#, boxes().join(", "));
+    let other = |number: usize, [x, y]: [f64; 2]| {
+        let object = "circle = { center = [0, 0], radius = 0.05 }";
+        (
+            format!("[[object]]\nname = \"other {number}\"\nat = {:?}\n{object}\n", [x, y]),
+            format!("[[step]]\npick = \"other {number}\"\n[[step]]\nplace = {{ at = {:?} }}\n", [x, y + 0.2]),
+        )
+    };
+    for count in [0, 1, 12] {
+        let others: Vec<_> = (0..count).map(|k| other(k, [0.1 * k as f64, 1.5])).collect();
+        let (objects, steps): (Vec<_>, Vec<_>) = others.into_iter().unzip();
+        let pair = &STEPS[..STEPS.rfind("[[step]]").unwrap()];
+        let free = |gap| {
+            format!(
+                "task.order = \"free\"\n{}{}",
+                world("", gap, "", &objects.concat()),
+                [pair, &steps.concat()].concat()
+            )
+        };
+        let last = format!("up to step {}", 2 * count + 2);
+        says(judged(&free(0.1), &certificate(SHAPES, &case)), 0, &last);
+        says(judged(&free(0.25), &certificate(SHAPES, &case)), 3, "can come off the part");
+    }
+}
+
+/// What is in free order is tried in all orders, those that are barred at once left out.
+#[test]
+fn two_blocks_do_not_change_places() {
+    let cases = [about(2, r#""after": [],"#, &from(A), B, 0, 1), about(4, r#""after": [],"#, &from(B), A, 0, 0)];
+    let free = |to: [[f64; 2]; 2]| swap("order = \"free\"", to, "");
+    says(judged(&free([B, A]), &among_blocks(&[(0, A), (1, B)], &cases)), 0, "up to step 4");
+    // Either may go first if it goes elsewhere, ...
+    says(judged(&free([[2.0, 1.0], A]), &among_blocks(&[(0, A), (1, B)], &cases)), 3, "leave open");
+    says(judged(&free([B, [2.0, 1.0]]), &among_blocks(&[(0, A), (1, B)], &cases)), 3, "leave open");
+    // ... and each order has to be ruled out.
+    for case in 0..2 {
+        says(judged(&free([B, A]), &among_blocks(&[(0, A), (1, B)], &cases[case..=case])), 3, "leave open");
+    }
+    // In whichever order that does not hold: the other one may have gone, and its own place is another one's by then.
+    let whichever = cases.each_ref().map(|case| case.replace(r#""after": [],"#, ""));
+    says(judged(&free([B, A]), &among_blocks(&[(0, A), (1, B)], &whichever)), 3, "not known to stand anywhere");
+    for (after, why) in [("[1]", "leave open"), ("[1, 3]", "leave open"), ("[3]", "its corners are not those")] {
+        let case = about(2, &format!("\"after\": {after},"), &from(A), B, 0, 1);
+        says(judged(&free([B, A]), &among_blocks(&[(0, A), (1, B)], &[case])), 3, why);
+    }
+    // In the order of the file there is nothing before.
+    let fixed = swap("order = \"fixed\"", [B, A], "");
+    says(judged(&fixed, &among_blocks(&[(0, A), (1, B)], &cases)), 3, "leave open");
+    says(judged(&fixed, &among_blocks(&[(0, A), (1, B)], &[whichever[0].clone()])), 0, "up to step 2");
+}
+
+/// What rules out orders rules out where the arm may be after them, but only the first time.
+#[test]
+fn what_holds_the_first_time_need_not_hold_the_last() {
+    // The second block goes where the first lies: that one has to go first, and the second is let go of last.
+    let places = [[1.5, 1.0], A];
+    let world = |task: &str| swap(task, places, "[[step]]\nmove = { joints = [1.5, 1.1] }\n");
+    let certificate = |cases: &[String]| among_blocks(&[(0, A), (0, [1.5, 1.0])], cases);
+    // The head does not go where the first block lies then.
+    let second_first = about(4, r#""after": [],"#, &from(B), A, 0, 0);
+    let from_second = about(5, "", &from(A), [1.5, 1.1], 1, 1);
+    let cases = [second_first, from_second];
+    let once = world("order = \"free\"");
+    says(judged(&once, &certificate(&cases)), 0, "up to step 5");
+    says(judged(&once, &certificate(&cases[1..])), 3, "step 5 may begin where no case does");
+    // The second time either may be last, so that the head may be free to meet either.
+    let twice = world("order = \"free\"\nrepeat = 2");
+    says(judged(&twice, &certificate(&cases)), 3, "step 5 may begin where no case does");
+    let all = [&cases[..], &[about(5, "", &from([1.5, 1.0]), [1.5, 1.1], 1, 1)]].concat();
+    says(judged(&twice, &certificate(&all)), 3, "the shape may meet the obstacle");
+}
+
+/// The last step leaves the arm in a place where it cannot stay.
+#[test]
+fn the_arm_stays_where_the_last_step_ends() {
+    // The bridge, which is no part of the second link, may not be above the block once that has been let go of.
+    let robot = GANTRY.replace(
+        "<link name=\"bridge\"/>",
+        "<link name=\"bridge\"> <collision> <origin xyz=\"0 1 0\"/> <geometry> <box size=\"0.1 0.1 0.1\"/> </geometry> </collision> </link>",
+    );
+    let world = |x: f64| {
+        format!(
+            "robot = {{ payload = \"level\" }}\nstart.joints = [0, 1]\n[[object]]\nname = \"block\"\nat = [1, 0.5]\n\
+             polygon = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]\n[[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = [{x}, 1] }}\n"
+        )
+    };
+    let certificate = |step: usize| {
+        let case = about(step, "", &from([2.0, 1.0]), [2.0, 1.0], 0, 0);
+        format!(
+            r#"{{"format": "cplan certificate 1", "answer": "infeasible", "shapes": [{{"link": "bridge", "collision": 0}}],
+            "parts": [{{"obstacle": 0, "corners": [[1.9, 0.9], [2.1, 0.9], [2.1, 1.1], [1.9, 1.1]]}}], "cases": [{case}]}}"#
+        )
+    };
+    says(of_robot(&robot, &world(2.0), &certificate(3)), 0, "up to step 2");
+    // Nor is there anything after that, nor does it lie there before.
+    says(of_robot(&robot, &world(2.0), &certificate(4)), 3, "leave open");
+    says(of_robot(&robot, &world(2.0), &certificate(2)), 3, "step 2 may begin where no case does");
+    says(of_robot(&robot, &world(2.5), &certificate(3)), 3, "step 3 may begin where no case does");
+    // The head may be there.
+    says(judged(&world(2.0), &certificate(3).replace("bridge", "head")), 3, "the shape may meet the obstacle");
+    // Further steps begin there.
+    let moved = world(2.0) + "[[step]]\nmove = { joints = [0, 0] }\n";
+    says(of_robot(&robot, &moved, &certificate(3)), 0, "up to step 3");
+    says(of_robot(&robot, &moved, &certificate(4)), 3, "leave open");
 }
 
 #[test]
 fn bad_input_is_named() {
     let case = format!(r#"{{{FROM}, "boxes": [{}]}}"#, boxes().join(", "));
     let certificate = certificate(SHAPES, &case);
-    let free = format!("task.order = \"free\"\n{}", world("", 0.1, "", &STEPS[..STEPS.rfind("[[step]]").unwrap()]));
-    says(judged(&free, &certificate), 1, "in any order");
     says(judged(&world("", 0.1, "", "goal.joints = [3, 1]").replace("goal", "#"), &certificate), 1, "it has no steps");
     let all = world("", 0.1, "", STEPS);
     says(judged(&all, &certificate.replacen("\"cases\"", "\"goal\": [3, 1], \"cases\"", 1)), 1, "has no goal");

@@ -30,8 +30,8 @@ pub enum NoCertificate {
     Answer(Status),
     /// A proof that a task cannot be done, of a kind that the checker does not know.
     #[error(
-        "the proof that the task cannot be done is of a kind that has no certificate: it has to be about one step of a fixed order and the \
-             motions of the arm, not about turns of a wrist, strokes or supports"
+        "the proof that the task cannot be done is of a kind that has no certificate: it has to be about the motions of the arm, not about \
+             turns of a wrist, strokes or supports, and about the first time that a step is done"
     )]
     Task,
     /// A motion in a world in which something moves: the checker knows no time.
@@ -184,7 +184,7 @@ impl Ends {
             return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
         }
         let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
-        if solved.free.is_some() || solved.branches.iter().any(|q| is_nearly_stretched(arm, *q)) {
+        if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= STRETCHED) {
             return None;
         }
         let (boxes, left) = ruled_out(problem);
@@ -196,11 +196,13 @@ impl Ends {
 /// part in 10^12 of the joints' ranges.
 const ABOUT_A_GOAL: f64 = 1e-6;
 
-/// The area between the ways in which the joints move the tip, as a share of the square of both together: with less a checker does not tell
-/// configurations that put the tip at a place from those beside them, as it cuts both joints' ranges in equal shares.
+/// Where [`tells_apart`] is less, a checker does not tell configurations that put the tip at a place from those beside them, as it cuts both
+/// joints' ranges in equal shares.
 const STRETCHED: f64 = 0.015;
 
-fn is_nearly_stretched(arm: &Arm, q: Configuration) -> bool {
+/// The area between the ways in which the joints move the tip, as a share of the square of both together: at most a quarter, and nothing where
+/// the arm is stretched or folded.
+fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
     const STEP: f64 = 1e-6;
     let ranges = arm.topology().ranges;
     let moved = |k: usize| {
@@ -209,7 +211,7 @@ fn is_nearly_stretched(arm: &Arm, q: Configuration) -> bool {
         arm.tip_at(q + step) - arm.tip_at(q - step)
     };
     let [a, b] = [moved(0), moved(1)];
-    cross(a, b).abs() <= STRETCHED * (a.norm() + b.norm()).powi(2)
+    cross(a, b).abs() / (a.norm() + b.norm()).powi(2)
 }
 
 /// Members of a certificate, by name, as they are written.

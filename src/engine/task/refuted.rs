@@ -1,17 +1,21 @@
 //! The proof that a task cannot be done, for a certificate: step by step, from all IK solutions at the target of the step before.
 
-use super::state::State;
+use super::state::{Progress, State};
 use crate::check::StuckBox;
-use crate::geometry::Point;
-use crate::model::{Action, Grip, Holding, Item, Scene, Step, Task};
+use crate::model::{Action, Arm, Grip, Holding, Item, JointType, Scene, Step, Task};
 use crate::space::Configuration;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 /// A case of a step: where the arm is before it, and what rules out that it comes from there to where the step ends; nothing where that is
 /// not ruled out.
+#[derive(Clone)]
 pub struct RefutedCase {
     /// The step's number in the world file.
     pub step: usize,
+    /// In free order: the picks of the pairs that are done before, the last one last (of a place in whichever order); none where it holds
+    /// whichever they are.
+    pub after: Option<Vec<usize>>,
     /// None at the start.
     pub from: Option<Configuration>,
     /// What is where.
@@ -20,109 +24,297 @@ pub struct RefutedCase {
     pub stuck: Vec<StuckBox>,
 }
 
+/// What rules out motions from one configuration to another; none where that is not known.
+type RuleOut<'r> = &'r mut dyn FnMut(&Scene, [Configuration; 2]) -> Option<Vec<StuckBox>>;
+
 /// States beyond these are not looked at for one step.
 const MOST_STATES: usize = 64;
 
-/// What rules out all ways to do the steps up to the one of a number, by what rules out motions from one configuration to another; none where
-/// that is not known, or not of the kind that the checker knows. Groups in any order, turns of a wrist and IK solutions that leave
-/// a joint free are not.
-pub(in crate::engine) fn refuted(
-    task: &Task,
-    last: usize,
-    mut rule_out: impl FnMut(&Scene, [Configuration; 2]) -> Option<Vec<StuckBox>>,
-) -> Option<Vec<RefutedCase>> {
+/// Grasps that are nearer to the origin of what is grasped, metres, are there: rounding.
+const AT_THE_TIP: f64 = 1e-12;
+
+/// Pairs of a group in free order of which it is looked whether one cannot be picked from wherever the others end.
+const MOST_PAIRS: usize = 8;
+
+/// What rules out all ways to do the steps up to the one of a number; none where that is not known, or not of the kind that the checker
+/// knows. Turns of a wrist and IK solutions that leave a joint free are not.
+pub(in crate::engine) fn refuted(task: &Task, last: usize, rule_out: RuleOut) -> Option<Vec<RefutedCase>> {
+    let last = task.items.iter().position(|item| steps(item).any(|step| step.number == last))?;
     // As a rule it is enough that the last cannot be done from anywhere.
-    [last, 0].into_iter().find_map(|first| Walk { task, first, last }.cases(&mut rule_out))
+    [Some(last), (last > 0).then_some(0)].into_iter().flatten().find_map(|first| {
+        let mut walk = Walk { task, first, rule_out: &mut *rule_out, cases: Vec::new(), hidden: Vec::new() };
+        let left = walk.until(last, vec![At { is_start: true, ..At::from(State::at_start(task)) }])?;
+        (left.is_empty() || walk.cannot_stay(&left)).then_some(walk.cases)
+    })
+}
+
+fn steps(item: &Item) -> impl Iterator<Item = &Step> {
+    let (one, pairs) = match item {
+        Item::Step(step) => (Some(step), None),
+        Item::AnyOrder(pairs) => (None, Some(pairs)),
+        Item::Renew(_) => (None, None),
+    };
+    one.into_iter().chain(pairs.into_iter().flatten().flatten())
+}
+
+/// The objects of a group in free order.
+fn picked(pairs: &[[Step; 2]]) -> Vec<usize> {
+    pairs.iter().filter_map(|[pick, _]| pick.action.picked()).collect()
+}
+
+/// Whether each object is picked once.
+fn is_once(pairs: &[[Step; 2]]) -> bool {
+    let objects = picked(pairs);
+    objects.iter().collect::<BTreeSet<_>>().len() == objects.len()
+}
+
+/// How far a task may be.
+#[derive(Clone)]
+struct At {
+    state: State,
+    is_start: bool,
+    /// Whether the step before is a pick.
+    has_just_picked: bool,
+    /// In free order the pick of the pair that is done last, until another one is picked.
+    last: Option<usize>,
+}
+
+impl From<State> for At {
+    fn from(state: State) -> Self {
+        Self { state, is_start: false, has_just_picked: false, last: None }
+    }
+}
+
+impl At {
+    /// In free order the picks of the pairs that are done, the one done last last.
+    fn done(&self, task: &Task) -> Option<Vec<usize>> {
+        let Progress { item, done, .. } = self.state.progress;
+        let Item::AnyOrder(pairs) = &task.items[item] else { return None };
+        let picks =
+            pairs.iter().enumerate().filter(|(pair, _)| done & (1 << pair) != 0).map(|(_, [pick, _])| pick.number);
+        let others = picks.filter(|pick| Some(*pick) != self.last);
+        Some(others.chain(self.last).collect())
+    }
 }
 
 /// A walk over the steps, as they are done the first time.
 struct Walk<'a> {
     task: &'a Task,
-    /// The first step of which it is looked what rules it out.
+    /// The first item of which it is looked what rules it out.
     first: usize,
-    last: usize,
+    rule_out: RuleOut<'a>,
+    cases: Vec<RefutedCase>,
+    /// Objects that the second link may touch in the next step, as far as is known.
+    hidden: Vec<usize>,
+}
+
+/// The cases of a step, in free order after certain pairs, and what may be after it.
+#[derive(Default)]
+struct Tried {
+    cases: Vec<RefutedCase>,
+    next: Vec<At>,
+    is_asked: bool,
 }
 
 impl Walk<'_> {
-    fn cases(
-        &self,
-        rule_out: &mut impl FnMut(&Scene, [Configuration; 2]) -> Option<Vec<StuckBox>>,
-    ) -> Option<Vec<RefutedCase>> {
+    /// The states after the items up to the last one; none where not all are known.
+    fn until(&mut self, last: usize, mut states: Vec<At>) -> Option<Vec<At>> {
+        let mut seen = BTreeSet::new();
+        loop {
+            let index = states[0].state.progress.item;
+            let item = &self.task.items[index];
+            let is_new = steps(item).fold(true, |is_new, step| seen.insert(step.number) && is_new);
+            match item {
+                Item::AnyOrder(pairs) if !is_once(pairs) => return None,
+                Item::AnyOrder(pairs) if is_new && index >= self.first => {
+                    let whichever = (0..pairs.len()).find_map(|own| self.whichever_the_order(&states, pairs, own));
+                    if let Some(mut cases) = whichever {
+                        self.cases.append(&mut cases);
+                        return Some(Vec::new());
+                    }
+                    for _ in pairs.iter().flatten() {
+                        states = self.step(&states, is_new)?;
+                        if states.is_empty() {
+                            break;
+                        }
+                    }
+                    // A case of what follows holds for whichever was last.
+                    self.hidden = picked(pairs);
+                }
+                Item::AnyOrder(pairs) => states = self.unknown_order(&states, pairs)?,
+                Item::Step(_) | Item::Renew(_) => states = self.step(&states, is_new)?,
+            }
+            if states.is_empty() || index >= last {
+                return Some(states);
+            }
+            states.iter_mut().for_each(|at| at.last = None);
+        }
+    }
+
+    /// Whether what is let go of in the last step is in the way of all the states that it leaves; the cases are that.
+    fn cannot_stay(&mut self, states: &[At]) -> bool {
         let task = self.task;
-        let mut cases = Vec::new();
-        let mut states = vec![State::at_start(task)];
-        let mut is_start = true;
-        // The step before.
-        let mut before: Option<&Step> = None;
-        for item in &task.items {
-            let step = match item {
-                Item::Step(step) => step,
-                Item::Renew(_) => continue,
-                Item::AnyOrder(_) => return None,
-            };
-            let taken = before.and_then(|before| match before.action {
-                Action::Pick { grasp, .. } => Some(grasp),
-                _ => None,
-            });
-            let is_new = cases.iter().all(|case: &RefutedCase| case.step != step.number);
-            let is_looked_at = is_new && step.number >= self.first;
-            let (mut next, mut own): (Vec<State>, Vec<RefutedCase>) = (Vec::new(), Vec::new());
-            for state in &states {
-                let [candidates] = &state.candidates(task)[..] else { return None };
-                if !candidates.all {
+        let is_last =
+            states.iter().all(|at| at.state.is_done(task) && at.state.released.is_some() && self.hidden.is_empty());
+        let Some(last) = task.steps().map(|step| step.number).max().filter(|_| is_last) else { return false };
+        states.iter().all(|at| {
+            let scene = at.state.scene(task, None);
+            let stuck = (self.rule_out)(&scene, [at.state.q; 2]).unwrap_or_default();
+            let is_ruled_out = !stuck.is_empty();
+            self.cases.push(RefutedCase { step: last + 1, after: None, from: Some(at.state.q), scene, stuck });
+            is_ruled_out
+        })
+    }
+
+    /// The states after the next step, whichever it is; none where not all are known.
+    fn step(&mut self, states: &[At], is_new: bool) -> Option<Vec<At>> {
+        let task = self.task;
+        let mut all: BTreeMap<(usize, Option<Vec<usize>>), Tried> = BTreeMap::new();
+        for at in states {
+            let Progress { item, half, .. } = at.state.progress;
+            for candidates in at.state.candidates(task) {
+                let step = candidates.step;
+                let is_open = self.first <= item + 1 && is_open(task, &at.state, step);
+                if !candidates.all || (is_open && !(is_new && at.has_just_picked)) {
                     return None;
                 }
-                let from = (!is_start).then_some(state.q);
-                let scene = self.scene(state, step, taken.is_some());
-                let mut case = RefutedCase { step: step.number, from, scene, stuck: Vec::new() };
+                let after = at.done(task);
+                let from = (!at.is_start).then_some(at.state.q);
+                let scene = self.scene(at, step);
+                let mut case = RefutedCase { step: step.number, after: after.clone(), from, scene, stuck: Vec::new() };
+                let tried = all.entry((step.number, after)).or_default();
                 for way in &candidates.ways {
-                    match is_looked_at.then(|| rule_out(&case.scene, [state.q, way.to])).flatten() {
+                    let is_looked_at = is_new && self.first <= item;
+                    match is_looked_at.then(|| (self.rule_out)(&case.scene, [at.state.q, way.to])).flatten() {
                         Some(stuck) => case.stuck.extend(stuck),
-                        None => next.push(as_known(state.after(task, way, way.to), step, task)),
+                        None => tried.next.push(At {
+                            has_just_picked: step.action.picked().is_some(),
+                            last: half.and_then(|pair| steps(&task.items[item]).nth(2 * pair)).map(|pick| pick.number),
+                            ..At::from(as_known(at.state.after(task, way, way.to), step, task))
+                        }),
                     }
                 }
-                own.push(case);
+                tried.is_asked |= is_open;
+                tried.cases.push(case);
             }
-            // Where what turns with the arm is let go of depends on where it was taken.
-            let is_open = matches!(step.action, Action::Place { angle: None, .. })
-                && taken.is_some_and(|grasp| grasp != Point::origin());
-            let is_asked = is_open && is_new && step.number + 1 >= self.first;
-            if own.iter().any(|case| !case.stuck.is_empty()) || next.is_empty() || is_asked {
-                cases.append(&mut own);
-            }
-            if next.is_empty() {
-                return Some(cases);
-            }
-            if step.number == self.last {
-                return None;
-            }
-            next.sort_by_key(|state| state.key(task));
-            next.dedup_by_key(|state| state.key(task));
-            if next.len() > MOST_STATES {
-                return None;
-            }
-            (states, is_start) = (next, false);
-            before = Some(step);
         }
-        None
+        self.hidden.clear();
+        let mut next = Vec::new();
+        for mut tried in all.into_values() {
+            if tried.is_asked || tried.next.is_empty() || tried.cases.iter().any(|case| !case.stuck.is_empty()) {
+                self.cases.append(&mut tried.cases);
+            }
+            next.append(&mut tried.next);
+        }
+        self.distinct(next)
+    }
+
+    /// Each once; none where they are too many.
+    fn distinct(&self, mut states: Vec<At>) -> Option<Vec<At>> {
+        let key = |at: &At| (at.state.key(self.task), at.last);
+        states.sort_by_cached_key(key);
+        states.dedup_by_key(|at| key(at));
+        (states.len() <= MOST_STATES).then_some(states)
+    }
+
+    /// Before a pair of a group in free order, without the objects that other pairs pick.
+    fn alone(at: &At, pairs: &[[Step; 2]], own: usize) -> At {
+        let mut poses = at.state.poses.clone();
+        let others = pairs.iter().enumerate().filter(|(other, _)| *other != own);
+        let others = others.filter_map(|(_, [pick, _])| pick.action.picked());
+        others.for_each(|object| Arc::make_mut(&mut poses)[object] = None);
+        let progress = Progress { item: 0, done: 0, half: None };
+        let state = State { progress, poses, held: None, released: None, q: at.state.q };
+        At { is_start: at.is_start, ..At::from(state) }
+    }
+
+    /// Where a pair of a group can end; none where that depends on what is not known, and is asked.
+    fn ends(&self, entry: &At, pairs: &[[Step; 2]], own: usize, is_asked: bool) -> Option<Vec<At>> {
+        let task = self.only(&pairs[own]);
+        let first = if is_asked { 0 } else { usize::MAX };
+        let mut walk = Walk { task: &task, first, rule_out: &mut |_, _| None, cases: Vec::new(), hidden: Vec::new() };
+        let picked = walk.step(&[Self::alone(entry, pairs, own)], false)?;
+        walk.step(&picked, false)
+    }
+
+    /// The cases if a pair of a group cannot be done, wherever the other objects of the group are then.
+    fn whichever_the_order(&mut self, states: &[At], pairs: &[[Step; 2]], own: usize) -> Option<Vec<RefutedCase>> {
+        let mut starts: Vec<At> = states.iter().map(|at| Self::alone(at, pairs, own)).collect();
+        for other in (0..pairs.len()).filter(|other| *other != own) {
+            let ends = self.ends(&states[0], pairs, other, true)?;
+            let alone = starts[0].state.clone();
+            starts.extend(ends.iter().map(|end| At::from(State { q: end.state.q, ..alone.clone() })));
+        }
+        let released = states.iter().filter_map(|at| at.state.released);
+        let hidden: Vec<usize> = self.hidden.iter().copied().chain(released).collect();
+        let task = self.only(&pairs[own]);
+        // Where only what is carried is looked at it is no matter how many pairs there are.
+        let firsts = if pairs.len() > MOST_PAIRS { 1..2 } else { 0..2 };
+        firsts.rev().find_map(|first| {
+            let (rule_out, hidden) = (&mut *self.rule_out, hidden.clone());
+            let mut walk = Walk { task: &task, first, rule_out, cases: Vec::new(), hidden };
+            walk.until(1, starts.clone())?.is_empty().then_some(walk.cases)
+        })
+    }
+
+    /// A task that is a pair of a group and nothing else.
+    fn only(&self, pair: &[Step; 2]) -> Task {
+        Task { items: pair.clone().map(Item::Step).into(), ..self.task.clone() }
+    }
+
+    /// The states after a group in free order of which it is not looked what rules it out.
+    fn unknown_order(&mut self, states: &[At], pairs: &[[Step; 2]]) -> Option<Vec<At>> {
+        let item = states[0].state.progress.item;
+        let mut poses = states[0].state.poses.clone();
+        let mut ends = Vec::new();
+        for (own, [pick, _]) in pairs.iter().enumerate() {
+            let own = self.ends(&states[0], pairs, own, self.first <= item + 1)?;
+            if let (Some(object), Some(end)) = (pick.action.picked(), own.first()) {
+                Arc::make_mut(&mut poses)[object] = end.state.poses[object];
+            }
+            ends.extend(own);
+        }
+        self.hidden = picked(pairs);
+        let progress = Progress { item: item + 1, done: 0, half: None };
+        let after = |end: At| {
+            let state = State { progress, poses: poses.clone(), held: None, released: None, q: end.state.q };
+            At::from(state.settled(self.task))
+        };
+        self.distinct(ends.into_iter().map(after).collect())
     }
 
     /// What is where while a step is done, as far as a checker knows.
-    fn scene(&self, state: &State, step: &Step, is_just_taken: bool) -> Scene {
+    fn scene(&self, at: &At, step: &Step) -> Scene {
         let is_known = |grip: Grip| match grip {
-            Grip::Rigid(_) => is_just_taken,
-            Grip::Level { .. } => self.task.wrist.is_none(),
+            Grip::Rigid(_) => at.has_just_picked || is_gantry(&self.task.arm),
+            Grip::Level { .. } => self.task.wrist.is_none() || !at.state.may_turn(self.task),
         };
-        let held = state.held.clone().filter(|held| is_known(held.grip));
-        State { held, ..state.clone() }.scene(self.task, step.action.picked())
+        let held = at.state.held.clone().filter(|held| is_known(held.grip));
+        let mut poses = at.state.poses.clone();
+        self.hidden.iter().for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
+        State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked())
     }
+}
+
+/// Whether it depends on where an object was taken where the arm lets go of it.
+fn is_open(task: &Task, state: &State, step: &Step) -> bool {
+    let (Action::Place { angle: None, .. }, Some(held)) = (&step.action, &state.held) else { return false };
+    match held.grip {
+        Grip::Rigid(_) if is_gantry(&task.arm) => false,
+        Grip::Rigid(in_link) => (in_link.translation.vector - task.arm.tip.coords).norm() > AT_THE_TIP,
+        Grip::Level { .. } => false,
+    }
+}
+
+/// Whether nothing turns what the arm carries.
+fn is_gantry(arm: &Arm) -> bool {
+    arm.joints.iter().all(|joint| matches!(joint.joint_type, JointType::Prismatic { .. }))
 }
 
 /// Without an object of which it depends on how the steps were done how it lies.
 fn as_known(mut state: State, step: &Step, task: &Task) -> State {
     if let (Action::Place { angle: None, .. }, Some(object)) = (&step.action, state.released) {
-        let keeps = task.wrist.is_none() && task.objects[object].holding == Holding::Level;
-        if !keeps {
+        if task.objects[object].holding != Holding::Level && !is_gantry(&task.arm) {
             Arc::make_mut(&mut state.poses)[object] = None;
         }
     }

@@ -83,6 +83,32 @@ pub enum Action {
     Move(Goal),
 }
 
+/// What holds from a pick to the place that follows.
+pub struct Carrying {
+    /// What the object may touch.
+    pub supports: Vec<usize>,
+    /// Whether the wrist may turn it: to the angle of the place.
+    pub may_turn: bool,
+}
+
+impl Task {
+    /// Of an object that is picked from supports; `after` are the steps that follow.
+    pub fn carrying<'s>(
+        &self,
+        object: usize,
+        supports: &[usize],
+        mut after: impl Iterator<Item = &'s Step>,
+    ) -> Carrying {
+        let place = after.find_map(|next| match &next.action {
+            Action::Place { angle, supports, .. } => Some((angle.is_some(), supports.as_ref())),
+            _ => None,
+        });
+        let then = place.map(|(_, own)| own.unwrap_or(&self.objects[object].supports));
+        let supports = supports.iter().chain(then.into_iter().flatten()).copied().collect();
+        Carrying { supports, may_turn: self.has_wrist && place.is_some_and(|(has_angle, _)| has_angle) }
+    }
+}
+
 /// Places in rows and columns.
 struct Pallet {
     /// Row and column as names have them, and where that is.
