@@ -19,6 +19,8 @@ pub struct Among<'a> {
     /// Obstacles that the second link is free to meet.
     pub allowed: Vec<usize>,
     pub carried: Option<Carried>,
+    /// The joint that lowers the tool, and by how much, if all that it carries is at all heights of that.
+    pub lowered: Option<(&'a str, Decimal)>,
 }
 
 impl<'a> Among<'a> {
@@ -28,6 +30,7 @@ impl<'a> Among<'a> {
             standing: world.obstacles.iter().map(|o| Some(Cow::Borrowed(o))).collect(),
             allowed: vec![],
             carried: None,
+            lowered: None,
         }
     }
 }
@@ -147,7 +150,14 @@ impl<'a> Contacts<'a> {
 }
 
 fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError> {
-    let own = |body: Result<Body, CheckError>| Ok(Named { body: body?, is_carried: false, about_tip: None });
+    let own = |body: Result<Body, CheckError>| {
+        let (raised, link) = (body?, name.link.as_deref().unwrap_or_default());
+        let body = match &among.lowered {
+            Some((joint, by)) if arm.lowers(joint, link)? => raised.lowered(by),
+            _ => raised,
+        };
+        Ok(Named { body, is_carried: false, about_tip: None })
+    };
     match (&name.link, name.collision, name.visual, name.bar, &name.carried) {
         (Some(link), Some(number), None, None, None) => own(arm.body(link, "collision", number)),
         (Some(link), None, Some(number), None, None) => own(arm.body(link, "visual", number)),

@@ -9,7 +9,7 @@ use crate::interval::{Interval, Point, sum, turned};
 use crate::polygon::Corner;
 use crate::robot::{Arm, Joint, Motion};
 use crate::sweep::{Domain, Reached, Rectangle};
-use crate::world::task::{Action, Carrying, Group, Node, Step, Task};
+use crate::world::task::{Action, Carrying, Group, Node, Step, Stroke, Task};
 use crate::world::{Goal, Obstacle, World};
 use crate::{GoalRegion, MOST_PARTS, place, shown, start, within};
 use serde::Deserialize;
@@ -29,6 +29,8 @@ pub struct Case {
     /// Where the arm is before it; the start if it does not say.
     from: Option<Rectangle>,
     boxes: Vec<StuckBox>,
+    /// Configurations that are not free while the tool is lowered where the step ends.
+    lowered: Option<Vec<StuckBox>>,
 }
 
 /// Ways to be somewhere in the course of free orders beyond these are not followed.
@@ -138,8 +140,7 @@ impl<'a> Proof<'a> {
             return Ok(true);
         }
         for branch in &branches {
-            let here = |from: &Rectangle| Ok(GoalRegion::Configuration(from.clone()));
-            if !self.left(branch, last.number + 1, None, &own, here)?.is_empty() {
+            if !self.left(branch, last.number + 1, None, &own)?.is_empty() {
                 return Ok(true);
             }
         }
@@ -149,9 +150,7 @@ impl<'a> Proof<'a> {
     /// What may be after a step; nothing if it cannot be done.
     fn step(self, mut branch: Branch<'a>, step: &'a Step) -> Result<Option<Branch<'a>>, CheckError> {
         let own: Vec<&Case> = self.cases.iter().filter(|case| case.is_about(step, branch.done.as_deref())).collect();
-        let region = |from: &Rectangle| branch.replay.region(self.domain, step, Some(from));
-        let picked = branch.replay.picked(step);
-        let at = if own.is_empty() { None } else { Some(self.left(&branch, step.number, picked, &own, region)?) };
+        let at = if own.is_empty() { None } else { Some(self.left(&branch, step.number, Some(step), &own)?) };
         if at.as_ref().is_some_and(Vec::is_empty) {
             return Ok(None);
         }
@@ -160,14 +159,13 @@ impl<'a> Proof<'a> {
         Ok(Some(Branch { at, ends, ..branch }))
     }
 
-    /// Where a step may end as far as its cases tell, of what it ends in after a case.
+    /// Where a step may end as far as its cases tell; without a step where the arm may stay.
     fn left(
         self,
         branch: &Branch,
         number: usize,
-        picked: Option<usize>,
+        step: Option<&Step>,
         own: &[&Case],
-        region: impl Fn(&Rectangle) -> Result<GoalRegion<'a>, CheckError>,
     ) -> Result<Vec<Rectangle>, CheckError> {
         let from = |case: &Case| case.from.clone().unwrap_or_else(|| self.at_start.clone());
         let begins = |part: &Rectangle| own.iter().any(|case| within(part, &from(case)));
@@ -181,13 +179,28 @@ impl<'a> Proof<'a> {
             let Some(reached) = Reached::new(self.domain, &boxes, &from) else {
                 return CheckError::fails("the boxes leave more gaps than the checker looks at");
             };
-            left.extend(region(&from)?.places(self.arm, self.domain, MOST_PARTS, |part| !reached.meets(part)));
-            let among = branch.replay.among(picked, &from);
-            let contacts = Contacts::new(self.arm, &among, self.certificate, self.clearance);
-            contacts.hold(self.arm, &case.boxes, &boxes).map_err(|why| match why {
-                CheckError::Fails(why) => CheckError::Fails(format!("a case of step {number}: {why}")),
-                input => input,
-            })?;
+            let lowered = rectangles(case.lowered.as_deref().unwrap_or_default())?;
+            let region = match step {
+                Some(step) => branch.replay.region(self.domain, step, Some(&from))?,
+                None => GoalRegion::Configuration(from.clone()),
+            };
+            let is_left_out = |part: &Rectangle| !reached.meets(part) || lowered.iter().any(|all| within(part, all));
+            left.extend(region.places(self.arm, self.domain, MOST_PARTS, is_left_out));
+            let hold = |among: &Among, stuck: &[StuckBox], boxes: &[Rectangle], when: &str| {
+                let contacts = Contacts::new(self.arm, among, self.certificate, self.clearance);
+                contacts.hold(self.arm, stuck, boxes).map_err(|why| match why {
+                    CheckError::Fails(why) => CheckError::Fails(format!("a case of step {number}{when}: {why}")),
+                    input => input,
+                })
+            };
+            let picked = step.and_then(|step| branch.replay.picked(step));
+            hold(&branch.replay.among(picked, &from), &case.boxes, &boxes, "")?;
+            if let Some(stuck) = &case.lowered {
+                let Some(among) = step.and_then(|step| branch.replay.lowered(step, &from)) else {
+                    return CheckError::fails(format!("at step {number} no tool is lowered"));
+                };
+                hold(&among, stuck, &lowered, ", the tool lowered")?;
+            }
         }
         Ok(left)
     }
@@ -205,6 +218,9 @@ impl<'a> Proof<'a> {
     fn in_any_order(self, steps: &[&'a Step], entry: Branch<'a>) -> Result<Vec<Branch<'a>>, CheckError> {
         let pairs: Vec<&[&Step]> = steps.chunks(2).collect();
         let numbers: Vec<usize> = steps.iter().filter_map(|step| entry.replay.picked(step)).collect();
+        if (1..numbers.len()).any(|k| numbers[..k].contains(&numbers[k])) {
+            return CheckError::fails("an object is picked more than once in free order");
+        }
         let own_cases = |pair: &[&Step], is_ordered: bool| {
             let about = |case: &Case| pair.iter().any(|step| step.number == case.step);
             self.cases.iter().any(|case| case.after.is_some() == is_ordered && about(case))
@@ -227,8 +243,7 @@ impl<'a> Proof<'a> {
             let others = ends.iter().enumerate().filter(|(other, _)| Some(*other) != own);
             others.map(|(_, end)| end.clone()).collect::<Result<Vec<_>, _>>()
         };
-        let is_once = (1..numbers.len()).all(|k| !numbers[..k].contains(&numbers[k]));
-        for own in (0..pairs.len()).filter(|own| is_once && own_cases(pairs[*own], false)) {
+        for own in (0..pairs.len()).filter(|own| own_cases(pairs[*own], false)) {
             let others = Branch { at: None, ends: all_but(Some(own)), ..entry.clone() };
             let anywhere = || Ok([self.at(&entry)?, self.at(&others)?].concat());
             let at = own_cases(&pairs[own][..1], false).then(anywhere).transpose()?;
@@ -237,10 +252,10 @@ impl<'a> Proof<'a> {
                 return Ok(Vec::new());
             }
         }
-        if !is_once || !own_cases(steps, true) {
+        if !own_cases(steps, true) {
             let mut all = Branch { at: None, ends: all_but(None), ..entry };
             for (number, lying) in numbers.iter().zip(lying) {
-                all.replay.standing[*number] = lying.filter(|_| is_once);
+                all.replay.standing[*number] = lying;
             }
             all.replay.released = numbers;
             return Ok(vec![all]);
@@ -399,7 +414,30 @@ impl<'a> Replay<'a> {
             Some(Carried { hanging, is_level, heights, supports: held.supports.clone() })
         });
         let allowed = self.released.iter().copied().chain(picked).collect();
-        Among { standing: self.standing.clone(), allowed, carried }
+        Among { standing: self.standing.clone(), allowed, carried, lowered: None }
+    }
+
+    /// What is where while the tool is lowered where a step ends, but for what is picked.
+    fn lowered(&self, step: &Step, from: &Rectangle) -> Option<Among<'_>> {
+        let Stroke { joint, travel } = self.task.stroke.as_ref()?;
+        let object = match &step.action {
+            Action::Pick { object, .. } => *object,
+            Action::Place { .. } => self.held.as_ref()?.object,
+            Action::Move(_) => return None,
+        };
+        let number = self.task.first + object;
+        let mut among = self.among(None, from);
+        among.standing[number] = None;
+        // What was let go of before is not what the tool comes down on.
+        among.allowed.clear();
+        let lying = self.world.obstacles[number].heights.as_ref();
+        if let (Some([least, most]), Some(lying)) = (among.carried.as_mut().and_then(|c| c.heights.as_mut()), lying) {
+            let [low, high] = lying.each_ref().map(Interval::from);
+            *least = if low.upper < least.upper { low } else { least.clone() };
+            *most = if high.lower > most.lower { high } else { most.clone() };
+        }
+        among.lowered = Some((joint, travel.as_ref().unwrap_or(&self.task.objects[object].lift).clone()));
+        Some(among)
     }
 
     /// Takes a step as done.

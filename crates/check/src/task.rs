@@ -233,7 +233,7 @@ impl<'a> Replay<'a> {
         let kept = Interval::from(clearance).upper + guard();
         let pressed = &arm.reach(&covered)? * &Interval::from(&Decimal::power_of_ten(PRESSED));
         let shape = |shape: Covered| {
-            let is_lowered = task.stroke.as_ref().map_or(Ok(false), |stroke| arm.lowers(&stroke.joint, &shape))?;
+            let is_lowered = task.stroke.as_ref().map_or(Ok(false), |stroke| arm.lowers(&stroke.joint, &shape.link))?;
             let solid = Solid::new(&chain, On::Link(shape.body.link), &shape.body.shape, &kept);
             Ok((shape, solid, is_lowered))
         };

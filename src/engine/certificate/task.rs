@@ -10,6 +10,7 @@ use crate::geometry::{Convex, Point, Vector};
 use crate::model::{MotionProblem, RecordedStep, Scene, Task};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
+use std::iter;
 
 /// The steps of a planned task, whose motion is among the results.
 pub(super) fn steps(steps: &[StepReport]) -> (&'static str, String) {
@@ -57,14 +58,8 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let (empty, arm) = (Scene::trusted(task.arm.clone(), task.workspace.clone()), &task.arm);
     let mut contacts = Contacts::new(&empty);
     let mut all = Vec::new();
-    for RefutedCase { step, after, from, scene, stuck } in &cases {
+    for RefutedCase { step, after, from, scene, stuck, lowered } in &cases {
         let share = if scene.payload().is_some() { ABOUT_IK_SOLUTIONS } else { AFTER_ANOTHER };
-        let is_known = |stuck: &StuckBox| !scene.is_payload(stuck.pair) || scene.payload_piece(stuck.pair).is_some();
-        if !stuck.iter().all(is_known) {
-            return None;
-        }
-        contacts = contacts.among(scene);
-        let boxes: Vec<Stuck> = stuck.iter().map(|stuck| contacts.stuck(stuck)).collect();
         let told = from.map_or(0.25, |q| tells_apart(arm, q));
         if told < NEARLY_STRETCHED {
             return None;
@@ -77,7 +72,19 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
                 [q[k] - room, q[k] + room]
             })
         });
-        let mut case = json!({ "step": step, "boxes": boxes });
+        let mut case = json!({ "step": step });
+        let lowered =
+            lowered.iter().filter(|(_, stuck)| !stuck.is_empty()).map(|(scene, stuck)| ("lowered", scene, stuck));
+        for (name, scene, stuck) in iter::once(("boxes", scene, stuck)).chain(lowered) {
+            let is_known =
+                |stuck: &StuckBox| !scene.is_payload(stuck.pair) || scene.payload_piece(stuck.pair).is_some();
+            if !stuck.iter().all(is_known) {
+                return None;
+            }
+            contacts = contacts.among(scene);
+            let boxes: Vec<Stuck> = stuck.iter().map(|stuck| contacts.stuck(stuck)).collect();
+            case[name] = json!(boxes);
+        }
         after.iter().for_each(|after| case["after"] = json!(after));
         from.iter().for_each(|from| case["from"] = json!(from));
         all.push(case);

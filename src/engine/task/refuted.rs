@@ -2,7 +2,7 @@
 
 use super::state::{Progress, State};
 use crate::check::StuckBox;
-use crate::model::{Action, Arm, Grip, Holding, Item, JointType, Scene, Step, Task};
+use crate::model::{Action, Arm, Grip, Holding, Item, JointType, Payload, Scene, Step, Task};
 use crate::space::Configuration;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -22,6 +22,14 @@ pub struct RefutedCase {
     pub scene: Scene,
     /// Configurations that are not free.
     pub stuck: Vec<StuckBox>,
+    /// What is where while the tool is lowered where the step ends, and configurations that are not free then.
+    pub lowered: Option<(Scene, Vec<StuckBox>)>,
+}
+
+impl RefutedCase {
+    fn rules_out(&self) -> bool {
+        !self.stuck.is_empty() || self.lowered.as_ref().is_some_and(|(_, stuck)| !stuck.is_empty())
+    }
 }
 
 /// What rules out motions from one configuration to another; none where that is not known.
@@ -161,7 +169,8 @@ impl Walk<'_> {
             let scene = at.state.scene(task, None);
             let stuck = (self.rule_out)(&scene, [at.state.q; 2]).unwrap_or_default();
             let is_ruled_out = !stuck.is_empty();
-            self.cases.push(RefutedCase { step: last + 1, after: None, from: Some(at.state.q), scene, stuck });
+            let from = Some(at.state.q);
+            self.cases.push(RefutedCase { step: last + 1, after: None, from, scene, stuck, lowered: None });
             is_ruled_out
         })
     }
@@ -180,19 +189,19 @@ impl Walk<'_> {
                 }
                 let after = at.done(task);
                 let from = (!at.is_start).then_some(at.state.q);
-                let scene = self.scene(at, step);
-                let mut case = RefutedCase { step: step.number, after: after.clone(), from, scene, stuck: Vec::new() };
+                let (scene, lowered) = (self.scene(at, step), self.lowered(at, step).map(|scene| (scene, Vec::new())));
+                let (number, stuck) = (step.number, Vec::new());
+                let mut case = RefutedCase { step: number, after: after.clone(), from, scene, stuck, lowered };
                 let tried = all.entry((step.number, after)).or_default();
                 for way in &candidates.ways {
-                    let is_looked_at = is_new && self.first <= item;
-                    match is_looked_at.then(|| (self.rule_out)(&case.scene, [at.state.q, way.to])).flatten() {
-                        Some(stuck) => case.stuck.extend(stuck),
-                        None => tried.next.push(At {
-                            has_just_picked: step.action.picked().is_some(),
-                            last: half.and_then(|pair| steps(&task.items[item]).nth(2 * pair)).map(|pick| pick.number),
-                            ..At::from(as_known(at.state.after(task, way, way.to), step, task))
-                        }),
+                    if is_new && self.first <= item && self.is_ruled_out(&mut case, at.state.q, way.to) {
+                        continue;
                     }
+                    tried.next.push(At {
+                        has_just_picked: step.action.picked().is_some(),
+                        last: half.and_then(|pair| steps(&task.items[item]).nth(2 * pair)).map(|pick| pick.number),
+                        ..At::from(as_known(at.state.after(task, way, way.to), step, task))
+                    });
                 }
                 tried.is_asked |= is_open;
                 tried.cases.push(case);
@@ -201,12 +210,26 @@ impl Walk<'_> {
         self.hidden.clear();
         let mut next = Vec::new();
         for mut tried in all.into_values() {
-            if tried.is_asked || tried.next.is_empty() || tried.cases.iter().any(|case| !case.stuck.is_empty()) {
+            if tried.is_asked || tried.next.is_empty() || tried.cases.iter().any(RefutedCase::rules_out) {
                 self.cases.append(&mut tried.cases);
             }
             next.append(&mut tried.next);
         }
         self.distinct(next)
+    }
+
+    /// Whether a way to do a step is ruled out; the case says by what.
+    fn is_ruled_out(&mut self, case: &mut RefutedCase, from: Configuration, to: Configuration) -> bool {
+        if let Some(mut stuck) = (self.rule_out)(&case.scene, [from, to]) {
+            case.stuck.append(&mut stuck);
+            return true;
+        }
+        let Some((scene, all)) = &mut case.lowered else { return false };
+        let q = self.task.arm.topology().wrap(to);
+        (self.rule_out)(scene, [q, q]).is_some_and(|mut stuck| {
+            all.append(&mut stuck);
+            true
+        })
     }
 
     /// Each once; none where they are too many.
@@ -293,6 +316,22 @@ impl Walk<'_> {
         let mut poses = at.state.poses.clone();
         self.hidden.iter().for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
         State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked())
+    }
+
+    /// What is where while the tool is lowered where a step ends, but for what is picked, as far as a checker knows.
+    fn lowered(&self, at: &At, step: &Step) -> Option<Scene> {
+        let (task, stroke) = (self.task, self.task.stroke.as_ref()?);
+        let object = step.action.picked().or(at.state.held.as_ref().map(|held| held.object));
+        let object = object.filter(|_| !matches!(step.action, Action::Move(_)))?;
+        let depth = Some(stroke.depth(&task.objects[object])).filter(|depth| *depth != 0.0)?;
+        let scene = self.scene(at, step);
+        let payload = scene
+            .payload()
+            .cloned()
+            .map(|payload| Payload { heights: task.objects[object].handled_heights(), ..payload });
+        let mut workspace = scene.workspace().clone();
+        workspace.obstacles[task.obstacle_number(object)] = task.objects[object].lying(None);
+        Some(Scene::handling_trusted(stroke.swept(&task.arm, depth), workspace, payload, &[]))
     }
 }
 

@@ -172,6 +172,56 @@ fn proofs_about_all_orders_have_certificates() {
     assert_eq!(code, 0);
 }
 
+/// What the tool would hit while it is lowered, though nothing is in the way of what travels above.
+#[test]
+fn proofs_about_strokes_have_certificates() {
+    let world = |robot: &str, stub: [f64; 2]| {
+        format!(
+            r#"[robot]
+joints = ["axis_1", "axis_2"]
+tip = "flange"
+payload = "level"
+{robot}
+[start]
+joints = [0.0, 1.2]
+[[obstacle]]
+name = "stub"
+circle = {{ center = {stub:?}, radius = 0.003 }}
+height = [0.0, 0.1]
+[[object]]
+name = "part"
+polygon = [[-0.012, -0.006], [0.012, -0.006], [0.012, 0.006], [-0.012, 0.006]]
+at = [0.14, 0.36]
+height = [0.0, 0.01]
+lift = 0.12
+[[step]]
+pick = "part"
+[[step]]
+place = {{ at = [0.35, -0.17] }}
+"#
+        )
+    };
+    let stroke = "stroke = { joint = \"axis_3\", velocity = 1.0, acceleration = 5.0 }";
+    // Beside where it is picked, and beside where it is placed; and where only what is carried comes down on it.
+    for (stub, step) in [([0.14, 0.375], 1), ([0.35, -0.155], 2), ([0.336, -0.17], 2)] {
+        assert_eq!(certified(&world("", stub)).0, 0, "{stub:?}");
+        let (code, stderr, said) = certified(&world(stroke, stub));
+        assert_eq!(code, 3, "{stub:?}: {stderr}");
+        let last = format!("does the steps up to step {step}");
+        assert!(said.as_ref().is_some_and(|said| said.contains(&last)), "{stub:?}: {said:?} {stderr}");
+    }
+    // Without the stroke, and with the stub elsewhere, the certificate proves nothing.
+    let place = Place::new();
+    place.write("world.toml", world(stroke, [0.35, -0.155]));
+    let urdf = shipped("robots/scara.urdf");
+    assert_eq!(place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json").code, 3);
+    let certificate = without_digests(&place.read("c.json"));
+    for other in [world("", [0.35, -0.155]), world(stroke, [0.35, -0.12]), world(stroke, [0.14, 0.375])] {
+        let judged = check(&read(&urdf), &other, &certificate);
+        assert!(matches!(judged, Err(CheckError::Fails(_))), "{judged:?}");
+    }
+}
+
 /// One by a turn of the wrist.
 #[test]
 fn proofs_of_other_kinds_have_no_certificate() {

@@ -13,7 +13,7 @@ pub struct Covered {
     pub name: String,
     pub body: Body,
     /// The link that it belongs to.
-    link: String,
+    pub link: String,
 }
 
 impl Arm<'_> {
@@ -58,11 +58,11 @@ impl Arm<'_> {
         Ok(found)
     }
 
-    /// Whether a joint that lowers the tool carries a shape.
+    /// Whether a joint that lowers the tool carries a link.
     ///
     /// # Errors
     /// A joint that is not there, or does not slide along the plane's normal, exactly.
-    pub fn lowers(&self, joint: &str, shape: &Covered) -> Read<bool> {
+    pub fn lowers(&self, joint: &str, link: &str) -> Read<bool> {
         let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the stroke's joint \"{joint}\" {why}")));
         let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(joint));
         let Some((&carried, &node)) = found else { return wrong("is none of the robot's") };
@@ -71,8 +71,8 @@ impl Arm<'_> {
         if node.attribute("type") != Some("prismatic") || !is_along {
             return wrong("does not slide, exactly, along the normal of the plane");
         }
-        let link = self.tree.order.iter().find(|name| **name == shape.link).expect("links of shapes are the robot's");
-        Ok(self.tree.above(link)?.contains(&node))
+        let link = self.tree.order.iter().find(|name| **name == link);
+        Ok(link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?.contains(&node))
     }
 
     /// How far the arm reaches at the least: from the first joint to the second, and on to where its shapes or the tip are.
