@@ -43,6 +43,8 @@ pub struct Carried {
     pub heights: Option<[Interval; 2]>,
     /// What it may touch.
     pub supports: Vec<usize>,
+    /// What keeps off these, if it has any.
+    pub kernel: Option<Result<Shape, CheckError>>,
 }
 
 impl Carried {
@@ -67,6 +69,8 @@ struct Named {
 struct Part<'a> {
     obstacle: usize,
     shape: Shape,
+    /// Its radius without the clearance.
+    radius: Interval,
     heights: Option<&'a Range>,
 }
 
@@ -91,7 +95,7 @@ impl<'a> Contacts<'a> {
                 input => input,
             })?;
             let shape = Shape { points, radius: &radius + &Interval::from(clearance) };
-            Ok(Part { obstacle: name.obstacle, shape, heights: obstacle.heights.as_ref() })
+            Ok(Part { obstacle: name.obstacle, shape, radius, heights: obstacle.heights.as_ref() })
         };
         Self { among, shapes, parts: certificate.parts.iter().enumerate().map(part).collect() }
     }
@@ -110,7 +114,7 @@ impl<'a> Contacts<'a> {
     pub fn hold(&self, arm: &Arm, stuck: &[StuckBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
             let (body, part) = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
-            if !Mover::new(arm, body).overlaps(&part, &Cell::from(ranges)) {
+            if !Mover::new(arm, &body).overlaps(&part, &Cell::from(ranges)) {
                 return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
             }
         }
@@ -123,7 +127,7 @@ impl<'a> Contacts<'a> {
         shape: usize,
         part: usize,
         who: impl Fn() -> String,
-    ) -> Result<(&Body, Cow<'_, Shape>), CheckError> {
+    ) -> Result<(Cow<'_, Body>, Cow<'_, Shape>), CheckError> {
         let fails = |why: &str| CheckError::fails(format!("{}{why}", who()));
         let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {
             return fails(" names a shape or a part that is not there");
@@ -133,19 +137,26 @@ impl<'a> Contacts<'a> {
         if !body.is_at(part.heights) {
             return fails(": the shape passes over or under the obstacle");
         }
-        let may_meet = if *is_carried {
-            self.among.carried.as_ref().is_some_and(|carried| carried.supports.contains(&part.obstacle))
-        } else {
-            body.link == 1 && self.among.allowed.contains(&part.obstacle)
-        };
-        if may_meet {
+        if !is_carried && body.link == 1 && self.among.allowed.contains(&part.obstacle) {
             return fails(": the shape may meet the obstacle");
         }
-        let Some(Shape { points, radius }) = about_tip else { return Ok((body, Cow::Borrowed(&part.shape))) };
+        let (mut body, mut about_tip) = (Cow::Borrowed(body), about_tip.as_ref().map(Cow::Borrowed));
+        let mut part_shape = Cow::Borrowed(&part.shape);
+        let carried = self.among.carried.as_ref().filter(|_| *is_carried);
+        if let Some(Carried { kernel: Some(kernel), .. }) = carried.filter(|c| c.supports.contains(&part.obstacle)) {
+            let kernel = kernel.clone()?;
+            match &mut about_tip {
+                Some(shape) => *shape = Cow::Owned(kernel),
+                None => body.to_mut().shape = kernel,
+            }
+            part_shape.to_mut().radius = part.radius.clone();
+        }
+        let Some(about_tip) = about_tip else { return Ok((body, part_shape)) };
+        let Shape { points, radius } = &*about_tip;
         // It meets the part exactly where the tip is at a difference of a point of the part and one of it.
         let from = |p: &Point| points.iter().map(|c| [&p[0] - &c[0], &p[1] - &c[1]]).collect::<Vec<Point>>();
-        let points = part.shape.points.iter().flat_map(from).collect();
-        Ok((body, Cow::Owned(Shape { points, radius: &part.shape.radius + radius })))
+        let points = part_shape.points.iter().flat_map(from).collect();
+        Ok((body, Cow::Owned(Shape { points, radius: &part_shape.radius + radius })))
     }
 }
 

@@ -4,11 +4,12 @@ use crate::certificate::{Certificate, StuckBox, rectangles};
 use crate::contacts::{Among, Carried, Contacts};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::free::Chain;
+use crate::free::{Chain, guard};
 use crate::interval::{Interval, Point, sum, turned};
 use crate::polygon::Corner;
 use crate::robot::{Arm, Joint, Motion};
 use crate::sweep::{Domain, Reached, Rectangle};
+use crate::task::PRESSED;
 use crate::world::task::{Action, Carrying, Group, Node, Step, Stroke, Task};
 use crate::world::{Goal, Obstacle, World};
 use crate::{GoalRegion, MOST_PARTS, place, shown, start, within};
@@ -351,12 +352,17 @@ struct Replay<'a> {
     released: Vec<usize>,
     /// All steps in the order of the file.
     steps: &'a [&'a Step],
+    /// No object presses deeper than this into what supports it.
+    pressed: Result<Interval, CheckError>,
 }
 
 impl<'a> Replay<'a> {
     fn new(arm: &'a Arm, world: &'a World, task: &'a Task, steps: &'a [&'a Step]) -> Self {
         let Among { standing, .. } = Among::all(world);
-        Self { arm, world, task, chain: Chain::from(arm), standing, held: None, released: Vec::new(), steps }
+        let pressed = arm.covered(world).and_then(|covered| arm.reach(&covered));
+        let pressed = pressed.map(|reach| &reach * &Interval::from(&Decimal::power_of_ten(PRESSED)));
+        let pressed = pressed.map(|by| Interval::exactly(by.upper + guard()));
+        Self { arm, world, task, chain: Chain::from(arm), standing, held: None, released: Vec::new(), steps, pressed }
     }
 
     /// The number of what a step picks.
@@ -411,7 +417,10 @@ impl<'a> Replay<'a> {
             let lift = Interval::from(&object.lift);
             let lying = self.world.obstacles[self.task.first + held.object].heights.as_ref();
             let heights = lying.map(|range| range.each_ref().map(|height| &Interval::from(height) + &lift));
-            Some(Carried { hanging, is_level, heights, supports: held.supports.clone() })
+            let supports = held.supports.clone();
+            let presses = || self.pressed.clone().and_then(|by| hanging.kernel(&by));
+            let kernel = (!supports.is_empty()).then(presses);
+            Some(Carried { hanging, is_level, heights, supports, kernel })
         });
         let allowed = self.released.iter().copied().chain(picked).collect();
         Among { standing: self.standing.clone(), allowed, carried, lowered: None }

@@ -220,7 +220,7 @@ fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Str
     contacts.hold(arm, stuck, &boxes)?;
     for (number, wall) in bound.walls.iter().enumerate() {
         let (body, part) = contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?;
-        if !bound::closes(arm, wall, body, &part) {
+        if !bound::closes(arm, wall, &body, &part) {
             return CheckError::fails(format!("wall {number}: along it the shape can come off the part"));
         }
     }

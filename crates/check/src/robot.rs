@@ -55,6 +55,7 @@ pub struct Arm<'a> {
 }
 
 /// A collision shape in the plane, as seen from the origin of its joint.
+#[derive(Clone)]
 pub struct Body {
     /// 0 or 1: the last joint that moves it.
     pub link: usize,

@@ -20,7 +20,7 @@ use std::iter::{Enumerate, Peekable};
 use std::slice::Iter;
 
 /// Objects press into what supports them by no more than this share of the arm's reach: `10^-4`.
-const PRESSED: u32 = 4;
+pub const PRESSED: u32 = 4;
 
 /// The arm may stand still for less than it is to by this, seconds: `10^-6`.
 const SHORT: u32 = 6;

@@ -122,9 +122,10 @@ fn all_boxes_and_cases_are_needed() {
 
 #[test]
 fn what_the_block_may_do_proves_nothing() {
-    says(among("", 0.1, "supports = [\"sill\"]", STEPS), 3, "the shape may meet the obstacle");
+    // It does not pass through what it rests on.
+    says(among("", 0.1, "supports = [\"sill\"]", STEPS), 0, "step 2");
     let resting = STEPS.replace("[3, 1]", "[3, 1], supports = [\"lintel\"]");
-    says(among("", 0.1, "", &resting), 3, "the shape may meet the obstacle");
+    says(among("", 0.1, "", &resting), 0, "step 2");
     // A wrist may turn it, if its place asks for an angle; and what turns with the arm is another case, though not on a gantry.
     says(among(", wrist = { velocity = 1 }", 0.1, "", STEPS), 0, "step 2");
     let turned = STEPS.replace("[3, 1]", "[3, 1], angle = 0");
@@ -344,6 +345,30 @@ fn the_arm_stays_where_the_last_step_ends() {
     let moved = world(2.0) + "[[step]]\nmove = { joints = [0, 0] }\n";
     says(of_robot(&robot, &moved, &certificate(3)), 0, "up to step 3");
     says(of_robot(&robot, &moved, &certificate(4)), 3, "leave open");
+}
+
+/// The head reaches 0.0707 m, so that corners may be 7.07e-6 m deep in the table, and sides 5e-6 m.
+#[test]
+fn a_block_presses_into_its_support_no_deeper_than_it_may() {
+    let pressed = |depth: f64, supports: &str| {
+        let at = [3.0, 0.1 - depth];
+        let world = format!(
+            "robot = {{ payload = \"level\" }}\nclearance = 0.01\nstart.joints = [0, 1]\n[[obstacle]]\nname = \"table\"\n             polygon = [[0, -1], [4, -1], [4, 0], [0, 0]]\n[[object]]\nname = \"block\"\nat = [1, 1]\n             polygon = [[-0.2, -0.1], [0.2, -0.1], [0.2, 0.1], [-0.2, 0.1]]\n{supports}\n[[step]]\npick = \"block\"\n             [[step]]\nplace = {{ at = {at:?} }}\n"
+        );
+        let [lower, upper] = [-1e-7, 1e-7].map(|by| at.map(|c| c + by));
+        let certificate = format!(
+            r#"{{"format": "cplan certificate 1", "answer": "infeasible", "shapes": [{SHAPES}],
+            "parts": [{{"obstacle": 0, "corners": [[0, -1], [4, -1], [4, 0], [0, 0]]}}],
+            "cases": [{{{FROM}, "boxes": [{{"lower": {lower:?}, "upper": {upper:?}, "shape": 0, "part": 0}}]}}]}}"#
+        );
+        judged(&world, &certificate)
+    };
+    let rests = "supports = [\"table\"]";
+    says(pressed(6e-6, rests), 0, "up to step 2");
+    says(pressed(4.5e-6, rests), 3, "can come off the part");
+    // No clearance is kept from what supports it.
+    says(pressed(-9e-3, ""), 0, "up to step 2");
+    says(pressed(-9e-3, rests), 3, "can come off the part");
 }
 
 #[test]

@@ -30,8 +30,8 @@ pub enum NoCertificate {
     Answer(Status),
     /// A proof that a task cannot be done, of a kind that the checker does not know.
     #[error(
-        "the proof that the task cannot be done is of a kind that has no certificate: it has to be about the motions of the arm, not about \
-             turns of a wrist or supports, and about the first time that a step is done"
+        "the proof that the task cannot be done is of a kind that has no certificate: it has to be about the first time that a step is done, \
+             not about how an object lies that an arm has turned"
     )]
     Task,
     /// A motion in a world in which something moves: the checker knows no time.

@@ -7,7 +7,7 @@ use crate::check::StuckBox;
 use crate::engine::task::{RefutedCase, StepReport, refuted};
 use crate::engine::{Options, Verdict, solve};
 use crate::geometry::{Convex, Point, Vector};
-use crate::model::{MotionProblem, RecordedStep, Scene, Task};
+use crate::model::{MotionProblem, Obstacle, Payload, RecordedStep, Scene, Shape, Task};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
 use std::iter;
@@ -49,6 +49,9 @@ const ABOUT_IK_SOLUTIONS: f64 = 1e-10;
 
 /// ... and less well those where something is let go of that was taken in one of these rectangles.
 const AFTER_ANOTHER: f64 = 1e-8;
+
+/// How much deeper than it may press into its supports something is to be in them, for a proof that it is too deep: a checker moves corners otherwise.
+const PRESSED_DEEPER: f64 = 2.0;
 
 /// That the steps up to one cannot be done, case by case; none where the proof is of a kind that the checker does not know.
 pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
@@ -96,13 +99,31 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
 fn rule_out(scene: &Scene, ends: [Configuration; 2]) -> Option<Vec<StuckBox>> {
     let is_free = |q: &Configuration| scene.obstructions(*q).is_empty();
     if let Some(end) = ends.iter().find(|end| !is_free(end)) {
-        return stuck_about(scene, &Segment::new(*end, *end)).map(|stuck| vec![stuck]);
+        let at = Segment::new(*end, *end);
+        let is_known = |scene: &Scene, stuck: &StuckBox| {
+            !scene.is_payload(stuck.pair) || scene.payload_piece(stuck.pair).is_some()
+        };
+        let stuck = stuck_about(scene, &at).filter(|stuck| is_known(scene, stuck));
+        return stuck.or_else(|| stuck_about(&pressing(scene)?, &at)).map(|stuck| vec![stuck]);
     }
     let problem = MotionProblem::trusted(scene.clone(), ends[0], ends[1]);
     match solve(&problem, &Options { bounded: false, ..Options::default() }, &mut |_| {}).verdict {
         Verdict::Infeasible(proof) => Some(proof.stuck().to_vec()),
         Verdict::Found(_) | Verdict::Unknown(_) => None,
     }
+}
+
+/// Less of what is carried than a checker makes of it for its supports, among these alone; none where it has several pieces.
+fn pressing(scene: &Scene) -> Option<Scene> {
+    let payload = scene.payload().filter(|payload| payload.pieces.len() == 1)?;
+    let (arm, mut workspace) = scene.clone().into_parts();
+    let deeper = PRESSED_DEEPER * Payload::penetration_allowance(&arm);
+    let pieces = payload.pieces.iter().map(|piece| piece.inner_approximation(deeper, &[])).collect();
+    workspace.clearance = 0.0;
+    let others = workspace.obstacles.iter_mut().enumerate().filter(|(number, _)| !payload.supports.contains(number));
+    others.for_each(|(_, other)| *other = Obstacle { shape: Shape::Pieces, pieces: Vec::new(), ..other.clone() });
+    let carried = Payload { pieces, supports: Vec::new(), ..payload.clone() };
+    Some(Scene::handling_trusted(arm, workspace, Some(carried), &payload.supports))
 }
 
 /// A little smaller, about its middle.

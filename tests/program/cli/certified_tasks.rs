@@ -222,19 +222,26 @@ place = {{ at = [0.35, -0.17] }}
     }
 }
 
-/// One by a turn of the wrist.
+/// What is to go into what it rests on, deeper than it may press: convex, and of several parts.
 #[test]
-fn proofs_of_other_kinds_have_no_certificate() {
-    let level = read(&shipped("workspaces/tasks/slot_rigid.toml"))
-        .replace("payload = \"rigid\"", "payload = \"level\"\nwrist = { velocity = 3.0 }")
-        .replace("at = [0.26, 0.35]", "at = [0.26, 0.35], angle = \"45deg\"");
-    let (code, stderr, said) = certified(&level);
-    assert!(code != 0 && said.is_none(), "{code} {stderr} {said:?}");
-    let reason = match code {
-        3 => "the proof that the task cannot be done is of a kind that has no certificate",
-        _ => "the answer is \"unknown\"",
+fn proofs_about_supports_have_certificates_if_what_rests_is_convex() {
+    let into = |depth: f64| {
+        read(&shipped("workspaces/tasks/slot_rigid.toml"))
+            .replace("payload = \"rigid\"", "payload = \"level\"")
+            .replace("at = [0.26, 0.35]", &format!("at = [0.26, {}], supports = [\"near jaw\"]", 0.345 - depth))
     };
-    assert!(stderr.contains(reason), "{code} {stderr}");
+    // It may press 5.5e-5 m into it, with its sides by 0.7 of that.
+    assert_eq!(certified(&into(2e-5)).0, 0);
+    for depth in [2e-4, 1e-2] {
+        let (code, stderr, said) = certified(&into(depth));
+        assert_eq!(code, 3, "{stderr}");
+        assert!(said.is_some_and(|said| said.contains("does the steps up to step 2")), "{stderr}");
+    }
+    let square = "[[-0.06, -0.01], [0.06, -0.01], [0.06, 0.01], [-0.06, 0.01]]";
+    let bent = "[[-0.06, -0.01], [0.06, -0.01], [0.06, 0.01], [0.0, 0.01], [0.0, 0.012], [-0.06, 0.012]]";
+    let (code, stderr, said) = certified(&into(1e-2).replace(square, bent));
+    assert!(code == 3 && said.is_none(), "{code} {stderr} {said:?}");
+    assert!(stderr.contains("the proof that the task cannot be done is of a kind that has no certificate"), "{stderr}");
 }
 
 #[test]
