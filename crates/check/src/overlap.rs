@@ -1,7 +1,8 @@
 //! How deep two convex shapes overlap.
 
 use crate::interval::{Interval, Point};
-use num_bigint::{BigInt, Sign};
+use num_bigint::BigInt;
+use std::ops::{Add, Mul, Sub};
 
 /// All points within `radius` of the convex hull of some points.
 #[derive(Debug, Clone)]
@@ -13,31 +14,53 @@ pub struct Shape {
 /// A point in units.
 pub type Exact = [BigInt; 2];
 
-fn cross(u: &Exact, v: &Exact) -> BigInt {
-    &u[0] * &v[1] - &u[1] * &v[0]
+/// What differences, products and comparisons are exact of: large integers, and small ones as long as they are small.
+pub trait Integer: Clone + Ord + Default {
+    fn minus(&self, other: &Self) -> Self;
+    fn plus(&self, other: &Self) -> Self;
+    fn times(&self, other: &Self) -> Self;
 }
 
-fn dot(u: &Exact, v: &Exact) -> BigInt {
-    &u[0] * &v[0] + &u[1] * &v[1]
+impl<T: Clone + Ord + Default> Integer for T
+where
+    for<'a> &'a T: Sub<Output = T> + Add<Output = T> + Mul<Output = T>,
+{
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
 }
 
-fn minus(u: &Exact, v: &Exact) -> Exact {
-    [&u[0] - &v[0], &u[1] - &v[1]]
+fn cross<T: Integer>(u: &[T; 2], v: &[T; 2]) -> T {
+    u[0].times(&v[1]).minus(&u[1].times(&v[0]))
+}
+
+fn dot<T: Integer>(u: &[T; 2], v: &[T; 2]) -> T {
+    u[0].times(&v[0]).plus(&u[1].times(&v[1]))
+}
+
+fn minus<T: Integer>(u: &[T; 2], v: &[T; 2]) -> [T; 2] {
+    [u[0].minus(&v[0]), u[1].minus(&v[1])]
 }
 
 /// The corners of the convex hull, turning left; no three in a line (Andrew 1979).
-pub fn hull(mut points: Vec<Exact>) -> Vec<Exact> {
+pub fn hull<T: Integer>(mut points: Vec<[T; 2]>) -> Vec<[T; 2]> {
     points.sort();
     points.dedup();
     if points.len() < 3 {
         return points;
     }
-    let mut ring: Vec<Exact> = Vec::new();
+    let mut ring: Vec<[T; 2]> = Vec::new();
     for back in [false, true] {
         let first = ring.len();
         for p in if back { points.iter().rev().collect::<Vec<_>>() } else { points.iter().collect() } {
             while let [.., a, b] = &ring[first..]
-                && cross(&minus(b, a), &minus(p, a)).sign() != Sign::Plus
+                && cross(&minus(b, a), &minus(p, a)) <= T::default()
             {
                 ring.pop();
             }
@@ -50,18 +73,34 @@ pub fn hull(mut points: Vec<Exact>) -> Vec<Exact> {
 }
 
 /// Whether the origin is nearer than `distance` to the segment from `p` to `q`.
-fn is_near(p: &Exact, q: &Exact, distance: &BigInt) -> bool {
-    let (along, square) = (minus(q, p), distance * distance);
-    let at = -dot(p, &along);
+fn is_near<T: Integer>(p: &[T; 2], q: &[T; 2], distance: &T) -> bool {
+    let (along, square) = (minus(q, p), distance.times(distance));
+    let at = T::default().minus(&dot(p, &along));
     let whole = dot(&along, &along);
-    if at.sign() != Sign::Plus {
+    if at <= T::default() {
         dot(p, p) < square
     } else if at >= whole {
         dot(q, q) < square
     } else {
         let area = cross(p, q);
-        &area * &area < square * whole
+        area.times(&area) < square.times(&whole)
     }
+}
+
+/// Whether the convex hull of some points, its corners turning left, reaches beyond the origin by more than `needed` in every direction.
+fn reaches<T: Integer>(ring: &[[T; 2]], needed: &T) -> bool {
+    let zero = T::default();
+    let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
+    if *needed < zero && edges().any(|(p, q)| is_near(p, q, &zero.minus(needed))) {
+        return true;
+    }
+    // The origin is inside, and from each side farther than is needed.
+    let is_deep = |(p, q): (&[T; 2], &[T; 2])| {
+        let (area, along) = (cross(p, q), minus(q, p));
+        let is_beyond = || area.times(&area) > needed.times(needed).times(&dot(&along, &along));
+        area > zero && (*needed < zero || is_beyond())
+    };
+    ring.len() > 2 && edges().all(is_deep)
 }
 
 /// Points in the middle of a shape's, and how far one is from there at most.
@@ -80,24 +119,31 @@ fn middles(shape: &Shape) -> (Vec<Exact>, BigInt) {
 ///
 /// With `M` the convex hull of all differences of a point of `b` and one of `a`, and `r` the sum of the radii, that means: in
 /// every direction `M` reaches beyond the origin by more than `depth - r`. For exact points in the middle of the enclosures
-/// that is decided without rounding, with `error`, the farthest that a difference is from there, added to what is asked for.
+/// that is decided without rounding, with `error`, the farthest that a difference is from there, added to what is asked for. Most
+/// of it is decided by the first digits.
 pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     let [(a_middles, a_error), (b_middles, b_error)] = [a, b].map(middles);
-    let differences = b_middles.iter().flat_map(|p| a_middles.iter().map(|q| minus(p, q))).collect();
     let error = a_error + b_error;
     let needed = depth - &a.radius.lower - &b.radius.lower + error;
-    let ring = hull(differences);
-    let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
-    if needed.sign() == Sign::Minus && edges().any(|(p, q)| is_near(p, q, &-&needed)) {
+    let all = || a_middles.iter().chain(&b_middles).flatten();
+    let shift = all().chain([&needed]).map(BigInt::bits).max().unwrap_or(0).saturating_sub(FIRST_BITS);
+    let first = |n: &BigInt| i128::try_from(n >> shift).expect("of few bits");
+    let [a_first, b_first] =
+        [&a_middles, &b_middles].map(|points| points.iter().map(|p| p.each_ref().map(first)).collect::<Vec<_>>());
+    let (ring, about) = (hull(differences(&b_first, &a_first)), first(&needed));
+    // Either coordinate of a difference is off by less than one.
+    if reaches(&ring, &(about + 3)) {
         return true;
     }
-    // The origin is inside, and from each side farther than is needed.
-    let is_deep = |(p, q): (&Exact, &Exact)| {
-        let (area, along) = (cross(p, q), minus(q, p));
-        let is_inside = area.sign() == Sign::Plus;
-        is_inside && (needed.sign() == Sign::Minus || &area * &area > &needed * &needed * dot(&along, &along))
-    };
-    ring.len() > 2 && edges().all(is_deep)
+    reaches(&ring, &(about - 2)) && reaches(&hull(differences(&b_middles, &a_middles)), &needed)
+}
+
+/// So many first digits leave squares of products in 128 bits.
+const FIRST_BITS: u64 = 28;
+
+/// All differences of two points.
+fn differences<T: Integer>(from: &[[T; 2]], to: &[[T; 2]]) -> Vec<[T; 2]> {
+    from.iter().flat_map(|p| to.iter().map(move |q| minus(p, q))).collect()
 }
 
 #[cfg(test)]
