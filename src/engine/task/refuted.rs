@@ -41,7 +41,7 @@ const MOST_STATES: usize = 64;
 /// Grasps that are nearer to the origin of what is grasped, metres, are there: rounding.
 const AT_THE_TIP: f64 = 1e-12;
 
-/// Pairs of a group in free order of which it is looked whether one cannot be picked from wherever the others end.
+/// Groups in free order of more pairs are not looked at in all orders, nor from wherever others end.
 const MOST_PAIRS: usize = 8;
 
 /// What rules out all ways to do the steps up to the one of a number; none where that is not known, or not of the kind that the checker
@@ -139,6 +139,9 @@ impl Walk<'_> {
                     if let Some(mut cases) = whichever {
                         self.cases.append(&mut cases);
                         return Some(Vec::new());
+                    }
+                    if pairs.len() > MOST_PAIRS {
+                        return None;
                     }
                     for _ in pairs.iter().flatten() {
                         states = self.step(&states, is_new)?;
