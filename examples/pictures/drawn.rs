@@ -14,7 +14,7 @@ pub enum Subject {
 }
 
 /// All, with the names of their files.
-pub const PICTURES: [(&str, Subject); 13] = [
+pub const PICTURES: [(&str, Subject); 14] = [
     ("shortest", Subject::Answer("planar_2r", "workbench", Method::Shortest)),
     ("visibility", Subject::Answer("planar_2r", "workbench", Method::Visibility)),
     ("trapezoid", Subject::Answer("planar_2r", "workbench", Method::Trapezoid)),
@@ -26,6 +26,7 @@ pub const PICTURES: [(&str, Subject); 13] = [
     ("scara_cell", Subject::Answer("scara", "scara_cell", Method::Shortest)),
     ("upright", Subject::Answer("rrbot_vertical", "upright", Method::Shortest)),
     ("crossing", Subject::Answer("planar_2r", "moving/crossing", Method::Shortest)),
+    ("belt", Subject::Answer("planar_2r", "moving/belt_pick", Method::Shortest)),
     ("tower", Subject::Task("rrbot_vertical", "tower")),
     ("board_and_gate", Subject::Task("gantry", "board_and_gate")),
 ];

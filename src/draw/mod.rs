@@ -47,7 +47,7 @@ mod workspace;
 pub use exploration::exploration_page;
 pub use obstacles::{extent, obstacles, still_page};
 pub use stuck::Stuck;
-pub use view::{AxesFrame, Picture, TaskPicture, View, drawing, page, shell};
+pub use view::{AxesFrame, Moments, Picture, TaskPicture, View, drawing, page, shell};
 
 /// Why there is no picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

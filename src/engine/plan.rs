@@ -227,10 +227,11 @@ impl Plan {
         self.motion().map(|plan| Replay::new(&plan.problem, &self.options, &plan.answer))
     }
 
-    /// How the planner came to the motions of a task, which are planned again for this.
+    /// How the planner came to the motions of a task, which are planned again for this; none among what moves, where ways are tried in time.
     #[must_use]
     pub fn task_replay(&self) -> Option<TaskReplay> {
-        self.task().map(|plan| TaskReplay::new(&plan.task, &self.options, &plan.answer))
+        let standing = self.task().filter(|plan| !plan.task.has_movers());
+        standing.map(|plan| TaskReplay::new(&plan.task, &self.options, &plan.answer))
     }
 
     /// Steps and their motions, of a task.

@@ -1,4 +1,4 @@
-//! `motion` of the world file's `[[obstacle]]`: how it moves while the arm does.
+//! `motion` of the world file's `[[obstacle]]` and `[[object]]`: how it moves while the arm does.
 
 use super::error::Diagnostic;
 use super::quantity::Written;

@@ -1,7 +1,7 @@
 //! Steps as a world file has them: in groups within groups, with objects and supports found.
 
 use super::object::Supports;
-use crate::geometry::Point;
+use crate::geometry::{Interval, Point};
 use crate::model::Goal;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -48,9 +48,17 @@ pub(super) struct Leaf {
 
 /// What a step does, as it is written.
 pub(super) enum LeafAction {
-    Pick { object: usize, grasp: Point, supports: Supports },
+    Pick { object: usize, grasp: Point, supports: Supports, when: Option<When> },
     Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports> },
     Move(Goal),
+}
+
+/// When what moves may be picked.
+pub(super) struct When {
+    /// Times, in order; at least one.
+    pub times: Vec<Interval>,
+    /// Where that is said.
+    pub at: Range<usize>,
 }
 
 impl Node {

@@ -1,5 +1,6 @@
 //! The world file's `[[object]]`.
 
+use super::course::CourseTable;
 use super::error::{Diagnostic, quoted};
 use super::obstacle::{CircleTable, circle};
 use super::pallet::Pallets;
@@ -8,7 +9,7 @@ use super::quantity::Written;
 use super::schema::{AngleOrLength, HeldAs, NotNegative, Rings, Two};
 use super::world::{Number, Numbers, Reader};
 use crate::geometry::{Point, Pose};
-use crate::model::{Holding, Object, Obstacle};
+use crate::model::{Course, Holding, Object, Obstacle};
 use nalgebra::{Isometry2, Translation2};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -63,6 +64,9 @@ pub(super) struct ObjectTable {
     /// Whether each repetition of the steps that pick it finds a new one where it lay at first.
     #[serde(default)]
     renew: bool,
+    /// How it moves from `at` on, until it is picked; by default it lies still.
+    #[schemars(with = "Option<CourseTable>")]
+    motion: Option<Spanned<CourseTable>>,
 }
 
 /// Names, with the place of each.
@@ -308,6 +312,9 @@ fn movable(
     if supports.numbers.contains(&names.as_obstacle(index)) {
         return Err(rests_on_itself(reader, &name, &supports));
     }
+    let course = given.motion.as_ref().map(|motion| course(reader, given, motion, &at, &what)).transpose()?;
+    // What is said of its first place is said by the course.
+    let at = course.as_ref().map_or(at, |course| course.pose(0.0));
     let object = Object {
         name,
         shape,
@@ -317,8 +324,29 @@ fn movable(
         holding: given.payload.as_ref().map(|p| holding(reader, p)).transpose()?.unwrap_or(default),
         at,
         mass: mass.unwrap_or(0.0),
+        course,
     };
     Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::origin), supports, is_renewed: given.renew })
+}
+
+/// How an object moves that lies here where its motion says nothing else.
+fn course(
+    reader: &Reader,
+    given: &ObjectTable,
+    motion: &Spanned<CourseTable>,
+    at: &Pose,
+    what: &str,
+) -> Result<Course, Diagnostic> {
+    let refuse = |message: &str, help: &str| {
+        Err(reader.source.diagnostic_at(motion.span(), format!("{what}, motion: {message}")).help(help))
+    };
+    if given.pallet.is_some() {
+        return refuse("what lies on a pallet does not move", "give each that moves an [[object]] with `at`");
+    }
+    if given.renew {
+        return refuse("what moves is not renewed", "give each that comes an [[object]] of its own");
+    }
+    motion.get_ref().read(reader, what, Some(at), motion.span())
 }
 
 /// The diagnostic of an object that is among its own supports.

@@ -119,12 +119,12 @@ impl LoadedScene {
     pub fn require_standing(&self, what: &str) -> Result<(), InputError> {
         let Some(mover) = self.scene.workspace().movers.first() else { return Ok(()) };
         let message = format!("{what}, and obstacle \"{}\" moves", mover.obstacle.name);
-        let help = "remove its motion; single motions are planned, verified and checked among what moves";
+        let help = "remove its motion; motions and tasks are planned, verified and checked among what moves";
         Err(self.world.source.diagnostic(message).help(help).into())
     }
 
     /// Refuses a start where something that moves is at first.
-    fn require_clear(&self, start: Configuration, place: &Place) -> Result<(), Diagnostic> {
+    pub(super) fn require_clear(&self, start: Configuration, place: &Place) -> Result<(), Diagnostic> {
         let hits = self.scene.obstructions_at(start, 0.0);
         if hits.is_empty() {
             return Ok(());

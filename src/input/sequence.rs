@@ -1,7 +1,7 @@
 //! Steps written out: repetitions one by one, and what is carried and where it lies after each of them.
 
 use super::error::Diagnostic;
-use super::group::{Body, Group, Leaf, LeafAction, Node};
+use super::group::{Body, Group, Leaf, LeafAction, Node, When};
 use super::object::{Movable, Names, Supports, rests_on_itself};
 
 use super::requirement::{Required, Requirement, Requirements};
@@ -63,12 +63,15 @@ struct Lying {
     angle: Option<f64>,
     /// The tip when it was let go of, which has been required already.
     tip: Option<Point>,
+    /// Whether it moves: then the rest is where it is at first.
+    moves: bool,
 }
 
 impl Lying {
     fn at_first(movable: &Movable) -> Self {
         let pose = &movable.object.at;
-        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()), tip: None }
+        let moves = movable.object.course.is_some();
+        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()), tip: None, moves }
     }
 
     /// Where a point of the object is, if that is known.
@@ -163,7 +166,9 @@ impl Writer<'_> {
 
     fn step(&mut self, leaf: &Leaf) -> Result<Step, Diagnostic> {
         let action = match &leaf.action {
-            LeafAction::Pick { object, grasp, supports } => self.pick(leaf, *object, *grasp, supports)?,
+            LeafAction::Pick { object, grasp, supports, when } => {
+                self.pick(leaf, *object, *grasp, supports, when.as_ref())?
+            }
             LeafAction::Place { at, angle, supports } => self.place(leaf, *at, angle.as_ref(), supports.as_ref())?,
             LeafAction::Move(goal) => {
                 let required = match *goal {
@@ -189,7 +194,14 @@ impl Writer<'_> {
         })
     }
 
-    fn pick(&mut self, leaf: &Leaf, object: usize, grasp: Point, supports: &Supports) -> Result<Action, Diagnostic> {
+    fn pick(
+        &mut self,
+        leaf: &Leaf,
+        object: usize,
+        grasp: Point,
+        supports: &Supports,
+        when: Option<&When>,
+    ) -> Result<Action, Diagnostic> {
         if let Some(carried) = self.carried {
             let message = format!(
                 "step {} picks {} while {} is carried",
@@ -202,11 +214,20 @@ impl Writer<'_> {
         }
         self.rest(leaf, object, supports)?;
         let lying = self.lying[object];
-        if let Some(tip) = lying.point(grasp).filter(|tip| lying.tip != Some(*tip)) {
+        if let Some(when) = when.filter(|_| !lying.moves) {
+            let name = self.in_words(Some(object));
+            let message = format!("step {}: {name} has been picked before, and lies where it was placed", leaf.number);
+            let diagnostic = self.reader.source.diagnostic_at(when.at.clone(), message);
+            return Err(diagnostic.help("only the first pick of what moves has `at` and `window`"));
+        }
+        if lying.moves {
+            self.lying[object].moves = false;
+        } else if let Some(tip) = lying.point(grasp).filter(|tip| lying.tip != Some(*tip)) {
             self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
         self.carried = Some(Carried { object, grasp });
-        Ok(Action::Pick { object, grasp, supports: supports.numbers.clone() })
+        let when = when.map_or_else(Vec::new, |when| when.times.clone());
+        Ok(Action::Pick { object, grasp, supports: supports.numbers.clone(), when })
     }
 
     fn place(
@@ -224,8 +245,8 @@ impl Writer<'_> {
         self.rest(leaf, object, supports)?;
         let asked = angle.map(|(angle, place)| self.turned(leaf, object, *angle, place)).transpose()?;
         let mut lying = match self.objects[object].object.holding {
-            Holding::Rigid => Lying { at, angle: None, tip: None },
-            Holding::Level => Lying { at, angle: asked.or(self.lying[object].angle), tip: None },
+            Holding::Rigid => Lying { at, angle: None, tip: None, moves: false },
+            Holding::Level => Lying { at, angle: asked.or(self.lying[object].angle), tip: None, moves: false },
         };
         lying.tip = lying.point(grasp);
         self.lying[object] = lying;

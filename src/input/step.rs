@@ -1,7 +1,7 @@
 //! The world file's `[[step]]` and `[task]`: which steps there are, and in which groups.
 
 use super::error::Diagnostic;
-use super::group::{Body, Group, Leaf, LeafAction, Node};
+use super::group::{Body, Group, Leaf, LeafAction, Node, When};
 use super::object::{Movable, NameList, Names};
 use super::pallet::Pallets;
 use super::quantity::Written;
@@ -10,6 +10,7 @@ use super::source::Cursor;
 use super::table::Table;
 use super::world::{GoalTable, Number, Numbers, Reader};
 use crate::geometry::Pose;
+use crate::model::{LATEST, Object};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -24,7 +25,9 @@ use toml::Spanned;
         { "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["transfer"] },
         { "required": ["steps"] }
     ],
-    "dependencies" = { "grasp": ["pick"], "supports": ["pick"], "repeat": ["steps"], "order": ["steps"] },
+    "dependencies" = {
+        "grasp": ["pick"], "supports": ["pick"], "at": ["pick"], "window": ["pick"], "repeat": ["steps"], "order": ["steps"]
+    },
 ))]
 pub(super) struct StepTable {
     /// Name of the object to pick.
@@ -49,6 +52,12 @@ pub(super) struct StepTable {
     /// Of a pick: obstacles and objects that the object may touch; by default the object's.
     #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
+    /// Of a pick of what moves: where its origin is when it is picked, m; by default wherever that is soonest.
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// Of a pick of what moves: the times from which and until which it may be picked, s; by default at any time.
+    #[schemars(with = "Option<Two>")]
+    window: Option<Numbers>,
     /// Of a group: how often its steps are done.
     #[schemars(with = "Option<i64>", range(min = 1))]
     repeat: Option<Spanned<i64>>,
@@ -122,6 +131,9 @@ pub(super) struct TaskTable {
 
 /// Most steps of a task, repetitions written out: some days of work.
 const MOST_STEPS: usize = 100_000;
+
+/// A place counts as passed by what comes this near to it, metres: what people write of places that are not on an axis.
+const PASSES_WITHIN: f64 = 1e-3;
 
 /// How fast steps are done where they do not say it.
 #[derive(Clone, Copy)]
@@ -294,6 +306,12 @@ impl<'a> StepReader<'a> {
         if step.pick.is_none() {
             let at = step.grasp.as_ref().map(Spanned::span);
             refuse(at, "only a pick has a `grasp`", "remove the key")?;
+            let at = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span);
+            refuse(
+                at,
+                "of all steps only a pick has `at` and `window`",
+                "remove the key; a place has its own: place = { at = [x, y] }",
+            )?;
             let at = step.supports.as_ref().map(Spanned::span);
             let help = "those of a place stand in it: place = { at = [x, y], supports = [\"NAME\"] }";
             refuse(at, "of all steps only a pick has `supports`", help)?;
@@ -315,7 +333,51 @@ impl<'a> StepReader<'a> {
             object,
             grasp: grasp.unwrap_or(default.grasp),
             supports: supports.unwrap_or_else(|| default.supports.clone()),
+            when: self.when(step, &default.object)?,
         })
+    }
+
+    /// When what moves may be picked; none where nothing is said of that.
+    fn when(&self, step: &StepTable, object: &Object) -> Result<Option<When>, Diagnostic> {
+        let Some(said) = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span) else { return Ok(None) };
+        let name = &object.name;
+        let refuse = |at: Range<usize>, message: String, help: &str| {
+            Err(self.reader.source.diagnostic_at(at, message).help(help))
+        };
+        let Some(course) = &object.course else {
+            let message = format!("object \"{name}\" does not move: it is picked where it lies, at any time");
+            return refuse(said, message, "remove `at` and `window`, or give the object a motion");
+        };
+        let mut times = vec![[0.0, LATEST]];
+        if let Some(at) = &step.at {
+            times = course.passes(self.reader.point(at, "pick, at")?, PASSES_WITHIN);
+            times.iter_mut().flatten().for_each(|time| *time = time.min(LATEST));
+            if times.is_empty() {
+                let message = format!("object \"{name}\" never passes there");
+                return refuse(at.span(), message, "name a point that its origin passes within a millimetre");
+            }
+        }
+        if let Some(window) = &step.window {
+            let [from, to] = self.reader.two(window, "window")?;
+            if !(0.0 <= from && from <= to) {
+                let message = format!("window [{from}, {to}] is none");
+                return refuse(
+                    window.span(),
+                    message,
+                    "seconds since the task begins, from 0 on, the earlier one first",
+                );
+            }
+            let passed = times.clone();
+            times.iter_mut().for_each(|[begins, ends]| (*begins, *ends) = (begins.max(from), ends.min(to)));
+            times.retain(|[begins, ends]| begins <= ends);
+            if times.is_empty() {
+                let passes: Vec<String> = passed.iter().map(|[time, _]| format!("{time:.3} s")).collect();
+                let message =
+                    format!("object \"{name}\" is at that place at {}, outside the window", passes.join(", "));
+                return refuse(window.span(), message, "choose another window, or another place");
+            }
+        }
+        Ok(Some(When { times, at: said }))
     }
 
     /// A place, and what in the file says where; `at` is the step.
@@ -358,7 +420,7 @@ impl<'a> StepReader<'a> {
         let supports = transfer.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
         let pair = |(object, (_, pose)): (usize, (String, Pose))| {
             let Movable { grasp, supports: resting, .. } = &self.objects[object];
-            let pick = LeafAction::Pick { object, grasp: *grasp, supports: resting.clone() };
+            let pick = LeafAction::Pick { object, grasp: *grasp, supports: resting.clone(), when: None };
             let at = pose.translation.vector.into();
             let place = LeafAction::Place { at, angle: angle.clone(), supports: supports.clone() };
             [(objects.span(), pick), (to.span(), place)]

@@ -55,12 +55,12 @@ impl LoadedScene {
         if overrides.goal.is_some() || overrides.goal_tip.is_some() {
             return Err(self.has_no_goal(overrides).into());
         }
-        self.require_standing("steps are planned among what stands")?;
         let loaded = self.keeping(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;
         if is_checked {
-            loaded.require("the start", start, &place).map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
+            let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
+            is_free.map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
         }
         let requirements = loaded.world.steps.iter().flat_map(|steps| &steps.requirements);
         InputError::check(requirements.filter_map(|r| loaded.unfulfilled(r, start)).collect())?;
@@ -74,6 +74,10 @@ impl LoadedScene {
         let (wrist, note) = world.wrist.unzip();
         notes.extend(note.flatten());
         let task = Task { arm: scene.arm().clone(), workspace, objects: world.objects, start, items, wrist, stroke };
+        if let Some((mover, why)) = task.unmoved() {
+            let help = "remove its motion, or what does not go with it";
+            return Err(world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
+        }
         Ok(LoadedTask { task, scene, robot, notes })
     }
 

@@ -81,10 +81,12 @@ impl World {
         }
     }
 
-    /// The workspace with every object where it lies at first, after the obstacles that stay where they are.
+    /// The workspace with every object where it lies at first, after the obstacles that stay where they are, or on its course.
     pub(super) fn at_first(&self) -> Workspace {
         let mut workspace = self.workspace.clone();
-        workspace.obstacles.extend(self.objects.iter().map(|object| object.lying(Some(&object.at))));
+        let lying = |object: &Object| object.lying(object.standing_at_first().as_ref());
+        workspace.obstacles.extend(self.objects.iter().map(lying));
+        workspace.movers.extend(self.objects.iter().filter_map(Object::moving));
         workspace
     }
 }

@@ -1,7 +1,7 @@
 //! Obstacles that move while the arm does.
 
 use super::Obstacle;
-use crate::geometry::{Convex, Point, Pose, Vector, perpendicular};
+use crate::geometry::{Convex, Interval, Point, Pose, Vector, merge_in_place, perpendicular};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -224,6 +224,47 @@ impl Course {
         Drift { middle, velocity: Vector::zeros(), turn: 0.0, half, any }
     }
 
+    /// Whether it ever turns.
+    #[must_use]
+    pub fn turns(&self) -> bool {
+        self.legs.iter().any(|leg| leg.turn != 0.0)
+    }
+
+    /// The same on a clock that begins at a time from 0 on.
+    #[must_use]
+    pub fn since(&self, time: f64) -> Self {
+        let here = self.pose(time);
+        let later = self.stops.iter().filter(|stop| stop.time > time);
+        let mut stops: Vec<Stop> = later.map(|stop| Stop { time: stop.time - time, ..*stop }).collect();
+        if time >= self.stops[0].time {
+            // Whole turns count, which poses know nothing of.
+            let leg = self.leg(time);
+            let angle = leg.start.angle + leg.turn * (time - leg.from);
+            stops.insert(0, Stop { time: 0.0, at: here.translation.vector.into(), angle });
+        }
+        let legs = legs(&stops, self.velocity);
+        Self { stops, velocity: self.velocity, legs }
+    }
+
+    /// The times at which the frame's origin is at a point, or no farther from there than this and at its nearest, metres: in order.
+    #[must_use]
+    pub fn passes(&self, at: Point, within: f64) -> Vec<Interval> {
+        let of = |leg: &Leg| {
+            let (way, speed2) = (at - leg.start.at, leg.velocity.norm_squared());
+            let times = if speed2 > 0.0 {
+                let nearest = (leg.from + leg.velocity.dot(&way) / speed2).clamp(leg.from, leg.to);
+                [nearest; 2]
+            } else {
+                [leg.from, leg.to]
+            };
+            let off = (at - (leg.start.at + leg.velocity * (times[0] - leg.from))).norm();
+            (off <= within).then_some(times)
+        };
+        let mut times = self.legs.iter().filter_map(of).collect();
+        merge_in_place(&mut times);
+        times
+    }
+
     fn leg(&self, time: f64) -> &Leg {
         let next = self.legs.partition_point(|leg| leg.from <= time);
         &self.legs[next.saturating_sub(1)]
@@ -293,6 +334,39 @@ mod tests {
         let leaves = Course::new(stops, Vector::new(0.5, 0.0)).unwrap();
         assert_eq!(place(&leaves, 5.0), [2.0, 2.0, 1.0]);
         assert_eq!(place(&Course::conveyor([1.0, 0.0], [0.0, -0.25]).unwrap(), 4.0), [1.0, -1.0, 0.0]);
+    }
+
+    #[test]
+    fn a_course_from_a_later_time_on() {
+        let stops = vec![stop(1.0, 0.0, 0.0, 0.0), stop(3.0, 1.0, 2.0, 7.0)];
+        let course = Course::new(stops, Vector::new(0.5, 0.0)).unwrap();
+        for time in [0.0, 0.5, 1.0, 1.7, 3.0, 4.5] {
+            let later = course.since(time);
+            for since in [0.0, 0.3, 0.5, 1.0, 2.5, 9.0] {
+                let (a, b) = (course.pose(time + since), later.pose(since));
+                assert!((a.translation.vector - b.translation.vector).norm() < 1e-12, "{since} s after {time} s");
+                assert!((a.rotation.angle() - b.rotation.angle()).abs() < 1e-12, "{since} s after {time} s");
+            }
+        }
+    }
+
+    #[test]
+    fn when_a_course_passes_a_point() {
+        let belt = Course::conveyor([1.0, -1.0], [0.0, 0.25]).unwrap();
+        assert_eq!(belt.passes(Point::new(1.0, 0.0), 1e-3), [[4.0, 4.0]]);
+        assert!(
+            belt.passes(Point::new(1.0, -1.1), 1e-3).is_empty() && belt.passes(Point::new(1.1, 0.0), 1e-3).is_empty()
+        );
+        let stops = vec![
+            stop(1.0, 0.0, 0.0, 0.0),
+            stop(2.0, 1.0, 0.0, 0.0),
+            stop(3.0, 1.0, 0.0, 0.0),
+            stop(4.0, 0.0, 0.0, 0.0),
+        ];
+        let there_and_back = Course::new(stops, Vector::zeros()).unwrap();
+        assert_eq!(there_and_back.passes(Point::new(1.0, 0.0), 1e-3), [[2.0, 3.0]]);
+        assert_eq!(there_and_back.passes(Point::new(0.5, 0.0), 1e-3), [[1.5, 1.5], [3.5, 3.5]]);
+        assert_eq!(there_and_back.passes(Point::origin(), 1e-3), [[0.0, 1.0], [4.0, f64::INFINITY]]);
     }
 
     #[test]

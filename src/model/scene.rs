@@ -52,7 +52,7 @@ pub struct Scene {
     pairs: Vec<Pair>,
     /// The same with what moves.
     moving: Vec<Pair>,
-    /// Of each obstacle, what a level payload makes of its pieces, and of supports what is met of them.
+    /// Of each obstacle, and of each mover after them, what a level payload makes of its pieces, and of supports what is met of them.
     differences: Vec<Vec<Convex>>,
 }
 
@@ -93,7 +93,7 @@ impl Scene {
     }
 
     /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `allowed_contacts` obstacles, which it has
-    /// just let go of or is about to take. A payload presses into its supports by no more than [`Payload::penetration_allowance`], its corners
+    /// just let go of or is about to take; what moves has the numbers after those of the obstacles. A payload presses into its supports by no more than [`Payload::penetration_allowance`], its corners
     /// included. No clearance is kept there: in every distance a support is farther away by it than it is.
     ///
     /// # Errors
@@ -134,25 +134,26 @@ impl Scene {
     ) -> Self {
         debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
         let own_parts = arm.links[1].parts.len();
-        let mut differences = vec![Vec::new(); workspace.obstacles.len()];
+        let mut differences = vec![Vec::new(); workspace.obstacles.len() + workspace.movers.len()];
         let carried = payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &mut differences));
         arm.links[1].parts.extend(carried.iter().map(|(part, _)| part.clone()));
-        let mut pairs = Vec::new();
+        let (mut pairs, mut moving) = (Vec::new(), Vec::new());
+        let standing = workspace.obstacles.len();
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
                 let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
                 let as_high = |(_, o): &(usize, &Obstacle)| meet.holds(p.heights, o.heights);
-                for (obstacle, o) in workspace.obstacles.iter().enumerate().filter(as_high) {
+                for (obstacle, o) in workspace.all().enumerate().filter(as_high) {
                     let pieces = match meetable {
                         Some(meetable) => meetable[obstacle].clone(),
                         None if link == 1 && allowed_contacts.contains(&obstacle) => 0..0,
                         None => 0..o.pieces.len(),
                     };
-                    pairs.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }));
+                    let among = if obstacle < standing { &mut pairs } else { &mut moving };
+                    among.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }));
                 }
             }
         }
-        let moving = moving_pairs(&arm, &workspace, meet);
         let allowed_contacts = allowed_contacts.to_vec();
         Self { arm, workspace, payload, allowed_contacts, own_parts, meet, pairs, moving, differences }
     }
@@ -162,8 +163,7 @@ impl Scene {
     #[must_use]
     pub(crate) fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
-        let obstacles = || self.workspace.obstacles.iter().chain(self.workspace.movers.iter().map(|m| &m.obstacle));
-        let heights = || parts().flat_map(|part| obstacles().map(|obstacle| (part.heights, obstacle.heights)));
+        let heights = || parts().flat_map(|part| self.workspace.all().map(|obstacle| (part.heights, obstacle.heights)));
         let is_exact = self.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
         if is_exact && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
@@ -217,6 +217,26 @@ impl Scene {
         let (arm, mut workspace) = scene.into_parts();
         workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| mover.at(time)));
         Self::assembled(arm, workspace, payload, &allowed_contacts, self.meet)
+    }
+
+    /// The same scene on a clock that begins at this time.
+    #[must_use]
+    pub fn since(mut self, time: f64) -> Self {
+        self.workspace.movers.iter_mut().for_each(|mover| mover.course = mover.course.since(time));
+        self
+    }
+
+    /// The same scene with one obstacle more, which stands.
+    #[must_use]
+    pub(crate) fn with_standing(&self, obstacle: Obstacle) -> Self {
+        let standing = self.workspace.obstacles.len();
+        // What moves has the numbers after those of what stands.
+        let contacts: Vec<usize> =
+            self.allowed_contacts.iter().map(|&number| number + usize::from(number >= standing)).collect();
+        let payload = self.payload.clone();
+        let (arm, mut workspace) = self.clone().into_parts();
+        workspace.obstacles.push(obstacle);
+        Self::assembled(arm, workspace, payload, &contacts, self.meet)
     }
 
     /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
@@ -296,11 +316,15 @@ impl Scene {
     /// The obstacle piece of a pair, or what is made of it for a payload, in plane coordinates; of what moves, in its own frame.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
-        if let Some(mover) = self.mover(pair) {
-            return &mover.obstacle.pieces[pair.piece];
-        }
-        let own = &self.workspace.obstacles[pair.obstacle].pieces;
+        let standing = || &self.workspace.obstacles[pair.obstacle];
+        let own = &self.mover(pair).map_or_else(standing, |mover| &mover.obstacle).pieces;
         own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
+    }
+
+    /// All pieces of something that moves, in its own frame, as [`Pair::piece`] counts them.
+    pub(crate) fn pieces_of_mover(&self, mover: usize) -> impl Iterator<Item = &Convex> {
+        let made = &self.differences[self.workspace.obstacles.len() + mover];
+        self.workspace.movers[mover].obstacle.pieces.iter().chain(made)
     }
 
     /// Signed distance of every pair at `q`, in the order of [`Scene::pairs`].
@@ -372,22 +396,7 @@ impl Scene {
     }
 }
 
-/// The parts of an arm and what moves that is as high.
-fn moving_pairs(arm: &Arm, workspace: &Workspace, meet: Meet) -> Vec<Pair> {
-    let first = workspace.obstacles.len();
-    let mut pairs = Vec::new();
-    for (link, l) in arm.links.iter().enumerate() {
-        for (part, p) in l.parts.iter().enumerate() {
-            for (mover, Mover { obstacle, .. }) in workspace.movers.iter().enumerate() {
-                let pieces = if meet.holds(p.heights, obstacle.heights) { 0..obstacle.pieces.len() } else { 0..0 };
-                pairs.extend(pieces.map(|piece| Pair { link, part, obstacle: first + mover, piece }));
-            }
-        }
-    }
-    pairs
-}
-
-/// Which pieces of each obstacle something can meet.
+/// Which pieces of each obstacle, and of each mover after them, something can meet.
 type Meetable = Vec<Range<usize>>;
 
 impl Payload {
@@ -404,7 +413,7 @@ impl Payload {
                 }
             };
             let mut meetable = Vec::new();
-            for (number, obstacle) in workspace.obstacles.iter().enumerate() {
+            for (number, obstacle) in workspace.all().enumerate() {
                 let own = obstacle.pieces.len();
                 let meets = self.meets(kind, number);
                 let nearer = kind.nearer(workspace.clearance);
@@ -412,6 +421,11 @@ impl Payload {
                     meetable.push(0..if meets { own } else { 0 });
                     continue;
                 }
+                // What moves has its pieces in its own frame, which does not turn where something level is carried.
+                let mover = number.checked_sub(workspace.obstacles.len()).map(|mover| &workspace.movers[mover]);
+                let turned = mover.map(|mover| Isometry2::rotation(-mover.course.stops()[0].angle));
+                let seen = |level: &Convex| turned.map_or_else(|| level.clone(), |turned| level.at(&turned));
+                let level = level.as_ref().map(seen);
                 let made = &mut differences[number];
                 let first = own + made.len();
                 made.extend(obstacle.pieces.iter().map(|piece| match &level {

@@ -108,6 +108,14 @@ pub enum SceneError {
         /// How many there are.
         count: usize,
     },
+    /// What is carried keeps its orientation, and something moves that turns.
+    #[error("payload \"{object}\" is held level, and \"{mover}\" turns")]
+    TurnsAboutLevel {
+        /// The object's name in the world.
+        object: String,
+        /// The name of what turns.
+        mover: String,
+    },
 }
 
 /// The first defect of what is to make a scene. `O(n)` in parts, obstacles and preferences; shapes are valid by their type.
@@ -132,12 +140,20 @@ pub(super) fn check(
             return Err(SceneError::Grip { object: payload.object.clone() });
         }
     }
+    let level = payload.filter(|payload| matches!(payload.grip, Grip::Level { .. }));
+    if let Some((payload, mover)) = level.zip(workspace.movers.iter().find(|mover| mover.course.turns())) {
+        let (object, mover) = (payload.object.clone(), mover.obstacle.name.clone());
+        return Err(SceneError::TurnsAboutLevel { object, mover });
+    }
     let count = workspace.obstacles.len();
     let supports = payload.map_or(&[][..], |payload| &payload.supports);
-    match allowed_contacts.iter().chain(supports).find(|&&number| number >= count) {
-        Some(&number) => Err(SceneError::NoObstacle { number, count }),
-        None => Ok(()),
-    }
+    let all = count + workspace.movers.len();
+    let unknown = |numbers: &[usize], count: usize| {
+        let number = numbers.iter().copied().find(|&number| number >= count);
+        number.map_or(Ok(()), |number| Err(SceneError::NoObstacle { number, count }))
+    };
+    unknown(allowed_contacts, all)?;
+    unknown(supports, count)
 }
 
 fn check_arm(arm: &Arm) -> Result<(), SceneError> {

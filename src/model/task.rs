@@ -1,7 +1,7 @@
 //! A sequence of things to do.
 
-use super::{Arm, Goal, Grip, Heights, Obstacle, Payload, Shape, Stroke, Workspace};
-use crate::geometry::{Convex, Point, Pose};
+use super::{Arm, Course, Goal, Grip, Heights, Mover, Obstacle, Payload, Shape, Stroke, Workspace};
+use crate::geometry::{Convex, Interval, Point, Pose};
 use crate::space::Configuration;
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +33,9 @@ pub struct Object {
     pub holding: Holding,
     /// Where it lies at first.
     pub at: Pose,
+    /// How it moves from there until it is picked, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub course: Option<Course>,
     /// Kilograms.
     #[serde(default)]
     pub mass: f64,
@@ -59,6 +62,9 @@ pub enum Action {
         grasp: Point,
         /// What the object rests on, so that it may touch it: obstacles by their number in [`Task::obstacles`].
         supports: Vec<usize>,
+        /// Of what moves, the times at which it may be picked, seconds: in order; none if any will do.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        when: Vec<Interval>,
     },
     /// The carried object's origin goes to a point, where the object is let go.
     Place {
@@ -150,6 +156,33 @@ impl Task {
         workspace
     }
 
+    /// The same with what moves: these objects, on their courses, follow the workspace's own movers.
+    #[must_use]
+    pub fn surroundings(&self, poses: &[Option<Pose>], moving: &[usize]) -> Workspace {
+        let mut workspace = self.obstacles(poses);
+        workspace.movers.extend(moving.iter().filter_map(|&object| self.objects[object].moving()));
+        workspace
+    }
+
+    /// The number under which object `object` counts as an obstacle while these objects move.
+    #[must_use]
+    pub fn number_among(&self, moving: &[usize], object: usize) -> usize {
+        let standing = self.obstacle_number(self.objects.len()) + self.workspace.movers.len();
+        let place = moving.iter().position(|&other| other == object);
+        place.map_or_else(|| self.obstacle_number(object), |place| standing + place)
+    }
+
+    /// The objects that move at first, in order.
+    pub fn moving_at_first(&self) -> impl Iterator<Item = usize> {
+        self.objects.iter().enumerate().filter(|(_, object)| object.course.is_some()).map(|(number, _)| number)
+    }
+
+    /// Whether anything moves but the arm and what it carries.
+    #[must_use]
+    pub fn has_movers(&self) -> bool {
+        !self.workspace.movers.is_empty() || self.moving_at_first().next().is_some()
+    }
+
     /// Holds the shapes of obstacles and objects to what is judged: for what is read as data.
     pub(crate) fn hold_shapes(&mut self) {
         self.workspace.hold_shapes();
@@ -175,6 +208,22 @@ impl Object {
             None => (Shape::Pieces, Vec::new()),
         };
         Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
+    }
+
+    /// Where it lies at first; none if it moves.
+    #[must_use]
+    pub fn standing_at_first(&self) -> Option<Pose> {
+        self.course.is_none().then_some(self.at)
+    }
+
+    /// The object on its course, if it has one.
+    #[must_use]
+    pub fn moving(&self) -> Option<Mover> {
+        let obstacle = || {
+            let (shape, pieces) = (self.shape.clone(), self.pieces.clone());
+            Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
+        };
+        self.course.clone().map(|course| Mover { obstacle: obstacle(), course })
     }
 
     /// The object as a payload that may touch `supports`.

@@ -2,7 +2,8 @@
 
 use super::scene_error::{LARGEST, are_small, is_pose, is_small};
 use super::{
-    Action, Goal, Holding, Item, MotionProblem, MotionProblemError, Object, Scene, SceneError, Step, Stroke, Task,
+    Action, Goal, Holding, Item, LATEST, MotionProblem, MotionProblemError, Object, Scene, SceneError, Step, Stroke,
+    Task,
 };
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -49,14 +50,16 @@ pub enum TaskError {
     /// A group without steps.
     #[error("a group of steps in any order has no steps")]
     EmptyGroup,
-    /// An obstacle moves: tasks are planned among what stands.
-    #[error("obstacle \"{obstacle}\" moves, and tasks are planned among what stands")]
+    /// Something moves, and what is asked for is done among what stands alone.
+    #[error("\"{mover}\" moves, and {why}")]
     Moves {
-        /// The obstacle's name.
-        obstacle: String,
+        /// The name of an obstacle or object that does.
+        mover: String,
+        /// What is asked for.
+        why: &'static str,
     },
     /// Objects begin anew that cannot.
-    #[error("an object is renewed that does not exist, or is carried then")]
+    #[error("an object is renewed that does not exist, or moves, or is carried then")]
     Renewed,
 }
 
@@ -68,13 +71,14 @@ impl Task {
     /// The first thing that makes it no task: numbers that make no sense, a start that is not free, picks of what is not there,
     /// places of nothing, and the like; see [`TaskError`].
     pub fn check(&self) -> Result<Scene, TaskError> {
-        let at_first: Vec<_> = self.objects.iter().map(|object| Some(object.at)).collect();
+        let at_first: Vec<_> = self.objects.iter().map(Object::standing_at_first).collect();
+        let moving: Vec<usize> = self.moving_at_first().collect();
         self.objects.iter().try_for_each(check_object)?;
-        if let Some(mover) = self.workspace.movers.first() {
-            return Err(TaskError::Moves { obstacle: mover.obstacle.name.clone() });
+        let scene = Scene::new(self.arm.clone(), self.surroundings(&at_first, &moving))?;
+        if let Some((mover, why)) = self.unmoved() {
+            return Err(TaskError::Moves { mover, why });
         }
-        let scene = Scene::new(self.arm.clone(), self.obstacles(&at_first))?;
-        let mut names: BTreeSet<&str> = self.workspace.obstacles.iter().map(|o| o.name.as_str()).collect();
+        let mut names: BTreeSet<&str> = self.workspace.all().map(|o| o.name.as_str()).collect();
         if let Some(object) = self.objects.iter().find(|object| !names.insert(&object.name)) {
             return Err(TaskError::Object { object: object.name.clone(), why: "something else has this name" });
         }
@@ -82,10 +86,34 @@ impl Task {
         if self.steps().next().is_none() {
             return Err(TaskError::NoSteps);
         }
-        let mut state =
-            Gripper { task: self, carried: None, turned: self.objects.iter().map(angle_at_first).collect() };
+        let mut state = Gripper {
+            task: self,
+            carried: None,
+            picked: BTreeSet::new(),
+            turned: self.objects.iter().map(angle_at_first).collect(),
+        };
         self.items.iter().try_for_each(|item| state.item(item))?;
-        Ok(MotionProblem::new(scene, self.start, self.start)?.into_scene())
+        let first = scene.frozen(0.0);
+        Ok(MotionProblem::new(first, self.start, self.start).map(|_| scene)?)
+    }
+
+    /// What of the task is done among what stands alone, where something moves, and the name of what does.
+    #[must_use]
+    pub(crate) fn unmoved(&self) -> Option<(String, &'static str)> {
+        let own = self.objects.iter().filter_map(|object| Some((&object.name, object.course.as_ref()?)));
+        let movers = self.workspace.movers.iter().map(|mover| (&mover.obstacle.name, &mover.course));
+        let courses: Vec<_> = movers.chain(own).collect();
+        let (first, _) = courses.first()?;
+        let turns = |step: &Step| matches!(step.action, Action::Place { angle: Some(_), .. });
+        if self.stroke.is_some() {
+            return Some(((*first).clone(), "the tool is lowered and raised among what stands"));
+        }
+        if self.wrist.is_some() && self.steps().any(turns) {
+            return Some(((*first).clone(), "a wrist turns objects among what stands"));
+        }
+        let (turning, _) = courses.iter().find(|(_, course)| course.turns())?;
+        let is_level = self.objects.iter().any(|object| object.holding == Holding::Level);
+        is_level.then(|| ((*turning).clone(), "objects are held level where nothing that moves turns"))
     }
 
     fn check_tool(&self) -> Result<(), TaskError> {
@@ -136,6 +164,8 @@ fn check_object(object: &Object) -> Result<(), TaskError> {
 struct Gripper<'a> {
     task: &'a Task,
     carried: Option<usize>,
+    /// What has been picked.
+    picked: BTreeSet<usize>,
     /// The orientation of each object, radians, while it is known: that of rigid payloads is not.
     turned: Vec<f64>,
 }
@@ -160,6 +190,7 @@ impl Gripper<'_> {
             Item::Renew(objects) => {
                 for &object in objects {
                     let renewed = self.task.objects.get(object).filter(|_| self.carried != Some(object));
+                    let renewed = renewed.filter(|object| object.course.is_none());
                     self.turned[object] = angle_at_first(renewed.ok_or(TaskError::Renewed)?);
                 }
                 Ok(())
@@ -178,9 +209,15 @@ impl Gripper<'_> {
             ));
         }
         match &step.action {
-            Action::Pick { object, grasp, supports } => {
+            Action::Pick { object, grasp, supports, when } => {
                 if *object >= self.task.objects.len() || self.carried.is_some() {
                     return Err(wrong(step, "it picks what does not exist, or while something is carried"));
+                }
+                let is_first = self.task.objects[*object].course.is_some() && self.picked.insert(*object);
+                let mut ends = when.iter().flatten();
+                let is_timely = is_first && ends.clone().is_sorted() && ends.all(|end| (0.0..=LATEST).contains(end));
+                if !when.is_empty() && !is_timely {
+                    return Err(wrong(step, "only what moves is picked at times, which are in order"));
                 }
                 self.carried = Some(*object);
                 self.rest(step, *object, supports, are_small(grasp.iter().copied()))

@@ -180,6 +180,11 @@ impl Workspace {
         Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() }
     }
 
+    /// All obstacles as a scene numbers them: those that stay where they are, then those that move, in their own frames.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Obstacle> {
+        self.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
+    }
+
     /// Holds the shapes to what is judged: for what is read as data.
     pub(super) fn hold_shapes(&mut self) {
         let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);

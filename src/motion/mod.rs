@@ -101,6 +101,7 @@ pub use message::{AccelerationJump, JointMotion};
 pub(crate) use result::interpolation;
 pub use result::{Blends, Fastest, Optimum, SearchUsed};
 pub use ros::ros_yaml;
+pub(crate) use sample::after_pause;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use single::single;
 pub use tip::TipSpeed;

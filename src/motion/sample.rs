@@ -106,7 +106,7 @@ impl Trajectory {
     /// Appends a motion that begins where this one ends, after a pause of so many seconds at rest, rounded up to whole
     /// nanoseconds. Without samples it becomes that motion. Pauses below [`SHORTEST_INTERVAL`] count as none.
     pub fn then(&mut self, pause: f64, next: &Trajectory) {
-        let begin = self.time.last().map_or(0, |end| nanoseconds(*end + rest(pause)));
+        let begin = self.time.last().map_or(0, |end| nanoseconds(after_pause(*end, pause)));
         if rest(pause) == 0.0 {
             // One sample for both: the acceleration is that of the interval that begins.
             self.time.pop();
@@ -159,6 +159,11 @@ impl Trajectory {
         self.velocity.push(row(velocity));
         self.acceleration.push(row(acceleration));
     }
+}
+
+/// When a motion begins that follows one that ends at a time, after such a pause: whole nanoseconds.
+pub(crate) fn after_pause(end: f64, pause: f64) -> f64 {
+    clock::seconds(nanoseconds(end + rest(pause)))
 }
 
 /// How long a pause is.

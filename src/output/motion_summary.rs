@@ -93,7 +93,7 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
 }
 
 /// How the motion gets by what moves.
-fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
+pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
     let Timing { obstacles, ways, waits, clearance, free_until } = timing;
     let kept = clearance.map_or_else(|| "none of them can meet the arm".into(), |kept| format!("{kept:.6} m proven"));
     let stays = free_until.map_or_else(|| "for ever".into(), |until| format!("until {until:.3} s"));

@@ -1,9 +1,9 @@
 //! Pictures and pages of a plan.
 
 use crate::cspace::{CObstacle, c_obstacles};
-use crate::draw::{self, DrawError, Picture, TaskPicture, View};
+use crate::draw::{self, DrawError, Moments, Picture, TaskPicture, View};
 use crate::engine::{Kind, MotionPlan, Plan, TaskPlan, Verdict};
-use crate::model::{Scene, Status, Workspace};
+use crate::model::{Scene, Status};
 use crate::text::counted;
 use std::path::Path;
 use thiserror::Error;
@@ -166,7 +166,8 @@ impl Plan {
     fn motion_view(&self, plan: &MotionPlan, contours: &[CObstacle]) -> View {
         let (MotionPlan { problem, answer, curve, .. }, report) = (plan, self.report());
         let scene = problem.scene();
-        let moments = report.duration.map_or_else(Vec::new, |duration| contours_in_time(scene, duration));
+        let moments =
+            report.duration.map_or_else(Vec::new, |duration| contours_in_time(scene, [0.0, duration], MOST_MOMENTS));
         let outline = curve.as_ref().map(|curve| curve.outline());
         let detail = match (report.length, &answer.verdict) {
             (Some(length), _) => format!("{}: length {length:.4}, {}", answer.method, kept(report.clearance)),
@@ -212,6 +213,7 @@ impl Plan {
             task,
             answer,
             c_obstacles: contours,
+            in_time: contours_in_time,
         }
     }
 }
@@ -241,22 +243,21 @@ pub(crate) fn title_of(scene: &Scene) -> String {
 }
 
 /// Times of a motion at which C-obstacles of what moves are drawn, at the most.
-const MOST_MOMENTS: f64 = 60.0;
+const MOST_MOMENTS: usize = 60;
 
-/// C-obstacles of what moves, some times a second.
-fn contours_in_time(scene: &Scene, duration: f64) -> Vec<(f64, Vec<CObstacle>)> {
-    let (arm, workspace) = scene.clone().into_parts();
-    let movers = &workspace.movers;
-    if movers.is_empty() {
+/// C-obstacles of what moves, some times a second, so many at the most.
+fn contours_in_time(scene: &Scene, [from, to]: [f64; 2], most: usize) -> Moments {
+    if scene.workspace().movers.is_empty() {
         return Vec::new();
     }
-    let count = (duration * 20.0).ceil().clamp(1.0, MOST_MOMENTS);
+    let alone = scene.reshaped(|_| (), |_| Vec::new());
+    let standing = scene.workspace().obstacles.len();
+    let count = ((to - from) * 20.0).ceil().clamp(1.0, most.max(1) as f64);
     let moment = |k: f64| {
-        let time = duration * k / count;
-        let obstacles = movers.iter().map(|mover| mover.at(time));
-        let clearance = workspace.clearance;
-        let scene = Scene::trusted(arm.clone(), Workspace { clearance, ..Workspace::new(obstacles) });
-        (time, contours(&scene))
+        let time = from + (to - from) * k / count;
+        let mut all = contours(&alone.frozen(time));
+        all.iter_mut().for_each(|c_obstacle| c_obstacle.obstacle -= standing);
+        (time, all)
     };
     (0..=count as usize).map(|k| moment(k as f64)).collect()
 }

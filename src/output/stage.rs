@@ -1,7 +1,7 @@
 //! What a recording of a plan shows: the arm's links, obstacles and objects, and where they are when.
 
 use crate::draw::color::{GREY, INK, Rgb, obstacle as obstacle_color};
-use crate::engine::task::Event;
+use crate::engine::task::{Event, Leg};
 use crate::engine::{Kind, Plan, TaskPlan};
 use crate::geometry::Pose;
 use crate::model::{Arm, Mover, Obstacle, Part, Workspace};
@@ -42,7 +42,10 @@ impl Plan {
         }
         match self.made() {
             Kind::Motion(plan) => with_movers(&mut stage, plan.problem.scene().workspace(), &trajectory.time),
-            Kind::Task(plan) => with_objects(&mut stage, arm, plan),
+            Kind::Task(plan) => {
+                with_objects(&mut stage, arm, plan, &trajectory.time);
+                with_movers(&mut stage, &plan.task.workspace, &trajectory.time);
+            }
         }
         stage.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
         Some(stage)
@@ -59,8 +62,8 @@ fn with_movers(stage: &mut Stage, workspace: &Workspace, times: &[f64]) {
     }
 }
 
-/// Objects lie, are carried, and lie again.
-fn with_objects(stage: &mut Stage, arm: &Arm, plan: &TaskPlan) {
+/// Objects lie, or move as is told at these times, are carried, and lie again.
+fn with_objects(stage: &mut Stage, arm: &Arm, plan: &TaskPlan, times: &[f64]) {
     let TaskPlan { task, answer } = plan;
     for (number, object) in task.objects.iter().enumerate() {
         let of_all = task.obstacle_number(number);
@@ -71,6 +74,12 @@ fn with_objects(stage: &mut Stage, arm: &Arm, plan: &TaskPlan) {
         };
         stage.bodies.push(Body { name: format!("object/{}", object.name), solids: vec![solid] });
         stage.poses.push((0.0, OBJECTS + number, object.at, 0.0));
+        if let Some(course) = &object.course {
+            let grasped = |leg: &Leg| leg.event_time().filter(|_| leg.event == Some(Event::Grasp { object: number }));
+            let until = answer.legs.iter().find_map(grasped).unwrap_or(f64::INFINITY);
+            let moves = times.iter().filter(|&&time| 0.0 < time && time <= until);
+            stage.poses.extend(moves.map(|&time| (time, OBJECTS + number, course.pose(time), 0.0)));
+        }
     }
     for leg in &answer.legs {
         if let (Some(object), Some(payload)) = (leg.carried, leg.scene.payload()) {

@@ -1,5 +1,6 @@
 //! The summary of a task for people.
 
+use super::motion_summary::among_movers;
 use super::step_lines::{StepLine, step_lines};
 use super::summary::{Line, Told, configuration, field, non_empty, torque};
 use crate::engine::task::{Leg, TaskAnswer};
@@ -10,7 +11,11 @@ use crate::text::counted;
 /// What came of the steps; start and steps.
 pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
     let (TaskPlan { task, answer }, report) = (plan, whole.report());
-    let things = [counted(task.workspace.obstacles.len(), "obstacle"), counted(task.objects.len(), "object")];
+    let moving = match (task.workspace.movers.len(), task.moving_at_first().count()) {
+        (0, 0) => String::new(),
+        (obstacles, objects) => format!(", {} moving", obstacles + objects),
+    };
+    let things = [counted(task.workspace.obstacles.len(), "obstacle"), counted(task.objects.len(), "object") + &moving];
     let (motions, states) = (counted(answer.motions, "motion"), counted(answer.expanded, "state"));
     let mut asked = vec![
         ("world", format!("{}, {}", non_empty(&task.workspace.name), things.join(", "))),
@@ -19,6 +24,7 @@ pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
     asked.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
     let mut found = outcome(&task.arm, answer, report);
     found.extend(clearance(answer, report));
+    found.extend(answer.timing.iter().flat_map(|timing| among_movers(&task.arm, timing)));
     found.push(("planner", format!("{}: {motions} planned, {states} seen", report.planner)));
     found.extend(field(whole.options()));
     Told { found, asked }

@@ -87,7 +87,7 @@ impl Moving {
 }
 
 /// Comes and goes, parks, passes by, or turns.
-fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover {
+pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover {
     let size = dice.within(0.05, 0.25);
     let piece = match dice.below(3) {
         0 => disc(Point::new(dice.within(-0.1, 0.1), 0.0), size),
@@ -126,7 +126,7 @@ fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover {
 }
 
 /// Where a mover is, by its stops.
-fn at(mover: &Mover, time: f64) -> Obstacle {
+pub fn at(mover: &Mover, time: f64) -> Obstacle {
     let stops = mover.course.stops();
     let (first, last) = (stops[0], stops[stops.len() - 1]);
     let (place, angle) = if time <= first.time {

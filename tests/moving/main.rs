@@ -1,5 +1,6 @@
 //! Motions among obstacles that move, against methods of the tests' own: kinematics, distances and courses by brute force.
 
+mod belts;
 #[path = "../common/mod.rs"]
 mod common;
 mod drawn;
@@ -10,6 +11,7 @@ mod judged;
 mod oracle;
 mod refuted;
 mod shipped;
+mod tasks;
 #[path = "../planning/random_worlds/solid.rs"]
 mod solid;
 #[path = "../planning/random_worlds/world.rs"]

@@ -173,7 +173,7 @@ fn among_many(task: &Task, pairs: &[[Step; 2]]) -> Task {
         let below = Heights { lower: -10.0 - f64::from(number), upper: -9.5 - f64::from(number) };
         let lies = Isometry2::new(at.coords, 0.0);
         many.objects.push(Object { name: format!("{number}"), heights: below, at: lies, ..task.objects[0].clone() });
-        let pick = Action::Pick { object, grasp: Point::origin(), supports: Vec::new() };
+        let pick = Action::Pick { object, grasp: Point::origin(), supports: Vec::new(), when: Vec::new() };
         let place = Action::Place { at, angle: None, supports: Vec::new() };
         let [first, second] = &pairs[0];
         let step = |action, step: &Step| Step { action, number: step.number + 2 * object, ..step.clone() };

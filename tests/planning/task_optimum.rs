@@ -46,6 +46,7 @@ fn thing(name: &str, at: Point) -> Object {
         lift: 0.0,
         holding: Holding::Level,
         at: Isometry2::new(at.coords, 0.0),
+        course: None,
         mass: 0.0,
     }
 }
@@ -61,7 +62,7 @@ fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
     workspace.obstacles.iter_mut().for_each(|o| o.heights = Heights { lower: -0.5, upper: 0.5 });
     let objects = spots.iter().enumerate().map(|(i, [from, _])| thing(&format!("thing {i}"), *from)).collect();
     let pair = |(object, [_, to]): (usize, &[Point; 2])| {
-        let pick = Action::Pick { object, grasp: Point::origin(), supports: Vec::new() };
+        let pick = Action::Pick { object, grasp: Point::origin(), supports: Vec::new(), when: Vec::new() };
         [step(pick, 2 * object + 1), step(Action::Place { at: *to, angle: None, supports: Vec::new() }, 2 * object + 2)]
     };
     let pairs: Vec<[Step; 2]> = spots.iter().enumerate().map(pair).collect();

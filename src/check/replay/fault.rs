@@ -23,6 +23,12 @@ pub enum Fault {
         /// How far it is from there, metres.
         off: f64,
     },
+    /// What moves is picked at a time at which it may not be.
+    #[error("the object is picked at {time:.6} s, outside the times that are asked for")]
+    When {
+        /// When it is, seconds.
+        time: f64,
+    },
     /// The object that is placed is not where it was to go.
     #[error("the object's origin ends {off:.6} m from its target")]
     Origin {

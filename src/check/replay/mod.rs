@@ -11,7 +11,7 @@ mod state;
 pub use fault::{Departure, Fault};
 
 use super::{CollisionCheck, Excess, TurnContact, WristTurn, check_collision, limits_kept, torques_kept};
-use crate::geometry::{Point, Pose};
+use crate::geometry::{Interval, Point, Pose};
 use crate::model::{Action, Goal, RecordedStep, RecordedTurn, Scene, Step, Task};
 use crate::space::{Configuration, JointRange, Recording};
 use order::{Matched, matched};
@@ -59,7 +59,7 @@ pub struct ReplayedStep<'a> {
     pub step: &'a Step,
     /// What was recorded of it.
     pub recorded: &'a RecordedStep,
-    /// The world during the motion, and what is carried. Of a last step whose motion is free, but not how it leaves the arm, the
+    /// The world during the motion, on a clock that begins with it, and what is carried. Of a last step whose motion is free, but not how it leaves the arm, the
     /// world then.
     pub scene: Scene,
     /// The object that is picked or placed.
@@ -100,6 +100,8 @@ pub struct Replay<'a> {
 /// - each motion from rest to rest, by [`check_collision`] with the workspace's clearance, in the scene of its moment: objects where
 ///   the steps before have left them; what is carried, held as the arm was when it took it; link 2 free to meet the object
 ///   that it goes to and the one that it has just let go of; payloads free to rest on their supports. The last step's end is judged after it, too. And by [`limits_kept`];
+/// - among what moves where that is then, on the clock of the record, from its first sample on; objects that move are picked at times at which
+///   they may be, and the arm is met by nothing where it stands between motions;
 /// - at its end, that the tip is at the grasp, the object or the arm where it was to go, within a micrometre; that turns
 ///   begin at the object's orientation, take as long as the wrist needs, and are free all the way ([`super::given_turn`]);
 ///   that the arm stands still for as long as was asked for, the turn, and the stroke of the tool, which is free, too, at all
@@ -117,9 +119,13 @@ impl Replay<'_> {
     fn times(&self, index: usize, recorded: &RecordedStep) -> [f64; 3] {
         let times = self.recording.times();
         let since = |sample: usize| times.and_then(|times| Some(times.get(sample)? - times[0])).unwrap_or(0.0);
+        [since(*recorded.samples.start()), since(*recorded.samples.end()), since(self.next_begins(index))]
+    }
+
+    /// The sample with which the step after this one begins, or the last.
+    fn next_begins(&self, index: usize) -> usize {
         let last = self.recording.positions().len() - 1;
-        let end = self.recorded.get(index + 1).map_or(last, |next| *next.samples.start());
-        [since(*recorded.samples.start()), since(*recorded.samples.end()), since(end)]
+        self.recorded.get(index + 1).map_or(last, |next| *next.samples.start())
     }
 
     /// Where the record departs from the sequence of the task; none if it is the whole task.
@@ -149,7 +155,8 @@ impl<'a> Iterator for Replay<'a> {
             Action::Pick { object, .. } => Some(object),
             _ => None,
         };
-        let mut scene = self.state.scene(task, picked);
+        let times = self.times(index, recorded);
+        let mut scene = self.state.scene(task, picked).since(times[0]);
         let mut collision_check =
             shifted(check_collision(&scene, &motion, task.workspace.clearance), *recorded.samples.start());
         let mut broken = limits_kept(&task.arm.joints, &motion);
@@ -158,8 +165,12 @@ impl<'a> Iterator for Replay<'a> {
         let mut object = carried;
         let (turn, lowered);
         match &step.action {
-            Action::Pick { object: picked, grasp, .. } => {
+            Action::Pick { object: picked, grasp, when, .. } => {
                 object = Some(*picked);
+                let is_in_time = |[from, to]: &Interval| from - SHORT <= times[1] && times[1] <= to + SHORT;
+                if self.state.stop(task, *picked, times[1]) && !(when.is_empty() || when.iter().any(is_in_time)) {
+                    faults.push(Fault::When { time: times[1] });
+                }
                 // What the place that follows rests it on is declared there.
                 let following = self.matched[index + 1..].iter().find_map(|next| match &next.step.action {
                     Action::Place { supports, .. } => Some(supports.as_slice()),
@@ -185,6 +196,17 @@ impl<'a> Iterator for Replay<'a> {
             + recorded.turn.map_or(0.0, |turn| turn.seconds)
             + object.map_or(0.0, |object| stroke_seconds(task, object));
         let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
+        // Where the arm stands among what moves it may be met.
+        if task.has_movers()
+            && matches!(collision_check, CollisionCheck::Free { .. })
+            && let Some(standing) = self.recording.part(*recorded.samples.end()..=self.next_begins(index))
+        {
+            let stays = self.state.scene(task, released).since(times[1]);
+            let found = super::check_collision(&stays, &standing, task.workspace.clearance);
+            if !matches!(found, CollisionCheck::Free { .. }) {
+                (scene, collision_check) = (stays, shifted(found, *recorded.samples.end()));
+            }
+        }
         if let (Some(below), Some(standing)) = (lowered, standing()) {
             let found = super::check_collision(&below, &standing, task.workspace.clearance);
             match (&mut collision_check, found) {
@@ -202,7 +224,7 @@ impl<'a> Iterator for Replay<'a> {
             && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = standing()
         {
-            let after = self.state.scene(task, released);
+            let after = self.state.scene(task, released).since(times[1]);
             let found = super::check_collision(&after, &standing, task.workspace.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
                 (scene, collision_check) = (after, shifted(found, *recorded.samples.end()));
@@ -212,7 +234,6 @@ impl<'a> Iterator for Replay<'a> {
             faults.push(Fault::Rest { stood, asked });
         }
         let seconds = motion.duration().unwrap_or(0.0);
-        let times = self.times(index, recorded);
         let event = object.map(|object| {
             let pose = self.state.pose(object);
             let turning = pose.and(recorded.turn).map_or(0.0, |turn| turn.seconds);

@@ -3,7 +3,7 @@
 use super::super::given_turn;
 use super::{AT, Fault, ReplayedTurn, SHORT, angle_between};
 use crate::geometry::{Point, Pose};
-use crate::model::{Action, Grip, Holding, Payload, RecordedTurn, Scene, Step, Task};
+use crate::model::{Action, Grip, Holding, Object, Payload, RecordedTurn, Scene, Step, Task};
 use crate::space::Configuration;
 
 /// Where the objects are, and what the arm carries.
@@ -11,6 +11,8 @@ use crate::space::Configuration;
 pub(super) struct State {
     /// Of each object, where it lies; none while it is carried.
     poses: Vec<Option<Pose>>,
+    /// Those that move as yet, and lie nowhere.
+    moving: Vec<usize>,
     held: Option<(usize, Payload)>,
     /// The object just let go of.
     released: Option<usize>,
@@ -18,12 +20,22 @@ pub(super) struct State {
 
 impl State {
     pub fn at_first(task: &Task) -> Self {
-        let poses = task.objects.iter().map(|object| Some(object.at)).collect();
-        Self { poses, held: None, released: None }
+        let poses = task.objects.iter().map(Object::standing_at_first).collect();
+        Self { poses, moving: task.moving_at_first().collect(), held: None, released: None }
     }
 
     pub fn renew(&mut self, task: &Task, objects: &[usize]) {
         objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
+    }
+
+    /// Stops an object that moves where it is at a time. Whether it moved.
+    pub fn stop(&mut self, task: &Task, object: usize, time: f64) -> bool {
+        let moved = self.moving.iter().position(|&other| other == object);
+        if let Some((place, course)) = moved.zip(task.objects[object].course.as_ref()) {
+            self.moving.remove(place);
+            self.poses[object] = Some(course.pose(time));
+        }
+        moved.is_some()
     }
 
     /// Where an object lies; none while it is carried.
@@ -40,12 +52,13 @@ impl State {
         self.released
     }
 
-    /// The scene as it is. Link 2 is free to meet the object just let go of, and another one.
+    /// The scene as it is, on the clock of the task. Link 2 is free to meet the object just let go of, and another one.
     pub fn scene(&self, task: &Task, allowed_contacts: Option<usize>) -> Scene {
         let allowed_contacts: Vec<usize> =
-            self.released.into_iter().chain(allowed_contacts).map(|object| task.obstacle_number(object)).collect();
+            self.released.into_iter().chain(allowed_contacts).map(|o| task.number_among(&self.moving, o)).collect();
         let payload = self.held.as_ref().map(|(_, payload)| payload.clone());
-        Scene::handling_trusted(task.arm.clone(), task.obstacles(&self.poses), payload, &allowed_contacts)
+        let workspace = task.surroundings(&self.poses, &self.moving);
+        Scene::handling_trusted(task.arm.clone(), workspace, payload, &allowed_contacts)
     }
 
     /// Takes the object that a step picks with the arm at `q`, held as it lies to the arm then; `then` is what it will rest

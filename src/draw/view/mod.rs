@@ -30,7 +30,7 @@ mod world;
 
 pub use html::{drawing, page, sealed, shell};
 pub use picture::{AxesFrame, Picture};
-pub use task::TaskPicture;
+pub use task::{Moments, TaskPicture};
 
 pub(super) use extent::around;
 pub(super) use motion::PathView;

@@ -11,11 +11,14 @@ use crate::cspace::CObstacle;
 use crate::draw::color;
 use crate::engine::task::{Event, Impossible, Leg, Sequence, TaskAnswer};
 use crate::geometry::Pose;
-use crate::model::{Obstacle, Scene, Status, Task};
+use crate::model::{Object, Obstacle, Scene, Status, Task};
 use std::sync::Arc;
 
 /// Poses nearer than this, metres and radians, look the same; rounding of those that are.
 const SAME: f64 = 1e-6;
+
+/// C-obstacles at some times.
+pub type Moments = Vec<(f64, Vec<CObstacle>)>;
 
 /// What there is to show of a task. Objects count as obstacles, numbered after those that stay: they have the same
 /// colour wherever they are, and in every world.
@@ -35,7 +38,12 @@ pub struct TaskPicture<'a> {
     pub answer: &'a TaskAnswer,
     /// Contours of a scene in joint space. Asked for each world, and once more where link 2 reaches into an object.
     pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,
+    /// Those of what moves, at some times from one to another, so many at the most.
+    pub in_time: fn(&Scene, [f64; 2], usize) -> Moments,
 }
+
+/// Times at which C-obstacles of what moves are drawn, at the most, all worlds together.
+const MOST_MOMENTS: usize = 120;
 
 impl View {
     /// The view of a task: a world for each set of motions that share one.
@@ -46,6 +54,8 @@ impl View {
         let mut worlds = Worlds { picture, grain, scenes: Vec::new(), views: Vec::new() };
         let (mut paths, mut motions) = (Vec::new(), Vec::new());
         let mut from = 0.0;
+        // Of each world, from when to when it is there.
+        let mut spans: Vec<[f64; 2]> = Vec::new();
         for leg in legs {
             let name = order.named(&leg.step, &task.objects);
             let world = worlds.of(&leg.scene);
@@ -53,7 +63,9 @@ impl View {
             let carried = leg.carried.map(|object| color::obstacle(task.obstacle_number(object)));
             let outline = leg.timed.curve.outline();
             paths.push(PathView::of_step(name, &outline, world, order.number(&leg.step), carried, grain));
-            from = leg.event_time().unwrap_or_else(|| leg.end());
+            let until = leg.event_time().unwrap_or_else(|| leg.end());
+            spans.resize(worlds.views.len(), [from, until]);
+            (spans[world], from) = ([spans[world][0], until], until);
         }
         let (world, label) = match picture.answer.impossible() {
             Some(fails) => {
@@ -61,13 +73,15 @@ impl View {
                 (worlds.failing(fails), label)
             }
             None => {
-                let scene = Scene::trusted(task.arm.clone(), task.obstacles(&at_the_end(task, legs)));
+                let (poses, moving) = at_the_end(task, legs);
+                let scene = Scene::trusted(task.arm.clone(), task.surroundings(&poses, &moving));
                 (worlds.of(&Arc::new(scene)), "done".to_owned())
             }
         };
         motions.push(MotionView { world, path: None, from, label, replay: None });
+        worlds.put_in_time(&spans);
         let placed = placed(task, legs);
-        let at_first: Vec<_> = task.objects.iter().map(|object| Some(object.at)).collect();
+        let at_first: Vec<_> = task.objects.iter().map(Object::standing_at_first).collect();
         let mut everything = task.obstacles(&at_first);
         everything.obstacles.extend(placed.iter().map(|(_, obstacle)| obstacle.clone()));
         let overview = Scene::trusted(task.arm.clone(), everything);
@@ -163,6 +177,21 @@ impl Worlds<'_> {
         self.views.len() - 1
     }
 
+    /// Shows the worlds, which are there from one time to another, with what moves.
+    fn put_in_time(&mut self, spans: &[[f64; 2]]) {
+        let legs = &self.picture.answer.legs;
+        let picked = |name: &str| {
+            let grasps = |leg: &&Leg| matches!(leg.event, Some(Event::Grasp { object }) if self.picture.task.objects[object].name == name);
+            legs.iter().find(grasps).and_then(Leg::event_time)
+        };
+        for (number, view) in self.views.iter_mut().enumerate().filter(|(_, view)| !view.movers.is_empty()) {
+            view.movers.iter_mut().for_each(|mover| mover.until = picked(&mover.obstacle.name));
+            let Some(span) = spans.get(number) else { continue };
+            let moments = (self.picture.in_time)(&self.scenes[number], *span, MOST_MOMENTS / spans.len());
+            *view = view.clone().timed(&moments, self.grain);
+        }
+    }
+
     /// What link 2 may reach into, as it were if it may not.
     fn open(&self, scene: &Scene) -> Vec<ContourView> {
         let mut workspace = scene.workspace().clone();
@@ -196,16 +225,18 @@ impl Worlds<'_> {
     }
 }
 
-/// Where the objects lie after all steps; what is carried then lies nowhere.
-fn at_the_end(task: &Task, legs: &[Leg]) -> Vec<Option<Pose>> {
-    let mut poses: Vec<Option<Pose>> = task.objects.iter().map(|object| Some(object.at)).collect();
+/// Where the objects lie after all steps, and those that move as yet; what is carried then lies nowhere.
+fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Pose>>, Vec<usize>) {
+    let mut poses: Vec<Option<Pose>> = task.objects.iter().map(Object::standing_at_first).collect();
+    let mut moving: Vec<usize> = task.moving_at_first().collect();
     for event in legs.iter().filter_map(|leg| leg.event) {
+        moving.retain(|&object| object != event.object());
         poses[event.object()] = match event {
             Event::Grasp { .. } => None,
             Event::Release { pose, .. } => Some(pose),
         };
     }
-    poses
+    (poses, moving)
 }
 
 /// Where objects are put, by the object's number; each place once, and none where the object lay at first.

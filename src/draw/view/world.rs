@@ -62,6 +62,9 @@ pub struct MoverView {
     stops: Vec<[f64; 4]>,
     /// From the last stop on, metres a second.
     velocity: [f64; 2],
+    /// When it is picked, if it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub until: Option<f64>,
     #[serde(skip)]
     course: Course,
 }
@@ -78,6 +81,7 @@ impl MoverView {
                 .map(|s| [number(s.time), grain.length(s.at.x), grain.length(s.at.y), number(s.angle)])
                 .collect(),
             velocity: [grain.length(velocity.x), grain.length(velocity.y)],
+            until: None,
             course: course.clone(),
         }
     }
@@ -90,8 +94,9 @@ impl MoverView {
         ObstacleView { name: name.clone(), color: *color, outline: outline.at(&pose), own: *own, pieces }
     }
 
-    /// The times at which it changes its course, and the end of the motion.
+    /// The times at which it changes its course, and the end of the motion, or when it is picked.
     pub fn moments(&self, duration: f64) -> Vec<f64> {
+        let duration = duration.min(self.until.unwrap_or(f64::INFINITY));
         let stops = self.course.stops().iter().map(|stop| stop.time).filter(|&time| 0.0 < time && time < duration);
         stops.chain([duration]).collect()
     }
@@ -261,10 +266,15 @@ fn obstacle(scene: &Scene, number: usize, obstacle: &Obstacle, grain: Grain) -> 
     view
 }
 
-/// What moves, in the colours after those of what stands.
+/// What moves, in the colours after those of what stands; an object in that which it has where it lies.
 fn movers(scene: &Scene, grain: Grain) -> Vec<MoverView> {
-    let numbered = scene.workspace().movers.iter().zip(scene.workspace().obstacles.len()..);
-    numbered.map(|(mover, number)| MoverView::new(mover, number, grain)).collect()
+    let obstacles = &scene.workspace().obstacles;
+    let numbered = scene.workspace().movers.iter().zip(obstacles.len()..);
+    let view = |(mover, number): (&Mover, usize)| {
+        let lying = obstacles.iter().position(|o| o.pieces.is_empty() && o.name == mover.obstacle.name);
+        MoverView::new(mover, lying.unwrap_or(number), grain)
+    };
+    numbered.map(view).collect()
 }
 
 fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {

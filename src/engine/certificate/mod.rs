@@ -85,6 +85,7 @@ impl Plan {
         asked: &Overrides,
         files: Option<&Digests>,
     ) -> Result<String, NoCertificate> {
+        among_what_stands(self.problem().scene())?;
         let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
         let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
         let said = about(files).into_iter().chain(start).chain(clearance).collect();

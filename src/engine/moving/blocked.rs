@@ -221,13 +221,13 @@ impl<'a> Movers<'a> {
         let mut stretches = Vec::new();
         // Where those of a piece begin.
         let mut first = Vec::new();
-        for Mover { obstacle, course } in &scene.workspace().movers {
+        for (mover, Mover { course, .. }) in scene.workspace().movers.iter().enumerate() {
             let of = |piece: &Convex| {
                 let begins = stretches.len();
                 stretches.extend(course.legs().iter().map(|leg| Stretch::new(piece, *leg)));
                 begins
             };
-            first.push(obstacle.pieces.iter().map(of).collect::<Vec<_>>());
+            first.push(scene.pieces_of_mover(mover).map(of).collect::<Vec<_>>());
         }
         let standing = scene.workspace().obstacles.len();
         let mut meetings = Vec::new();

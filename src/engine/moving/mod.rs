@@ -12,7 +12,8 @@ mod departures;
 mod refutation;
 mod schedule;
 
-pub use schedule::{Scheduled, Wait};
+pub(super) use blocked::Movers;
+pub use schedule::{Errand, Scheduled, Wait};
 
 use super::options::Options;
 use super::{Verdict, solve};
@@ -21,7 +22,6 @@ use crate::model::{MotionProblem, Scene};
 use crate::motion::{Timed, TimingError, Trajectory};
 use crate::space::{Configuration, GoalSet, Interpolation, Recording, Segment};
 use crate::text::counted;
-use blocked::Movers;
 use refutation::no_timing;
 use schedule::{Effort, schedule};
 use serde::Serialize;
@@ -32,6 +32,9 @@ const WAYS: usize = 3;
 /// How much longer than the shortest other ways may be, as a share, unless a gap is asked for. They are found in a fraction of the time, have fewer
 /// corners, and that makes most of them faster.
 const GAP: f64 = 0.03;
+
+/// Times that differ by no more than this are the same, seconds: clocks count nanoseconds.
+const ROUNDING: f64 = 1e-8;
 
 /// A motion that is certified in time.
 #[derive(Debug, Clone)]
@@ -45,7 +48,7 @@ pub struct InTime {
 /// What there is to say of a motion among obstacles that move.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Timing {
-    /// How many obstacles move.
+    /// How many obstacles move; of a task, the objects that do so until they are picked are among them.
     pub obstacles: usize,
     /// How many ways were tried.
     pub ways: usize,
@@ -57,8 +60,8 @@ pub struct Timing {
     pub free_until: Option<f64>,
 }
 
-/// The earliest motion among those along the ways tried: the certified path's, which `first` drives along as if nothing moved, and
-/// others. Or why there is none, in words.
+/// The earliest motion among those along the ways tried: the certified path's, which `first` drives along as if nothing moved, at the
+/// errand's speed, and others. Or why there is none, in words.
 ///
 /// # Errors
 /// Paths that cannot be timed.
@@ -67,6 +70,7 @@ pub fn in_time(
     certified: &CertifiedPath,
     first: Timed,
     options: &Options,
+    errand: &Errand,
 ) -> Result<Result<InTime, String>, TimingError> {
     let scene = problem.scene();
     let movers = Movers::new(scene, scene.workspace().clearance);
@@ -80,10 +84,11 @@ pub fn in_time(
         let best = found.last();
         let for_good = best.filter(|best| best.is_for_good()).map(Scheduled::duration);
         // Only what is sooner counts, once the arm can stay where what is known ends: a way that takes longer without a wait is none.
-        let before = for_good.unwrap_or(f64::INFINITY);
+        let latest = errand.arrival.map_or(f64::INFINITY, |[_, ends]| ends + ROUNDING);
+        let before = for_good.unwrap_or(f64::INFINITY).min(latest);
         if whole.trajectory.duration() < before {
             let along = |effort: Effort| {
-                let along = schedule(&movers, &path, &whole, &options.drive, effort, before)?;
+                let along = schedule(&movers, &path, &whole, &options.drive, errand, effort, before)?;
                 Ok::<_, TimingError>(along.filter(|it| best.is_none_or(|best| it.is_better_than(best))))
             };
             let mut better = along(Effort::QUICK)?;
@@ -96,8 +101,11 @@ pub fn in_time(
             }
             found.extend(better);
         }
-        let is_direct = found.last().is_some_and(|best| best.waits.is_empty() && best.is_for_good());
-        if ways == WAYS || is_direct {
+        // What ends as soon as it may is as good along any way.
+        let soonest = errand.until.or(errand.arrival.map(|[begins, _]| begins)).unwrap_or(0.0);
+        let is_best =
+            |best: &Scheduled| best.is_for_good() && (best.waits.is_empty() || best.duration() <= soonest + ROUNDING);
+        if ways == WAYS || found.last().is_some_and(is_best) {
             break;
         }
         let Some(next) = around_what_is_met(&around, &whole.trajectory) else { break };
@@ -106,7 +114,7 @@ pub fn in_time(
         let looser = Options { bounded: false, planner, ..*options };
         let Verdict::Found(other) = solve(&around, &looser, &mut |_| ()).verdict else { break };
         let Ok(other) = certify(scene, other.path().clone(), scene.workspace().clearance) else { break };
-        let whole = options.drive.along(scene, &other, 1.0)?;
+        let whole = options.drive.along(scene, &other, errand.speed)?;
         way = Some((other, whole));
     }
     let certified = found.into_iter().rev().find_map(|found| certified_in_time(scene, found, ways));
@@ -151,6 +159,18 @@ fn certified_in_time(scene: &Scene, found: Scheduled, ways: usize) -> Option<InT
     Some(InTime { timed: Timed { curve, trajectory }, figures })
 }
 
+/// The distance that the arm is proven to keep from what moves while it stands for so many seconds from the beginning of the scene's clock on; none
+/// where that is not more than the clearance.
+pub fn stands(scene: &Scene, q: Configuration, seconds: f64) -> Option<f64> {
+    let times = if seconds > 0.0 { vec![0.0, seconds] } else { vec![0.0] };
+    let (positions, velocities) = (vec![q; times.len()], vec![Configuration::zeros(); times.len()]);
+    let standing = Recording::new(positions, Some(times), Some(velocities)).ok()?;
+    match certify_in_time(scene, &standing, scene.workspace().clearance) {
+        CollisionCheck::Free { clearance, .. } => Some(clearance),
+        CollisionCheck::Collision { .. } | CollisionCheck::Undecided(_) => None,
+    }
+}
+
 /// A motion by its cubics, and by the polynomials that it states.
 fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
@@ -166,9 +186,7 @@ fn around_what_is_met(problem: &MotionProblem, trajectory: &Trajectory) -> Optio
     let [cubic, _] = recordings(trajectory)?;
     let met = met_in_time(scene, &cubic, scene.workspace().clearance)?;
     let mover = scene.mover(met.contact.pair)?.at(met.moment.time);
-    let (arm, mut workspace) = scene.clone().into_parts();
-    workspace.obstacles.push(mover);
-    let scene = Scene::new(arm, workspace).ok()?;
+    let scene = scene.with_standing(mover);
     let is_open = |goal: &&Segment| !goal.is_point() || scene.obstructions(goal.ends()[0]).is_empty();
     let goals: GoalSet = problem.goals().pieces().iter().filter(is_open).copied().collect();
     MotionProblem::new(scene, problem.start(), goals).ok()

@@ -86,6 +86,7 @@ impl Report {
                     path: Some(concatenated(&figures.steps)),
                     length: Some(figures.steps.iter().map(|step| step.length).sum()),
                     clearance: finite(answer.clearance()),
+                    moving: answer.timing.clone(),
                     ..Self::moving(planner, joints, sequence.trajectory)
                 }
             }

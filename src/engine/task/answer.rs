@@ -3,6 +3,7 @@
 use super::impossible::Impossible;
 use super::stroke::ToolStroke;
 use crate::check::WristTurn;
+use crate::engine::Timing;
 use crate::geometry::Pose;
 use crate::model::{Outcome, Scene, Step};
 use crate::motion::Timed;
@@ -134,6 +135,8 @@ pub struct TaskAnswer {
     pub motions: usize,
     /// Nodes of the search that were expanded.
     pub expanded: usize,
+    /// How the arm gets by what moves, if anything does and all is done; on the clock of the task.
+    pub timing: Option<Timing>,
 }
 
 impl TaskAnswer {

@@ -218,9 +218,11 @@ impl From<&Object> for Lies {
 
 /// The stops of all items.
 pub(super) fn stops(task: &Task) -> Vec<Stops> {
-    let mut lies: Vec<Lies> = task.objects.iter().map(Lies::from).collect();
+    // Nobody knows beforehand where what moves is picked.
+    let lies = |object: &Object| object.course.is_none().then(|| Lies::from(object));
+    let mut lies: Vec<Option<Lies>> = task.objects.iter().map(lies).collect();
     let mut held = None;
-    let mut stop = |step: &Step, lies: &mut [Lies]| {
+    let mut stop = |step: &Step, lies: &mut [Option<Lies>]| {
         let object = match step.action {
             Action::Pick { object, .. } => Some(object),
             Action::Place { .. } => held.map(|(object, _)| object),
@@ -235,7 +237,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
             Stops::Pairs(pairs.iter().map(|pair| pair.each_ref().map(|step| stop(step, &mut lies))).collect())
         }
         Item::Renew(objects) => {
-            objects.iter().for_each(|&object| lies[object] = Lies::from(&task.objects[object]));
+            objects.iter().for_each(|&object| lies[object] = Some(Lies::from(&task.objects[object])));
             Stops::Nothing
         }
     };
@@ -246,7 +248,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
 fn targets(
     task: &Task,
     step: &Step,
-    lies: &mut [Lies],
+    lies: &mut [Option<Lies>],
     held: &mut Option<(usize, Point)>,
 ) -> Option<Vec<Configuration>> {
     let arm = &task.arm;
@@ -261,18 +263,19 @@ fn targets(
         }
         Action::Pick { object, grasp, .. } => {
             *held = Some((*object, *grasp));
-            tip_to(lies[*object].place_of(*grasp))
+            tip_to(lies[*object]?.place_of(*grasp))
         }
         Action::Place { at, angle, .. } => {
             let (object, grasp) = held.take()?;
             let turned = match task.objects[object].holding {
-                Holding::Level => angle.or(lies[object].angle),
+                Holding::Level => angle.or(lies[object]?.angle),
                 Holding::Rigid => None,
             };
             // The same expression as that of the state, so that values are the same.
             let exact = turned.map(|angle| Isometry2::new(at.coords, angle) * grasp);
-            lies[object] = Lies { at: *at, angle: turned };
-            tip_to(exact.or_else(|| lies[object].place_of(grasp)))
+            let placed = Lies { at: *at, angle: turned };
+            lies[object] = Some(placed);
+            tip_to(exact.or_else(|| placed.place_of(grasp)))
         }
     }
 }

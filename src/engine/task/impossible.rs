@@ -1,6 +1,7 @@
 //! Why a task cannot be done, or is not known to be possible.
 
 use super::legs::Refusal;
+use super::state::State;
 use crate::check::CheckedProof;
 use crate::model::{Arm, Joint, Scene, Step};
 use crate::space::Configuration;
@@ -59,17 +60,47 @@ impl Refused<'_> {
     }
 }
 
+/// Why no more can be done where steps are refused: of the places where that is so, the farthest; of these the one reached first. With the node
+/// from which it was tried.
+pub(super) fn farthest<'s>(
+    arm: &Arm,
+    refused: &[Refused],
+    state: impl Fn(usize) -> Option<&'s State>,
+    scene: impl FnOnce(&State, &Step) -> Arc<Scene>,
+) -> (Impossible, usize) {
+    let depth = refused.iter().map(|refused| refused.depth).max().unwrap_or(0);
+    let farthest = || refused.iter().filter(|refused| refused.depth == depth);
+    let Some((first, from)) = farthest().find_map(|refused| Some((refused, state(refused.node)?))) else {
+        unreachable!("a search ends at the goal or where steps are refused");
+    };
+    let (node, step) = (first.node, first.step);
+    let same = || farthest().filter(|refused| refused.step.number == step.number);
+    let mut tried = Vec::new();
+    for refused in same() {
+        let Some(State { q, .. }) = state(refused.node) else { continue };
+        tried.push(Tried { from: *q, to: refused.ik_solution, reason: &refused.refusal.reason });
+    }
+    let mut ik_solutions = Vec::new();
+    for unreached in same().filter(|refused| refused.node == node).filter_map(Refused::unreached) {
+        if !ik_solutions.contains(&unreached) {
+            ik_solutions.push(unreached);
+        }
+    }
+    let (reasons, scene) = (reasons(arm, &tried), scene(from, step));
+    (Impossible { step: step.clone(), reasons, scene, from: from.q, ik_solutions }, node)
+}
+
 /// A motion that was tried, and why it is refused.
-pub(super) struct Tried<'a> {
-    pub from: Configuration,
+struct Tried<'a> {
+    from: Configuration,
     /// None where there is no IK solution at the target.
-    pub to: Option<Configuration>,
-    pub reason: &'a str,
+    to: Option<Configuration>,
+    reason: &'a str,
 }
 
 /// Each reason once, with the motions that it holds for: `to joints (0.3, 1.2) rad and (1.5, -1.2) rad: ...`. Where they
 /// begin is said if not all of them begin at one place.
-pub(super) fn reasons(arm: &Arm, tried: &[Tried]) -> Vec<String> {
+fn reasons(arm: &Arm, tried: &[Tried]) -> Vec<String> {
     let several = tried.iter().any(|motion| motion.from != tried[0].from);
     let mut reasons: Vec<&str> = Vec::new();
     for motion in tried {

@@ -30,12 +30,17 @@
 //! conditions beforehand (`ends`). If no order meets all, one is built up pair by pair. The file's own order is tried,
 //! too; then motions teach the tour how long they really take, and it proposes again.
 //!
+//! # What moves
+//!
+//! Where something moves, or an object that is picked on its way, the search is another one (`among_movers`), over what is done next and when.
+//!
 //! # Verdicts
 //!
 //! If the search runs dry and every motion was refused with a proof, the task is infeasible; where a choice was left out
 //! (a turn of the wrist on the way, orders not tried), it is unknown. That no order can be done is proven by a `part` of
 //! the group: one pair or two that cannot be done though all other objects are out of the way.
 
+mod among_movers;
 mod answer;
 mod failed_step;
 mod impossible;

@@ -1,5 +1,6 @@
 //! From a task to its answer: which search is made, and how long.
 
+use super::among_movers;
 use super::answer::{TaskAnswer, TaskVerdict};
 use super::heuristic::Heuristic;
 use super::legs::Legs;
@@ -42,6 +43,9 @@ const MOST_PAIRS: usize = 10;
 /// the orders that fail; the file's own, if that is faster; or a better one still, by the times of the motions planned.
 #[must_use]
 pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
+    if task.has_movers() {
+        return among_movers::plan(task, options, progress);
+    }
     let heuristic = Heuristic::new(task);
     let start = State::at_start(task);
     let lower_bound = heuristic.remaining(start.q, start.progress);
@@ -177,7 +181,7 @@ impl Planning<'_, '_> {
 
     fn answer(self, Found { verdict, legs, exact, .. }: Found) -> TaskAnswer {
         let (motions, expanded) = (self.legs.planned(), self.expanded);
-        TaskAnswer { verdict, legs, lower_bound: self.lower_bound, exact, motions, expanded }
+        TaskAnswer { verdict, legs, lower_bound: self.lower_bound, exact, motions, expanded, timing: None }
     }
 }
 

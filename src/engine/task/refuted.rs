@@ -250,7 +250,7 @@ impl Walk<'_> {
         let others = others.filter_map(|(_, [pick, _])| pick.action.picked());
         others.for_each(|object| Arc::make_mut(&mut poses)[object] = None);
         let progress = Progress { item: 0, done: 0, half: None };
-        let state = State { progress, poses, held: None, released: None, q: at.state.q };
+        let state = State { progress, poses, moving: Arc::default(), held: None, released: None, q: at.state.q };
         At { is_start: at.is_start, ..At::from(state) }
     }
 
@@ -303,7 +303,14 @@ impl Walk<'_> {
         self.hidden = picked(pairs);
         let progress = Progress { item: item + 1, done: 0, half: None };
         let after = |end: At| {
-            let state = State { progress, poses: poses.clone(), held: None, released: None, q: end.state.q };
+            let state = State {
+                progress,
+                poses: poses.clone(),
+                moving: Arc::default(),
+                held: None,
+                released: None,
+                q: end.state.q,
+            };
             At::from(state.settled(self.task))
         };
         self.distinct(ends.into_iter().map(after).collect())

@@ -5,7 +5,7 @@
 
 use super::answer::Leg;
 use super::heuristic::Heuristic;
-use super::impossible::{Impossible, Refused, Tried, reasons};
+use super::impossible::{Impossible, Refused, farthest};
 use super::least_time::least_time;
 use super::legs::{Legs, Motion, Refusal};
 use super::state::{Candidate, State};
@@ -257,33 +257,12 @@ impl<'a, 'l> Search<'a, 'l> {
 
     /// Why no more can be done than the steps to a node, and whether that is proven of all there is, if the search ran dry.
     pub fn failure(&mut self) -> (Impossible, usize, bool) {
-        // Of the places where it ends, the farthest; of these the one reached first.
-        let depth = self.refused.iter().map(|refused| refused.depth).max().unwrap_or(0);
-        let farthest = || self.refused.iter().filter(|refused| refused.depth == depth);
-        let Some((first, from)) = farthest().find_map(|refused| Some((refused, self.state(refused.node)?.clone())))
-        else {
-            unreachable!("a search ends at the goal or where steps are refused");
+        let state = |node: usize| match &self.nodes[node].stage {
+            Stage::Reached(state, _) => Some(&**state),
+            Stage::Pending(_) => None,
         };
-        let (node, step) = (first.node, first.step);
-        let same = || farthest().filter(|refused| refused.step.number == step.number);
-        let mut tried = Vec::new();
-        for refused in same() {
-            let Some(State { q, .. }) = self.state(refused.node) else { continue };
-            tried.push(Tried { from: *q, to: refused.ik_solution, reason: &refused.refusal.reason });
-        }
-        let mut ik_solutions = Vec::new();
-        for unreached in same().filter(|refused| refused.node == node).filter_map(Refused::unreached) {
-            if !ik_solutions.contains(&unreached) {
-                ik_solutions.push(unreached);
-            }
-        }
-        let impossible = Impossible {
-            step: step.clone(),
-            reasons: reasons(&self.task.arm, &tried),
-            scene: self.legs.scene(self.task, &from, step),
-            from: from.q,
-            ik_solutions,
-        };
+        let (task, legs) = (self.task, &mut *self.legs);
+        let (impossible, node) = farthest(&task.arm, &self.refused, state, |from, step| legs.scene(task, from, step));
         let proven = self.complete && self.refused.iter().all(|refused| refused.refusal.proven);
         (impossible, node, proven)
     }

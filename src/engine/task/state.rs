@@ -3,7 +3,7 @@
 use super::answer::Event;
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use crate::geometry::{Point, Pose};
-use crate::model::{Action, Grip, Holding, Item, Payload, Scene, Step, Task};
+use crate::model::{Action, Grip, Holding, Item, Object, Payload, Scene, Step, Task};
 use crate::space::Configuration;
 use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
@@ -34,8 +34,10 @@ pub(super) struct Held {
 pub(super) struct State {
     pub progress: Progress,
     pub q: Configuration,
-    /// Of each object, where it lies; none while it is carried.
+    /// Of each object, where it lies; none while it is carried, or moves as yet.
     pub poses: Arc<[Option<Pose>]>,
+    /// The objects that move as yet, in order.
+    pub moving: Arc<[usize]>,
     pub held: Option<Held>,
     /// The object just let go of.
     pub released: Option<usize>,
@@ -79,7 +81,8 @@ impl State {
         let state = Self {
             progress: Progress { item: 0, done: 0, half: None },
             q: task.start,
-            poses: task.objects.iter().map(|object| Some(object.at)).collect(),
+            poses: task.objects.iter().map(Object::standing_at_first).collect(),
+            moving: task.moving_at_first().collect(),
             held: None,
             released: None,
         };
@@ -111,13 +114,22 @@ impl State {
         key
     }
 
-    /// The scene as it is. Link 2 is free to meet the object just let go of, and another one: that which it goes to, or which
-    /// it let go of before.
+    /// The same at a moment at which an object that moves is there where it is then, and picked.
+    pub fn stopped(&self, task: &Task, object: usize, time: f64) -> Self {
+        let mut state = self.clone();
+        Arc::make_mut(&mut state.poses)[object] = task.objects[object].course.as_ref().map(|course| course.pose(time));
+        state.moving = self.moving.iter().copied().filter(|&other| other != object).collect();
+        state
+    }
+
+    /// The scene as it is, what moves on the clock of the task. Link 2 is free to meet the object just let go of, and another one: that which it goes
+    /// to, or which it let go of before.
     pub fn scene(&self, task: &Task, allowed_contacts: Option<usize>) -> Scene {
         let allowed_contacts: Vec<usize> =
-            self.released.into_iter().chain(allowed_contacts).map(|object| task.obstacle_number(object)).collect();
+            self.released.into_iter().chain(allowed_contacts).map(|o| task.number_among(&self.moving, o)).collect();
         let payload = self.held.as_ref().map(|held| held.payload(task));
-        Scene::handling_trusted(task.arm.clone(), task.obstacles(&self.poses), payload, &allowed_contacts)
+        let workspace = task.surroundings(&self.poses, &self.moving);
+        Scene::handling_trusted(task.arm.clone(), workspace, payload, &allowed_contacts)
     }
 
     /// The ways to do each of the steps that can be next.
@@ -227,6 +239,7 @@ impl State {
         match candidate.event {
             Some(Event::Grasp { object }) => {
                 Arc::make_mut(&mut poses)[object] = None;
+                after.moving = self.moving.iter().copied().filter(|&other| other != object).collect();
                 let supports = supports(candidate.step, self.progress.place(task, candidate));
                 after.held = candidate.grip.map(|grip| Held { object, grip, supports });
             }

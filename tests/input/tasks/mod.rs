@@ -104,9 +104,9 @@ move = { tip = [1.0, 1.0] }
     assert_eq!(
         actions,
         [
-            &Action::Pick { object: 0, grasp: Point::origin(), supports: vec![0] },
+            &Action::Pick { object: 0, grasp: Point::origin(), supports: vec![0], when: Vec::new() },
             &Action::Place { at: Point::new(0.5, 1.5), angle: None, supports: vec![0] },
-            &Action::Pick { object: 1, grasp: Point::new(0.02, 0.0), supports: vec![1] },
+            &Action::Pick { object: 1, grasp: Point::new(0.02, 0.0), supports: vec![1], when: Vec::new() },
             &Action::Place { at: Point::new(0.5, 1.0), angle: Some(1.5), supports: vec![0, 1] },
             &Action::Move(Goal::Joints(Configuration::new(0.1, 0.2))),
             &Action::Move(Goal::Tip(Point::new(1.0, 1.0))),

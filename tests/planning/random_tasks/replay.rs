@@ -353,7 +353,7 @@ impl<'a> World<'a> {
                 }
             }
             Action::Move(_) => {}
-            Action::Pick { object, grasp, supports } => {
+            Action::Pick { object, grasp, supports, .. } => {
                 let lies = self.lies[*object].take().ok_or("what is picked lies nowhere")?;
                 let grasp = [grasp.x, grasp.y];
                 if !near(tip, compose(lies, ([1.0, 0.0], grasp)).1) {

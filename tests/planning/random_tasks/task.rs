@@ -49,6 +49,7 @@ pub fn task(seed: u64) -> Task {
             lift: if dice.chance(0.3) { 0.2 } else { 0.0 },
             holding,
             at: Isometry2::new(at.coords, dice.within(-PI, PI)),
+            course: None,
             mass: 0.0,
         });
     }
@@ -87,7 +88,7 @@ pub fn task(seed: u64) -> Task {
         let mut supports = || (0..fixed).filter(|_| dice.chance(0.2)).collect::<Vec<usize>>();
         let (from, onto) = (supports(), supports());
         let grasp = if dice.chance(0.3) { Point::new(dice.within(-0.05, 0.05), 0.02) } else { Point::origin() };
-        let pick = step(Action::Pick { object, grasp, supports: from }, &mut dice);
+        let pick = step(Action::Pick { object, grasp, supports: from, when: Vec::new() }, &mut dice);
         let at = task.arm.tip_at(anywhere(&mut dice));
         let level = task.objects[object].holding == Holding::Level;
         let angle = (level && dice.chance(0.5)).then(|| dice.within(-TAU, TAU));

@@ -111,10 +111,6 @@ fn motions_that_are_none_are_refused_with_their_place() {
     assert!(told["message"].as_str().unwrap().contains("hits moving obstacle \"cart\""), "{told}");
 }
 
-/// A task, and something that moves far off.
-const TASK: &str = "[start]\njoints = [-0.9, 0.4]\n[[step]]\nmove = { joints = [1.0, 0.2] }\n";
-const FAR: &str = "circle = { center = [0, 0], radius = 0.1 }\nat = [3, 3]\nmotion = { velocity = [0.1, 0] }\n";
-
 #[test]
 fn what_knows_no_time_refuses_what_moves() {
     let place = Place::new();
@@ -123,8 +119,10 @@ fn what_knows_no_time_refuses_what_moves() {
         let done = place.run(&[command, &urdf, &world], "");
         done.refused(1, &["obstacle \"cart\" moves", "remove its motion"]);
     }
-    place.write("task.toml", format!("{TASK}[[obstacle]]\nname = \"cart\"\n{FAR}"));
-    place.run(&[urdf.as_str(), "task.toml"], "").refused(1, &["obstacle \"cart\" moves"]);
+    let [urdf, world] = moving("belt_pick");
+    for command in ["explain", "explore", "reach"] {
+        place.run(&[command, &urdf, &world], "").refused(1, &["\"bottle 1\" moves", "remove its motion"]);
+    }
 }
 
 #[test]
@@ -135,4 +133,147 @@ fn a_motion_among_what_moves_has_no_certificate() {
     assert!(done.stderr.contains("c.json is not written") && !place.path("c.json").exists(), "{}", done.stderr);
     let verified = place.run(&["verify", &urdf, &world, "m.json"], "--certificate c.json");
     assert!(verified.stderr.contains("what moves") && !place.path("c.json").exists(), "{}", verified.stderr);
+}
+
+/// Bottles are picked where they are then; everything that is written says so.
+#[test]
+fn bottles_are_picked_from_a_belt() {
+    let place = Place::new();
+    let [urdf, world] = moving("belt_pick");
+    let files = "--output m.json --output m.csv --output m.mcap --picture m.html --picture m.svg";
+    let done = place.run(&moving("belt_pick"), files);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    for part in ["done and certified: 6 steps", "3 objects, 3 moving", "moving     3 obstacles", "pick \"bottle 3\""] {
+        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
+    }
+    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+    let number = |value: &Value| value.as_f64().expect("a number");
+    assert_eq!(result["moving"]["obstacles"], 3);
+    let events = result["events"].as_array().unwrap();
+    let grasps: Vec<&Value> = events.iter().filter(|event| event["event"] == "grasp").collect();
+    assert_eq!(grasps.len(), 3);
+    for (grasp, first) in grasps.iter().zip([-1.6, -2.7, -3.8]) {
+        let (time, tip) = (number(&grasp["time"]), &grasp["tip"]);
+        let off = (number(&tip[0]) - 1.3).hypot(number(&tip[1]) - (first + 0.35 * time));
+        assert!(off < 1e-8, "{grasp}: the bottle is {off} m away");
+    }
+    assert!(number(&result["lower_bound"]) <= number(&result["duration"]));
+    let judged = place.run(&["verify", &urdf, &world, "m.json"], "");
+    assert_eq!(judged.code, 0, "{}", judged.stdout);
+    let page = place.read("m.html");
+    assert!(page.contains("\"movers\":[{") && page.contains("\"until\":1.01"), "what moves is not on the page");
+    assert!(place.read("m.svg").contains("bottle 1, moving"));
+    // Without its steps the motion is judged empty-handed among bottles that go on: the third is still on its way.
+    assert_eq!(place.run(&["verify", &urdf, &world, "m.csv"], "").code, 3);
+}
+
+/// A recording that is a little late picks beside the bottles, and one that is hurried does not stand long enough.
+#[test]
+fn a_falsified_recording_of_a_task_is_found_out() {
+    let place = Place::new();
+    let [urdf, world] = moving("belt_pick");
+    let result = place.run(&moving("belt_pick"), "--json").json();
+    let judge = |name: &str, changed: &Value| {
+        place.write(name, changed.to_string());
+        place.run(&["verify", &urdf, &world, name], "")
+    };
+    assert_eq!(judge("as_it_is.json", &result).code, 0);
+    // The first sample alone stays where it was in time.
+    let mut late = result.clone();
+    for time in late["trajectory"]["time"].as_array_mut().unwrap().iter_mut().skip(1) {
+        *time = (time.as_f64().unwrap() + 0.1).into();
+    }
+    let judged = judge("late.json", &late);
+    assert_eq!(judged.code, 3, "{}", judged.stdout);
+    assert!(judged.stdout.contains("step 1 (cycle 1): the tip ends 0.035"), "{}", judged.stdout);
+    // All clocks faster.
+    let mut fast = result.clone();
+    for time in fast["trajectory"]["time"].as_array_mut().unwrap() {
+        *time = (time.as_f64().unwrap() * 0.9).into();
+    }
+    assert_eq!(judge("fast.json", &fast).code, 3);
+    // Picked when it may not be.
+    let narrow = std::fs::read_to_string(&world).unwrap();
+    let narrow = narrow.replace("pick = \"bottle 1\"", "pick = \"bottle 1\"\nwindow = [2.0, 2.5]");
+    place.write("narrow.toml", narrow);
+    let judged = place.run(&["verify", &urdf, "narrow.toml", "as_it_is.json"], "");
+    assert_eq!(judged.code, 3, "{}", judged.stdout);
+    assert!(judged.stdout.contains("outside the times that are asked for"), "{}", judged.stdout);
+}
+
+#[test]
+fn a_pick_keeps_to_its_place_and_its_window() {
+    let place = Place::new();
+    let world = std::fs::read_to_string(shipped("workspaces/moving/belt_pick.toml")).unwrap();
+    for (keys, window) in [("at = [1.3, 0.15]", [5.0, 5.0]), ("window = [3.0, 4.5]", [3.0, 3.1])] {
+        place.write("w.toml", world.replace("pick = \"bottle 1\"", &format!("pick = \"bottle 1\"\n{keys}")));
+        let done = place.run(&[shipped("robots/planar_2r.urdf"), "w.toml".into()], "--json");
+        let time = done.json()["events"][0]["time"].as_f64().unwrap();
+        assert!((window[0] - 1e-9..=window[1] + 1e-9).contains(&time), "{keys}: picked at {time} s");
+    }
+}
+
+/// A task that picks something of this motion.
+fn belt(object: &str, step: &str) -> String {
+    format!(
+        "[start]\njoints = [0.9, 1.2]\n[[object]]\nname = \"bottle\"\ncircle = {{ center = [0, 0], radius = 0.04 }}\n{object}\n\
+         [[step]]\npick = \"bottle\"\n{step}\n"
+    )
+}
+
+#[test]
+fn picks_that_make_no_sense_are_refused_with_their_place() {
+    let place = Place::new();
+    let moves = "at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }";
+    for (object, step, parts) in [
+        (moves, "at = [1.2, 0.1]", ["line 10, column 6", "object \"bottle\" never passes there"]),
+        (moves, "window = [3, 2]", ["line 10, column 10", "window [3, 2] is none"]),
+        (
+            moves,
+            "at = [1.3, 0.1]\nwindow = [1, 2]",
+            ["line 11, column 10", "at that place at 4.000 s, outside the window"],
+        ),
+        ("at = [1.3, -0.9]", "window = [1, 2]", ["line 9, column 10", "object \"bottle\" does not move"]),
+        (
+            "at = [1.3, -0.9]\nrenew = true\nmotion = { velocity = [0, 0.25] }",
+            "",
+            ["line 8", "what moves is not renewed"],
+        ),
+        (
+            moves,
+            "[[step]]\nplace = { at = [0.5, 1.0] }\n[[step]]\npick = \"bottle\"\nat = [1.3, 0.1]",
+            ["line 14, column 6", "\"bottle\" has been picked before"],
+        ),
+        (
+            moves,
+            "[[step]]\nmove = { joints = [0, 1] }\nwindow = [1, 2]",
+            ["line 12", "only a pick has `at` and `window`"],
+        ),
+        (
+            moves,
+            "[robot]\nwrist = { velocity = 6.0 }\npayload = \"level\"\n[[step]]\nplace = { at = [0.5, 1.0], angle = 1.0 }",
+            ["\"bottle\" moves", "a wrist turns objects among what stands"],
+        ),
+        (
+            "payload = \"level\"\nat = [1.3, -0.9]\nmotion = { stops = [{ time = 1 }, { time = 2, angle = 1 }] }",
+            "",
+            ["\"bottle\" moves", "held level where nothing that moves turns"],
+        ),
+    ] {
+        place.plan(belt(object, step), "").refused(1, &parts);
+    }
+}
+
+#[test]
+fn what_is_never_within_reach_is_proven_and_what_is_missed_is_told() {
+    let place = Place::new();
+    let done = place.plan(belt("at = [2.3, -0.9]\nmotion = { velocity = [0, 0.25] }", ""), "");
+    assert_eq!(done.code, 3, "{}", done.stdout);
+    assert!(done.stdout.contains("\"bottle\" is never within the arm's reach"), "{}", done.stdout);
+    let done = place.plan(belt("at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "window = [0, 0.3]"), "");
+    assert_eq!(done.code, 4, "{}", done.stdout);
+    assert!(done.stdout.contains("passes before the arm can be there"), "{}", done.stdout);
+    let [urdf, world] = moving("belt_pick");
+    let done = place.run(&[urdf, world], "--certificate c.json");
+    assert!(done.stderr.contains("what moves") && !place.path("c.json").exists(), "{}", done.stderr);
 }

@@ -30,11 +30,21 @@ fn object(name: &str, round: bool, holding: Holding, at: [f64; 2]) -> Object {
         (Shape::Polygon(corners.clone()), convex(corners, 0.0))
     };
     let at = Pose::translation(at[0], at[1]);
-    Object { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL, lift: 0.0, holding, at, mass: 0.0 }
+    Object {
+        name: name.into(),
+        shape,
+        pieces: vec![piece],
+        heights: Heights::ALL,
+        lift: 0.0,
+        holding,
+        at,
+        course: None,
+        mass: 0.0,
+    }
 }
 
 fn pick(object: usize) -> Action {
-    Action::Pick { object, grasp: Point::origin(), supports: Vec::new() }
+    Action::Pick { object, grasp: Point::origin(), supports: Vec::new(), when: Vec::new() }
 }
 
 fn place(x: f64, y: f64) -> Action {
@@ -117,6 +127,7 @@ fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {
         task,
         answer,
         c_obstacles: contours,
+        in_time: |_, _, _| Vec::new(),
     });
     follows(name, task, answer, &view);
     inspected(name, &view)

@@ -30,7 +30,8 @@ const Workspace = (() => {
   /** Where what moves goes while the arm does: its course, and where it stops. */
   function courses(context, panel, view, world) {
     for (const mover of world.movers ?? []) {
-      const moments = [0, ...mover.stops.map(([time]) => time).filter((time) => 0 < time && time < view.lasts), view.lasts];
+      const lasts = Math.min(view.lasts, mover.until ?? Infinity);
+      const moments = [0, ...mover.stops.map(([time]) => time).filter((time) => 0 < time && time < lasts), lasts];
       const places = moments.map((time) => Geometry.moved(mover, time));
       const origin = { outline: { circle: [0, 0, 0] }, pieces: [], stops: mover.stops, velocity: mover.velocity };
       context.lineWidth = 1;

@@ -1,0 +1,208 @@
+//! Tasks among what moves: what is found is free at all times, picks what is there, and hardly later than brute force.
+
+use crate::belts::{drawn, frames, on_course, replayed};
+use crate::common::dice::Dice;
+use crate::common::disc;
+use crate::common::random::{seeds, usual};
+use crate::solid::{Solid, V};
+use crate::world::KINDS;
+use cplan::engine::task::{TaskVerdict, plan};
+use cplan::geometry::{Point, Vector};
+use cplan::model::{
+    Action, Arm, Course, Heights, Holding, Item, Object, Obstacle, Outcome, Shape, Step, Task, Workspace,
+};
+use cplan::space::Configuration;
+use cplan::{Options, Status};
+use std::f64::consts::{PI, TAU};
+
+/// Moments between two samples at which it is looked.
+const BETWEEN: usize = 2;
+
+#[test]
+fn what_is_found_is_free_at_all_times_and_picks_what_is_there() {
+    let (mut found, mut infeasible, mut unknown, mut waited) = (0, 0, 0, 0);
+    for seed in seeds(8) {
+        for task in KINDS.iter().filter_map(|kind| drawn(kind, seed)) {
+            let answer = plan(&task, &Options::default(), &mut |_| ());
+            let name = format!("{} {seed}", task.arm.joints.each_ref().map(|joint| joint.name.clone()).concat());
+            match answer.verdict.status() {
+                Status::Found => {
+                    found += 1;
+                    waited += usize::from(answer.timing.as_ref().is_some_and(|timing| !timing.waits.is_empty()));
+                    match replayed(&task, &answer, BETWEEN) {
+                        Ok((least, what)) => assert!(least > -1e-9, "{name}: {least} m, {what}"),
+                        Err(what) => panic!("{name}: {what}"),
+                    }
+                    assert!(answer.lower_bound <= answer.duration() + 1e-9, "{name}");
+                }
+                Status::Infeasible => infeasible += 1,
+                Status::Unknown => {
+                    unknown += 1;
+                    // What is done before the step that fails is free, too.
+                    let least = replayed(&task, &answer, BETWEEN);
+                    assert!(least.as_ref().is_ok_and(|(least, _)| *least > -1e-9), "{name}: {least:?}");
+                }
+            }
+        }
+    }
+    println!("{found} found, {waited} with waits, {infeasible} infeasible, {unknown} unknown");
+    assert!(!usual() || (found > 8 && waited > 3), "{found} found, {waited} with waits");
+}
+
+/// Steps in which brute force tries departures and moments, seconds.
+const STEP: f64 = 0.02;
+
+/// What brute force keeps from all that is in the way: more than the tip moves in half a step.
+const APART: f64 = 3e-2;
+
+/// A single pick from a belt by an arm of two bars, with some posts about.
+fn single_pick(seed: u64) -> Task {
+    let mut dice = Dice::new(seed ^ 0xbe17);
+    let arm = Arm::rr([1.0, 0.8], 0.06).expect("an arm");
+    let spot = |dice: &mut Dice, radii: [f64; 2]| {
+        let (angle, radius) = (dice.within(-PI, PI), dice.within(radii[0], radii[1]));
+        Point::new(radius * angle.cos(), radius * angle.sin())
+    };
+    let posts = (0..dice.below(4_usize)).map(|number| {
+        let at = spot(&mut dice, [0.5, 1.8]);
+        Obstacle::circle(&format!("post {number}"), at.coords.into(), 0.06).expect("a circle")
+    });
+    let workspace = Workspace::new(posts.collect::<Vec<_>>());
+    let (near, angle) = (spot(&mut dice, [0.5, 1.6]), dice.within(-PI, PI));
+    let velocity = Vector::new(angle.cos(), angle.sin()) * dice.within(0.1, 0.6);
+    let from = near - velocity * dice.within(0.5, 4.0);
+    let course = Course::conveyor(from.coords.into(), velocity.into()).expect("a course");
+    let object = Object {
+        name: "bottle".into(),
+        shape: Shape::Pieces,
+        pieces: vec![disc(Point::origin(), 0.04)],
+        heights: Heights::ALL,
+        lift: 0.0,
+        holding: Holding::Rigid,
+        at: course.pose(0.0),
+        course: Some(course),
+        mass: 0.0,
+    };
+    let action = Action::Pick { object: 0, grasp: Point::origin(), supports: Vec::new(), when: Vec::new() };
+    let step = Step { action, number: 1, cycle: 1, place: String::new(), speed: 1.0, dwell: 0.0 };
+    let start = Configuration::new(dice.within(-PI, PI), dice.within(-PI, PI));
+    Task { arm, workspace, objects: vec![object], start, items: vec![Item::Step(step)], wrist: None, stroke: None }
+}
+
+#[test]
+fn a_pick_is_hardly_later_than_brute_force_finds() {
+    let (mut compared, mut later) = (0, 0.0_f64);
+    for seed in seeds(16) {
+        let task = single_pick(seed);
+        if task.check().is_err() {
+            continue;
+        }
+        let answer = plan(&task, &Options::default(), &mut |_| ());
+        let Some(least) = soonest(&task) else { continue };
+        compared += 1;
+        assert_eq!(answer.verdict.status(), Status::Found, "seed {seed}: picked at {least} s by brute force");
+        let end = answer.duration();
+        later = later.max(end - least);
+        assert!(end <= least + 3.0 * STEP, "seed {seed}: at {end} s, brute force at {least} s");
+    }
+    println!("{compared} compared, {later} s later at the most");
+    assert!(!usual() || compared > 8, "{compared} compared");
+}
+
+/// The soonest pick of a straight motion that begins after some time and waits for what comes; none within ten seconds.
+fn soonest(task: &Task) -> Option<f64> {
+    (1..500).map(|k| f64::from(k) * STEP).find(|&moment| {
+        let place = on_course(&task.objects[0], moment).1;
+        postures(task, place).into_iter().any(|to| {
+            let lasts = straight(task, to);
+            let mut departures = (0..).map(|k| k as f64 * STEP).take_while(|departs| departs + lasts <= moment);
+            departures.any(|departs| is_free(task, to, [departs, lasts, moment]))
+        })
+    })
+}
+
+/// Both postures that reach a place from the start, the shorter way round, by the law of cosines.
+fn postures(task: &Task, [x, y]: V) -> Vec<V> {
+    let (a, b) = (task.arm.offset.norm(), task.arm.tip.coords.norm());
+    let cosine = (x * x + y * y - a * a - b * b) / (2.0 * a * b);
+    if cosine.abs() >= 1.0 {
+        return Vec::new();
+    }
+    let start = [task.start[0], task.start[1]];
+    let near = |angle: f64, to: f64| to + (angle - to + PI).rem_euclid(TAU) - PI;
+    [cosine.acos(), -cosine.acos()]
+        .map(|elbow| {
+            let shoulder = y.atan2(x) - (b * elbow.sin()).atan2(a + b * elbow.cos());
+            [near(shoulder, start[0]), near(elbow, start[1])]
+        })
+        .into()
+}
+
+/// Seconds of the straight motion there: both joints together, each within its limits.
+fn straight(task: &Task, to: V) -> f64 {
+    let (velocity, acceleration) = limits(task, to);
+    if acceleration <= velocity * velocity {
+        2.0 / acceleration.sqrt()
+    } else {
+        1.0 / velocity + velocity / acceleration
+    }
+}
+
+/// Greatest speed and acceleration of the share of the way.
+fn limits(task: &Task, to: V) -> (f64, f64) {
+    let share = |k: usize, limit: f64| limit / (to[k] - task.start[k]).abs();
+    let least = |of: &dyn Fn(usize) -> f64| of(0).min(of(1));
+    let joint = |k: usize| &task.arm.joints[k];
+    (least(&|k| share(k, joint(k).velocity)), least(&|k| share(k, joint(k).acceleration)))
+}
+
+/// Whether the arm meets nothing until it picks: at the start, on its way, and where it waits.
+fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
+    let (velocity, acceleration) = limits(task, to);
+    let ramp = (velocity / acceleration).min(lasts / 2.0);
+    let done = |time: f64| {
+        let peak = acceleration * ramp;
+        if time < ramp {
+            acceleration * time * time / 2.0
+        } else if time < lasts - ramp {
+            peak * (time - ramp / 2.0)
+        } else {
+            1.0 - acceleration * (lasts - time).powi(2) / 2.0
+        }
+    };
+    (0..=(moment / STEP) as usize).all(|k| {
+        let time = k as f64 * STEP;
+        let share = done((time - departs).clamp(0.0, lasts));
+        let q = [0, 1].map(|k| task.start[k] + (to[k] - task.start[k]) * share);
+        let frames = frames(&task.arm, q);
+        let bar = |link: usize| task.arm.links[link].parts.iter().map(move |part| (link, Solid::new(&part.shape)));
+        let mut bodies = bar(0).chain(bar(1)).map(|(link, body)| (link, body.placed(frames[link].0, frames[link].1)));
+        let posts: Vec<Solid> = task.workspace.obstacles.iter().map(|post| Solid::new(&post.pieces[0])).collect();
+        let bottle = on_course(&task.objects[0], time);
+        let bottle = Solid::new(&task.objects[0].pieces[0]).placed(bottle.0, bottle.1);
+        let is_apart = k < (moment / STEP) as usize || posts.iter().all(|post| bottle.distance(post) > APART);
+        is_apart
+            && bodies.all(|(link, body)| {
+                posts.iter().all(|post| body.distance(post) > APART) && (link == 1 || body.distance(&bottle) > APART)
+            })
+    })
+}
+
+/// An object that never comes within reach, and a task that cannot be done even if nothing moves.
+#[test]
+fn what_is_proven_of_tasks_among_what_moves() {
+    let mut task = single_pick(0);
+    task.workspace.obstacles.clear();
+    task.objects[0].course = Some(Course::conveyor([2.0, -3.0], [0.0, 0.5]).expect("a course"));
+    task.objects[0].at = task.objects[0].course.as_ref().expect("a course").pose(0.0);
+    let answer = plan(&task, &Options::default(), &mut |_| ());
+    let Outcome::Infeasible(why) = &answer.verdict else { panic!("{:?}", answer.verdict) };
+    assert!(why.reasons[0].contains("\"bottle\" is never within the arm's reach"), "{:?}", why.reasons);
+    // It passes within reach, but not then.
+    task.objects[0].course = Some(Course::conveyor([1.0, -3.0], [0.0, 0.5]).expect("a course"));
+    let found = plan(&task, &Options::default(), &mut |_| ());
+    assert_eq!(found.verdict, TaskVerdict::Found(()));
+    let Item::Step(Step { action: Action::Pick { when, .. }, .. }) = &mut task.items[0] else { panic!("a pick") };
+    *when = vec![[0.0, 1.0]];
+    assert_eq!(plan(&task, &Options::default(), &mut |_| ()).verdict.status(), Status::Infeasible);
+}
