@@ -2,7 +2,7 @@
 
 use super::fastest::fastest;
 use super::field_report::field_report;
-use super::moving::{Errand, InTime, Timing, in_time};
+use super::moving::{Demand, InTime, Timing, in_time};
 use super::options::Options;
 use super::{Answer, Bound, Report, Verdict};
 use crate::check::CertifiedCurve;
@@ -46,7 +46,7 @@ impl MotionPlan {
             && let Verdict::Found(certified) = &answer.verdict
             && let Some((timed, fastest)) = driven.take()
         {
-            match in_time(&problem, certified, timed, options, &Errand::ALONE)? {
+            match in_time(&problem, certified, timed, options, &Demand::ALONE)? {
                 Ok(InTime { timed, figures }) => {
                     // The bound stays; the duration has its waits now.
                     let duration = timed.trajectory.duration();

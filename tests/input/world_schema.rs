@@ -144,10 +144,13 @@ pallet = "store"
 name = "coin"
 circle = { center = [0, 0], radius = 0.01 }
 at = [0.3, 0.2]
+motion = { velocity = [0, 0.1] }
 [[step]]
 pick = "part"
 grasp = [0, 0]
 supports = []
+at = [0.3, 0.2]
+window = [1, 2]
 dwell = 0.2
 [[step]]
 place = { at = [0.1, 0.3], angle = 1.57, supports = ["tray"] }
@@ -322,6 +325,7 @@ fn broken_worlds_are_not_valid() {
         "[[step]]\nplace = [0, 0]",
         "[[step]]\nplace = { at = [0, 0] }\ngrasp = [0, 0]",
         "[[step]]\npick = \"a\"\nrepeat = 2",
+        "[[step]]\nmove = { joints = [0, 0] }\nwindow = [1, 2]",
         "[[step]]\nmove = { joints = [0, 0] }\norder = \"free\"",
         "[[step]]\nsteps = []",
         "[[step]]\npick = \"a\"\nspeed = 1.5",

@@ -13,7 +13,7 @@ mod refutation;
 mod schedule;
 
 pub(super) use blocked::Movers;
-pub use schedule::{Errand, Scheduled, Wait};
+pub use schedule::{Demand, Scheduled, Wait};
 
 use super::options::Options;
 use super::{Verdict, solve};
@@ -61,7 +61,7 @@ pub struct Timing {
 }
 
 /// The earliest motion among those along the ways tried: the certified path's, which `first` drives along as if nothing moved, at the
-/// errand's speed, and others. Or why there is none, in words.
+/// demand's speed, and others. Or why there is none, in words.
 ///
 /// # Errors
 /// Paths that cannot be timed.
@@ -70,7 +70,7 @@ pub fn in_time(
     certified: &CertifiedPath,
     first: Timed,
     options: &Options,
-    errand: &Errand,
+    demand: &Demand,
 ) -> Result<Result<InTime, String>, TimingError> {
     let scene = problem.scene();
     let movers = Movers::new(scene, scene.workspace().clearance);
@@ -84,11 +84,11 @@ pub fn in_time(
         let best = found.last();
         let for_good = best.filter(|best| best.is_for_good()).map(Scheduled::duration);
         // Only what is sooner counts, once the arm can stay where what is known ends: a way that takes longer without a wait is none.
-        let latest = errand.arrival.map_or(f64::INFINITY, |[_, ends]| ends + ROUNDING);
+        let latest = demand.arrival.map_or(f64::INFINITY, |[_, ends]| ends + ROUNDING);
         let before = for_good.unwrap_or(f64::INFINITY).min(latest);
         if whole.trajectory.duration() < before {
             let along = |effort: Effort| {
-                let along = schedule(&movers, &path, &whole, &options.drive, errand, effort, before)?;
+                let along = schedule(&movers, &path, &whole, &options.drive, demand, effort, before)?;
                 Ok::<_, TimingError>(along.filter(|it| best.is_none_or(|best| it.is_better_than(best))))
             };
             let mut better = along(Effort::QUICK)?;
@@ -102,7 +102,7 @@ pub fn in_time(
             found.extend(better);
         }
         // What ends as soon as it may is as good along any way.
-        let soonest = errand.until.or(errand.arrival.map(|[begins, _]| begins)).unwrap_or(0.0);
+        let soonest = demand.until.or(demand.arrival.map(|[begins, _]| begins)).unwrap_or(0.0);
         let is_best =
             |best: &Scheduled| best.is_for_good() && (best.waits.is_empty() || best.duration() <= soonest + ROUNDING);
         if ways == WAYS || found.last().is_some_and(is_best) {
@@ -114,7 +114,7 @@ pub fn in_time(
         let looser = Options { bounded: false, planner, ..*options };
         let Verdict::Found(other) = solve(&around, &looser, &mut |_| ()).verdict else { break };
         let Ok(other) = certify(scene, other.path().clone(), scene.workspace().clearance) else { break };
-        let whole = options.drive.along(scene, &other, errand.speed)?;
+        let whole = options.drive.along(scene, &other, demand.speed)?;
         way = Some((other, whole));
     }
     let certified = found.into_iter().rev().find_map(|found| certified_in_time(scene, found, ways));

@@ -34,7 +34,7 @@ impl Effort {
 
 /// What is asked of a motion beside its path.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Errand {
+pub struct Demand {
     /// Share of the joints' top speeds that it takes.
     pub speed: f64,
     /// The times at which it may arrive, seconds since it may begin: what becomes of the arm then is no question of it. If none is given it is to
@@ -44,7 +44,7 @@ pub struct Errand {
     pub until: Option<f64>,
 }
 
-impl Errand {
+impl Demand {
     /// A motion by itself.
     pub const ALONE: Self = Self { speed: 1.0, arrival: None, until: None };
 }
@@ -95,7 +95,7 @@ struct Stops<'a> {
     path: &'a CertifiedPath,
     drive: &'a Drive,
     effort: Effort,
-    errand: &'a Errand,
+    demand: &'a Demand,
     /// Distances along the path, ascending; the first and the last are its ends.
     at: Vec<f64>,
     /// Seconds up to there at the joints' top speeds.
@@ -126,14 +126,14 @@ pub fn schedule(
     path: &CertifiedPath,
     whole: &Timed,
     drive: &Drive,
-    errand: &Errand,
+    demand: &Demand,
     effort: Effort,
     before: f64,
 ) -> Result<Option<Scheduled>, TimingError> {
     let at = places(movers, path.path(), effort);
     let safe_at = |&distance: &f64| movers.safe_intervals(&posture_at(movers, path.path(), distance));
     let mut safe: Vec<Vec<Interval>> = at.iter().map(safe_at).collect();
-    if let (Some([begins, ends]), Some(goal)) = (errand.arrival, safe.last_mut().filter(|_| at.len() > 1)) {
+    if let (Some([begins, ends]), Some(goal)) = (demand.arrival, safe.last_mut().filter(|_| at.len() > 1)) {
         goal.iter_mut().for_each(|safe| *safe = [safe[0].max(begins), safe[1].min(ends)]);
         goal.retain(|[begins, ends]| begins <= ends);
     }
@@ -141,7 +141,7 @@ pub fn schedule(
     let speeds = movers.scene().arm().joints.each_ref().map(|joint| joint.velocity);
     let metric = Metric::Time { speeds };
     let gone = at.iter().map(|&distance| metric.length(&path.path().part(0.0, distance))).collect();
-    let mut stops = Stops { movers, path, drive, effort, errand, at, gone, safe, legs };
+    let mut stops = Stops { movers, path, drive, effort, demand, at, gone, safe, legs };
     let Some((way, free_until)) = stops.search(before)? else { return Ok(None) };
     let (timed, waits) = stops.driven(&way)?;
     Ok(Some(Scheduled { timed, waits, free_until }))
@@ -153,7 +153,7 @@ impl Stops<'_> {
         if !self.legs.contains_key(&(from, to)) {
             checkpoint();
             let part = self.path.part(self.at[from], self.at[to]);
-            let timed = self.drive.along(self.movers.scene(), &part, self.errand.speed)?;
+            let timed = self.drive.along(self.movers.scene(), &part, self.demand.speed)?;
             self.legs.insert((from, to), timed);
         }
         Ok(&self.legs[&(from, to)])
@@ -189,7 +189,7 @@ impl Stops<'_> {
                 if until == f64::INFINITY {
                     return Ok(Some((way(&known, (stop, interval)), until)));
                 }
-                if self.errand.arrival.is_none() {
+                if self.demand.arrival.is_none() {
                     fallback = fallback.or_else(|| Some((way(&known, (stop, interval)), until)));
                 }
                 continue;
@@ -228,7 +228,7 @@ impl Stops<'_> {
                     let ends = self.safe[next][target][1];
                     let arrives = departs + lasts;
                     if known.get(&(next, target)).is_none_or(|known| arrives < known.time) {
-                        if next == last && (ends == f64::INFINITY || self.errand.arrival.is_some()) {
+                        if next == last && (ends == f64::INFINITY || self.demand.arrival.is_some()) {
                             soonest_for_good = soonest_for_good.min(arrives);
                         }
                         known.insert((next, target), Arrival { time: arrives, from: Some((stop, interval, departs)) });
@@ -244,10 +244,10 @@ impl Stops<'_> {
     fn stays(&self, interval: usize, time: f64) -> f64 {
         let last = self.at.len() - 1;
         let until = self.safe[last][interval][1];
-        match self.errand.arrival {
+        match self.demand.arrival {
             None => until,
             // On a way of no length nothing arrives: the arm stands where it is until then.
-            Some([begins, _]) if last == 0 && self.errand.until.unwrap_or(begins).max(time) > until => until,
+            Some([begins, _]) if last == 0 && self.demand.until.unwrap_or(begins).max(time) > until => until,
             Some(_) => f64::INFINITY,
         }
     }
@@ -281,8 +281,8 @@ impl Stops<'_> {
             trajectory = self.drive.along(self.movers.scene(), &start, 1.0)?.trajectory;
         }
         let curve = curve.unwrap_or_else(|| start.into());
-        if let Some([begins, _]) = self.errand.arrival {
-            trajectory.stand(self.errand.until.unwrap_or(begins) - arrived);
+        if let Some([begins, _]) = self.demand.arrival {
+            trajectory.stand(self.demand.until.unwrap_or(begins) - arrived);
             let (to, goal) = (trajectory.duration(), self.path.path().goal());
             waits.extend((to > arrived).then(|| Wait { from: arrived, to, at: goal.into() }));
         }

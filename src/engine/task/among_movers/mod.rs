@@ -19,7 +19,7 @@ use super::legs::{Legs, Refusal, of_legs, unobstructed};
 use super::state::State;
 use crate::check::Posture;
 use crate::engine::Options;
-use crate::engine::moving::{Errand, InTime, Movers, Timing, Wait, in_time, stands};
+use crate::engine::moving::{Demand, InTime, Movers, Timing, Wait, in_time, stands};
 use crate::engine::result::finite;
 use crate::geometry::Ordered;
 use crate::interrupt::checkpoint;
@@ -364,13 +364,13 @@ impl<'a> Search<'a> {
         let motion = self.legs.motion(task, state, candidate)?;
         self.motions += 1;
         let problem = MotionProblem::trusted(here.scene(step), state.q, candidate.to);
-        let errand = Errand {
+        let demand = Demand {
             speed: step.speed,
             arrival: Some(way.arrival.map(|arrival| (arrival - time).max(0.0))),
             until: way.moment.map(|moment| moment.time - time),
         };
         let path = motion.timed.curve.straight();
-        let planned = in_time(&problem, &path, (*motion.timed).clone(), &self.options, &errand);
+        let planned = in_time(&problem, &path, (*motion.timed).clone(), &self.options, &demand);
         let planned = planned.map_err(|error| Refusal::new(error.to_string(), false))?;
         let InTime { timed: Timed { curve, trajectory }, figures } =
             planned.map_err(|reason| Refusal::new(reason, false))?;
