@@ -54,7 +54,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
         ends: Ok(Vec::new()),
         done: None,
     };
-    let proof = Proof { arm, domain: &domain, certificate, clearance: &clearance, cases, at_start: &at_start };
+    let proof = Proof { arm, domain: &domain, certificate, clearance, cases, at_start: &at_start };
     let mut last = 0;
     let done = proof.group(&task.steps, vec![begin], &mut last)?;
     if !done.is_empty() && proof.stays(done, steps[steps.len() - 1])? {

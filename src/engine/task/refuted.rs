@@ -131,7 +131,8 @@ impl Walk<'_> {
         loop {
             let index = states[0].state.progress.item;
             let item = &self.task.items[index];
-            let is_new = steps(item).fold(true, |is_new, step| seen.insert(step.number) && is_new);
+            let is_new = steps(item).all(|step| !seen.contains(&step.number));
+            seen.extend(steps(item).map(|step| step.number));
             match item {
                 Item::AnyOrder(pairs) if !is_once(pairs) => return None,
                 Item::AnyOrder(pairs) if is_new && index >= self.first => {
@@ -362,10 +363,11 @@ fn is_gantry(arm: &Arm) -> bool {
 
 /// Without an object of which it depends on how the steps were done how it lies.
 fn as_known(mut state: State, step: &Step, task: &Task) -> State {
-    if let (Action::Place { angle: None, .. }, Some(object)) = (&step.action, state.released) {
-        if task.objects[object].holding != Holding::Level && !is_gantry(&task.arm) {
-            Arc::make_mut(&mut state.poses)[object] = None;
-        }
+    if let (Action::Place { angle: None, .. }, Some(object)) = (&step.action, state.released)
+        && task.objects[object].holding != Holding::Level
+        && !is_gantry(&task.arm)
+    {
+        Arc::make_mut(&mut state.poses)[object] = None;
     }
     state
 }
