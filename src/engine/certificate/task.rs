@@ -43,6 +43,9 @@ const SMALLER: f64 = 1e-6;
 /// IK solutions that a checker finds less well, by [`tells_apart`], have none: it looks at 2 000 parts.
 const NEARLY_STRETCHED: f64 = 0.005;
 
+/// What [`tells_apart`] is at the most.
+const MOST_TOLD: f64 = 0.25;
+
 /// Half the sides of the rectangles that hold IK solutions where the joints move the tip across each other, as shares of the joints' ranges. A
 /// checker finds them to a part in 10^12, ...
 const ABOUT_IK_SOLUTIONS: f64 = 1e-10;
@@ -59,15 +62,20 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     smaller.objects.iter_mut().flat_map(|object| &mut object.pieces).for_each(|piece| *piece = shrunk(piece));
     let cases = refuted(&smaller, last, &mut rule_out)?;
     let (empty, arm) = (Scene::trusted(task.arm.clone(), task.workspace.clone()), &task.arm);
+    // Where something is let go of is known as well as where it was taken.
+    let told_of = |case: &RefutedCase| case.from.map_or(MOST_TOLD, |q| tells_apart(arm, q));
+    let carrying = cases.iter().filter(|case| case.scene.payload().is_some());
+    let taken = MOST_TOLD / carrying.map(told_of).fold(MOST_TOLD, f64::min);
     let mut contacts = Contacts::new(&empty);
     let mut all = Vec::new();
-    for RefutedCase { step, after, from, scene, stuck, lowered } in &cases {
-        let share = if scene.payload().is_some() { ABOUT_IK_SOLUTIONS } else { AFTER_ANOTHER };
-        let told = from.map_or(0.25, |q| tells_apart(arm, q));
+    for case in &cases {
+        let RefutedCase { step, after, from, scene, stuck, lowered } = case;
+        let share = if scene.payload().is_some() { ABOUT_IK_SOLUTIONS } else { AFTER_ANOTHER * taken };
+        let told = told_of(case);
         if told < NEARLY_STRETCHED {
             return None;
         }
-        let share = share * 0.25 / told;
+        let share = share * MOST_TOLD / told;
         let from = from.map(|q| {
             let ranges = arm.topology().ranges.map(|range| range.domain());
             [0, 1].map(|k| {
