@@ -19,7 +19,7 @@ def test_both_spaces_show_it_in_time(program, show_file):
     page, _ = program.plan("planar_2r", "moving/crossing")
     seen = show_file(page)
     shown = []
-    for time in (0, 1.5):
+    for time in (0, 1.2):
         seen.do("(time) => cplan.seek(time)", time)
         shown.append([pixels(seen, panel) for panel in ("workspace", "cspace")])
         # The arm waits where it began: nothing else has moved.
