@@ -9,7 +9,7 @@ use super::quantity::Written;
 use super::schema::{AngleOrLength, HeldAs, NotNegative, Rings, Two};
 use super::world::{Number, Numbers, Reader};
 use crate::geometry::{Point, Pose};
-use crate::model::{Course, Holding, Object, Obstacle};
+use crate::model::{Course, Holding, Mover, Object, Obstacle};
 use nalgebra::{Isometry2, Translation2};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -109,7 +109,12 @@ const LISTED: usize = 12;
 impl<'a> Names<'a> {
     /// # Errors
     /// When two objects, or an object and an obstacle, have the same name.
-    fn of(reader: &Reader, placed: &[Placed<'a>], obstacles: &'a [Obstacle]) -> Result<Self, Diagnostic> {
+    fn of(
+        reader: &Reader,
+        placed: &[Placed<'a>],
+        obstacles: &'a [Obstacle],
+        movers: &[Mover],
+    ) -> Result<Self, Diagnostic> {
         let mut names = Self {
             objects: BTreeMap::new(),
             families: BTreeMap::new(),
@@ -122,7 +127,9 @@ impl<'a> Names<'a> {
         for (number, Placed { table, name, .. }) in placed.iter().enumerate() {
             let given = &table.get_ref().name;
             let family = given.get_ref().as_str();
-            let is_obstacle = [name.as_str(), family].iter().any(|name| names.obstacles.contains_key(name));
+            let is_mover = |name: &str| movers.iter().any(|mover| mover.obstacle.name == name);
+            let is_obstacle =
+                [name.as_str(), family].iter().any(|name| names.obstacles.contains_key(name) || is_mover(name));
             let mut is_object = names.objects.insert(name.clone(), number).is_some();
             if name == family {
                 is_object |= names.families.contains_key(family);
@@ -274,10 +281,11 @@ pub(super) fn read<'a>(
     tables: &'a [Spanned<ObjectTable>],
     pallets: &Pallets,
     obstacles: &'a [Obstacle],
+    movers: &[Mover],
     default: Holding,
 ) -> Result<(Vec<Movable>, Names<'a>), Diagnostic> {
     let placed = placed(reader, tables, pallets)?;
-    let names = Names::of(reader, &placed, obstacles)?;
+    let names = Names::of(reader, &placed, obstacles, movers)?;
     let objects = placed.into_iter().enumerate().map(|(i, placed)| movable(reader, placed, i, &names, default));
     Ok((objects.collect::<Result<_, _>>()?, names))
 }

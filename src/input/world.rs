@@ -285,7 +285,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
     let pallets = Pallets::read(&reader, &file.pallet)?;
     let held = payload.unwrap_or(Holding::Rigid);
-    let (movables, names) = object::read(&reader, &file.object, &pallets, &obstacles, held)?;
+    let (movables, names) = object::read(&reader, &file.object, &pallets, &obstacles, &movers, held)?;
     let steps = steps(&reader, &file, &pallets, &names, &movables, wrist.is_some())?;
     let stem = source.stem().unwrap_or_else(|| "world".to_owned());
     let place = reader.pose(file.robot.at.as_ref(), file.robot.angle.as_ref(), "[robot]")?;

@@ -71,6 +71,11 @@ fn objects_that_are_none() {
         ("name = \"cup\"", "name = \"part\"", &["line 16, column 8", "a second object is named \"part\"", "cure: "]),
         ("name = \"cup\"", "name = \"table\"", &["line 16, column 8", "an obstacle is named \"table\"", "cure: "]),
         (
+            "[[object]]\n",
+            "[[obstacle]]\nname = \"cup\"\ncircle = { center = [9, 9], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n[[object]]\n",
+            &["line 20, column 8", "an obstacle is named \"cup\"", "cure: "],
+        ),
+        (
             "supports = [\"table\"]",
             "supports = [\"tabel\"]",
             &[
