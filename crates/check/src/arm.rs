@@ -1,8 +1,9 @@
 //! Where the arm's shapes are, and how far they can move.
 
 use crate::decimal::Decimal;
-use crate::interval::{BITS, Interval, Point, length, sum, times, turned};
-use crate::overlap::{Shape, overlap_by_more_than};
+use crate::free::{rough, roughly};
+use crate::interval::{BITS, Interval, Point, both_turns, length, sum, times, turned};
+use crate::overlap::{Shape, overlap_by_more_than, seem_to_overlap};
 use crate::robot::{Arm, Body, Motion};
 use crate::sweep::{Domain, Range, Rectangle};
 use num_bigint::BigInt;
@@ -46,11 +47,12 @@ fn chord(angle: &Interval) -> Interval {
 }
 
 impl Arm<'_> {
-    /// What a joint does at a value.
-    fn displaced(&self, joint: usize, value: &Interval) -> Moved {
+    /// What a joint does at a value: the sine and cosine by which it turns, and by how much it slides.
+    fn displaced(&self, joint: usize, value: &Interval) -> [Point; 2] {
+        let [none, one] = [0, 1].map(Interval::whole);
         match &self.joints[joint].motion {
-            Motion::Turn(sign) => Moved::Turn((value * &Interval::whole(*sign)).sin_cos()),
-            Motion::Slide(direction) => Moved::Slide(times(direction, value)),
+            Motion::Turn(sign) => [(value * &Interval::whole(*sign)).sin_cos(), [none.clone(), none]],
+            Motion::Slide(direction) => [[none, one], times(direction, value)],
         }
     }
 }
@@ -59,8 +61,10 @@ impl Arm<'_> {
 pub struct Mover<'a> {
     arm: &'a Arm<'a>,
     body: &'a Body,
+    /// Its corners, about.
+    rough: Vec<[f64; 2]>,
     /// The first joint at the value that it had last: many boxes have it in common.
-    first: RefCell<(Interval, Moved)>,
+    first: RefCell<(Interval, [Point; 2])>,
     /// How far the second joint is from the first, and the body's points from the joint that moves it last.
     offset: Interval,
     reach: Interval,
@@ -75,7 +79,8 @@ impl<'a> Mover<'a> {
     pub fn new(arm: &'a Arm<'a>, body: &'a Body) -> Self {
         let zero = Interval::whole(0);
         let first = RefCell::new((zero.clone(), arm.displaced(0, &zero)));
-        Self { arm, body, first, offset: length(&arm.offset), reach: reach(&body.shape.points) }
+        let rough = body.shape.points.iter().map(rough).collect();
+        Self { arm, body, rough, first, offset: length(&arm.offset), reach: reach(&body.shape.points) }
     }
 
     /// The body's shape in the middle of a box, in plane coordinates.
@@ -85,11 +90,15 @@ impl<'a> Mover<'a> {
         if *value != cell.middle[0] {
             (*value, *first) = (cell.middle[0].clone(), arm.displaced(0, &cell.middle[0]));
         }
-        let second = (body.link == 1).then(|| arm.displaced(1, &cell.middle[1]));
-        let point = |p: &Point| {
-            let carried = second.as_ref().map_or_else(|| p.clone(), |second| sum(&arm.offset, &second.apply(p)));
-            sum(&arm.base, &first.apply(&carried))
+        let [turn, at] = match body.link {
+            0 => first.clone(),
+            _ => {
+                let [turn, at] = arm.displaced(1, &cell.middle[1]);
+                [both_turns(&first[0], &turn), sum(&turned(&sum(&arm.offset, &at), &first[0]), &first[1])]
+            }
         };
+        let origin = sum(&arm.base, &at);
+        let point = |p: &Point| sum(&origin, &turned(p, &turn));
         Shape { points: body.shape.points.iter().map(point).collect(), radius: body.shape.radius.clone() }
     }
 
@@ -122,7 +131,31 @@ impl<'a> Mover<'a> {
 
     /// Whether the body is seen to overlap a shape all over a box.
     pub fn overlaps(&self, shape: &Shape, cell: &Cell) -> bool {
-        overlap_by_more_than(&self.placed(cell), shape, &self.farthest(cell))
+        let farthest = self.farthest(cell);
+        self.seems_to_overlap(shape, cell, &farthest) && overlap_by_more_than(&self.placed(cell), shape, &farthest)
+    }
+
+    /// A guess in floating point, which spares looks in vain: no more than whether to look depends on it.
+    fn seems_to_overlap(&self, shape: &Shape, cell: &Cell, farthest: &BigInt) -> bool {
+        let mut placed = self.rough.clone();
+        for joint in (0..=self.body.link).rev() {
+            let value = roughly(&cell.middle[joint].lower);
+            let [x, y] = rough([&self.arm.base, &self.arm.offset][joint]);
+            match &self.arm.joints[joint].motion {
+                Motion::Turn(sign) => {
+                    let (sine, cosine) = (value * f64::from(*sign)).sin_cos();
+                    placed.iter_mut().for_each(|[a, b]| {
+                        [*a, *b] = [x + cosine * *a - sine * *b, y + sine * *a + cosine * *b];
+                    });
+                }
+                Motion::Slide(direction) => {
+                    let [u, v] = rough(direction);
+                    placed.iter_mut().for_each(|[a, b]| [*a, *b] = [x + value * u + *a, y + value * v + *b]);
+                }
+            }
+        }
+        let needed = farthest - &self.body.shape.radius.lower - &shape.radius.lower;
+        seem_to_overlap(&placed, &shape.points.iter().map(rough).collect::<Vec<_>>(), roughly(&needed))
     }
 }
 
@@ -184,19 +217,3 @@ fn hull(a: &Range, b: &Range) -> Range {
 
 /// How often the domain is cut where the tip may be at a place: a part in 10^12 of each range is left.
 const MOST_CUTS: u32 = 40;
-
-/// What a joint does at a value.
-enum Moved {
-    /// Sine and cosine.
-    Turn([Interval; 2]),
-    Slide(Point),
-}
-
-impl Moved {
-    fn apply(&self, p: &Point) -> Point {
-        match self {
-            Self::Turn(angle) => turned(p, angle),
-            Self::Slide(by) => sum(p, by),
-        }
-    }
-}

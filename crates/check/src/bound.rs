@@ -4,7 +4,7 @@
 //! them goes straight from corner to corner, which are ends of walls. Each corner gets a *potential*: no way from the start is claimed to
 //! reach it sooner. It remains to be seen that a straight leg that no wall crosses is at least as long as the potential grows along it.
 
-use crate::arm::{Cell, Mover};
+use crate::arm::{self, Mover};
 use crate::certificate::{Bound, Metric, Wall};
 use crate::decimal::Decimal;
 use crate::error::CheckError;
@@ -13,6 +13,7 @@ use crate::overlap::Shape;
 use crate::robot::{Arm, Body, Motion};
 use crate::sweep::{Axis, Rectangle};
 use num_bigint::{BigInt, Sign};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
@@ -35,13 +36,13 @@ pub fn closes(arm: &Arm, wall: &Wall, body: &Body, part: &Shape) -> bool {
     let turns = |k: usize| wall.from[k] != wall.to[k] && matches!(arm.joints[k].motion, Motion::Turn(_));
     if !(0..=body.link).any(turns) {
         let still = [0, 1].map(|_| Interval::whole(0));
-        return [from, to].iter().all(|end| mover.overlaps(part, &Cell::of_segment(end, &still, 0, 0)));
+        return [from, to].iter().all(|end| mover.overlaps(part, &arm::Cell::of_segment(end, &still, 0, 0)));
     }
     let (mut left, mut last) = (vec![(0, 0)], 0);
     for _ in 0..MOST_LOOKS {
         let Some((k, cuts)) = left.pop() else { return true };
         // What is much longer than the piece before is not looked at.
-        if cuts + 1 >= last && mover.overlaps(part, &Cell::of_segment(&from, &along, k, cuts)) {
+        if cuts + 1 >= last && mover.overlaps(part, &arm::Cell::of_segment(&from, &along, k, cuts)) {
             last = cuts;
         } else if cuts < MOST_CUTS {
             left.extend([2 * k + 1, 2 * k].map(|k| (k, cuts + 1)));
@@ -216,14 +217,17 @@ impl<'a> Plane<'a> {
         let sources = corners.iter().filter_map(|c| Some((&c.at, c.potential.as_ref()?, Some(c.name))));
         let none = BigInt::ZERO;
         for (at, potential, name) in sources.chain([(&self.start, &none, None)]) {
+            // A wall that bars one leg bars many others from there.
+            let latest = Cell::new(0);
+            let bars = |to: &Place| self.bars(at, to, &latest);
             let from = || name.map_or_else(|| "the start".to_owned(), called);
             for goal in &self.goals {
-                if !self.is_long(at, goal, &(&self.length.upper - potential)) && !self.bars(at, goal) {
+                if !self.is_long(at, goal, &(&self.length.upper - potential)) && !bars(goal) {
                     return CheckError::fails(format!("from {} no wall bars the way to a goal", from()));
                 }
             }
             for (corner, claimed) in corners.iter().zip(&claimed) {
-                if !self.is_long(at, &corner.at, &(claimed - potential)) && !self.bars(at, &corner.at) {
+                if !self.is_long(at, &corner.at, &(claimed - potential)) && !bars(&corner.at) {
                     let message = "the potential grows by more than the way is long, and no wall bars it";
                     return CheckError::fails(format!("from {} to {}: {message}", from(), called(corner.name)));
                 }
@@ -250,7 +254,10 @@ impl<'a> Plane<'a> {
 
     /// Whether walls bar every straight leg from a place to any in a rectangle: one that it goes through, from one side to the other, or
     /// those beside it that leave no side to pass along.
-    fn bars(&self, from: &Place, to: &Place) -> bool {
+    fn bars(&self, from: &Place, to: &Place, latest: &Cell<usize>) -> bool {
+        if self.copies.get(latest.get()).is_some_and(|copy| copy.crosses(from, to)) {
+            return true;
+        }
         let [low, high] = [from.coarse[0][0].min(to.coarse[0][0]), from.coarse[0][1].max(to.coarse[0][1])];
         let first = self.copies.partition_point(|copy| copy.begins() < low - self.widest);
         let last = self.copies.partition_point(|copy| copy.begins() <= high);
@@ -258,7 +265,8 @@ impl<'a> Plane<'a> {
         // What bars a leg is near its beginning, as a rule.
         let crosses = |copy: &Copy| copy.crosses(from, to);
         let is_onward = from.coarse[0][0] <= to.coarse[0][0];
-        if if is_onward { near.iter().any(crosses) } else { near.iter().rev().any(crosses) } {
+        if let Some(at) = if is_onward { near.iter().position(crosses) } else { near.iter().rposition(crosses) } {
+            latest.set(first + at);
             return true;
         }
         let Some(runs) = from.line.as_ref().filter(|_| from.line == to.line).and_then(|line| self.runs.get(line))
@@ -343,6 +351,9 @@ impl Place {
         if area.abs() > error && ![a, b, self].into_iter().any(wide) {
             return if area > 0 { 1 } else { -1 };
         }
+        if self.coarse == a.coarse && self.at == a.at || self.coarse == b.coarse && self.at == b.at {
+            return 0;
+        }
         let (a, b, p) = (&a.at, &b.at, &self.at);
         let area = &(&(&b[0] - &a[0]) * &(&p[1] - &a[1])) - &(&(&b[1] - &a[1]) * &(&p[0] - &a[0]));
         match (area.lower.sign(), area.upper.sign()) {
@@ -350,6 +361,12 @@ impl Place {
             (_, Sign::Minus) => -1,
             _ => 0,
         }
+    }
+
+    /// Whether it certainly is on one side of the line through two others, and another place on the other.
+    fn is_opposite(&self, other: &Self, a: &Self, b: &Self) -> bool {
+        let side = self.side(a, b);
+        side != 0 && other.side(a, b) == -side
     }
 }
 
@@ -372,7 +389,7 @@ impl Copy {
             ends(a)[0].min(ends(b)[0]) > ends(from)[1].max(ends(to)[1])
                 || ends(a)[1].max(ends(b)[1]) < ends(from)[0].min(ends(to)[0])
         };
-        !apart(0) && !apart(1) && from.side(a, b) * to.side(a, b) < 0 && a.side(from, to) * b.side(from, to) < 0
+        !apart(0) && !apart(1) && from.is_opposite(to, a, b) && a.is_opposite(b, from, to)
     }
 }
 

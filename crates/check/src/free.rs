@@ -449,11 +449,11 @@ fn halved(piece: &Piece, halvings: u32) -> (Stretch, Stretch) {
 /// Units of guesses.
 const ROUGH: u32 = 44;
 
-fn roughly(n: &BigInt) -> f64 {
+pub fn roughly(n: &BigInt) -> f64 {
     i64::try_from(n >> (BITS - ROUGH)).map_or(f64::NAN, |n| n as f64 / (1u64 << ROUGH) as f64)
 }
 
-fn rough(p: &Point) -> [f64; 2] {
+pub fn rough(p: &Point) -> [f64; 2] {
     p.each_ref().map(|c| roughly(&c.lower))
 }
 

@@ -138,6 +138,15 @@ pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     reaches(&ring, &(about - 2)) && reaches(&hull(differences(&b_middles, &a_middles)), &needed)
 }
 
+/// Whether it seems that the convex hulls of some points overlap by more than a depth: of their first digits, in doubt yes.
+pub fn seem_to_overlap(a: &[[f64; 2]], b: &[[f64; 2]], depth: f64) -> bool {
+    let all = || a.iter().chain(b).flatten().chain([&depth]);
+    let most = all().fold(0.0_f64, |most, c| most.max(c.abs()));
+    let first = |c: f64| (c / most * 2f64.powi(FIRST_BITS as i32)) as i128;
+    let [a, b] = [a, b].map(|points| points.iter().map(|p| p.map(first)).collect::<Vec<_>>());
+    all().any(|c| !c.is_finite()) || reaches(&hull(differences(&b, &a)), &(first(depth) - 3))
+}
+
 /// So many first digits leave squares of products in 128 bits.
 const FIRST_BITS: u64 = 28;
 
