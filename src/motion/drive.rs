@@ -75,7 +75,7 @@ impl Drive {
             let least = Cell::new(rough_duration(best.curve.curve(), &limits));
             let drive = |path: &CertifiedPath, below: f64| {
                 if is_smooth {
-                    return smoothed(scene, path, self.blend, limits, self.period, below);
+                    return smoothed(scene, path, self.blend, limits, self.period, below, false);
                 }
                 let curve = blended(path);
                 let rough = rough_duration(curve.curve(), &limits);
@@ -84,13 +84,22 @@ impl Drive {
                 faster.inspect(|_| least.set(rough))
             };
             let shaping = Shaping::new(scene, drive);
-            match self.optimize {
-                Objective::Length => shaping.lifted(path, limits.reversal().min(self.blend), &mut best),
-                Objective::Time => {
-                    let most = limits.ramp().min(self.blend);
-                    shaping.lifted(path, most, &mut best);
-                    shaping.refined(most, &mut best);
-                }
+            let mut paths = Vec::new();
+            if is_smooth {
+                shaping.lifted(path, limits.reversal().min(self.blend), &mut best);
+                paths.push(best.curve.straight());
+            }
+            if self.optimize == Objective::Time {
+                let most = limits.ramp().min(self.blend);
+                shaping.lifted(path, most, &mut best);
+                shaping.refined(most, &mut best);
+                paths.push(best.curve.straight());
+            }
+            // What is slower at first may be faster once it is driven along its own curve in the least time.
+            for path in paths.iter().filter(|_| is_smooth) {
+                let retimed = smoothed(scene, path, self.blend, limits, self.period, f64::INFINITY, true);
+                let is_faster = |timed: &Timed| timed.trajectory.duration() < best.trajectory.duration();
+                best = retimed.filter(is_faster).unwrap_or(best);
             }
         }
         if let Some(torque) = torque {

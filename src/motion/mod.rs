@@ -71,6 +71,7 @@ mod mcap;
 mod message;
 mod profile;
 mod result;
+mod retime;
 mod ros;
 mod sample;
 mod schedule;

@@ -2,7 +2,7 @@
 //!
 //! A path with blends is timed without those limits, and the motion is smoothed (`spline`). A smoothed motion leaves the path at its corners,
 //! towards their inside, where the obstacle is that the path goes around: where what is to be played is not shown to be free, the corner is
-//! passed more slowly.
+//! passed more slowly. At last the motion is driven along its own curve in the least time (`retime`).
 
 use super::clock::{nanoseconds, seconds};
 use super::limits::Limits;
@@ -46,6 +46,8 @@ struct Smoothing<'a> {
     /// Seconds between acceleration and deceleration on a straight piece.
     coast: f64,
     period: f64,
+    /// Whether motions are driven along their own curves in the least time.
+    retimes: bool,
 }
 
 /// A motion, and when it passes the corners of its path.
@@ -56,7 +58,7 @@ struct Smooth {
 }
 
 /// The fastest motion about the corners of a path, none of which it leaves by more than `greatest`: shown to be free, and shorter than `below`
-/// seconds; none if none was found.
+/// seconds; none if none was found. If it is to be driven along its own curve in the least time, that is done at last.
 pub(super) fn smoothed(
     scene: &Scene,
     path: &CertifiedPath,
@@ -64,6 +66,7 @@ pub(super) fn smoothed(
     limits: Limits,
     period: f64,
     below: f64,
+    retimes: bool,
 ) -> Option<Timed> {
     let clearance = scene.workspace().clearance;
     let mut curve = blend(scene, path, greatest, clearance).curve().clone();
@@ -72,9 +75,12 @@ pub(super) fn smoothed(
     let most = path.path().segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max).min(greatest);
     let mut smoothing = Smoothing::new(&curve, limits, period)?;
     let mut shares = vec![1.0; curve.radii().len()];
+    let mut plain = None;
     for _ in 0..ROUNDS {
+        let fastest = plain.as_ref().map_or(below, |plain: &Timed| plain.trajectory.duration());
         // Slower corners do not make it faster.
-        let smooth = smoothing.along(&curve, &shares).filter(|smooth| smooth.trajectory.duration() < below)?;
+        let smooth = smoothing.along(&curve, &shares).filter(|smooth| smooth.trajectory.duration() < fastest);
+        let Some(smooth) = smooth else { return plain };
         let pieces = smooth.trajectory.pieces();
         if let Some(tip) = &mut smoothing.base.tip
             && let Some(excess) = limits.tip.and_then(|tip| tip.excess(&pieces))
@@ -93,8 +99,12 @@ pub(super) fn smoothed(
         let open = rounding.open(&pieces);
         let slower: BTreeSet<usize> = open.iter().filter_map(|&i| smooth.corner(&pieces[i])).chain(far).collect();
         if slower.is_empty() {
-            let curve = rounding.certified(radii, &pieces)?;
-            return Some(Timed { curve, trajectory: smooth.trajectory });
+            let certified = rounding.certified(radii, &pieces);
+            let timed = certified.map(|curve| Timed { curve, trajectory: smooth.trajectory });
+            if smoothing.retimes == retimes || timed.is_none() {
+                return timed.or(plain);
+            }
+            (plain, smoothing.retimes) = (timed, true);
         }
         for waypoint in slower {
             shares[waypoint] *= SLOWER;
@@ -103,7 +113,7 @@ pub(super) fn smoothed(
             }
         }
     }
-    None
+    plain
 }
 
 /// How far the motion reaches about each waypoint: as the radius of a parabola that leaves the path as far, and passes the corner as far off.
@@ -147,7 +157,8 @@ impl<'a> Smoothing<'a> {
             let acceleration = limits.acceleration.map(|a| a * share);
             let grows = |k: usize| limits.jerk[k].map_or(0.0, |jerk| acceleration[k] / jerk);
             let coast = if coasts { grows(0).max(grows(1)) } else { 0.0 };
-            Self { limits, base: Limits { jerk: [None; 2], acceleration, ..limits }, coast, period }
+            let base = Limits { jerk: [None; 2], acceleration, ..limits };
+            Self { limits, base, coast, period, retimes: false }
         };
         let ones = vec![1.0; curve.radii().len()];
         let takes = |smoothing: &Self| smoothing.along(curve, &ones).map(|smooth| smooth.trajectory.duration());
@@ -186,14 +197,22 @@ impl<'a> Smoothing<'a> {
 
     /// Appends a run that passes the blends after a waypoint; and tells when it ends.
     fn run(&self, run: &[TimedTrack], after: usize, begin: u64, smooth: &mut Smooth) -> u64 {
-        let spline = Spline::smoothed(run, self.base.acceleration, &self.limits, self.period);
+        let mut spline = Spline::smoothed(run, self.base.acceleration, &self.limits, self.period);
+        let delay = spline.delay();
+        let limits = Limits { tip: self.base.tip, torque: self.base.torque, ..self.limits };
+        let retimed = self.retimes.then(|| spline.retimed(&limits, self.period)).flatten();
+        let when = retimed.map(|(faster, when)| {
+            spline = faster;
+            move |time: f64| when(seconds(delay) + time)
+        });
         spline.sample(begin, self.period, &mut smooth.trajectory);
         let (mut since, mut waypoint) = (0.0, after);
         for (track, phases) in run {
             let until = since + phases.iter().map(|phase| phase.duration).sum::<f64>();
             if track.is_blend() {
                 waypoint += 1;
-                smooth.passed.push((waypoint, [since, until].map(|at| begin + spline.delay() + nanoseconds(at))));
+                let passed = |time: f64| when.as_ref().map_or_else(|| delay + nanoseconds(time), |when| when(time));
+                smooth.passed.push((waypoint, [since, until].map(|time| begin + passed(time))));
             }
             since = until;
         }

@@ -202,35 +202,34 @@ fn optimum(motion: &Trajectory, most: Most, steps: usize, from: f64) -> f64 {
     time(&z, step)
 }
 
-/// Waypoints, limits, and by what share the motion takes longer than the least time along its curve, at the most.
-type Case = (&'static [[f64; 2]], Most, f64);
+/// Waypoints and limits.
+type Case = (&'static [[f64; 2]], Most);
 
-/// Right angles, gentle turns, hairpins, short legs between long ones, one joint far slower than the other. Where most of the time is spent at the
-/// limits of the velocities, little is lost; where a window of the jerk's length is much of the motion, much is.
+/// By what share a motion takes longer than the least time along its curve, at the most.
+const LONGER: f64 = 0.02;
+
+/// Right angles, gentle turns, hairpins, short legs between long ones, one joint far slower than the other.
 const PATHS: [Case; 12] = [
-    (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[2.0, 3.0], [8.0, 12.0], [200.0, 300.0]], 0.03),
-    (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[2.0, 3.0], [8.0, 12.0], [80.0, 60.0]], 0.2),
-    (&[[0.0, 0.0], [1.0, 0.2], [2.0, 0.0], [3.0, 0.3]], [[2.0, 3.0], [8.0, 12.0], [200.0, 300.0]], 0.01),
-    (&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.1]], [[1.0, 1.0], [4.0, 4.0], [100.0, 100.0]], 0.01),
-    (&[[0.0, 0.0], [1.0, 0.0], [0.5, 0.5]], [[1.0, 1.0], [4.0, 4.0], [40.0, 40.0]], 0.08),
-    (&[[0.0, 0.0], [1.0, 0.0], [1.05, 0.05], [1.05, 1.0]], [[2.0, 2.0], [5.0, 5.0], [125.0, 125.0]], 0.012),
-    (&[[0.0, 0.0], [1.0, 0.7], [0.2, 1.5], [-1.0, 1.0], [-1.5, -0.5]], [[0.5, 3.0], [1.0, 20.0], [25.0, 500.0]], 0.01),
+    (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[2.0, 3.0], [8.0, 12.0], [200.0, 300.0]]),
+    (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [[2.0, 3.0], [8.0, 12.0], [80.0, 60.0]]),
+    (&[[0.0, 0.0], [1.0, 0.2], [2.0, 0.0], [3.0, 0.3]], [[2.0, 3.0], [8.0, 12.0], [200.0, 300.0]]),
+    (&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.1]], [[1.0, 1.0], [4.0, 4.0], [100.0, 100.0]]),
+    (&[[0.0, 0.0], [1.0, 0.0], [0.5, 0.5]], [[1.0, 1.0], [4.0, 4.0], [40.0, 40.0]]),
+    (&[[0.0, 0.0], [1.0, 0.0], [1.05, 0.05], [1.05, 1.0]], [[2.0, 2.0], [5.0, 5.0], [125.0, 125.0]]),
+    (&[[0.0, 0.0], [1.0, 0.7], [0.2, 1.5], [-1.0, 1.0], [-1.5, -0.5]], [[0.5, 3.0], [1.0, 20.0], [25.0, 500.0]]),
     (
         &[[0.0, 0.0], [0.3, 0.0], [0.5, 0.2], [0.55, 0.5], [0.4, 0.8], [0.0, 0.9]],
         [[2.0, 2.0], [9.0, 6.0], [225.0, 150.0]],
-        0.08,
     ),
-    (&[[0.0, 0.0], [2.0, 1.0], [2.5, -1.0], [-1.0, 0.5]], [[10.0, 10.0], [3.0, 2.0], [75.0, 50.0]], 0.01),
-    (&[[0.0, 0.0], [0.02, 0.0], [0.02, 3.0], [0.0, 3.0]], [[1.0, 2.0], [2.0, 30.0], [50.0, 750.0]], 0.055),
+    (&[[0.0, 0.0], [2.0, 1.0], [2.5, -1.0], [-1.0, 0.5]], [[10.0, 10.0], [3.0, 2.0], [75.0, 50.0]]),
+    (&[[0.0, 0.0], [0.02, 0.0], [0.02, 3.0], [0.0, 3.0]], [[1.0, 2.0], [2.0, 30.0], [50.0, 750.0]]),
     (
         &[[0.0, 0.0], [1.0, 1.0], [2.0, 1.0], [3.0, 0.0], [4.0, 0.0], [4.0, 2.0]],
         [[1.5, 1.5], [40.0, 40.0], [1000.0, 1000.0]],
-        0.01,
     ),
     (
         &[[0.5, 0.5], [0.4, 1.4], [0.45, 1.5], [1.3, 1.6], [1.4, 1.5], [1.5, 0.3]],
         [[2.0, 3.0], [8.0, 12.0], [200.0, 300.0]],
-        0.075,
     ),
 ];
 
@@ -242,7 +241,7 @@ const MOST_STEPS: usize = 20_000;
 
 #[test]
 fn near_the_least_time_along_the_same_curve() {
-    for (i, &(waypoints, most, share)) in PATHS.iter().enumerate() {
+    for (i, &(waypoints, most)) in PATHS.iter().enumerate() {
         let motion = driven(waypoints, most);
         let (mut steps, mut fine) = (1200, optimum(&motion, most, 600, 0.97));
         loop {
@@ -255,14 +254,14 @@ fn near_the_least_time_along_the_same_curve() {
         }
         let took = motion.duration();
         println!("path {i}: {took:.4} s, least {fine:.4} s ({steps} steps), {:.2} % more", 100.0 * (took / fine - 1.0));
-        assert!(took >= fine * (1.0 - OFF) && took <= fine * (1.0 + share), "path {i}: {took} s, at least {fine} s");
+        assert!(took >= fine * (1.0 - OFF) && took <= fine * (1.0 + LONGER), "path {i}: {took} s, at least {fine} s");
     }
 }
 
 /// The limits on jerks do not make a convex problem: from elsewhere the same is found.
 #[test]
 fn the_least_time_is_the_same_from_anywhere() {
-    for &(waypoints, most, _) in [PATHS[1], PATHS[4], PATHS[7]].iter() {
+    for &(waypoints, most) in [PATHS[1], PATHS[4], PATHS[7]].iter() {
         let motion = driven(waypoints, most);
         let [one, other] = [0.97, 0.2].map(|from| optimum(&motion, most, 600, from));
         assert!((one - other).abs() <= 1e-3 * one, "{one} {other}");

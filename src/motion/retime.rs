@@ -1,0 +1,285 @@
+//! The least time along a curve, within limits that hold for jerks, too (a time-optimal path parameterization of third order).
+//!
+//! A curve `q(s)` is passed at the rate `ds/dt = z(s)^(1/2)`. With derivatives by `s`, velocities are `q' z^(1/2)`, accelerations
+//! `q'' z + q' z' / 2`, and jerks `(q''' z + 3 q'' z' / 2 + q' z'' / 2) z^(1/2)`; the time is the integral of `z^(-1/2)`. `z` is a uniform
+//! quadratic B-spline, and limits are asked for at [`PLACES`] of each of its intervals. Its coefficients are found by a barrier method:
+//! Newton's steps towards the least of the time less the logarithms of what is left of the limits, which count less and less. Of the
+//! second derivatives of those only what the first give is used, which is never negative, and most of it near the limits. (In the squared
+//! rate only limits on jerks are not convex: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, *Time-optimal path tracking for robots:
+//! a convex optimization approach*, 2009.)
+
+/// Where limits are asked for in each interval, ...
+pub(super) const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
+
+/// ... and what each of these counts in an integral (Simpson's rule).
+const WEIGHTS: [f64; 3] = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
+
+/// The barriers together count as much as this share of the time, to begin with, ...
+const FIRST_HEIGHT: f64 = 0.1;
+
+/// ... and at last; ...
+const LAST_HEIGHT: f64 = 1e-3;
+
+/// ... and in between each time so much less.
+const LOWER: f64 = 6.0;
+
+/// Newton's steps for one height at the most.
+const MOST_STEPS: usize = 40;
+
+/// A height is done with when a step promises less than this share of the time.
+const NEAR: f64 = 1e-5;
+
+/// A step is taken in full if it brings this share of what it promises; or else halved, so many times at the most.
+const ENOUGH: f64 = 0.05;
+const HALVINGS: u32 = 20;
+
+/// So small a product goes on as its logarithm.
+const SMALL: f64 = 1e-150;
+
+/// Places and weights of Gauss's quadrature with five points on the interval from 0 to 1.
+const GAUSS: [[f64; 2]; 5] = [
+    [0.046_910_077_030_668_0, 0.118_463_442_528_094_5],
+    [0.230_765_344_947_158_5, 0.239_314_335_249_683_2],
+    [0.5, 0.284_444_444_444_444_4],
+    [0.769_234_655_052_841_5, 0.239_314_335_249_683_2],
+    [0.953_089_922_969_332, 0.118_463_442_528_094_5],
+];
+
+/// Newton's steps for the place that is passed at some time.
+const TO_PLACE: usize = 4;
+
+/// What `z` is to keep at a place: `a z + b z' + c z'' < 1`, or the same with the sum times the root of `z`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limit {
+    pub factors: [f64; 3],
+    pub has_root: bool,
+}
+
+/// The squared rate at which a curve is passed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Rate {
+    /// Length of an interval of the parameter.
+    step: f64,
+    coefficients: Vec<f64>,
+    /// When the intervals begin, and the last one ends.
+    times: Vec<f64>,
+}
+
+impl Limit {
+    /// What is left of it, and the derivatives of that by `z`, `z'` and `z''`.
+    fn left(&self, [z, rising, bend]: [f64; 3]) -> (f64, [f64; 3]) {
+        let [a, b, c] = self.factors;
+        let sum = a * z + b * rising + c * bend;
+        if !self.has_root {
+            return (1.0 - sum, [-a, -b, -c]);
+        }
+        let root = z.sqrt();
+        (1.0 - root * sum, [-a * root - sum / (2.0 * root), -b * root, -c * root])
+    }
+}
+
+/// `z` and its two derivatives within an interval, as the coefficients there make them.
+fn basis(u: f64, step: f64) -> [[f64; 3]; 3] {
+    let w = 1.0 - u;
+    let square = step * step;
+    [
+        [w * w / 2.0, 0.5 + u * w, u * u / 2.0],
+        [-w / step, (w - u) / step, u / step],
+        [1.0 / square, -2.0 / square, 1.0 / square],
+    ]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// A place with its limits.
+struct Place<'a> {
+    /// The first coefficient that counts there, and how this one and the next two do.
+    first: usize,
+    basis: &'a [[f64; 3]; 3],
+    /// `z` and its derivatives.
+    values: [f64; 3],
+    /// Its share of the time.
+    time: f64,
+    limits: &'a [Limit],
+}
+
+/// The limits of all places, in order, and what `z` is made of there.
+struct Problem<'a> {
+    limits: &'a [Vec<Limit>],
+    step: f64,
+    basis: [[[f64; 3]; 3]; PLACES.len()],
+}
+
+impl Problem<'_> {
+    fn places(&self, coefficients: &[f64]) -> impl Iterator<Item = Place<'_>> {
+        self.limits.iter().enumerate().map(move |(place, limits)| {
+            let (first, place) = (place / PLACES.len(), place % PLACES.len());
+            let basis = &self.basis[place];
+            let own = [0, 1, 2].map(|k| coefficients[first + k]);
+            let values = basis.map(|row| dot(row, own));
+            Place { first, basis, values, time: self.step * WEIGHTS[place] / values[0].sqrt(), limits }
+        })
+    }
+
+    /// The time with barriers of a height; infinite beyond the limits.
+    fn merit(&self, coefficients: &[f64], height: f64) -> f64 {
+        // The logarithm of a product, rather than many.
+        let (mut merit, mut product) = (0.0, 1.0_f64);
+        for Place { values, time, limits, .. } in self.places(coefficients) {
+            if values[0].is_nan() || values[0] <= 0.0 {
+                return f64::INFINITY;
+            }
+            merit += time;
+            if product < SMALL {
+                (merit, product) = (merit - height * product.ln(), 1.0);
+            }
+            for limit in limits {
+                let (left, _) = limit.left(values);
+                if left.is_nan() || left <= 0.0 {
+                    return f64::INFINITY;
+                }
+                product *= left;
+            }
+        }
+        merit - height * product.ln()
+    }
+
+    /// Newton's step, and how much it promises.
+    fn newton(&self, coefficients: &[f64], height: f64) -> Option<(Vec<f64>, f64)> {
+        let count = coefficients.len();
+        let (mut slope, mut bands) = (vec![0.0; count], vec![[0.0; 3]; count]);
+        for Place { first, basis, values, time, limits } in self.places(coefficients) {
+            let z = values[0];
+            let (mut gradient, mut second) = ([-time / (2.0 * z), 0.0, 0.0], [[0.0; 3]; 3]);
+            second[0][0] = 0.75 * time / (z * z);
+            for limit in limits {
+                let (left, change) = limit.left(values);
+                for r in 0..3 {
+                    gradient[r] -= height * change[r] / left;
+                    for s in 0..=r {
+                        second[r][s] += height * (change[r] / left) * (change[s] / left);
+                    }
+                }
+            }
+            (second[0][1], second[0][2], second[1][2]) = (second[1][0], second[2][0], second[2][1]);
+            let column = |k: usize| basis.map(|row| row[k]);
+            for k in 0..3 {
+                slope[first + k] += dot(gradient, column(k));
+                let moved = second.map(|row| dot(row, column(k)));
+                for m in k..3 {
+                    bands[first + k][m - k] += dot(moved, column(m));
+                }
+            }
+        }
+        let step = solved(bands, slope.iter().map(|slope| -slope).collect())?;
+        let promised = -slope.iter().zip(&step).map(|(slope, step)| slope * step).sum::<f64>();
+        Some((step, promised))
+    }
+}
+
+/// Solves `A x = b` for a symmetric, positive definite `A`, by the entries of its rows from the diagonal on: Cholesky's decomposition
+/// without roots. None if it is not.
+fn solved(mut bands: Vec<[f64; 3]>, mut x: Vec<f64>) -> Option<Vec<f64>> {
+    let count = x.len();
+    for i in 0..count {
+        let [middle, one, two] = bands[i];
+        if middle.is_nan() || middle <= 0.0 {
+            return None;
+        }
+        let factors = [one / middle, two / middle];
+        if i + 1 < count {
+            bands[i + 1][0] -= factors[0] * one;
+            bands[i + 1][1] -= factors[0] * two;
+            x[i + 1] -= factors[0] * x[i];
+        }
+        if i + 2 < count {
+            bands[i + 2][0] -= factors[1] * two;
+            x[i + 2] -= factors[1] * x[i];
+        }
+        bands[i] = [middle, factors[0], factors[1]];
+    }
+    for i in (0..count).rev() {
+        let [middle, one, two] = bands[i];
+        let ahead = |k: usize| x.get(i + k).copied().unwrap_or(0.0);
+        x[i] = x[i] / middle - one * ahead(1) - two * ahead(2);
+    }
+    Some(x)
+}
+
+impl Rate {
+    /// The rate with the least time over intervals of so much of the parameter each, within the limits at all of their places; `begin` is a
+    /// constant squared rate that keeps them all, with some left. None if it does not.
+    pub fn fastest(limits: &[Vec<Limit>], step: f64, begin: f64) -> Option<Self> {
+        let problem = Problem { limits, step, basis: PLACES.map(|u| basis(u, step)) };
+        let mut coefficients = vec![begin; limits.len() / PLACES.len() + 2];
+        let time: f64 = problem.places(&coefficients).map(|place| place.time).sum();
+        let count: usize = limits.iter().map(Vec::len).sum();
+        let [mut height, last] = [FIRST_HEIGHT, LAST_HEIGHT].map(|share| share * time / count as f64);
+        if !problem.merit(&coefficients, height).is_finite() {
+            return None;
+        }
+        loop {
+            let mut now = problem.merit(&coefficients, height);
+            for _ in 0..MOST_STEPS {
+                let Some((step, promised)) = problem.newton(&coefficients, height) else { break };
+                if promised < NEAR * time {
+                    break;
+                }
+                let mut shares = (0..HALVINGS).map(|n| 0.5_f64.powi(n as i32));
+                let better = shares.find_map(|share| {
+                    let moved: Vec<f64> = coefficients.iter().zip(&step).map(|(c, step)| c + share * step).collect();
+                    let merit = problem.merit(&moved, height);
+                    (merit <= now - ENOUGH * share * promised).then_some((moved, merit))
+                });
+                let Some(better) = better else { break };
+                (coefficients, now) = better;
+            }
+            if height <= last {
+                break;
+            }
+            height = (height / LOWER).max(last);
+        }
+        let mut rate = Self { step, coefficients, times: vec![0.0] };
+        for interval in 0..rate.coefficients.len() - 2 {
+            let until = rate.times[interval] + rate.takes(interval, 1.0);
+            rate.times.push(until);
+        }
+        rate.duration().is_finite().then_some(rate)
+    }
+
+    /// How long it takes to pass the whole curve.
+    pub fn duration(&self) -> f64 {
+        self.times[self.times.len() - 1]
+    }
+
+    fn squared(&self, interval: usize, u: f64) -> f64 {
+        dot(basis(u, self.step)[0], [0, 1, 2].map(|k| self.coefficients[interval + k]))
+    }
+
+    /// How long it takes from the beginning of an interval to a place in it.
+    fn takes(&self, interval: usize, u: f64) -> f64 {
+        let inverse = GAUSS.map(|[place, weight]| weight / self.squared(interval, u * place).sqrt());
+        self.step * u * inverse.iter().sum::<f64>()
+    }
+
+    /// When a parameter is passed.
+    pub fn passes(&self, parameter: f64) -> f64 {
+        let intervals = parameter / self.step;
+        let interval = (intervals as usize).min(self.times.len() - 2);
+        self.times[interval] + self.takes(interval, (intervals - interval as f64).min(1.0))
+    }
+
+    /// The parameter at a time.
+    pub fn at(&self, time: f64) -> f64 {
+        let last = self.times.len() - 2;
+        let interval = self.times.partition_point(|begin| *begin <= time).saturating_sub(1).min(last);
+        let since = time - self.times[interval];
+        let mut u = since / (self.times[interval + 1] - self.times[interval]);
+        for _ in 0..TO_PLACE {
+            u -= (self.takes(interval, u) - since) * self.squared(interval, u).sqrt() / self.step;
+        }
+        (interval as f64 + u.clamp(0.0, 1.0)) * self.step
+    }
+}
