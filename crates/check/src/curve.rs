@@ -1,5 +1,6 @@
 //! Curves of joint values in Bezier form, and what holds a stretch of them.
 
+use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval, Point};
 use num_bigint::BigInt;
 
@@ -28,13 +29,24 @@ pub struct Piece {
     /// The knot at which it begins.
     pub knot: usize,
     pub curves: Vec<Vec<Values>>,
+    /// When it begins and ends, seconds after the motion began.
+    pub time: [Decimal; 2],
 }
 
 impl Piece {
     /// Both halves of it (de Casteljau).
     pub fn halves(&self) -> [Self; 2] {
         let halves: Vec<[Vec<Values>; 2]> = self.curves.iter().map(|curve| halves(curve)).collect();
-        [0, 1].map(|k| Self { knot: self.knot, curves: halves.iter().map(|both| both[k].clone()).collect() })
+        let [begin, end] = &self.time;
+        let middle = Decimal::middle(begin, end);
+        let times = [[begin.clone(), middle.clone()], [middle, end.clone()]];
+        let [first, second] = times;
+        let half = |k: usize, time| Self {
+            knot: self.knot,
+            curves: halves.iter().map(|both| both[k].clone()).collect(),
+            time,
+        };
+        [half(0, first), half(1, second)]
     }
 }
 
@@ -114,7 +126,7 @@ mod tests {
         let unit = |n: [i128; 2]| n.map(|c| c << (FINE - 4));
         let cubic = [[0, 0], [9, 3], [-4, 20], [30, 7]].map(unit).to_vec();
         let quartic = [[0, 0], [5, 5], [-1, 2], [9, 9], [30, 7]].map(unit).to_vec();
-        Piece { knot: 3, curves: vec![cubic, quartic] }
+        Piece { knot: 3, curves: vec![cubic, quartic], time: [0, 1].map(Decimal::whole) }
     }
 
     #[test]

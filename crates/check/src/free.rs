@@ -1,12 +1,15 @@
 //! Whether shapes stay off the sides of obstacles while the arm moves along curves.
 
 use crate::curve::{HALVINGS, Piece, Tube};
+use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval, Point, both_turns, length, sum, times, turned};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Motion};
-use crate::world::Obstacle;
+use crate::world::{Course, Obstacle};
 use num_bigint::BigInt;
+use std::borrow::Cow;
 use std::cell::OnceCell;
+use std::rc::Rc;
 
 /// Shapes keep farther than the clearance by this many units, at the least: `2^-96`.
 pub fn guard() -> BigInt {
@@ -17,6 +20,7 @@ pub fn guard() -> BigInt {
 const MOST_PARTS: usize = 1_000_000;
 
 /// A vector that turns with the joints: `R(±(s1 q1 + s2 q2)) (at + slide q)`, of whose angles those count that are named.
+#[derive(Clone)]
 struct Term {
     by: [bool; 2],
     back: bool,
@@ -58,11 +62,18 @@ pub struct Solid {
 }
 
 /// A side of an obstacle, as seen from the plane and from either link.
+#[derive(Clone)]
 pub struct Side {
     shape: Shape,
     seen: [Vec<Terms>; 2],
     center: Point,
     extent: BigInt,
+}
+
+/// What shapes keep off: what stands, or in its own frame what moves.
+pub enum Edge {
+    Still(Side),
+    Moving(Shape, Rc<Course>),
 }
 
 /// A point of a tube's middle, and how it moves within the tube.
@@ -101,11 +112,11 @@ enum Stretch {
     Part(Piece, u32),
 }
 
-/// What was not shown: from this knot to the next, of this shape and this side.
+/// What was not shown: from this knot to the next, of this shape and this edge.
 pub struct Open {
     pub knot: usize,
     pub solid: usize,
-    pub side: usize,
+    pub edge: usize,
 }
 
 fn perpendicular([x, y]: &Point) -> Point {
@@ -249,6 +260,16 @@ impl Solid {
     /// A corner of it at a configuration.
     pub fn corner_at(&self, chain: &Chain, values: &Point) -> Point {
         chain.still(&self.corners[0], values)
+    }
+}
+
+impl Edge {
+    /// What holds it all over a span of time.
+    pub fn during(&self, chain: &Chain, time: [&Decimal; 2]) -> Cow<'_, Side> {
+        match self {
+            Self::Still(side) => Cow::Borrowed(side),
+            Self::Moving(shape, course) => Cow::Owned(Side::new(chain, &course.during(shape, time))),
+        }
     }
 }
 
@@ -396,15 +417,15 @@ impl<'a> Posture<'a> {
     }
 }
 
-/// Whether on pieces that follow one another each of the pairs of a shape and a side keeps as far off as the shape is to; else where that
+/// Whether on pieces that follow one another each of the pairs of a shape and an edge keeps as far off as the shape is to; else where that
 /// is not shown first.
 ///
 /// # Errors
-/// The stretch, the shape and the side.
+/// The stretch, the shape and the edge.
 pub fn keep_off(
     chain: &Chain,
     pieces: &[Piece],
-    (solids, sides): (&[&Solid], &[&Side]),
+    (solids, edges): (&[&Solid], &[&Edge]),
     pairs: Vec<[usize; 2]>,
 ) -> Result<(), Open> {
     let mut stack = vec![(Stretch::Pieces(0, pieces.len()), pairs)];
@@ -417,18 +438,20 @@ pub fn keep_off(
         };
         let posture = Posture::new(chain, Tube::around(of));
         let placed: Vec<OnceCell<Placed>> = solids.iter().map(|_| OnceCell::new()).collect();
-        pairs.retain(|&[solid, side]| {
+        let sides: Vec<OnceCell<Cow<Side>>> = edges.iter().map(|_| OnceCell::new()).collect();
+        let time = [&of[0].time[0], &of[of.len() - 1].time[1]];
+        pairs.retain(|&[solid, edge]| {
             let placed = placed[solid].get_or_init(|| posture.placed(solids[solid]));
-            !posture.keeps_off(placed, sides[side])
+            !posture.keeps_off(placed, sides[edge].get_or_init(|| edges[edge].during(chain, time)))
         });
-        let Some(&[solid, side]) = pairs.first() else { continue };
+        let Some(&[solid, edge]) = pairs.first() else { continue };
         let (first, second) = match stretch {
             Stretch::Pieces(from, to) if to - from > 1 => {
                 let middle = from + (to - from) / 2;
                 (Stretch::Pieces(from, middle), Stretch::Pieces(middle, to))
             }
             Stretch::Part(piece, halvings) if halvings >= HALVINGS || parts > MOST_PARTS => {
-                return Err(Open { knot: piece.knot, solid, side });
+                return Err(Open { knot: piece.knot, solid, edge });
             }
             Stretch::Pieces(from, _) => halved(&pieces[from], 0),
             Stretch::Part(piece, halvings) => halved(&piece, halvings),

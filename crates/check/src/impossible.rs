@@ -43,6 +43,9 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
     if certificate.goal.is_some() || certificate.goal_tip.is_some() {
         return Err(CheckError::in_file(Input::Certificate, "that of a task has no goal"));
     }
+    if world.obstacles.iter().any(|obstacle| obstacle.course.is_some()) {
+        return Err(CheckError::in_file(Input::World, "an object moves: the checker knows no proof of such tasks"));
+    }
     let clearance = certificate.clearance(world)?;
     let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
     let at_start = start(arm, &domain, world, certificate)?;
@@ -454,7 +457,7 @@ impl<'a> Replay<'a> {
         let first = self.task.first;
         self.released = Vec::new();
         match &step.action {
-            Action::Pick { object, grasp, supports } => {
+            Action::Pick { object, grasp, supports, .. } => {
                 let lying = self.standing[first + object].take();
                 let after = self.steps[step.number..].iter().copied();
                 let Carrying { supports, may_turn } = self.task.carrying(*object, supports, after);

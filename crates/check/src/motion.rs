@@ -7,7 +7,7 @@ use crate::error::{CheckError, Input};
 use crate::free::{Chain, On, Solid, guard};
 use crate::interval::{Interval, length};
 use crate::robot::{Arm, Body, Covered};
-use crate::scene::{Part, Standing, stay_off};
+use crate::scene::{Part, Present, stay_off};
 use crate::sweep::{Axis, Range};
 use crate::world::{Goal, Obstacle, World};
 use num_bigint::BigInt;
@@ -261,7 +261,8 @@ pub fn piece(
         let Some(curve) = curve else { return CheckError::fails(format!("after knot {knot} values are too large")) };
         curves.push(curve);
     }
-    Ok(Piece { knot, curves })
+    let time = [knot, (knot + 1).min(knots.len() - 1)].map(|knot| &knots[knot][0] - &knots[0][0]);
+    Ok(Piece { knot, curves, time })
 }
 
 /// A sixtieth of a number in units of curves, to within less than two; none if it is too large.
@@ -303,15 +304,15 @@ fn stays_off(
     clearance: &Decimal,
 ) -> Result<(), CheckError> {
     let (chain, shapes) = (Chain::from(arm), arm.covered(world)?);
-    let standing = |obstacle: &Obstacle| Standing::new(&chain, obstacle.clone()).map(Some);
-    let obstacles = world.obstacles.iter().map(standing).collect::<Result<Vec<_>, _>>()?;
+    let present = |obstacle: &Obstacle| Present::new(&chain, obstacle.clone()).map(Some);
+    let obstacles = world.all().map(present).collect::<Result<Vec<_>, _>>()?;
     let kept = Interval::from(clearance).upper + guard();
     let solid = |body: &Body| Solid::new(&chain, On::Link(body.link), &body.shape, &kept);
     let solids: Vec<Solid> = shapes.iter().map(|shape| solid(&shape.body)).collect();
     let keeps = format!("farther than {clearance} from");
     let part = |(shape, solid)| {
         let Covered { name, body, .. }: &Covered = shape;
-        let meets = world.obstacles.iter().map(|obstacle| !body.passes(obstacle.heights.as_ref())).collect();
+        let meets = world.all().map(|obstacle| !body.passes(obstacle.heights.as_ref())).collect();
         Part { name, keeps: &keeps, solid, meets }
     };
     let parts: Vec<Part> = shapes.iter().zip(&solids).map(part).collect();

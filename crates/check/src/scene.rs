@@ -2,9 +2,11 @@
 
 use crate::curve::Piece;
 use crate::error::CheckError;
-use crate::free::{Chain, Open, Side, Solid, guard, keep_off};
+use crate::free::{Chain, Edge, Open, Side, Solid, guard, keep_off};
 use crate::interval::Point;
+use crate::overlap::Shape;
 use crate::world::Obstacle;
+use std::rc::Rc;
 
 /// A shape that is carried.
 pub struct Part<'a> {
@@ -16,20 +18,24 @@ pub struct Part<'a> {
     pub meets: Vec<bool>,
 }
 
-/// An obstacle in its place.
-pub struct Standing {
+/// An obstacle in its place, or on its way.
+pub struct Present {
     pub obstacle: Obstacle,
-    pub sides: Vec<Side>,
+    pub edges: Vec<Edge>,
 }
 
-impl Standing {
+impl Present {
     /// An obstacle as what moves by a chain sees it.
     ///
     /// # Errors
     /// As [`Obstacle::sides`].
     pub fn new(chain: &Chain, obstacle: Obstacle) -> Result<Self, CheckError> {
-        let sides = obstacle.sides()?.iter().map(|side| Side::new(chain, side)).collect();
-        Ok(Self { obstacle, sides })
+        let edge = |side: Shape| match &obstacle.course {
+            None => Edge::Still(Side::new(chain, &side)),
+            Some(course) => Edge::Moving(side, Rc::clone(course)),
+        };
+        let edges = obstacle.sides()?.into_iter().map(edge).collect();
+        Ok(Self { obstacle, edges })
     }
 }
 
@@ -43,33 +49,34 @@ pub fn stay_off(
     pieces: &[Piece],
     from: &Point,
     parts: &[Part],
-    obstacles: &[Option<Standing>],
+    obstacles: &[Option<Present>],
 ) -> Result<(), CheckError> {
-    let (mut sides, mut sided) = (Vec::new(), Vec::new());
-    for (number, standing) in obstacles.iter().enumerate() {
-        for side in standing.iter().flat_map(|standing| &standing.sides) {
-            sides.push(side);
-            sided.push(number);
+    let (mut edges, mut owners) = (Vec::new(), Vec::new());
+    for (number, present) in obstacles.iter().enumerate() {
+        for edge in present.iter().flat_map(|present| &present.edges) {
+            edges.push(edge);
+            owners.push(number);
         }
     }
     let mut pairs = Vec::new();
     for (number, part) in parts.iter().enumerate() {
-        pairs.extend((0..sides.len()).filter(|side| part.meets[sided[*side]]).map(|side| [number, side]));
+        pairs.extend((0..edges.len()).filter(|edge| part.meets[owners[*edge]]).map(|edge| [number, edge]));
     }
     let solids: Vec<&Solid> = parts.iter().map(|part| part.solid).collect();
-    keep_off(chain, pieces, (&solids, &sides), pairs).map_err(|Open { knot, solid, side }| {
+    keep_off(chain, pieces, (&solids, &edges), pairs).map_err(|Open { knot, solid, edge }| {
         let Part { name, keeps, .. } = parts[solid];
         CheckError::Fails(format!(
             "from knot {knot} to the next {name} is not shown to stay {keeps} obstacle {}",
-            sided[side]
+            owners[edge]
         ))
     })?;
     // Off all borders all the time, it is inside an obstacle if it is at first.
+    let time = &pieces[0].time[0];
     for part in parts {
         let corner = part.solid.corner_at(chain, from);
-        for (number, standing) in obstacles.iter().enumerate().filter(|(number, _)| part.meets[*number]) {
-            let surrounds = |standing: &Standing| standing.obstacle.surrounds(&corner, &guard());
-            if standing.as_ref().is_some_and(|standing| surrounds(standing) != Some(false)) {
+        for (number, present) in obstacles.iter().enumerate().filter(|(number, _)| part.meets[*number]) {
+            let surrounds = |present: &Present| present.obstacle.at_time(time).surrounds(&corner, &guard());
+            if present.as_ref().is_some_and(|present| surrounds(present) != Some(false)) {
                 return CheckError::fails(format!("{} is inside obstacle {number}", part.name));
             }
         }

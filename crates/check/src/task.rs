@@ -4,23 +4,27 @@ use crate::certificate::Certificate;
 use crate::curve::{FINE, Piece};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::free::{Chain, On, Solid, guard};
+use crate::free::{Chain, Edge, On, Solid, guard};
 use crate::interval::{Interval, Point, both_turns, length, sum, turned};
 use crate::motion::{Motion, Own, SIXTY, fine, missed, piece, well_formed};
 use crate::overlap::Shape;
 use crate::polygon::Corner;
 use crate::robot::{Arm, Covered};
-use crate::scene::{Part, Standing, stay_off};
-use crate::sweep::Range;
-use crate::world::task::{Action, Carrying, Group, Node, Step, Stroke, Task};
+use crate::scene::{Part, Present, stay_off};
+use crate::sweep;
+use crate::world::task::{Action, Carrying, Group, Node, Passing, Step, Stroke, Task};
 use crate::world::{Obstacle, World};
 use num_bigint::BigInt;
 use serde::Deserialize;
 use std::iter::{Enumerate, Peekable};
+use std::ops::Range;
 use std::slice::Iter;
 
 /// Objects press into what supports them by no more than this share of the arm's reach: `10^-4`.
 pub const PRESSED: u32 = 4;
+
+/// An object that passes is picked no farther than this from where it is to be then, metres: `10^-3`.
+const NEAR: u32 = 3;
 
 /// The arm may stand still for less than it is to by this, seconds: `10^-6`.
 const SHORT: u32 = 6;
@@ -192,10 +196,9 @@ impl Held {
 /// Where everything is between steps.
 struct Replay<'a> {
     arm: &'a Arm<'a>,
-    world: &'a World,
     task: &'a Task,
     motion: &'a Motion,
-    limits: [Option<Range>; 2],
+    limits: [Option<sweep::Range>; 2],
     chain: Chain,
     tip: Point,
     /// Shapes of the arm, and whether the stroke lowers them.
@@ -205,8 +208,12 @@ struct Replay<'a> {
     keeps: String,
     /// By how much what is carried may press into its supports.
     pressed: Interval,
-    /// Obstacles and objects where they lie; none while they are carried.
-    standing: Vec<Option<Standing>>,
+    /// Obstacles and objects where they lie or as they move, then obstacles that move; none while they are carried.
+    present: Vec<Option<Present>>,
+    /// All of them as they are at first.
+    all: Vec<&'a Obstacle>,
+    /// The last knot of the step before.
+    knot: usize,
     held: Option<Held>,
     /// What has just been let go of, by its number among the obstacles.
     released: Option<usize>,
@@ -238,11 +245,10 @@ impl<'a> Replay<'a> {
             Ok((shape, solid, is_lowered))
         };
         let shapes = covered.into_iter().map(shape).collect::<Result<_, CheckError>>()?;
-        let standing = world.obstacles.iter().map(|obstacle| Standing::new(&chain, obstacle.clone()).map(Some));
-        let standing = standing.collect::<Result<_, _>>()?;
+        let present = world.all().map(|obstacle| Present::new(&chain, obstacle.clone()).map(Some));
+        let present = present.collect::<Result<_, _>>()?;
         Ok(Self {
             arm,
-            world,
             task,
             motion,
             limits: arm.limits(world)?,
@@ -252,7 +258,9 @@ impl<'a> Replay<'a> {
             chain,
             shapes,
             kept,
-            standing,
+            present,
+            all: world.all().collect(),
+            knot: 0,
             held: None,
             released: None,
             off: BigInt::ZERO,
@@ -266,41 +274,48 @@ impl<'a> Replay<'a> {
             if self.held.as_ref().is_some_and(|held| held.object == *object) {
                 return CheckError::fails("an object is carried of which there is to be a new one");
             }
-            self.standing[number] = Some(Standing::new(&self.chain, self.world.obstacles[number].clone())?);
+            if self.all[number].course.is_some() {
+                return CheckError::fails("there is to be a new one of an object that moves");
+            }
+            self.present[number] = Some(Present::new(&self.chain, self.all[number].clone())?);
         }
-        let [first, last] = done.knots;
+        // Where a step leaves the arm it stands until its next motion begins.
+        let (first, last) = (std::mem::replace(&mut self.knot, done.knots[1]), done.knots[1]);
         let (motion, released) = (self.motion, self.released);
-        let knots = &motion.knots[..=last];
-        let piece = |knot: usize| piece(self.arm, &motion.interpolation, knots, knot, &self.limits);
-        let pieces = (first..last.max(first + 1)).map(piece).collect::<Result<Vec<Piece>, _>>()?;
-        let still = piece(last)?;
-        let [from, to] = [first, last].map(|knot| [1, 2].map(|k| Interval::from(&knots[knot][k])));
+        let pieces = |knots: Range<usize>| {
+            let until = &motion.knots[..=knots.end];
+            let piece = |knot: usize| piece(self.arm, &motion.interpolation, until, knot, &self.limits);
+            (knots.start..knots.end.max(knots.start + 1)).map(piece).collect::<Result<Vec<Piece>, _>>()
+        };
+        let (pieces, still, rest) = (pieces(first..last)?, pieces(last..last)?, pieces(last..motion.knots.len() - 1)?);
+        let [from, to] = [first, last].map(|knot| [1, 2].map(|k| Interval::from(&motion.knots[knot][k])));
+        let time = &still[0].time[0];
         let target = match &step.action {
             Action::Pick { object, .. } => Some(self.task.first + object),
             _ => None,
         };
         self.free(&pieces, &from, target, Tool::Raised)?;
         match &step.action {
-            Action::Pick { object, grasp, supports } => {
+            Action::Pick { object, grasp, supports, passing } => {
                 let carrying = self.task.carrying(*object, supports, after.iter().map(|next| next.step));
-                self.grasp(*object, grasp, carrying, &to)?;
-                self.free(std::slice::from_ref(&still), &to, None, Tool::Swept)?;
+                self.grasp(*object, grasp, carrying, &to, (time, passing))?;
+                self.free(&still, &to, None, Tool::Swept)?;
                 self.turn(done, &to)?;
             }
             Action::Place { at, angle, .. } => {
                 self.turn(done, &to)?;
-                self.free(std::slice::from_ref(&still), &to, None, Tool::Swept)?;
+                self.free(&still, &to, None, Tool::Swept)?;
                 self.release(at, angle.as_ref(), &to)?;
             }
             Action::Move(goal) => {
-                self.misses(self.arm.away(&knots[last], goal)?)?;
+                self.misses(self.arm.away(&motion.knots[last], goal)?)?;
                 self.turn(done, &to)?;
                 self.released = None;
             }
         }
-        // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by.
+        // The last leaves it there, by what it came by.
         if after.is_empty() {
-            self.free(&[still], &to, released, Tool::Raised)?;
+            self.free(&rest, &to, released, Tool::Raised)?;
         }
         Ok(())
     }
@@ -314,7 +329,7 @@ impl<'a> Replay<'a> {
     /// Whether what is held can meet an obstacle, and is to keep off it rather than to press into it by no more than it may.
     fn meets(&self, held: &Held, obstacle: usize, tool: Tool) -> Option<bool> {
         let own = self.task.first + held.object;
-        let [heights, others] = [own, obstacle].map(|number| self.world.obstacles[number].heights.as_ref());
+        let [heights, others] = [own, obstacle].map(|number| self.all[number].heights.as_ref());
         if let (Some(lying), Some([low, high])) = (heights, others) {
             let carried = lying.each_ref().map(|height| height + &self.task.objects[held.object].lift);
             let [least, most] = match tool {
@@ -336,7 +351,7 @@ impl<'a> Replay<'a> {
         kernel: Option<&'h Solid>,
         tool: Tool,
     ) -> Vec<Part<'h>> {
-        let all = 0..self.standing.len();
+        let all = 0..self.present.len();
         let part = |solid, keeps, others: bool| {
             let meets = all.clone().map(|obstacle| self.meets(held, obstacle, tool) == Some(others)).collect();
             Part { name: "what is carried", keeps, solid, meets }
@@ -346,12 +361,13 @@ impl<'a> Replay<'a> {
     }
 
     /// That no obstacle begins within what is held, its supports aside.
-    fn surrounds_none(&self, held: &Held, values: &Point, tool: Tool) -> Result<(), CheckError> {
+    fn surrounds_none(&self, held: &Held, values: &Point, time: &Decimal, tool: Tool) -> Result<(), CheckError> {
         let lying = held.lying(&self.chain, values);
-        for (number, standing) in self.standing.iter().enumerate() {
+        for (number, present) in self.present.iter().enumerate() {
             if self.meets(held, number, tool) == Some(true) {
-                let mut sides = standing.iter().flat_map(|standing| &standing.sides);
-                if sides.any(|side| lying.surrounds(side.point(), &guard()) != Some(false)) {
+                let mut edges = present.iter().flat_map(|present| &present.edges);
+                let side = |edge: &Edge| edge.during(&self.chain, [time, time]).point().clone();
+                if edges.any(|edge| lying.surrounds(&side(edge), &guard()) != Some(false)) {
                     return CheckError::fails(format!("obstacle {number} is inside what is carried"));
                 }
             }
@@ -369,23 +385,26 @@ impl<'a> Replay<'a> {
             }
             (Tool::Swept, ..) => return Ok(()),
         };
+        if stroke.is_some() {
+            self.nothing_moves("a stroke of the tool")?;
+        }
         let own = |shape| {
             let (Covered { name, body, .. }, solid, is_lowered): &(Covered, Solid, bool) = shape;
             let lowered = stroke.filter(|_| *is_lowered).map(|by| body.lowered(by));
             let heights = lowered.as_ref().unwrap_or(body);
-            let meets = |(number, obstacle): (usize, &Obstacle)| {
+            let meets = |(number, obstacle): (usize, &&Obstacle)| {
                 let is_allowed = body.link == 1 && [self.released, also].contains(&Some(number));
                 !is_allowed && !heights.passes(obstacle.heights.as_ref())
             };
-            let meets = self.world.obstacles.iter().enumerate().map(meets).collect();
+            let meets = self.all.iter().enumerate().map(meets).collect();
             Part { name, keeps: &self.keeps, solid, meets }
         };
         let mut parts: Vec<Part> = self.shapes.iter().map(own).collect();
         if let Some(held) = &self.held {
             parts.extend(self.hanging(held, &held.solids, held.kernel.as_ref(), tool));
-            self.surrounds_none(held, from, tool)?;
+            self.surrounds_none(held, from, &pieces[0].time[0], tool)?;
         }
-        stay_off(&self.chain, pieces, from, &parts, &self.standing)
+        stay_off(&self.chain, pieces, from, &parts, &self.present)
     }
 
     /// The shapes of an object as it hangs on something, and what keeps off its supports.
@@ -402,13 +421,35 @@ impl<'a> Replay<'a> {
         Ok((solids, kernel.map(|shape| solid(&shape, &guard()))))
     }
 
-    /// Takes an object as it lies, with the tip where it is at a configuration.
-    fn grasp(&mut self, object: usize, grasp: &Corner, carrying: Carrying, at: &Point) -> Result<(), CheckError> {
-        let (None, Some(Standing { obstacle: lying, .. })) =
-            (&self.held, self.standing[self.task.first + object].take())
-        else {
+    /// For what is not looked at in time.
+    fn nothing_moves(&self, what: &str) -> Result<(), CheckError> {
+        let moves = |present: &Present| present.obstacle.course.is_some();
+        match self.present.iter().flatten().any(moves) {
+            true => CheckError::fails(format!("the checker does not know {what} while something moves")),
+            false => Ok(()),
+        }
+    }
+
+    /// Takes an object as it lies at a time, or passes, with the tip where it is at a configuration.
+    fn grasp(
+        &mut self,
+        object: usize,
+        grasp: &Corner,
+        carrying: Carrying,
+        at: &Point,
+        (time, passing): (&Decimal, &Passing),
+    ) -> Result<(), CheckError> {
+        let (None, Some(present)) = (&self.held, self.present[self.task.first + object].take()) else {
             return CheckError::fails("something is carried when an object is picked");
         };
+        let lying = present.obstacle.at_time(time).into_owned();
+        if passing.window.as_ref().is_some_and(|[low, high]| time < low || high < time) {
+            return CheckError::fails("the object is picked outside its window of time");
+        }
+        let near = Interval::from(&Decimal::power_of_ten(NEAR)).lower;
+        if passing.at.as_ref().is_some_and(|at| length(&minus(&lying.at, at)).upper > near) {
+            return CheckError::fails("the object is not picked where it is to be then");
+        }
         let tip = self.chain.point_at(&On::Link(1), &self.tip, at);
         self.misses(length(&minus(&tip, &lying.placed(&grasp.each_ref().map(Interval::from)))).upper)?;
         let (on, hanging) = if self.task.objects[object].is_level {
@@ -432,7 +473,7 @@ impl<'a> Replay<'a> {
             self.misses(length(&minus(&lying.turn, &angle.sin_cos())).upper)?;
         }
         let number = self.task.first + held.object;
-        self.standing[number] = Some(Standing::new(&self.chain, lying)?);
+        self.present[number] = Some(Present::new(&self.chain, lying)?);
         self.released = Some(number);
         Ok(())
     }
@@ -440,6 +481,7 @@ impl<'a> Replay<'a> {
     /// Turns what is held about the tip, while the arm stands at a configuration.
     fn turn(&mut self, done: &Done, at: &Point) -> Result<(), CheckError> {
         let Some(by) = &done.turn else { return Ok(()) };
+        self.nothing_moves("a turn of the wrist")?;
         let Some(mut held) = self.held.take_if(|held| held.carrying.may_turn && matches!(held.on, On::Level(_))) else {
             return CheckError::fails("there is no wrist, or nothing that it is to turn");
         };
@@ -447,17 +489,18 @@ impl<'a> Replay<'a> {
         let Some(end) = fine(&(by * &Decimal::whole(SIXTY))).filter(|end| end.abs() < LARGEST_TURN << FINE) else {
             return CheckError::fails("the wrist turns by more than a turn");
         };
-        let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]] };
+        let time = [0, 1].map(Decimal::whole);
+        let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]], time };
         let rests = held.kernel.is_some();
         let (solids, kernel) = self.hung(&wrist, &On::Link(0), &held.hanging, rests)?;
-        let seen = |(number, standing): (usize, &Option<Standing>)| {
-            let met = standing.as_ref().filter(|_| self.meets(&held, number, Tool::Raised).is_some());
-            met.map(|standing| Standing::new(&wrist, standing.obstacle.clone())).transpose()
+        let seen = |(number, present): (usize, &Option<Present>)| {
+            let met = present.as_ref().filter(|_| self.meets(&held, number, Tool::Raised).is_some());
+            met.map(|present| Present::new(&wrist, present.obstacle.clone())).transpose()
         };
-        let standing = self.standing.iter().enumerate().map(seen).collect::<Result<Vec<_>, _>>()?;
+        let present = self.present.iter().enumerate().map(seen).collect::<Result<Vec<_>, _>>()?;
         let parts = self.hanging(&held, &solids, kernel.as_ref(), Tool::Raised);
-        self.surrounds_none(&held, at, Tool::Raised)?;
-        stay_off(&wrist, &[swept], &[0, 0].map(Interval::whole), &parts, &standing)?;
+        self.surrounds_none(&held, at, &swept.time[0], Tool::Raised)?;
+        stay_off(&wrist, &[swept], &[0, 0].map(Interval::whole), &parts, &present)?;
         let angle = Interval::from(by).sin_cos();
         held.hanging.at = turned(&held.hanging.at, &angle);
         held.hanging.turn = both_turns(&held.hanging.turn, &angle);

@@ -14,11 +14,13 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 mod cells;
+mod course;
 mod hung;
 mod map;
 mod obstacle;
 pub mod task;
 
+pub use course::Course;
 pub use obstacle::Obstacle;
 
 use cells::Cells;
@@ -44,10 +46,10 @@ pub struct World {
     /// The link whose origin is the tip, if it says one.
     pub tip: Option<String>,
     pub clearance: Decimal,
-    /// Those of the file that stand, then the map's walls, then the objects where they lie at first.
+    /// Those of the file that stand, then the map's walls, then the objects where they lie at first, or move.
     pub obstacles: Vec<Obstacle>,
-    /// Why it says nothing of a motion that it is free: the checker knows no time, and something moves.
-    pub moving: Option<CheckError>,
+    /// Those of the file that move.
+    pub movers: Vec<Obstacle>,
     /// What is to be done, if it says it in steps.
     pub task: Option<Task>,
 }
@@ -189,8 +191,8 @@ impl Reader<'_> {
     /// An obstacle, or an object as one where it lies at first.
     fn obstacle(&self, value: &Value, is_object: bool) -> Read<Obstacle> {
         let (mut outlines, mut holes) = (Vec::new(), Vec::new());
-        let ([mut at, mut turn], mut heights) = (no_turn(), None);
-        let mut name = None;
+        let (mut at, mut angle, mut heights) = (point(&origin()), Interval::whole(0), None);
+        let (mut name, mut motion) = (None, None);
         let (mut image, mut unknown_is_solid) = (None, true);
         for (key, value) in self.table(value)? {
             match &**key.get_ref() {
@@ -208,11 +210,10 @@ impl Reader<'_> {
                 "unknown" => unknown_is_solid = self.text(value)? != "free",
                 "holes" => holes = self.rings(value)?,
                 "at" => at = point(&self.two(value, |n| self.number(n))?),
-                "angle" => turn = Interval::around(&self.quantity(value)?).sin_cos(),
+                "angle" => angle = Interval::around(&self.quantity(value)?),
                 "height" => heights = Some(self.heights(value)?),
                 "name" => name = Some(self.text(value)?),
-                // What moves is set apart.
-                "motion" if !is_object => {}
+                "motion" => motion = Some(value),
                 // Of objects: read elsewhere.
                 "pallet" | "lift" | "mass" | "payload" | "grasp" | "supports" | "renew" if is_object => {}
                 other => {
@@ -232,21 +233,17 @@ impl Reader<'_> {
             }
             other => other,
         };
-        Ok(Obstacle { name, outline, at, turn, heights })
+        let course = motion.map(|motion| self.course(motion, &at, &angle)).transpose()?.map(Rc::new);
+        Ok(Obstacle { name, outline, at, turn: angle.sin_cos(), heights, course })
     }
 
-    /// All obstacles. Those that move are none: the checker knows no time.
+    /// All obstacles.
     fn obstacles(&self, list: &Value, world: &mut World) -> Read<()> {
         for (index, value) in self.list(list)?.into_iter().enumerate() {
             let mut obstacle = self.obstacle(value, false)?;
-            let name = obstacle.name.get_or_insert_with(|| format!("obstacle {}", index + 1));
-            if self.table(value)?.get("motion").is_some() {
-                let message = format!("obstacle \"{name}\" moves: the checker knows no time, and so no motion in it");
-                let error = CheckError::at(Input::World, self.text, value.span().start, message);
-                world.moving.get_or_insert(error);
-            } else {
-                world.obstacles.push(obstacle);
-            }
+            obstacle.name.get_or_insert_with(|| format!("obstacle {}", index + 1));
+            let list = if obstacle.course.is_some() { &mut world.movers } else { &mut world.obstacles };
+            list.push(obstacle);
         }
         Ok(())
     }
@@ -268,8 +265,8 @@ impl Reader<'_> {
         }
         let Some(walls) = walls else { return self.error(value, "the map has no file") };
         for outline in map::walls(self.files, &walls, &unit, is_framed)? {
-            let ([at, turn], heights) = (no_turn(), heights.clone());
-            world.obstacles.push(Obstacle { name: None, outline, at, turn, heights });
+            let (at, turn) = (point(&origin()), [0, 1].map(Interval::whole));
+            world.obstacles.push(Obstacle { name: None, outline, at, turn, heights: heights.clone(), course: None });
         }
         if let (None, Some(path)) = (&world.goal, wishes) {
             world.goal = Some(Goal::Tip(map::goal(self.files, &path, &unit)?));
@@ -286,12 +283,12 @@ fn point(corner: &Corner) -> Point {
     corner.each_ref().map(Interval::from)
 }
 
-/// The place, and sine and cosine of the turn, of what is where its frame is.
-fn no_turn() -> [Point; 2] {
-    [point(&origin()), [0, 1].map(Interval::whole)]
-}
-
 impl World {
+    /// All obstacles, those that move last.
+    pub fn all(&self) -> impl Iterator<Item = &Obstacle> {
+        self.obstacles.iter().chain(&self.movers)
+    }
+
     /// Reads a world file.
     ///
     /// # Errors
@@ -314,7 +311,7 @@ impl World {
             tip: None,
             clearance: Decimal::whole(0),
             obstacles: Vec::new(),
-            moving: None,
+            movers: Vec::new(),
             task: None,
         };
         for (key, value) in table.get_ref() {

@@ -140,6 +140,58 @@ fn distance(a: &Shape, b: &Shape) -> f64 {
     normals.into_iter().map(apart).fold(f64::NEG_INFINITY, f64::max) - a.radius - b.radius
 }
 
+/// Straight and evenly from one time and pose to the next, then on at a velocity.
+#[derive(Clone, Debug)]
+struct Course {
+    stops: Vec<(f64, Pose)>,
+    velocity: P,
+}
+
+impl Course {
+    fn still(pose: Pose) -> Course {
+        Course { stops: vec![(0.0, pose)], velocity: [0.0; 2] }
+    }
+
+    fn at(&self, time: f64) -> Pose {
+        let after = self.stops.iter().position(|(stop, _)| *stop > time).unwrap_or(self.stops.len());
+        let (begin, from) = self.stops[after.saturating_sub(1)];
+        match self.stops.get(after) {
+            _ if after == 0 => from,
+            None => Pose { at: [0, 1].map(|k| from.at[k] + self.velocity[k] * (time - begin)), ..from },
+            Some((end, to)) => {
+                let between = |from: f64, to: f64| from + (to - from) * (time - begin) / (end - begin);
+                let at = [0, 1].map(|k| between(from.at[k], to.at[k]));
+                Pose { at, angle: between(from.angle, to.angle) }
+            }
+        }
+    }
+
+    fn text(&self) -> String {
+        let stop =
+            |(time, Pose { at, angle }): &(f64, Pose)| format!("{{ time = {time:?}, at = {at:?}, angle = {angle:?} }}");
+        let stops: Vec<String> = self.stops.iter().map(stop).collect();
+        format!("motion = {{ stops = [{}], velocity = {:?} }}", stops.join(", "), self.velocity)
+    }
+
+    /// Past some pose at some time, in one way or another.
+    fn past(dice: &mut Dice, time: f64, pose: Pose, turns: bool) -> Course {
+        let velocity = turned([dice.within(0.0, 0.6), 0.0], dice.within(-3.0, 3.0));
+        let spin = if turns && dice.chance(0.5) { dice.within(-1.0, 1.0) } else { 0.0 };
+        let then = |at: f64| Pose {
+            at: [0, 1].map(|k| pose.at[k] + velocity[k] * (at - time)),
+            angle: pose.angle + spin * (at - time),
+        };
+        let from = dice.within(0.0, 2.0);
+        match dice.below(if spin == 0.0 { 2 } else { 1 }) {
+            0 => {
+                let until = from.max(time) + dice.within(0.5, 9.0);
+                Course { stops: [from.min(time), until].map(|at| (at, then(at))).to_vec(), velocity: [0.0; 2] }
+            }
+            _ => Course { stops: vec![(0.0, then(0.0))], velocity },
+        }
+    }
+}
+
 #[derive(Clone, Debug)]
 enum Action {
     Pick(usize),
@@ -151,6 +203,8 @@ enum Action {
 struct Object {
     shape: Shape,
     at: Pose,
+    /// How it moves until it is picked, if it does.
+    course: Option<Course>,
     is_level: bool,
     /// Whether it may touch the first obstacle.
     rests: bool,
@@ -160,6 +214,7 @@ struct Object {
 #[derive(Clone, Debug)]
 struct Claim {
     obstacles: Vec<Shape>,
+    movers: Vec<(Shape, Course)>,
     objects: Vec<Object>,
     clearance: f64,
     start: P,
@@ -204,7 +259,7 @@ impl Claim {
             let at = Pose { at: tip(ends[0]), angle: dice.within(-3.0, 3.0) };
             let is_level = dice.chance(0.5);
             let (size, rests) = (dice.within(0.02, 0.1), dice.chance(0.3));
-            objects.push(Object { shape: Shape::any(dice, size, false), at, is_level, rests });
+            objects.push(Object { shape: Shape::any(dice, size, false), at, course: None, is_level, rests });
             let turn = (is_level && dice.chance(0.4)).then(|| dice.within(-3.0, 3.0));
             let angle = turn.map(|turn| at.angle + turn);
             actions.extend([Action::Pick(object), Action::Place(tip(ends[1]), angle)]);
@@ -224,7 +279,42 @@ impl Claim {
         };
         let obstacles = (0..1 + dice.below(3)).map(|_| obstacle(dice)).collect();
         let clearance = if dice.chance(0.3) { dice.within(0.0, 0.03) } else { 0.0 };
-        Claim { obstacles, objects, clearance, start, actions, is_free, steps }
+        Claim { obstacles, movers: Vec::new(), objects, clearance, start, actions, is_free, steps }
+    }
+
+    /// The time at which the motion of each step begins, at the least: knots are a second apart, and the arm stands for one between steps.
+    fn begins(&self) -> Vec<f64> {
+        let mut time = 0.0;
+        let begin = |(_, way, _): &(usize, Vec<P>, Option<f64>)| {
+            time += way.len() as f64;
+            time - way.len() as f64
+        };
+        self.steps.iter().map(begin).collect()
+    }
+
+    /// The same where some objects come along on their way, and obstacles move; nothing turns at the wrist then.
+    fn set_in_motion(&mut self, dice: &mut Dice) {
+        let picked: Vec<f64> =
+            self.begins().iter().zip(&self.steps).map(|(begin, (_, way, _))| begin + way.len() as f64 - 1.0).collect();
+        for (number, _, turn) in &mut self.steps {
+            *turn = None;
+            if let Action::Place(_, angle) = &mut self.actions[*number - 1] {
+                *angle = None;
+            }
+        }
+        for (time, (number, ..)) in picked.iter().zip(&self.steps) {
+            if let Action::Pick(object) = self.actions[number - 1]
+                && dice.chance(0.5)
+            {
+                let object = &mut self.objects[object];
+                object.course = Some(Course::past(dice, *time, object.at, !object.is_level));
+            }
+        }
+        for _ in 0..1 + dice.below(2) {
+            let pose = Pose { at: turned([dice.within(0.4, 1.9), 0.0], dice.within(-3.1, 3.1)), angle: 0.0 };
+            let (size, time) = (dice.within(0.02, 0.2), dice.within(0.0, 8.0));
+            self.movers.push((Shape::any(dice, size, true), Course::past(dice, time, pose, true)));
+        }
     }
 
     /// Something else in it, large or small.
@@ -233,7 +323,7 @@ impl Claim {
         let size = 10_f64.powf(dice.within(-9.0, -0.5));
         let n = other.steps.len();
         let step = dice.below(n);
-        match dice.below(9) {
+        match dice.below(if other.movers.is_empty() { 9 } else { 12 }) {
             0 => drop(other.steps.remove(step)),
             1 => other.steps.swap(step, dice.below(n)),
             2 => other.steps[step].0 = 1 + dice.below(n),
@@ -247,6 +337,24 @@ impl Claim {
                 }
             }
             4 => other.steps[step].1[0][0] += size,
+            // Somewhere else, earlier or later, or with a turn of the wrist.
+            9 | 10 => {
+                let moving = other.objects.iter_mut().filter_map(|object| object.course.as_mut());
+                let mut courses: Vec<&mut Course> =
+                    other.movers.iter_mut().map(|(_, course)| course).chain(moving).collect();
+                let k = dice.below(courses.len());
+                let sign = if dice.chance(0.5) { 1.0 } else { -1.0 };
+                let along = dice.below(2_usize);
+                for (time, pose) in &mut courses[k].stops {
+                    if dice.chance(0.5) {
+                        pose.at[along] += sign * size;
+                    } else {
+                        *time += size;
+                    }
+                }
+                courses[k].stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+            }
+            11 => other.movers[0].1.velocity[0] += size,
             5 => other.steps[step].2 = Some(dice.within(-3.0, 3.0)),
             6 => other.steps[step].2 = other.steps[step].2.map(|turn| turn + size),
             7 => {
@@ -268,7 +376,10 @@ impl Claim {
         for obstacle in &self.obstacles {
             let _ = writeln!(text, "[[obstacle]]\n{}", obstacle.text());
         }
-        for (number, Object { shape, at, is_level, rests }) in self.objects.iter().enumerate() {
+        for (shape, course) in &self.movers {
+            let _ = writeln!(text, "[[obstacle]]\n{}\n{}", shape.text(), course.text());
+        }
+        for (number, Object { shape, at, course, is_level, rests }) in self.objects.iter().enumerate() {
             let payload = if *is_level { "level" } else { "rigid" };
             let supports = if *rests { "\nsupports = [\"obstacle 1\"]" } else { "" };
             let Pose { at, angle } = at;
@@ -277,6 +388,9 @@ impl Claim {
                 "[[object]]\nname = \"o{number}\"\n{}\nat = {at:?}\nangle = {angle:?}\npayload = \"{payload}\"{supports}",
                 shape.text()
             );
+            if let Some(course) = course {
+                let _ = writeln!(text, "{}", course.text());
+            }
         }
         for action in &self.actions {
             let _ = match action {
@@ -314,7 +428,8 @@ impl Claim {
     fn margin(&self) -> f64 {
         let wrong = f64::NEG_INFINITY;
         let mut margin = f64::INFINITY;
-        let mut lies: Vec<Option<Pose>> = self.objects.iter().map(|object| Some(object.at)).collect();
+        let at_first = |object: &Object| Some(object.course.clone().unwrap_or(Course::still(object.at)));
+        let mut lies: Vec<Option<Course>> = self.objects.iter().map(at_first).collect();
         let mut held: Option<(usize, Pose)> = None;
         let mut released = None;
         let mut at = self.start;
@@ -324,30 +439,41 @@ impl Claim {
             false => links(q)[1].after(grip),
         };
         // How far a payload is from what it may not meet.
-        let carried = |object: usize, pose: Pose, lies: &[Option<Pose>]| {
+        let carried = |object: usize, pose: Pose, time: f64, lies: &[Option<Course>]| {
             let own = self.objects[object].shape.at(pose);
             let fixed = self.obstacles.iter().enumerate().map(|(k, obstacle)| {
                 let apart = distance(&own, obstacle);
                 if k == 0 && self.objects[object].rests { apart + PRESSED } else { apart - self.clearance }
             });
-            let others = self.objects.iter().zip(lies).filter_map(|(other, at)| Some(other.shape.at((*at)?)));
+            let others =
+                self.objects.iter().zip(lies).filter_map(|(other, on)| Some(other.shape.at(on.as_ref()?.at(time))));
+            let others = others.chain(self.movers.iter().map(|(shape, course)| shape.at(course.at(time))));
             fixed.chain(others.map(|other| distance(&own, &other) - self.clearance)).fold(f64::INFINITY, f64::min)
         };
-        let scene = |q: P, held: &Option<(usize, Pose)>, lies: &[Option<Pose>], allowed: [Option<usize>; 2]| {
-            let mut least = f64::INFINITY;
-            for (link, pose) in links(q).into_iter().enumerate() {
-                let own = bar([1.0, 0.8][link]).at(pose);
-                for obstacle in &self.obstacles {
-                    least = least.min(distance(&own, obstacle) - self.clearance);
-                }
-                for (other, at) in lies.iter().enumerate() {
-                    if let Some(at) = at.filter(|_| link == 0 || !allowed.contains(&Some(other))) {
-                        least = least.min(distance(&own, &self.objects[other].shape.at(at)) - self.clearance);
+        let scene =
+            |q: P, time: f64, held: &Option<(usize, Pose)>, lies: &[Option<Course>], allowed: [Option<usize>; 2]| {
+                let mut least = f64::INFINITY;
+                for (link, pose) in links(q).into_iter().enumerate() {
+                    let own = bar([1.0, 0.8][link]).at(pose);
+                    for obstacle in &self.obstacles {
+                        least = least.min(distance(&own, obstacle) - self.clearance);
+                    }
+                    for (shape, course) in &self.movers {
+                        least = least.min(distance(&own, &shape.at(course.at(time))) - self.clearance);
+                    }
+                    for (other, on) in lies.iter().enumerate() {
+                        if let Some(on) = on.as_ref().filter(|_| link == 0 || !allowed.contains(&Some(other))) {
+                            least =
+                                least.min(distance(&own, &self.objects[other].shape.at(on.at(time))) - self.clearance);
+                        }
                     }
                 }
-            }
-            held.map_or(least, |(object, grip)| least.min(carried(object, pose(object, grip, q), lies)))
+                held.map_or(least, |(object, grip)| least.min(carried(object, pose(object, grip, q), time, lies)))
+            };
+        let any_moves = |lies: &[Option<Course>]| {
+            !self.movers.is_empty() || lies.iter().flatten().any(|on| on.stops.len() > 1 || on.velocity != [0.0; 2])
         };
+        let begins = self.begins();
         for (index, (number, way, turn)) in self.steps.iter().enumerate() {
             // Pairs in any order, or all in theirs.
             let is_next = match (self.is_free, held) {
@@ -361,20 +487,25 @@ impl Claim {
             left.retain(|other| other != number);
             let action = &self.actions[number - 1];
             let target = if let Action::Pick(object) = action { Some(*object) } else { None };
-            for piece in way.windows(2) {
+            let begin = begins[index];
+            // Before, it stands where the last step has left it.
+            let stands = [if index == 0 { way[0] } else { at }, way[0]];
+            for (number, piece) in [&stands[..]].into_iter().chain(way.windows(2)).enumerate() {
                 for k in 0..=SAMPLES {
                     let t = f64::from(k) / f64::from(SAMPLES);
                     let q = [0, 1].map(|k| piece[0][k] + t * (piece[1][k] - piece[0][k]));
                     if q.iter().any(|q| q.abs() > LIMIT) {
                         return wrong;
                     }
-                    margin = margin.min(scene(q, &held, &lies, [target, released]));
+                    let time = (begin + number as f64 - 1.0 + t).max(0.0);
+                    margin = margin.min(scene(q, time, &held, &lies, [target, released]));
                 }
             }
             at = way[way.len() - 1];
+            let time = begin + way.len() as f64 - 1.0;
             let before = released;
             if let Action::Pick(object) = action {
-                let Some(lying) = lies[*object].take() else { return wrong };
+                let Some(lying) = lies[*object].take().map(|on| on.at(time)) else { return wrong };
                 if minus(tip(at), lying.at).iter().fold(0.0, |a: f64, b| a.hypot(*b)) > MISSED {
                     return wrong;
                 }
@@ -383,6 +514,9 @@ impl Claim {
                 released = None;
             }
             if let Some(by) = turn {
+                if any_moves(&lies) {
+                    return wrong;
+                }
                 // It keeps its own where its place asks for none.
                 let may_turn = |object: usize| {
                     self.objects[object].is_level && matches!(self.actions[2 * object + 1], Action::Place(_, Some(_)))
@@ -393,7 +527,7 @@ impl Claim {
                 let of = |angle: f64| Pose { at: [0.0, 0.0], angle }.after(*grip);
                 for k in 0..=SAMPLES {
                     let angle = by * f64::from(k) / f64::from(SAMPLES);
-                    margin = margin.min(carried(*object, pose(*object, of(angle), at), &lies));
+                    margin = margin.min(carried(*object, pose(*object, of(angle), at), time, &lies));
                 }
                 *grip = of(*by);
             }
@@ -406,7 +540,7 @@ impl Claim {
                     if minus(lying.at, *to).iter().fold(0.0, |a: f64, b| a.hypot(*b)).max(off) > MISSED {
                         return wrong;
                     }
-                    (lies[object], released) = (Some(lying), Some(object));
+                    (lies[object], released) = (Some(Course::still(lying)), Some(object));
                 }
                 Action::Move(to) => {
                     if minus(at, *to).iter().any(|off| off.abs() > MISSED) {
@@ -416,7 +550,7 @@ impl Claim {
                 }
             }
             if index + 1 == self.steps.len() {
-                margin = margin.min(scene(at, &held, &lies, [before, released]));
+                margin = margin.min(scene(at, time, &held, &lies, [before, released]));
             }
         }
         if left.is_empty() { margin } else { wrong }
@@ -425,10 +559,22 @@ impl Claim {
 
 #[test]
 fn what_holds_is_right_and_what_is_right_holds() {
+    compared(false);
+}
+
+#[test]
+fn the_same_in_time() {
+    compared(true);
+}
+
+fn compared(in_time: bool) {
     let (mut all, mut right, mut false_ones, mut still_true) = (0, 0, 0, 0);
     for seed in random::seeds(150) {
         let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        let honest = Claim::any(&mut dice);
+        let mut honest = Claim::any(&mut dice);
+        if in_time {
+            honest.set_in_motion(&mut dice);
+        }
         let margin = honest.margin();
         // Most of what is drawn hits something; of that enough are looked at.
         if margin < -HAIR && !dice.chance(0.1) {

@@ -1,4 +1,4 @@
-//! Obstacles that move: the checker knows no time, and says of what stands alone what holds in spite of them.
+//! Obstacles and objects that move: motions by hand, and what holds of what stands in spite of them.
 
 use cplan_check::{CheckError, Input, check};
 
@@ -36,7 +36,6 @@ fn certificate(answer: &str, evidence: &str) -> String {
 }
 
 const BOUND: &str = r#""bound": {"to": [9, 1], "length": 8, "walls": [], "potentials": []}"#;
-const MOTION: &str = r#""motion": {"interpolation": ["linear"], "knots": [[0, 1, 1], [1, 9, 1]]}"#;
 
 /// Boxes all along the wall, a metre each: the square in the middle of one is deeper in the wall than it can move there.
 fn boxes() -> String {
@@ -63,35 +62,130 @@ fn what_is_impossible_among_what_stands_is_so_among_more() {
     }
 }
 
-#[test]
-fn no_motion_is_known_to_be_free_among_what_moves() {
-    let alone = |evidence: &str| format!(r#"{{"format": "cplan certificate 1", "answer": "found", {evidence}}}"#);
-    check(GANTRY, ENDS, &alone(MOTION)).unwrap();
-    let refused = |world: &str, evidence: &str| match check(GANTRY, world, &alone(evidence)) {
-        Err(CheckError::Input { input: Input::World, line, message }) => (line, message),
-        other => panic!("{world}: {other:?}"),
-    };
-    for motion in MOTIONS {
-        let world = format!("{ENDS}{}", cart(motion));
-        let (line, message) = refused(&world, MOTION);
-        assert_eq!(
-            (line, &*message),
-            (Some(3), "obstacle \"cart\" moves: the checker knows no time, and so no motion in it")
-        );
-        assert_eq!(refused(&world, &format!("{MOTION}, {BOUND}")).1, message);
-        let task = format!("{world}[[step]]\nmove = {{ joints = [9, 1] }}\n").replace("goal.joints = [9, 1]\n", "");
-        assert_eq!(refused(&task, &format!(r#"{MOTION}, "steps": [{{"step": 1, "knots": [0, 1]}}]"#)).1, message);
-    }
-    // Without a name by its place in the file.
-    let post = "[[obstacle]]\ncircle = { center = [50, 0], radius = 1 }\n";
-    let (_, message) = refused(&format!("{ENDS}{post}{}", cart(MOTIONS[0]).replace("name = \"cart\"\n", "")), MOTION);
-    assert!(message.contains("obstacle \"obstacle 2\" moves"), "{message}");
+/// In eight seconds from the start to the goal, a metre a second.
+const DRIVEN: &str = r#""motion": {"interpolation": ["linear"], "knots": [[0, 1, 1], [8, 9, 1]]}"#;
+
+/// What the checker says of a motion as it is given, among some obstacles.
+fn judged(obstacles: &str, evidence: &str) -> Result<String, CheckError> {
+    let text = format!(r#"{{"format": "cplan certificate 1", "answer": "found", {evidence}}}"#);
+    check(GANTRY, &format!("{ENDS}{obstacles}"), &text)
 }
 
-/// An object is where it lies, and has no motion of its own.
+fn fails(judged: Result<String, CheckError>, with: &str) {
+    assert!(matches!(&judged, Err(CheckError::Fails(why)) if why.contains(with)), "{judged:?}");
+}
+
+/// The square has its left side at `0.5 + t` and its right one at `1.5 + t`, the upper at 1.5. A disc of radius 0.1 comes down along x = 5.
 #[test]
-fn objects_do_not_move_by_themselves() {
-    let world = format!("{ENDS}{}", cart(MOTIONS[0]).replace("[[obstacle]]", "[[object]]"));
-    let why = check(GANTRY, &world, &certificate("no_shorter", BOUND)).unwrap_err().to_string();
-    assert!(why.contains("does not know the key motion"), "{why}");
+fn in_time_by_hand() {
+    let disc = |motion: &str| {
+        format!("[[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [5, 5]\nmotion = {motion}\n")
+    };
+    let falling = |from: &str| disc(&format!("{{ stops = [{{ time = 0, at = [5, {from}] }}], velocity = [0, -1] }}"));
+    // At 4.6 s the square is past it: then the disc's lowest point is at `from - 4.7`. At 3.4 s it comes, and the uppermost is at `from - 3.3`.
+    for (from, is_free) in
+        [("6.21", true), ("6.19", true), ("6.1", false), ("5", false), ("3.9", false), ("3.7", true), ("1.7", true)]
+    {
+        let judged = judged(&falling(from), DRIVEN);
+        if is_free {
+            judged.unwrap();
+        } else {
+            fails(judged, "obstacle 0");
+        }
+    }
+    // It waits until it is time, and comes too late or is just there; it stays where the last stop is.
+    let late = |from: f64| {
+        let until = from + 4.0;
+        disc(&format!("{{ stops = [{{ time = {from:?} }}, {{ time = {until:?}, at = [5, 1] }}] }}"))
+    };
+    judged(&late(1.3), DRIVEN).unwrap();
+    fails(judged(&late(1.0), DRIVEN), "obstacle 0");
+    fails(judged(&disc("{ stops = [{ time = 0 }, { time = 1, at = [5, 1] }] }"), DRIVEN), "obstacle 0");
+    // With it, ever in front, it goes; a little slower it is run into.
+    let ahead = |speed: &str| disc(&format!("{{ stops = [{{ time = 0, at = [1.7, 1] }}], velocity = [{speed}, 0] }}"));
+    judged(&ahead("1"), DRIVEN).unwrap();
+    fails(judged(&ahead("0.98"), DRIVEN), "obstacle 0");
+    // The clock begins with the motion.
+    let later = DRIVEN.replace("[[0,", "[[2,").replace("[8,", "[10,");
+    judged(&falling("6.19"), &later).unwrap();
+    fails(judged(&falling("5"), &later), "obstacle 0");
+    // What begins around it.
+    let around =
+        "[[obstacle]]\npolygon = [[-3, -3], [3, -3], [3, 3], [-3, 3]]\nat = [1, 1]\nmotion = { velocity = [1, 0] }\n";
+    fails(judged(around, DRIVEN), "inside obstacle 0");
+    // Numbers go on after those that stand.
+    let post = "[[obstacle]]\ncircle = { center = [5, 9], radius = 1 }\n";
+    fails(judged(&format!("{}{post}", falling("5")), DRIVEN), "obstacle 1");
+    // A bound is about what stands.
+    judged(&falling("7"), &format!("{DRIVEN}, {BOUND}")).unwrap();
+}
+
+/// A bar from 2 m on one side of a pivot above the square's way to 2 m on the other.
+#[test]
+fn what_turns() {
+    let bar = |stops: &str| {
+        let shape = "polygon = [[-2, -0.01], [2, -0.01], [2, 0.01], [-2, 0.01]]\nat = [5, 3]";
+        format!("[[obstacle]]\n{shape}\nmotion = {{ stops = [{stops}] }}\n")
+    };
+    judged(&bar("{ time = 0 }"), DRIVEN).unwrap();
+    fails(judged(&bar("{ time = 0, angle = \"90deg\" }"), DRIVEN), "obstacle 0");
+    // One end comes down behind the square, or upon it.
+    judged(&bar("{ time = 5 }, { time = 6, angle = \"90deg\" }"), DRIVEN).unwrap();
+    fails(judged(&bar("{ time = 5 }, { time = 6, angle = \"-90deg\" }"), DRIVEN), "obstacle 0");
+    // After half a turn it is as before; not on the way.
+    judged(&bar("{ time = 9 }, { time = 10, angle = \"180deg\" }"), DRIVEN).unwrap();
+    fails(judged(&bar("{ time = 3 }, { time = 4, angle = \"180deg\" }"), DRIVEN), "obstacle 0");
+}
+
+/// Bottles on a belt along y = 4, picked at the corner of their frame that the tip goes to, and brought to where they are put down.
+#[test]
+fn picks_of_what_moves() {
+    let world = |step: &str| {
+        let belt = "[[object]]\nname = \"bottle\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [9, 4]\nmotion = { velocity = [-1, 0] }\n";
+        let steps = format!("[[step]]\npick = \"bottle\"\n{step}\n[[step]]\nplace = {{ at = [2, 8] }}\n");
+        format!("start.joints = [1, 1]\n{belt}{steps}")
+    };
+    // At 4 s the bottle is at (5, 4).
+    let done = |pick: &str, late: &str| {
+        let knots = format!("[0, 1, 1], [2, {pick}], [4, {pick}], [{late}, {pick}], [9, 2, 8]");
+        let steps = r#"[{"step": 1, "knots": [0, 2]}, {"step": 2, "knots": [3, 4]}]"#;
+        format!(
+            r#"{{"format": "cplan certificate 1", "answer": "found", "steps": {steps},
+                 "motion": {{"interpolation": ["linear"], "knots": [{knots}]}}}}"#
+        )
+    };
+    let judged = |step: &str, pick: &str, late: &str| check(GANTRY, &world(step), &done(pick, late));
+    judged("", "5, 4", "5").unwrap();
+    judged("window = [3.5, 4]\nat = [5, 4]", "5, 4", "5").unwrap();
+    fails(judged("", "5.01, 4", "5"), "misses the target");
+    fails(judged("window = [1, 3.9]", "5, 4", "5"), "outside its window");
+    fails(judged("at = [5.1, 4]", "5, 4", "5"), "not picked where it is to be then");
+    // The second bottle runs into the arm while it stands at the first, unless that goes in time: its square begins at x = 5.5.
+    let second = "[[object]]\nname = \"other\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [10.5, 4]\nmotion = { velocity = [-1, 0] }\n";
+    let both = |late: &str| check(GANTRY, &format!("{}{second}", world("")), &done("5, 4", late));
+    both("4.5").unwrap();
+    fails(both("5"), "obstacle 1");
+    // No proof knows where an object is that moves.
+    let cases = r#"{"format": "cplan certificate 1", "answer": "infeasible", "cases": []}"#;
+    let why = check(GANTRY, &world(""), cases).unwrap_err().to_string();
+    assert!(why.contains("an object moves"), "{why}");
+}
+
+#[test]
+fn courses_that_are_none() {
+    let refused = |motion: &str| match judged(&cart(motion), DRIVEN) {
+        Err(CheckError::Input { input: Input::World, line: Some(_), message }) => message,
+        other => panic!("{motion}: {other:?}"),
+    };
+    for (motion, message) in [
+        ("{ stops = [] }", "each later than the one before"),
+        ("{ stops = [{ time = 1 }, { time = 1, at = [0, 9] }] }", "each later than the one before"),
+        ("{ stops = [{ at = [0, 9] }] }", "a stop has a time"),
+        ("{ stops = [{ time = 1, speed = 3 }] }", "the key speed of a stop"),
+        ("{ turn = 3 }", "the key turn of a motion"),
+        ("3", "expected a table"),
+    ] {
+        let why = refused(motion);
+        assert!(why.contains(message), "{motion}: {why}");
+    }
 }

@@ -34,9 +34,9 @@ pub enum NoCertificate {
              not about how an object lies that an arm has turned"
     )]
     Task,
-    /// A motion in a world in which something moves: the checker knows no time.
-    #[error("motions among what moves have no certificates yet")]
-    Moving,
+    /// A motion without times in a world in which something moves.
+    #[error("the motion says no times, and among what moves it depends on them whether it is free")]
+    Untimed,
 }
 
 /// A box as it stands in a certificate.
@@ -62,7 +62,6 @@ impl Plan {
         let mut contacts = Contacts::new(problem.scene());
         let (answer, evidence) = match (self.trajectory(), plan.answer.verdict.proof()) {
             (Some(trajectory), _) => {
-                among_what_stands(problem.scene())?;
                 let mut evidence = vec![motion::evidence(problem.scene().arm(), trajectory)];
                 evidence.extend(least_length(plan, asked, &mut contacts).into_iter().flatten());
                 ("found", evidence)
@@ -85,11 +84,11 @@ impl Plan {
         asked: &Overrides,
         files: Option<&Digests>,
     ) -> Result<String, NoCertificate> {
-        among_what_stands(self.problem().scene())?;
         let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
         let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
         let said = about(files).into_iter().chain(start).chain(clearance).collect();
         match (&answer.verdict, self.trajectory(), &self.report().task) {
+            (TaskVerdict::Infeasible(_), ..) if task.moving_at_first().next().is_some() => Err(NoCertificate::Task),
             (TaskVerdict::Infeasible(impossible), ..) => {
                 let evidence = task::cases(task, impossible.step.number).ok_or(NoCertificate::Task)?;
                 Ok(written("infeasible", said, evidence))
@@ -101,11 +100,6 @@ impl Plan {
             _ => Err(NoCertificate::Answer(self.status())),
         }
     }
-}
-
-/// That nothing moves in a scene but the arm.
-fn among_what_stands(scene: &Scene) -> Result<(), NoCertificate> {
-    if scene.workspace().movers.is_empty() { Ok(()) } else { Err(NoCertificate::Moving) }
 }
 
 /// That no motion is shorter than the bound, up to a hair; none where nothing is known of that, or goals are a curve.

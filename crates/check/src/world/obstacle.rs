@@ -1,6 +1,7 @@
 //! Obstacles: convex parts of them, and what a shape has to stay off.
 
 use super::cells::Cells;
+use super::course::Course;
 use super::point;
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
@@ -9,6 +10,7 @@ use crate::overlap::Shape;
 use crate::polygon::{self, Corner, edges, surrounds};
 use crate::sweep::Range;
 use num_bigint::{BigInt, Sign};
+use std::borrow::Cow;
 use std::rc::Rc;
 
 /// An obstacle, as it stands in the file.
@@ -21,6 +23,8 @@ pub struct Obstacle {
     pub turn: Point,
     /// Its extent along the plane's normal; none: everywhere.
     pub heights: Option<Range>,
+    /// How its frame moves, if it does: then the place is that where it would stand if its motion did not say.
+    pub course: Option<Rc<Course>>,
 }
 
 #[derive(Clone)]
@@ -35,9 +39,17 @@ pub enum Outline {
 }
 
 impl Obstacle {
-    /// The same elsewhere.
+    /// The same elsewhere, where it stands.
     pub fn moved(self, at: Point, turn: Point) -> Self {
-        Self { at, turn, ..self }
+        Self { at, turn, course: None, ..self }
+    }
+
+    /// The same where it is at a time.
+    pub fn at_time(&self, time: &Decimal) -> Cow<'_, Self> {
+        self.course.as_ref().map_or(Cow::Borrowed(self), |course| {
+            let [at, turn] = course.place(time);
+            Cow::Owned(self.clone().moved(at, turn))
+        })
     }
 
     /// A point of its frame in its place.
@@ -57,6 +69,9 @@ impl Obstacle {
     /// # Errors
     /// Why it is no such part; as [`CheckError::Input`] if the obstacle is not known.
     pub fn part(&self, given: &[Corner]) -> Result<Shape, CheckError> {
+        if self.course.is_some() {
+            return CheckError::fails("it moves, and is not always there");
+        }
         let placed = |p: &Point| self.placed(p);
         let named = |corners: &[&Corner]| {
             let places: Vec<Point> = corners.iter().map(|corner| placed(&point(corner))).collect();
@@ -100,16 +115,14 @@ impl Obstacle {
         }
     }
 
-    /// The segments of its border, or its disc, in their places. What is connected, touches none of them and is not inside is off
+    /// The segments of its border, or its disc, in their places; of what moves in its own frame. What is connected, touches none of them and is not inside is off
     /// the obstacle.
     ///
     /// # Errors
     /// An obstacle that the checker does not know, or that is none.
     pub fn sides(&self) -> Result<Vec<Shape>, CheckError> {
-        let side = |points: &[Point], radius: Interval| Shape {
-            points: points.iter().map(|p| self.placed(p)).collect(),
-            radius,
-        };
+        let placed = |p: &Point| if self.course.is_some() { p.clone() } else { self.placed(p) };
+        let side = |points: &[Point], radius: Interval| Shape { points: points.iter().map(placed).collect(), radius };
         let thin = |a: &Corner, b: &Corner| side(&[point(a), point(b)], Interval::whole(0));
         match &self.outline {
             Outline::Polygon(rings) if rings.iter().all(|ring| ring.len() > 2) => {

@@ -4,6 +4,7 @@ use super::{Goal, Obstacle, Read, Reader, Value, World, point};
 use crate::decimal::Decimal;
 use crate::interval::{Interval, Point, both_turns, sum, turned};
 use crate::polygon::Corner;
+use crate::sweep::Range;
 use std::collections::BTreeMap;
 use toml::de::{DeTable, DeValue};
 
@@ -66,6 +67,15 @@ pub struct Step {
     pub dwell: Decimal,
 }
 
+/// When and where an object is to be picked that moves, as far as the step says.
+#[derive(Default)]
+pub struct Passing {
+    /// Seconds after the task began.
+    pub window: Option<Range>,
+    /// Where its origin is then.
+    pub at: Option<Point>,
+}
+
 /// What a step does.
 pub enum Action {
     /// The tip goes to a point of an object, which hangs on it from then on.
@@ -73,6 +83,7 @@ pub enum Action {
         object: usize,
         grasp: Corner,
         supports: Vec<usize>,
+        passing: Passing,
     },
     /// What is carried goes to a place with its origin, where it is let go of.
     Place {
@@ -240,12 +251,14 @@ impl Reader<'_> {
         let (lift, grasp) = (number("lift")?.unwrap_or(zero.clone()), grasp.unwrap_or([zero.clone(), zero]));
         let places: Vec<Obstacle> = match (table.get("pallet"), table.get("at")) {
             (None, Some(_)) => vec![lying],
-            (Some(pallet), None) => {
+            (None, None) if lying.course.is_some() => vec![lying],
+            (Some(pallet), None) if lying.course.is_none() => {
                 let Some(Pallet { places, turn }) = pallets.get(&self.text(pallet)?) else {
                     return self.error(pallet, "there is no pallet of this name");
                 };
                 let turn = both_turns(turn, &lying.turn);
                 let on = |(place, at): &(String, Point)| Obstacle {
+                    course: None,
                     name: Some(format!("{family} {place}")),
                     at: at.clone(),
                     turn: turn.clone(),
@@ -330,13 +343,16 @@ impl Steps<'_, '_> {
         let reader = self.reader;
         let table = reader.table(value)?;
         let dwell = table.get("dwell").map_or(Ok(dwell.clone()), |value| reader.number(value))?;
-        let known = ["pick", "place", "move", "transfer", "steps", "grasp", "supports"];
+        let known = ["pick", "place", "move", "transfer", "steps", "grasp", "supports", "at", "window"];
         let is_known = |key: &str| known.contains(&key) || MANNER.contains(&key);
         if let Some((key, _)) = table.iter().find(|(key, _)| !is_known(key.get_ref())) {
             return reader.error(value, &format!("the checker does not know the key {} of a step", key.get_ref()));
         }
         let given: Vec<&str> = known[..5].iter().copied().filter(|key| table.get(*key).is_some()).collect();
         let [what] = given[..] else { return reader.error(value, "a step does one thing") };
+        if what != "pick" && (table.contains_key("at") || table.contains_key("window")) {
+            return reader.error(value, "a place and a window of time are said of picks");
+        }
         let of = &table[what];
         let actions = match what {
             "steps" => return Ok(vec![Node::Group(self.group(of, Some(table), &dwell)?)]),
@@ -345,7 +361,11 @@ impl Steps<'_, '_> {
                 let object = self.world.obstacles[self.first..].iter().position(|object| object.name == named);
                 let Some(object) = object else { return reader.error(of, "there is no object of this name") };
                 let grasp = table.get("grasp").map(|grasp| reader.two(grasp, |n| reader.number(n))).transpose()?;
-                vec![self.pick(object, grasp, self.supports(table)?)]
+                let passing = Passing {
+                    window: table.get("window").map(|w| reader.two(w, |n| reader.number(n))).transpose()?,
+                    at: table.get("at").map(|at| Ok(point(&reader.two(at, |n| reader.number(n))?))).transpose()?,
+                };
+                vec![self.pick(object, grasp, self.supports(table)?, passing)]
             }
             "place" => vec![self.place(of)?],
             "move" => vec![Action::Move(reader.place(of)?)],
@@ -358,10 +378,10 @@ impl Steps<'_, '_> {
         Ok(actions.into_iter().map(step).collect())
     }
 
-    fn pick(&self, object: usize, grasp: Option<Corner>, supports: Option<Vec<usize>>) -> Action {
+    fn pick(&self, object: usize, grasp: Option<Corner>, supports: Option<Vec<usize>>, passing: Passing) -> Action {
         let own = &self.objects[object];
         let (grasp, supports) = (grasp.unwrap_or(own.grasp.clone()), supports.unwrap_or(own.supports.clone()));
-        Action::Pick { object, grasp, supports }
+        Action::Pick { object, grasp, supports, passing }
     }
 
     /// What is named as supports in a table.
@@ -405,7 +425,7 @@ impl Steps<'_, '_> {
         let (angle, supports) = (self.angle(table)?, self.supports(table)?);
         let pair = |(object, (_, at)): (usize, &(String, Point))| {
             let (at, angle, supports) = (at.clone(), angle.clone(), supports.clone());
-            [self.pick(object, None, None), Action::Place { at, angle, supports }]
+            [self.pick(object, None, None, Passing::default()), Action::Place { at, angle, supports }]
         };
         Ok(objects.into_iter().zip(&pallet.places).flat_map(pair).collect())
     }
