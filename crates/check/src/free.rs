@@ -232,6 +232,21 @@ impl Chain {
         lying.clone().moved(origin, [y, x])
     }
 
+    /// What hangs on something, in the plane, at a configuration.
+    pub fn lying(&self, on: &On, hanging: &Obstacle, values: &Point) -> Obstacle {
+        let [sine, cosine] = &hanging.turn;
+        let at = self.point_at(on, &hanging.at, values);
+        let turn = match on {
+            On::Level(_) => hanging.turn.clone(),
+            On::Link(_) => {
+                let ahead = self.point_at(on, &sum(&hanging.at, &[cosine.clone(), sine.clone()]), values);
+                let [x, y] = minus(&ahead, &at);
+                [y, x]
+            }
+        };
+        hanging.clone().moved(at, turn)
+    }
+
     /// A point of the plane as it is seen from the second link's joint at a configuration.
     pub fn seen_at(&self, p: &Point, values: &Point) -> Point {
         self.still(&self.seen(1, p), values)

@@ -4,7 +4,7 @@ use crate::certificate::{Certificate, StuckBox, rectangles};
 use crate::contacts::{Among, Carried, Contacts};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::free::{Chain, guard};
+use crate::free::{Chain, On, guard};
 use crate::interval::{Interval, Point, sum, turned};
 use crate::polygon::Corner;
 use crate::robot::{Arm, Joint, Motion};
@@ -29,6 +29,8 @@ pub struct Case {
     after: Option<Vec<usize>>,
     /// Where the arm is before it; the start if it does not say.
     from: Option<Rectangle>,
+    /// Where it was when it took what it has let go of, turned as it happened to be: those that the certificate follows, in order.
+    taken: Option<Vec<Rectangle>>,
     boxes: Vec<StuckBox>,
     /// Configurations that are not free while the tool is lowered where the step ends.
     lowered: Option<Vec<StuckBox>>,
@@ -56,6 +58,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
         at: Some(vec![at_start.clone()]),
         ends: Ok(Vec::new()),
         done: None,
+        taken: Vec::new(),
     };
     let proof = Proof { arm, domain: &domain, certificate, clearance, cases, at_start: &at_start };
     let mut last = 0;
@@ -90,6 +93,8 @@ struct Branch<'a> {
     ends: Result<Vec<GoalRegion<'a>>, CheckError>,
     /// In a group in free order, if that counts: the picks of the pairs that are done, the last one last.
     done: Option<Vec<usize>>,
+    /// Where it was when it took what lies as a turning arm has let go of it.
+    taken: Vec<Rectangle>,
 }
 
 /// What a certificate says of steps, as far as it is true.
@@ -129,8 +134,12 @@ impl<'a> Proof<'a> {
                 Node::Group(group) => self.group(group, branches, last)?,
                 Node::Step(step) => {
                     *last = step.number;
-                    let after = branches.into_iter().map(|branch| self.step(branch, step));
-                    merged(after.collect::<Result<Vec<_>, _>>()?.into_iter().flatten())
+                    let after = branches.into_iter().map(|branch| self.followed(branch, step));
+                    let after = merged(after.collect::<Result<Vec<_>, _>>()?.into_iter().flatten());
+                    if after.len() > MOST_BRANCHES {
+                        return CheckError::fails("steps can be done in more ways than the checker looks at");
+                    }
+                    after
                 }
             };
         }
@@ -144,16 +153,56 @@ impl<'a> Proof<'a> {
             return Ok(true);
         }
         for branch in &branches {
-            if !self.left(branch, last.number + 1, None, &own)?.is_empty() {
+            let own = own.iter().copied().filter(|case| case.is_after(&branch.taken));
+            if !self.left(branch, last.number + 1, None, &own.collect::<Vec<_>>())?.is_empty() {
                 return Ok(true);
             }
         }
         Ok(false)
     }
 
+    /// What may be after a step; where something is let go of that has been turned, and later cases tell, each way to do so by itself.
+    fn followed(self, branch: Branch<'a>, step: &'a Step) -> Result<Vec<Branch<'a>>, CheckError> {
+        let is_told = |case: &Case| case.taken.as_ref().is_some_and(|taken| taken.len() > branch.taken.len());
+        let turned = match (&step.action, &branch.replay.held) {
+            (Action::Place { angle: None, at, .. }, Some(Held { hanging: Hanging::Taken(lying), object, .. }))
+                if self.cases.iter().any(is_told) =>
+            {
+                Some((at, lying.clone(), branch.replay.task.first + object))
+            }
+            _ => None,
+        };
+        let own = self.cases_about(&branch, step);
+        let (Some((at, lying, number)), false) = (turned, own.is_empty()) else {
+            return Ok(self.step(branch, step)?.into_iter().collect());
+        };
+        self.begins(&branch, step.number, &own)?;
+        let mut all = Vec::new();
+        for case in own {
+            let from = self.from(case);
+            let hanging = branch.replay.chain.hung(&lying, &values(&from));
+            for place in self.left_by(&branch, step.number, Some(step), case)? {
+                let mut branch = branch.clone();
+                let ends = branch.replay.region(self.domain, step, Some(&from)).map(|region| vec![region]);
+                branch.replay.after(step);
+                let let_go = branch.replay.chain.lying(&On::Link(1), &hanging, &values(&place));
+                let turn = let_go.turn.clone();
+                branch.replay.standing[number] = Some(Cow::Owned(let_go.moved(at.clone(), turn)));
+                branch.taken.push(from.clone());
+                all.push(Branch { at: Some(vec![place]), ends, ..branch });
+            }
+        }
+        Ok(all)
+    }
+
+    fn cases_about(self, branch: &Branch, step: &Step) -> Vec<&'a Case> {
+        let is_about = |case: &&Case| case.is_about(step, branch.done.as_deref()) && case.is_after(&branch.taken);
+        self.cases.iter().filter(is_about).collect()
+    }
+
     /// What may be after a step; nothing if it cannot be done.
     fn step(self, mut branch: Branch<'a>, step: &'a Step) -> Result<Option<Branch<'a>>, CheckError> {
-        let own: Vec<&Case> = self.cases.iter().filter(|case| case.is_about(step, branch.done.as_deref())).collect();
+        let own = self.cases_about(&branch, step);
         let at = if own.is_empty() { None } else { Some(self.left(&branch, step.number, Some(step), &own)?) };
         if at.as_ref().is_some_and(Vec::is_empty) {
             return Ok(None);
@@ -171,40 +220,59 @@ impl<'a> Proof<'a> {
         step: Option<&Step>,
         own: &[&Case],
     ) -> Result<Vec<Rectangle>, CheckError> {
-        let from = |case: &Case| case.from.clone().unwrap_or_else(|| self.at_start.clone());
-        let begins = |part: &Rectangle| own.iter().any(|case| within(part, &from(case)));
-        if !self.at(branch)?.iter().all(begins) {
-            return CheckError::fails(format!("step {number} may begin where no case does"));
+        self.begins(branch, number, own)?;
+        let left = own.iter().map(|case| self.left_by(branch, number, step, case));
+        Ok(left.collect::<Result<Vec<_>, _>>()?.concat())
+    }
+
+    /// Where the arm is before a step of a case.
+    fn from(self, case: &Case) -> Rectangle {
+        case.from.clone().unwrap_or_else(|| self.at_start.clone())
+    }
+
+    /// That a step begins where its cases do.
+    fn begins(self, branch: &Branch, number: usize, own: &[&Case]) -> Result<(), CheckError> {
+        let begins = |part: &Rectangle| own.iter().any(|case| within(part, &self.from(case)));
+        match self.at(branch)?.iter().all(begins) {
+            true => Ok(()),
+            false => CheckError::fails(format!("step {number} may begin where no case does")),
         }
-        let mut left = Vec::new();
-        for case in own {
-            let from = from(case);
-            let boxes = rectangles(&case.boxes)?;
-            let Some(reached) = Reached::new(self.domain, &boxes, &from) else {
-                return CheckError::fails("the boxes leave more gaps than the checker looks at");
+    }
+
+    /// Where a step may end from where a case begins.
+    fn left_by(
+        self,
+        branch: &Branch,
+        number: usize,
+        step: Option<&Step>,
+        case: &Case,
+    ) -> Result<Vec<Rectangle>, CheckError> {
+        let from = self.from(case);
+        let boxes = rectangles(&case.boxes)?;
+        let Some(reached) = Reached::new(self.domain, &boxes, &from) else {
+            return CheckError::fails("the boxes leave more gaps than the checker looks at");
+        };
+        let lowered = rectangles(case.lowered.as_deref().unwrap_or_default())?;
+        let region = match step {
+            Some(step) => branch.replay.region(self.domain, step, Some(&from))?,
+            None => GoalRegion::Configuration(from.clone()),
+        };
+        let is_left_out = |part: &Rectangle| !reached.meets(part) || lowered.iter().any(|all| within(part, all));
+        let left = region.places(self.arm, self.domain, MOST_PARTS, is_left_out);
+        let hold = |among: &Among, stuck: &[StuckBox], boxes: &[Rectangle], when: &str| {
+            let contacts = Contacts::new(self.arm, among, self.certificate, self.clearance);
+            contacts.hold(self.arm, stuck, boxes).map_err(|why| match why {
+                CheckError::Fails(why) => CheckError::Fails(format!("a case of step {number}{when}: {why}")),
+                input => input,
+            })
+        };
+        let picked = step.and_then(|step| branch.replay.picked(step));
+        hold(&branch.replay.among(picked, &from), &case.boxes, &boxes, "")?;
+        if let Some(stuck) = &case.lowered {
+            let Some(among) = step.and_then(|step| branch.replay.lowered(step, &from)) else {
+                return CheckError::fails(format!("at step {number} no tool is lowered"));
             };
-            let lowered = rectangles(case.lowered.as_deref().unwrap_or_default())?;
-            let region = match step {
-                Some(step) => branch.replay.region(self.domain, step, Some(&from))?,
-                None => GoalRegion::Configuration(from.clone()),
-            };
-            let is_left_out = |part: &Rectangle| !reached.meets(part) || lowered.iter().any(|all| within(part, all));
-            left.extend(region.places(self.arm, self.domain, MOST_PARTS, is_left_out));
-            let hold = |among: &Among, stuck: &[StuckBox], boxes: &[Rectangle], when: &str| {
-                let contacts = Contacts::new(self.arm, among, self.certificate, self.clearance);
-                contacts.hold(self.arm, stuck, boxes).map_err(|why| match why {
-                    CheckError::Fails(why) => CheckError::Fails(format!("a case of step {number}{when}: {why}")),
-                    input => input,
-                })
-            };
-            let picked = step.and_then(|step| branch.replay.picked(step));
-            hold(&branch.replay.among(picked, &from), &case.boxes, &boxes, "")?;
-            if let Some(stuck) = &case.lowered {
-                let Some(among) = step.and_then(|step| branch.replay.lowered(step, &from)) else {
-                    return CheckError::fails(format!("at step {number} no tool is lowered"));
-                };
-                hold(&among, stuck, &lowered, ", the tool lowered")?;
-            }
+            hold(&among, stuck, &lowered, ", the tool lowered")?;
         }
         Ok(left)
     }
@@ -286,6 +354,13 @@ impl<'a> Proof<'a> {
 }
 
 impl Case {
+    /// Whether it is about what lies so: taken in these rectangles, if it says where.
+    fn is_after(&self, taken: &[Rectangle]) -> bool {
+        self.taken
+            .as_ref()
+            .is_none_or(|own| own.len() == taken.len() && taken.iter().zip(own).all(|(taken, own)| within(taken, own)))
+    }
+
     /// Whether it is about a step, in free order after these picks. What is let go of last may be touched until the next pick has ended:
     /// up to there it counts which that is.
     fn is_about(&self, step: &Step, done: Option<&[usize]>) -> bool {
@@ -302,13 +377,15 @@ impl Case {
     }
 }
 
-/// Those with the same behind them as one: in free order the same pairs, in whichever order, the same one last.
+/// Those with the same behind them as one: in free order the same pairs, in whichever order, the same one last; and nothing turned.
 fn merged<'a>(branches: impl IntoIterator<Item = Branch<'a>>) -> Vec<Branch<'a>> {
     let mut all: BTreeMap<_, Branch> = BTreeMap::new();
-    for branch in branches {
+    for (index, branch) in branches.into_iter().enumerate() {
         let mut key = branch.done.clone().unwrap_or_default();
         key.sort_unstable();
-        match all.entry((key, branch.replay.released.clone())) {
+        // How something lies that was turned is each branch's own.
+        let own = (!branch.taken.is_empty()).then_some(index);
+        match all.entry((key, branch.replay.released.clone(), own)) {
             Entry::Vacant(vacant) => {
                 vacant.insert(branch);
             }

@@ -5,7 +5,7 @@ use crate::curve::{FINE, Piece};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::free::{Chain, Edge, On, Solid, guard};
-use crate::interval::{Interval, Point, both_turns, length, sum, turned};
+use crate::interval::{Interval, Point, both_turns, length, turned};
 use crate::motion::{Motion, Own, SIXTY, fine, missed, piece, well_formed};
 use crate::overlap::Shape;
 use crate::polygon::Corner;
@@ -177,22 +177,6 @@ struct Held {
     carrying: Carrying,
 }
 
-impl Held {
-    /// It in the plane, at a configuration.
-    fn lying(&self, chain: &Chain, values: &Point) -> Obstacle {
-        let Obstacle { at: origin, turn: [sine, cosine], .. } = &self.hanging;
-        let at = chain.point_at(&self.on, origin, values);
-        let turn = match self.on {
-            On::Level(_) => self.hanging.turn.clone(),
-            On::Link(_) => {
-                let ahead = chain.point_at(&self.on, &sum(origin, &[cosine.clone(), sine.clone()]), values);
-                [&ahead[1] - &at[1], &ahead[0] - &at[0]]
-            }
-        };
-        self.hanging.clone().moved(at, turn)
-    }
-}
-
 /// Where everything is between steps.
 struct Replay<'a> {
     arm: &'a Arm<'a>,
@@ -362,7 +346,7 @@ impl<'a> Replay<'a> {
 
     /// That no obstacle begins within what is held, its supports aside.
     fn surrounds_none(&self, held: &Held, values: &Point, time: &Decimal, tool: Tool) -> Result<(), CheckError> {
-        let lying = held.lying(&self.chain, values);
+        let lying = self.chain.lying(&held.on, &held.hanging, values);
         for (number, present) in self.present.iter().enumerate() {
             if self.meets(held, number, tool) == Some(true) {
                 let mut edges = present.iter().flat_map(|present| &present.edges);
@@ -467,7 +451,7 @@ impl<'a> Replay<'a> {
     /// Lets go of what is carried.
     fn release(&mut self, at: &Point, angle: Option<&Interval>, values: &Point) -> Result<(), CheckError> {
         let Some(held) = self.held.take() else { return CheckError::fails("nothing is carried that could be placed") };
-        let lying = held.lying(&self.chain, values);
+        let lying = self.chain.lying(&held.on, &held.hanging, values);
         self.misses(length(&minus(&lying.at, at)).upper)?;
         if let Some(angle) = angle {
             self.misses(length(&minus(&lying.turn, &angle.sin_cos())).upper)?;

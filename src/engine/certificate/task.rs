@@ -69,20 +69,22 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let mut contacts = Contacts::new(&empty);
     let mut all = Vec::new();
     for case in &cases {
-        let RefutedCase { step, after, from, scene, stuck, lowered } = case;
+        let RefutedCase { step, after, from, taken: turned, scene, stuck, lowered } = case;
         let share = if scene.payload().is_some() { ABOUT_IK_SOLUTIONS } else { AFTER_ANOTHER * taken };
         let told = told_of(case);
         if told < NEARLY_STRETCHED {
             return None;
         }
-        let share = share * MOST_TOLD / told;
-        let from = from.map(|q| {
-            let ranges = arm.topology().ranges.map(|range| range.domain());
+        let ranges = arm.topology().ranges.map(|range| range.domain());
+        let about = |q: Configuration, share: f64| {
             [0, 1].map(|k| {
                 let room = share * (ranges[k].1 - ranges[k].0);
                 [q[k] - room, q[k] + room]
             })
-        });
+        };
+        let from = from.map(|q| about(q, share * MOST_TOLD / told));
+        let turned = turned.iter().map(|&q| about(q, ABOUT_IK_SOLUTIONS * MOST_TOLD / tells_apart(arm, q)));
+        let turned: Vec<[[f64; 2]; 2]> = turned.collect();
         let mut case = json!({ "step": step });
         let lowered =
             lowered.iter().filter(|(_, stuck)| !stuck.is_empty()).map(|(scene, stuck)| ("lowered", scene, stuck));
@@ -98,6 +100,9 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
         }
         after.iter().for_each(|after| case["after"] = json!(after));
         from.iter().for_each(|from| case["from"] = json!(from));
+        if !turned.is_empty() {
+            case["taken"] = json!(turned);
+        }
         all.push(case);
     }
     Some(contacts.named().into_iter().chain([("cases", lines(&all))]).collect())

@@ -18,6 +18,8 @@ pub struct RefutedCase {
     pub after: Option<Vec<usize>>,
     /// None at the start.
     pub from: Option<Configuration>,
+    /// Where the arm was when it took what it has let go of, turned as it happened to be; none where that is no matter.
+    pub taken: Vec<Configuration>,
     /// What is where.
     pub scene: Scene,
     /// Configurations that are not free.
@@ -49,8 +51,11 @@ const MOST_PAIRS: usize = 8;
 pub(in crate::engine) fn refuted(task: &Task, last: usize, rule_out: RuleOut) -> Option<Vec<RefutedCase>> {
     let last = task.items.iter().position(|item| steps(item).any(|step| step.number == last))?;
     // As a rule it is enough that the last cannot be done from anywhere.
-    [Some(last), (last > 0).then_some(0)].into_iter().flatten().find_map(|first| {
-        let mut walk = Walk { task, first, rule_out: &mut *rule_out, cases: Vec::new(), hidden: Vec::new() };
+    // How something lies that was turned is looked at only where nothing else helps: it doubles the cases.
+    let attempts = [Some((last, false)), (last > 0).then_some((0, false)), (last > 0).then_some((0, true))];
+    attempts.into_iter().flatten().find_map(|(first, tells_turned)| {
+        let mut walk =
+            Walk { task, first, tells_turned, rule_out: &mut *rule_out, cases: Vec::new(), hidden: Vec::new() };
         let left = walk.until(last, vec![At { is_start: true, ..At::from(State::at_start(task)) }])?;
         (left.is_empty() || walk.cannot_stay(&left)).then_some(walk.cases)
     })
@@ -85,11 +90,13 @@ struct At {
     has_just_picked: bool,
     /// In free order the pick of the pair that is done last, until another one is picked.
     last: Option<usize>,
+    /// Where the arm took what has been turned and let go of, as far as that is told.
+    taken: Vec<Configuration>,
 }
 
 impl From<State> for At {
     fn from(state: State) -> Self {
-        Self { state, is_start: false, has_just_picked: false, last: None }
+        Self { state, is_start: false, has_just_picked: false, last: None, taken: Vec::new() }
     }
 }
 
@@ -110,6 +117,8 @@ struct Walk<'a> {
     task: &'a Task,
     /// The first item of which it is looked what rules it out.
     first: usize,
+    /// Whether it is told how what lies that was turned.
+    tells_turned: bool,
     rule_out: RuleOut<'a>,
     cases: Vec<RefutedCase>,
     /// Objects that the second link may touch in the next step, as far as is known.
@@ -174,7 +183,8 @@ impl Walk<'_> {
             let stuck = (self.rule_out)(&scene, [at.state.q; 2]).unwrap_or_default();
             let is_ruled_out = !stuck.is_empty();
             let from = Some(at.state.q);
-            self.cases.push(RefutedCase { step: last + 1, after: None, from, scene, stuck, lowered: None });
+            let taken = at.taken.clone();
+            self.cases.push(RefutedCase { step: last + 1, after: None, from, taken, scene, stuck, lowered: None });
             is_ruled_out
         })
     }
@@ -195,19 +205,25 @@ impl Walk<'_> {
                 let from = (!at.is_start).then_some(at.state.q);
                 let (scene, lowered) = (self.scene(at, step), self.lowered(at, step).map(|scene| (scene, Vec::new())));
                 let (number, stuck) = (step.number, Vec::new());
-                let mut case = RefutedCase { step: number, after: after.clone(), from, scene, stuck, lowered };
+                let taken = at.taken.clone();
+                let mut case = RefutedCase { step: number, after: after.clone(), from, taken, scene, stuck, lowered };
+                let turns = leaves_turned(task, &at.state, step);
+                let is_told = turns && self.tells_turned && at.has_just_picked && half.is_none();
+                let own = is_told.then_some(at.state.q);
                 let tried = all.entry((step.number, after)).or_default();
                 for way in &candidates.ways {
                     if is_new && self.first <= item && self.is_ruled_out(&mut case, at.state.q, way.to) {
                         continue;
                     }
+                    let after = at.state.after(task, way, way.to);
                     tried.next.push(At {
                         has_just_picked: step.action.picked().is_some(),
                         last: half.and_then(|pair| steps(&task.items[item]).nth(2 * pair)).map(|pick| pick.number),
-                        ..At::from(as_known(at.state.after(task, way, way.to), step, task))
+                        taken: at.taken.iter().copied().chain(own).collect(),
+                        ..At::from(if turns && !is_told { unknown(after) } else { after })
                     });
                 }
-                tried.is_asked |= is_open;
+                tried.is_asked |= is_open || is_told;
                 tried.cases.push(case);
             }
         }
@@ -238,7 +254,10 @@ impl Walk<'_> {
 
     /// Each once; none where they are too many.
     fn distinct(&self, mut states: Vec<At>) -> Option<Vec<At>> {
-        let key = |at: &At| (at.state.key(self.task), at.last);
+        let key = |at: &At| {
+            let taken: Vec<[u64; 2]> = at.taken.iter().map(|q| [q[0].to_bits(), q[1].to_bits()]).collect();
+            (at.state.key(self.task), at.last, taken)
+        };
         states.sort_by_cached_key(key);
         states.dedup_by_key(|at| key(at));
         (states.len() <= MOST_STATES).then_some(states)
@@ -259,7 +278,9 @@ impl Walk<'_> {
     fn ends(&self, entry: &At, pairs: &[[Step; 2]], own: usize, is_asked: bool) -> Option<Vec<At>> {
         let task = self.only(&pairs[own]);
         let first = if is_asked { 0 } else { usize::MAX };
-        let mut walk = Walk { task: &task, first, rule_out: &mut |_, _| None, cases: Vec::new(), hidden: Vec::new() };
+        let rule_out: RuleOut = &mut |_, _| None;
+        let mut walk =
+            Walk { task: &task, first, tells_turned: false, rule_out, cases: Vec::new(), hidden: Vec::new() };
         let picked = walk.step(&[Self::alone(entry, pairs, own)], false)?;
         walk.step(&picked, false)
     }
@@ -279,7 +300,7 @@ impl Walk<'_> {
         let firsts = if pairs.len() > MOST_PAIRS { 1..2 } else { 0..2 };
         firsts.rev().find_map(|first| {
             let (rule_out, hidden) = (&mut *self.rule_out, hidden.clone());
-            let mut walk = Walk { task: &task, first, rule_out, cases: Vec::new(), hidden };
+            let mut walk = Walk { task: &task, first, tells_turned: false, rule_out, cases: Vec::new(), hidden };
             walk.until(1, starts.clone())?.is_empty().then_some(walk.cases)
         })
     }
@@ -361,12 +382,15 @@ fn is_gantry(arm: &Arm) -> bool {
     arm.joints.iter().all(|joint| matches!(joint.joint_type, JointType::Prismatic { .. }))
 }
 
-/// Without an object of which it depends on how the steps were done how it lies.
-fn as_known(mut state: State, step: &Step, task: &Task) -> State {
-    if let (Action::Place { angle: None, .. }, Some(object)) = (&step.action, state.released)
-        && task.objects[object].holding != Holding::Level
-        && !is_gantry(&task.arm)
-    {
+/// Whether it depends on how the steps were done how something lies that a step lets go of.
+fn leaves_turned(task: &Task, state: &State, step: &Step) -> bool {
+    let (Action::Place { angle: None, .. }, Some(held)) = (&step.action, &state.held) else { return false };
+    task.objects[held.object].holding != Holding::Level && !is_gantry(&task.arm)
+}
+
+/// Without the object that was let go of.
+fn unknown(mut state: State) -> State {
+    if let Some(object) = state.released {
         Arc::make_mut(&mut state.poses)[object] = None;
     }
     state

@@ -21,7 +21,7 @@ fn tasks(expected: &str) -> Vec<(String, String)> {
     found
 }
 
-fn read(path: &str) -> String {
+pub fn read(path: &str) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 

@@ -4,6 +4,7 @@ mod as_written;
 mod batch;
 mod certificates;
 mod certified_motions;
+mod certified_movers;
 mod certified_tasks;
 mod commands;
 mod compare;

@@ -1,0 +1,120 @@
+//! Certificates of what is planned among what moves, and what the checker, which shares no code with the program, says of them.
+
+use super::certified_tasks::read;
+use super::{Place, shipped};
+use crate::common::dice::Dice;
+use crate::common::random::{seeds, usual};
+use cplan_check::{CheckError, check};
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+/// Shipped worlds in which something moves, by name.
+const WORLDS: [&str; 8] =
+    ["belt_pick", "belt_stop", "cart_in_task", "conveyor", "crossing", "gate", "swing", "traffic"];
+
+#[test]
+fn every_shipped_motion_among_what_moves_has_a_certificate_that_holds() {
+    let robot = shipped("robots/planar_2r.urdf");
+    for name in WORLDS {
+        let (place, world) = (Place::new(), shipped(&format!("workspaces/moving/{name}.toml")));
+        let done = place.run(&[&robot, &world], "--quiet --certificate c.json --output m.csv");
+        assert_eq!((done.code, &*done.stderr), (0, ""), "{name}");
+        let said =
+            check(&read(&robot), &read(&world), &place.read("c.json")).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let is_task = ["belt_pick", "belt_stop", "cart_in_task"].contains(&name);
+        assert!(
+            said.contains(if is_task { "steps from the start" } else { "no motion from the start" }),
+            "{name}: {said}"
+        );
+        // So has the recorded motion, by the cubics of its table; tasks are recorded otherwise.
+        if !is_task {
+            let judged = place.run(&["verify", &robot, &world, "m.csv"], "--quiet --certificate v.json");
+            assert_eq!((judged.code, &*judged.stderr), (0, ""), "{name}");
+            check(&read(&robot), &read(&world), &place.read("v.json")).unwrap_or_else(|why| panic!("{name}: {why}"));
+        }
+    }
+    // Where the only way is closed for ever nothing is claimed.
+    let place = Place::new();
+    let unknown = place.run(&[robot, shipped("workspaces/moving/parked.toml")], "--quiet --certificate c.json");
+    assert_eq!(unknown.code, 4);
+    assert!(unknown.stderr.contains("claims nothing") && !place.path("c.json").exists(), "{}", unknown.stderr);
+}
+
+/// The same motion in a world where the cart comes half a second later, or is not heard of.
+#[test]
+fn of_another_time_it_does_not_hold() {
+    let (place, robot, world) =
+        (Place::new(), shipped("robots/planar_2r.urdf"), shipped("workspaces/moving/crossing.toml"));
+    assert_eq!(place.run(&[&robot, &world], "--quiet --certificate c.json").code, 0);
+    let certificate = super::certificates::without_digests(&place.read("c.json"));
+    let (urdf, text) = (read(&robot), read(&world));
+    check(&urdf, &text, &certificate).unwrap();
+    let later = |by: f64| {
+        let mut parts = text.split("time = ");
+        let mut world = parts.next().unwrap().to_owned();
+        for part in parts {
+            let end = part.find(|c: char| c != '.' && !c.is_ascii_digit()).unwrap();
+            let time: f64 = part[..end].parse().unwrap();
+            let _ = write!(world, "time = {:?}{}", time + by, &part[end..]);
+        }
+        world
+    };
+    check(&urdf, &later(0.0), &certificate).unwrap();
+    let judged = check(&urdf, &later(0.5), &certificate);
+    assert!(matches!(&judged, Err(CheckError::Fails(why)) if why.contains("obstacle")), "{judged:?}");
+}
+
+/// Posts that stand, and discs, triangles and bars that come by and may turn.
+fn drawn(dice: &mut Dice) -> String {
+    let spot = |dice: &mut Dice| {
+        let (angle, radius) = (dice.within(-PI, PI), dice.within(0.5, 1.9));
+        [radius * angle.cos(), radius * angle.sin()]
+    };
+    let q = |dice: &mut Dice| [dice.within(-2.0, 2.0), dice.within(-2.0, 2.0)];
+    let mut text = format!("start.joints = {:?}\ngoal.joints = {:?}\n", q(dice), q(dice));
+    for _ in 0..dice.below(3_usize) {
+        let _ = write!(text, "[[obstacle]]\ncircle = {{ center = {:?}, radius = 0.05 }}\n", spot(dice));
+    }
+    for _ in 0..2 + dice.below(3_usize) {
+        let size = dice.within(0.05, 0.2);
+        let shape = match dice.below(3) {
+            0 => format!("circle = {{ center = [0.0, 0.0], radius = {size:?} }}"),
+            1 => format!("polygon = [[0.0, {size:?}], [-{size:?}, -{size:?}], [{size:?}, -{size:?}]]"),
+            _ => format!("polyline = [[-{size:?}, 0.0], [{size:?}, 0.0]]"),
+        };
+        let (near, angle) = (spot(dice), dice.within(-PI, PI));
+        let speed = dice.within(0.1, 1.0);
+        let velocity = [speed * angle.cos(), speed * angle.sin()];
+        let (first, span, spin) = (dice.within(0.0, 1.0), dice.within(1.0, 4.0), dice.within(-2.0, 2.0));
+        let at = |time: f64| [0, 1].map(|k| near[k] + velocity[k] * time);
+        let (from, to) = (at(-span / 2.0), at(span / 2.0));
+        let last = first + span;
+        let leaves = if dice.chance(0.5) { velocity } else { [0.0; 2] };
+        let _ = write!(
+            text,
+            "[[obstacle]]\n{shape}\nmotion = {{ velocity = {leaves:?}, stops = [{{ time = {first:?}, at = {from:?} }}, \
+             {{ time = {last:?}, at = {to:?}, angle = {spin:?} }}] }}\n"
+        );
+    }
+    text
+}
+
+#[test]
+fn certificates_among_random_movers_hold() {
+    let (robot, mut found, mut waited) = (shipped("robots/planar_2r.urdf"), 0, 0);
+    for seed in seeds(24) {
+        let (place, mut dice) = (Place::new(), Dice::new(seed ^ 0x6d6f_7665));
+        place.write("world.toml", drawn(&mut dice));
+        let done = place.run(&[&*robot, "world.toml"], "--certificate c.json");
+        // Where an end is not free there is nothing to plan.
+        if done.code != 0 {
+            continue;
+        }
+        let judged = check(&read(&robot), &place.read("world.toml"), &place.read("c.json"));
+        assert!(judged.is_ok(), "{seed}: {judged:?}\n{}", place.read("world.toml"));
+        found += 1;
+        waited += usize::from(done.stdout.contains("\nwaits "));
+    }
+    println!("{found} found, {waited} with waits");
+    assert!(!usual() || (found > 8 && waited > 0), "{found} found, {waited} with waits");
+}
