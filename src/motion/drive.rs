@@ -84,23 +84,31 @@ impl Drive {
                 faster.inspect(|_| least.set(rough))
             };
             let shaping = Shaping::new(scene, drive);
-            let mut paths = Vec::new();
+            let mut found = Vec::new();
             if is_smooth {
-                shaping.lifted(path, limits.reversal().min(self.blend), &mut best);
-                paths.push(best.curve.straight());
+                let mut lifted = best.clone();
+                shaping.lifted(path, limits.reversal().min(self.blend), &mut lifted);
+                found.push(lifted);
             }
             if self.optimize == Objective::Time {
-                let most = limits.ramp().min(self.blend);
-                shaping.lifted(path, most, &mut best);
-                shaping.refined(most, &mut best);
-                paths.push(best.curve.straight());
+                let (mut refined, most) = (best.clone(), limits.ramp().min(self.blend));
+                shaping.lifted(path, most, &mut refined);
+                shaping.refined(most, &mut refined);
+                found.push(refined);
             }
-            // What is slower at first may be faster once it is driven along its own curve in the least time.
-            for path in paths.iter().filter(|_| is_smooth) {
-                let retimed = smoothed(scene, path, self.blend, limits, self.period, f64::INFINITY, true);
-                let is_faster = |timed: &Timed| timed.trajectory.duration() < best.trajectory.duration();
-                best = retimed.filter(is_faster).unwrap_or(best);
+            if is_smooth {
+                // What is slower at first may be faster once it is driven along its own curve in the least time.
+                let retimed = |timed: &Timed| {
+                    let path = timed.curve.straight();
+                    smoothed(scene, &path, self.blend, limits, self.period, f64::INFINITY, true)
+                };
+                let retimed: Vec<Timed> = found.iter().filter_map(retimed).collect();
+                found.extend(retimed);
             }
+            let faster = |best: Timed, other: Timed| {
+                if other.trajectory.duration() < best.trajectory.duration() { other } else { best }
+            };
+            best = found.into_iter().fold(best, faster);
         }
         if let Some(torque) = torque {
             torque.kept(&best.trajectory.pieces())?;

@@ -42,7 +42,8 @@
 //! pieces in closed form (`profile`), on a blend over spans with bounds that are linear in the squared speeds at their
 //! ends (`corner`), from one stop to the next (`schedule`). Every piece of the motion is a polynomial in time of the
 //! fourth degree at the most, and the samples say which. With a limit on a jerk `smooth` makes of that motion a cubic B-spline (`spline`), by the
-//! mean over a window that is long enough for the jerk, and passes those corners more slowly near which it is not shown to be free; single
+//! mean over a window that is long enough for the jerk, and passes those corners more slowly near which it is not shown to be free; `retime` drives it once
+//! more along its own curve, in the least time. Single
 //! straight pieces go from rest to rest by `jerk`, which takes
 //! Ruckig's times of the seven phases, brings them to the least interval between samples, and works out
 //! the phases from the times and the length alone, so that they end where they should and keep the limits whatever the

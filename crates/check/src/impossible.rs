@@ -29,8 +29,8 @@ pub struct Case {
     after: Option<Vec<usize>>,
     /// Where the arm is before it; the start if it does not say.
     from: Option<Rectangle>,
-    /// Where it was when it took what it has let go of, turned as it happened to be: those that the certificate follows, in order.
-    taken: Option<Vec<Rectangle>>,
+    /// From where to where it has carried what it has let go of, turned as it happened to be: those that the certificate follows, in order.
+    turned: Option<Vec<[Rectangle; 2]>>,
     boxes: Vec<StuckBox>,
     /// Configurations that are not free while the tool is lowered where the step ends.
     lowered: Option<Vec<StuckBox>>,
@@ -58,7 +58,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
         at: Some(vec![at_start.clone()]),
         ends: Ok(Vec::new()),
         done: None,
-        taken: Vec::new(),
+        turned: Vec::new(),
     };
     let proof = Proof { arm, domain: &domain, certificate, clearance, cases, at_start: &at_start };
     let mut last = 0;
@@ -93,8 +93,8 @@ struct Branch<'a> {
     ends: Result<Vec<GoalRegion<'a>>, CheckError>,
     /// In a group in free order, if that counts: the picks of the pairs that are done, the last one last.
     done: Option<Vec<usize>>,
-    /// Where it was when it took what lies as a turning arm has let go of it.
-    taken: Vec<Rectangle>,
+    /// From where to where it has carried what lies as a turning arm has let go of it.
+    turned: Vec<[Rectangle; 2]>,
 }
 
 /// What a certificate says of steps, as far as it is true.
@@ -153,7 +153,7 @@ impl<'a> Proof<'a> {
             return Ok(true);
         }
         for branch in &branches {
-            let own = own.iter().copied().filter(|case| case.is_after(&branch.taken));
+            let own = own.iter().copied().filter(|case| case.is_after(&branch.turned));
             if !self.left(branch, last.number + 1, None, &own.collect::<Vec<_>>())?.is_empty() {
                 return Ok(true);
             }
@@ -163,8 +163,8 @@ impl<'a> Proof<'a> {
 
     /// What may be after a step; where something is let go of that has been turned, and later cases tell, each way to do so by itself.
     fn followed(self, branch: Branch<'a>, step: &'a Step) -> Result<Vec<Branch<'a>>, CheckError> {
-        let is_told = |case: &Case| case.taken.as_ref().is_some_and(|taken| taken.len() > branch.taken.len());
-        let turned = match (&step.action, &branch.replay.held) {
+        let is_told = |case: &Case| case.turned.as_ref().is_some_and(|turned| turned.len() > branch.turned.len());
+        let carried = match (&step.action, &branch.replay.held) {
             (Action::Place { angle: None, at, .. }, Some(Held { hanging: Hanging::Taken(lying), object, .. }))
                 if self.cases.iter().any(is_told) =>
             {
@@ -173,7 +173,7 @@ impl<'a> Proof<'a> {
             _ => None,
         };
         let own = self.cases_about(&branch, step);
-        let (Some((at, lying, number)), false) = (turned, own.is_empty()) else {
+        let (Some((at, lying, number)), false) = (carried, own.is_empty()) else {
             return Ok(self.step(branch, step)?.into_iter().collect());
         };
         self.begins(&branch, step.number, &own)?;
@@ -188,7 +188,7 @@ impl<'a> Proof<'a> {
                 let let_go = branch.replay.chain.lying(&On::Link(1), &hanging, &values(&place));
                 let turn = let_go.turn.clone();
                 branch.replay.standing[number] = Some(Cow::Owned(let_go.moved(at.clone(), turn)));
-                branch.taken.push(from.clone());
+                branch.turned.push([from.clone(), place.clone()]);
                 all.push(Branch { at: Some(vec![place]), ends, ..branch });
             }
         }
@@ -196,7 +196,7 @@ impl<'a> Proof<'a> {
     }
 
     fn cases_about(self, branch: &Branch, step: &Step) -> Vec<&'a Case> {
-        let is_about = |case: &&Case| case.is_about(step, branch.done.as_deref()) && case.is_after(&branch.taken);
+        let is_about = |case: &&Case| case.is_about(step, branch.done.as_deref()) && case.is_after(&branch.turned);
         self.cases.iter().filter(is_about).collect()
     }
 
@@ -354,11 +354,12 @@ impl<'a> Proof<'a> {
 }
 
 impl Case {
-    /// Whether it is about what lies so: taken in these rectangles, if it says where.
-    fn is_after(&self, taken: &[Rectangle]) -> bool {
-        self.taken
-            .as_ref()
-            .is_none_or(|own| own.len() == taken.len() && taken.iter().zip(own).all(|(taken, own)| within(taken, own)))
+    /// Whether it is about what lies so: carried from and to these rectangles, if it says where.
+    fn is_after(&self, turned: &[[Rectangle; 2]]) -> bool {
+        self.turned.as_ref().is_none_or(|own| {
+            let mut both = turned.iter().flatten().zip(own.iter().flatten());
+            own.len() == turned.len() && both.all(|(part, whole)| within(part, whole))
+        })
     }
 
     /// Whether it is about a step, in free order after these picks. What is let go of last may be touched until the next pick has ended:
@@ -384,7 +385,7 @@ fn merged<'a>(branches: impl IntoIterator<Item = Branch<'a>>) -> Vec<Branch<'a>>
         let mut key = branch.done.clone().unwrap_or_default();
         key.sort_unstable();
         // How something lies that was turned is each branch's own.
-        let own = (!branch.taken.is_empty()).then_some(index);
+        let own = (!branch.turned.is_empty()).then_some(index);
         match all.entry((key, branch.replay.released.clone(), own)) {
             Entry::Vacant(vacant) => {
                 vacant.insert(branch);

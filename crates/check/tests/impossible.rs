@@ -371,6 +371,75 @@ fn a_block_presses_into_its_support_no_deeper_than_it_may() {
     says(pressed(-9e-3, rests), 3, "can come off the part");
 }
 
+/// A slide along x that carries a lever, 0.6 m by 0.05 m, which turns about a point of it 0.1 m from its end; the tip is at the other end.
+const LEVER: &str = r#"<robot name="l">
+  <link name="base"/>
+  <joint name="x" type="prismatic">
+    <parent link="base"/> <child link="slide"/> <axis xyz="1 0 0"/> <limit lower="0" upper="4"/>
+  </joint>
+  <link name="slide"/>
+  <joint name="q" type="revolute">
+    <parent link="slide"/> <child link="lever"/> <axis xyz="0 0 1"/> <limit lower="-1.5" upper="1.5"/>
+  </joint>
+  <link name="lever">
+    <collision> <origin xyz="0.2 0 0"/> <geometry> <box size="0.6 0.05 0.1"/> </geometry> </collision>
+  </link>
+  <joint name="t" type="fixed"> <parent link="lever"/> <child link="tool"/> <origin xyz="0.5 0 0"/> </joint>
+  <link name="tool"/>
+</robot>"#;
+
+/// A bar is taken at q = 0 and let go of at q = 30 deg, turned so: half of it, if that is 0.6 m long, lies across the slide's way.
+#[test]
+fn what_has_been_turned_bars_the_way() {
+    let world = |half: f64, place: &str| {
+        format!(
+            "start.joints = [0, 0]\n\
+             [[object]]\nname = \"bar\"\nat = [1.5, 0]\n\
+             polygon = [[-{half}, -0.05], [{half}, -0.05], [{half}, 0.05], [-{half}, 0.05]]\n\
+             [[step]]\npick = \"bar\"\n[[step]]\nplace = {{ at = [2, 0.25]{place} }}\n\
+             [[step]]\nmove = {{ joints = [0, -1] }}\n[[step]]\nmove = {{ joints = [3, -1] }}\n"
+        )
+    };
+    let ((sine, cosine), x) = (30_f64.to_radians().sin_cos(), 2.0 - 0.5 * 30_f64.to_radians().cos());
+    let about = |[x, y]: [f64; 2], by: f64| format!("[[{:?}, {:?}], [{:?}, {:?}]]", x - by, x + by, y - by, y + by);
+    let (taken, placed) = (about([1.0, 0.0], 1e-6), about([x, 30_f64.to_radians()], 1e-4));
+    let corner = |[u, v]: [f64; 2]| format!("[{:?}, {:?}]", 2.0 + cosine * u - sine * v, 0.25 + sine * u + cosine * v);
+    let bar = |half: f64| [[-half, -0.05], [half, -0.05], [half, 0.05], [-half, 0.05]].map(corner).join(", ");
+    let boxes: Vec<String> = (0..60)
+        .map(|k| {
+            let [low, high] = [k, k + 1].map(|k| -1.5 + 0.05 * f64::from(k));
+            format!(r#"{{"lower": [{}, {low}], "upper": [{}, {high}], "shape": 0, "part": 0}}"#, x - 0.004, x + 0.004)
+        })
+        .collect();
+    let certificate = |half: f64, turned: [&str; 2]| {
+        let told =
+            turned.map(|ends| if ends.is_empty() { String::new() } else { format!(r#""turned": [[{ends}]], "#) });
+        format!(
+            r#"{{"format": "cplan certificate 1", "answer": "infeasible", "shapes": [{{"link": "lever", "collision": 0}}],
+                "parts": [{{"obstacle": 0, "corners": [{}]}}], "cases": [
+                {{"step": 2, "from": {taken}, "boxes": []}}, {{"step": 3, {}"from": {placed}, "boxes": []}},
+                {{"step": 4, {}"from": {}, "boxes": [{}]}}]}}"#,
+            bar(half),
+            told[0],
+            told[1],
+            about([0.0, -1.0], 1e-6),
+            boxes.join(", ")
+        )
+    };
+    let judged =
+        |half: f64, place: &str, told: [&str; 2]| of_robot(LEVER, &world(half, place), &certificate(half, told));
+    let ends = format!("{taken}, {placed}");
+    says(judged(0.6, "", [&ends; 2]), 0, "does the steps up to step 4");
+    // What is not told is not known, and no case is about what was carried from or to elsewhere.
+    says(judged(0.6, "", [""; 2]), 3, "not known to stand anywhere");
+    for other in [format!("{}, {placed}", about([1.0, 0.0], 1e-7)), format!("{taken}, {taken}")] {
+        says(judged(0.6, "", [&ends, &other]), 3, "leave open that all steps are done");
+    }
+    // A shorter bar ends before it crosses the way, and one that is to lie straight is not let go of turned.
+    says(judged(0.4, "", [&ends; 2]), 3, "can come off the part");
+    says(judged(0.6, ", angle = 0", [&ends; 2]), 3, "");
+}
+
 #[test]
 fn bad_input_is_named() {
     let case = format!(r#"{{{FROM}, "boxes": [{}]}}"#, boxes().join(", "));

@@ -30,8 +30,8 @@ pub enum NoCertificate {
     Answer(Status),
     /// A proof that a task cannot be done, of a kind that the checker does not know.
     #[error(
-        "the proof that the task cannot be done is of a kind that has no certificate: it has to be about the first time that a step is done, \
-             not about how an object lies that an arm has turned"
+        "the proof that the task cannot be done is of a kind that has no certificate: it is about a later time that a step is done, about \
+             objects that move, or about how one lies that the arm has turned on the way over several steps"
     )]
     Task,
     /// A motion without times in a world in which something moves.

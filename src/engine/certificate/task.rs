@@ -69,7 +69,7 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let mut contacts = Contacts::new(&empty);
     let mut all = Vec::new();
     for case in &cases {
-        let RefutedCase { step, after, from, taken: turned, scene, stuck, lowered } = case;
+        let RefutedCase { step, after, from, turned, scene, stuck, lowered } = case;
         let share = if scene.payload().is_some() { ABOUT_IK_SOLUTIONS } else { AFTER_ANOTHER * taken };
         let told = told_of(case);
         if told < NEARLY_STRETCHED {
@@ -83,8 +83,12 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
             })
         };
         let from = from.map(|q| about(q, share * MOST_TOLD / told));
-        let turned = turned.iter().map(|&q| about(q, ABOUT_IK_SOLUTIONS * MOST_TOLD / tells_apart(arm, q)));
-        let turned: Vec<[[f64; 2]; 2]> = turned.collect();
+        // As these were when something was carried from and to them.
+        let shares = [ABOUT_IK_SOLUTIONS, AFTER_ANOTHER * taken];
+        let ends = |ends: &[Configuration; 2]| {
+            [0, 1].map(|k| about(ends[k], shares[k] * MOST_TOLD / tells_apart(arm, ends[k])))
+        };
+        let turned: Vec<_> = turned.iter().map(ends).collect();
         let mut case = json!({ "step": step });
         let lowered =
             lowered.iter().filter(|(_, stuck)| !stuck.is_empty()).map(|(scene, stuck)| ("lowered", scene, stuck));
@@ -101,7 +105,7 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
         after.iter().for_each(|after| case["after"] = json!(after));
         from.iter().for_each(|from| case["from"] = json!(from));
         if !turned.is_empty() {
-            case["taken"] = json!(turned);
+            case["turned"] = json!(turned);
         }
         all.push(case);
     }

@@ -18,8 +18,8 @@ pub struct RefutedCase {
     pub after: Option<Vec<usize>>,
     /// None at the start.
     pub from: Option<Configuration>,
-    /// Where the arm was when it took what it has let go of, turned as it happened to be; none where that is no matter.
-    pub taken: Vec<Configuration>,
+    /// From where to where the arm has carried what it has let go of, turned as it happened to be; none where that is no matter.
+    pub turned: Vec<[Configuration; 2]>,
     /// What is where.
     pub scene: Scene,
     /// Configurations that are not free.
@@ -90,13 +90,13 @@ struct At {
     has_just_picked: bool,
     /// In free order the pick of the pair that is done last, until another one is picked.
     last: Option<usize>,
-    /// Where the arm took what has been turned and let go of, as far as that is told.
-    taken: Vec<Configuration>,
+    /// From where to where the arm has carried what it has turned and let go of, as far as that is told.
+    turned: Vec<[Configuration; 2]>,
 }
 
 impl From<State> for At {
     fn from(state: State) -> Self {
-        Self { state, is_start: false, has_just_picked: false, last: None, taken: Vec::new() }
+        Self { state, is_start: false, has_just_picked: false, last: None, turned: Vec::new() }
     }
 }
 
@@ -183,8 +183,8 @@ impl Walk<'_> {
             let stuck = (self.rule_out)(&scene, [at.state.q; 2]).unwrap_or_default();
             let is_ruled_out = !stuck.is_empty();
             let from = Some(at.state.q);
-            let taken = at.taken.clone();
-            self.cases.push(RefutedCase { step: last + 1, after: None, from, taken, scene, stuck, lowered: None });
+            let turned = at.turned.clone();
+            self.cases.push(RefutedCase { step: last + 1, after: None, from, turned, scene, stuck, lowered: None });
             is_ruled_out
         })
     }
@@ -205,11 +205,10 @@ impl Walk<'_> {
                 let from = (!at.is_start).then_some(at.state.q);
                 let (scene, lowered) = (self.scene(at, step), self.lowered(at, step).map(|scene| (scene, Vec::new())));
                 let (number, stuck) = (step.number, Vec::new());
-                let taken = at.taken.clone();
-                let mut case = RefutedCase { step: number, after: after.clone(), from, taken, scene, stuck, lowered };
+                let turned = at.turned.clone();
+                let mut case = RefutedCase { step: number, after: after.clone(), from, turned, scene, stuck, lowered };
                 let turns = leaves_turned(task, &at.state, step);
                 let is_told = turns && self.tells_turned && at.has_just_picked && half.is_none();
-                let own = is_told.then_some(at.state.q);
                 let tried = all.entry((step.number, after)).or_default();
                 for way in &candidates.ways {
                     if is_new && self.first <= item && self.is_ruled_out(&mut case, at.state.q, way.to) {
@@ -219,7 +218,7 @@ impl Walk<'_> {
                     tried.next.push(At {
                         has_just_picked: step.action.picked().is_some(),
                         last: half.and_then(|pair| steps(&task.items[item]).nth(2 * pair)).map(|pick| pick.number),
-                        taken: at.taken.iter().copied().chain(own).collect(),
+                        turned: at.turned.iter().copied().chain(is_told.then_some([at.state.q, after.q])).collect(),
                         ..At::from(if turns && !is_told { unknown(after) } else { after })
                     });
                 }
@@ -255,8 +254,8 @@ impl Walk<'_> {
     /// Each once; none where they are too many.
     fn distinct(&self, mut states: Vec<At>) -> Option<Vec<At>> {
         let key = |at: &At| {
-            let taken: Vec<[u64; 2]> = at.taken.iter().map(|q| [q[0].to_bits(), q[1].to_bits()]).collect();
-            (at.state.key(self.task), at.last, taken)
+            let turned: Vec<[u64; 2]> = at.turned.iter().flatten().map(|q| [q[0].to_bits(), q[1].to_bits()]).collect();
+            (at.state.key(self.task), at.last, turned)
         };
         states.sort_by_cached_key(key);
         states.dedup_by_key(|at| key(at));
