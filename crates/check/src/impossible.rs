@@ -176,7 +176,7 @@ impl<'a> Proof<'a> {
         let (Some((at, lying, number)), false) = (carried, own.is_empty()) else {
             return Ok(self.step(branch, step)?.into_iter().collect());
         };
-        self.begins(&branch, step.number, &own)?;
+        let own = self.begun(&branch, step.number, &own)?;
         let mut all = Vec::new();
         for case in own {
             let from = self.from(case);
@@ -220,7 +220,7 @@ impl<'a> Proof<'a> {
         step: Option<&Step>,
         own: &[&Case],
     ) -> Result<Vec<Rectangle>, CheckError> {
-        self.begins(branch, number, own)?;
+        let own = self.begun(branch, number, own)?;
         let left = own.iter().map(|case| self.left_by(branch, number, step, case));
         Ok(left.collect::<Result<Vec<_>, _>>()?.concat())
     }
@@ -230,11 +230,12 @@ impl<'a> Proof<'a> {
         case.from.clone().unwrap_or_else(|| self.at_start.clone())
     }
 
-    /// That a step begins where its cases do.
-    fn begins(self, branch: &Branch, number: usize, own: &[&Case]) -> Result<(), CheckError> {
-        let begins = |part: &Rectangle| own.iter().any(|case| within(part, &self.from(case)));
-        match self.at(branch)?.iter().all(begins) {
-            true => Ok(()),
+    /// The cases of a step in which it may begin, if it begins nowhere else.
+    fn begun<'c>(self, branch: &Branch, number: usize, own: &[&'c Case]) -> Result<Vec<&'c Case>, CheckError> {
+        let at = self.at(branch)?;
+        let holds = |case: &Case, part: &Rectangle| within(part, &self.from(case));
+        match at.iter().all(|part| own.iter().any(|case| holds(case, part))) {
+            true => Ok(own.iter().copied().filter(|case| at.iter().any(|part| holds(case, part))).collect()),
             false => CheckError::fails(format!("step {number} may begin where no case does")),
         }
     }

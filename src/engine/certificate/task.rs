@@ -60,10 +60,11 @@ const PRESSED_DEEPER: f64 = 2.0;
 pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let mut smaller = task.clone();
     smaller.objects.iter_mut().flat_map(|object| &mut object.pieces).for_each(|piece| *piece = shrunk(piece));
-    let cases = refuted(&smaller, last, &mut rule_out)?;
     let (empty, arm) = (Scene::trusted(task.arm.clone(), task.workspace.clone()), &task.arm);
-    // Where something is let go of is known as well as where it was taken.
     let told_of = |case: &RefutedCase| case.from.map_or(MOST_TOLD, |q| tells_apart(arm, q));
+    let are_told = |cases: &[RefutedCase]| cases.iter().all(|case| told_of(case) >= NEARLY_STRETCHED);
+    let cases = refuted(&smaller, last, &mut rule_out, &are_told)?;
+    // Where something is let go of is known as well as where it was taken.
     let carrying = cases.iter().filter(|case| case.scene.payload().is_some());
     let taken = MOST_TOLD / carrying.map(told_of).fold(MOST_TOLD, f64::min);
     let mut contacts = Contacts::new(&empty);
@@ -72,9 +73,6 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
         let RefutedCase { step, after, from, turned, scene, stuck, lowered } = case;
         let share = if scene.payload().is_some() { ABOUT_IK_SOLUTIONS } else { AFTER_ANOTHER * taken };
         let told = told_of(case);
-        if told < NEARLY_STRETCHED {
-            return None;
-        }
         let ranges = arm.topology().ranges.map(|range| range.domain());
         let about = |q: Configuration, share: f64| {
             [0, 1].map(|k| {

@@ -37,6 +37,9 @@ impl RefutedCase {
 /// What rules out motions from one configuration to another; none where that is not known.
 type RuleOut<'r> = &'r mut dyn FnMut(&Scene, [Configuration; 2]) -> Option<Vec<StuckBox>>;
 
+/// Whether some cases can be written down.
+type Accepts<'r> = &'r dyn Fn(&[RefutedCase]) -> bool;
+
 /// States beyond these are not looked at for one step.
 const MOST_STATES: usize = 64;
 
@@ -46,18 +49,29 @@ const AT_THE_TIP: f64 = 1e-12;
 /// Groups in free order of more pairs are not looked at in all orders, nor from wherever others end.
 const MOST_PAIRS: usize = 8;
 
-/// What rules out all ways to do the steps up to the one of a number; none where that is not known, or not of the kind that the checker
-/// knows. Turns of a wrist and IK solutions that leave a joint free are not.
-pub(in crate::engine) fn refuted(task: &Task, last: usize, rule_out: RuleOut) -> Option<Vec<RefutedCase>> {
+/// What rules out all ways to do the steps up to the one of a number, as far as it is accepted; none where that is not known, or not of the kind
+/// that the checker knows. Turns of a wrist and IK solutions that leave a joint free are not.
+pub(in crate::engine) fn refuted(
+    task: &Task,
+    last: usize,
+    rule_out: RuleOut,
+    accepts: Accepts,
+) -> Option<Vec<RefutedCase>> {
+    // One pair alone is done in its order.
+    let in_order = |item: &Item| match item {
+        Item::AnyOrder(pairs) if pairs.len() == 1 => pairs[0].clone().map(Item::Step).into(),
+        other => vec![other.clone()],
+    };
+    let task = &Task { items: task.items.iter().flat_map(in_order).collect(), ..task.clone() };
     let last = task.items.iter().position(|item| steps(item).any(|step| step.number == last))?;
     // As a rule it is enough that the last cannot be done from anywhere.
     // How something lies that was turned is looked at only where nothing else helps: it doubles the cases.
     let attempts = [Some((last, false)), (last > 0).then_some((0, false)), (last > 0).then_some((0, true))];
     attempts.into_iter().flatten().find_map(|(first, tells_turned)| {
-        let mut walk =
-            Walk { task, first, tells_turned, rule_out: &mut *rule_out, cases: Vec::new(), hidden: Vec::new() };
+        let rule_out = &mut *rule_out;
+        let mut walk = Walk { task, first, tells_turned, rule_out, accepts, cases: Vec::new(), hidden: Vec::new() };
         let left = walk.until(last, vec![At { is_start: true, ..At::from(State::at_start(task)) }])?;
-        (left.is_empty() || walk.cannot_stay(&left)).then_some(walk.cases)
+        (left.is_empty() || walk.cannot_stay(&left)).then_some(walk.cases).filter(|cases| accepts(cases))
     })
 }
 
@@ -120,6 +134,7 @@ struct Walk<'a> {
     /// Whether it is told how what lies that was turned.
     tells_turned: bool,
     rule_out: RuleOut<'a>,
+    accepts: Accepts<'a>,
     cases: Vec<RefutedCase>,
     /// Objects that the second link may touch in the next step, as far as is known.
     hidden: Vec<usize>,
@@ -175,11 +190,14 @@ impl Walk<'_> {
     /// Whether what is let go of in the last step is in the way of all the states that it leaves; the cases are that.
     fn cannot_stay(&mut self, states: &[At]) -> bool {
         let task = self.task;
-        let is_last =
-            states.iter().all(|at| at.state.is_done(task) && at.state.released.is_some() && self.hidden.is_empty());
+        let is_last = states.iter().all(|at| at.state.is_done(task) && at.state.released.is_some());
         let Some(last) = task.steps().map(|step| step.number).max().filter(|_| is_last) else { return false };
         states.iter().all(|at| {
-            let scene = at.state.scene(task, None);
+            // After a group in free order a checker may not know which of its objects was let go of last.
+            let mut poses = at.state.poses.clone();
+            let others = self.hidden.iter().filter(|object| Some(**object) != at.state.released);
+            others.for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
+            let scene = State { poses, ..at.state.clone() }.scene(task, None);
             let stuck = (self.rule_out)(&scene, [at.state.q; 2]).unwrap_or_default();
             let is_ruled_out = !stuck.is_empty();
             let from = Some(at.state.q);
@@ -278,8 +296,8 @@ impl Walk<'_> {
         let task = self.only(&pairs[own]);
         let first = if is_asked { 0 } else { usize::MAX };
         let rule_out: RuleOut = &mut |_, _| None;
-        let mut walk =
-            Walk { task: &task, first, tells_turned: false, rule_out, cases: Vec::new(), hidden: Vec::new() };
+        let (accepts, cases, hidden) = (self.accepts, Vec::new(), Vec::new());
+        let mut walk = Walk { task: &task, first, tells_turned: false, rule_out, accepts, cases, hidden };
         let picked = walk.step(&[Self::alone(entry, pairs, own)], false)?;
         walk.step(&picked, false)
     }
@@ -298,9 +316,10 @@ impl Walk<'_> {
         // Where only what is carried is looked at it is no matter how many pairs there are.
         let firsts = if pairs.len() > MOST_PAIRS { 1..2 } else { 0..2 };
         firsts.rev().find_map(|first| {
-            let (rule_out, hidden) = (&mut *self.rule_out, hidden.clone());
-            let mut walk = Walk { task: &task, first, tells_turned: false, rule_out, cases: Vec::new(), hidden };
-            walk.until(1, starts.clone())?.is_empty().then_some(walk.cases)
+            let (rule_out, accepts) = (&mut *self.rule_out, self.accepts);
+            let (cases, hidden) = (Vec::new(), hidden.clone());
+            let mut walk = Walk { task: &task, first, tells_turned: false, rule_out, accepts, cases, hidden };
+            walk.until(1, starts.clone())?.is_empty().then_some(walk.cases).filter(|cases| accepts(cases))
         })
     }
 

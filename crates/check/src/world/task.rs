@@ -335,7 +335,8 @@ impl Steps<'_, '_> {
                 Node::Group(group) => renewed.extend(&group.renewed),
             }
         }
-        Ok(Group { nodes, repeat, is_free, renewed })
+        // One pair alone is done in its order.
+        Ok(Group { is_free: is_free && nodes.len() > 2, nodes, repeat, renewed })
     }
 
     /// What a table stands for: a step, a group, or the steps of a transfer.
