@@ -2,13 +2,13 @@
 //!
 //! A curve `q(s)` is passed at the rate `ds/dt = z(s)^(1/2)`. With derivatives by `s`, velocities are `q' z^(1/2)`, accelerations
 //! `q'' z + q' z' / 2`, and jerks `(q''' z + 3 q'' z' / 2 + q' z'' / 2) z^(1/2)`; the time is the integral of `z^(-1/2)`. `z` is a uniform
-//! quadratic B-spline, and limits are asked for at [`PLACES`] of each of its intervals. Its coefficients are found by a barrier method:
-//! Newton's steps towards the least of the time less the logarithms of what is left of the limits, which count less and less. Of the
-//! second derivatives of those only what the first give is used, which is never negative, and most of it near the limits. (In the squared
+//! quadratic B-spline, which has to meet what limits ask for at [`PLACES`] of each of its intervals: [`Condition`]s. Its coefficients are found by a
+//! barrier method: Newton's steps towards the least of the time less the logarithms of what conditions leave, which count less and less. Of the
+//! second derivatives of these only what the first give is used, which is never negative, and most of them where little is left. (In the squared
 //! rate only limits on jerks are not convex: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, *Time-optimal path tracking for robots:
 //! a convex optimization approach*, 2009.)
 
-/// Where limits are asked for in each interval, ...
+/// Where conditions hold in each interval, ...
 pub(super) const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
 
 /// ... and what each of these counts in an integral (Simpson's rule).
@@ -50,7 +50,7 @@ const TO_PLACE: usize = 4;
 
 /// What `z` is to keep at a place: `a z + b z' + c z'' < 1`, or the same with the sum times the root of `z`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Limit {
+pub(super) struct Condition {
     pub factors: [f64; 3],
     pub has_root: bool,
 }
@@ -65,7 +65,7 @@ pub(super) struct Rate {
     times: Vec<f64>,
 }
 
-impl Limit {
+impl Condition {
     /// What is left of it, and the derivatives of that by `z`, `z'` and `z''`.
     fn left(&self, [z, rising, bend]: [f64; 3]) -> (f64, [f64; 3]) {
         let [a, b, c] = self.factors;
@@ -93,7 +93,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// A place with its limits.
+/// A place with its conditions.
 struct Place<'a> {
     /// The first coefficient that counts there, and how this one and the next two do.
     first: usize,
@@ -102,32 +102,32 @@ struct Place<'a> {
     values: [f64; 3],
     /// Its share of the time.
     time: f64,
-    limits: &'a [Limit],
+    conditions: &'a [Condition],
 }
 
-/// The limits of all places, in order, and what `z` is made of there.
+/// The conditions of all places, in order, and what `z` is made of there.
 struct Problem<'a> {
-    limits: &'a [Vec<Limit>],
+    conditions: &'a [Vec<Condition>],
     step: f64,
     basis: [[[f64; 3]; 3]; PLACES.len()],
 }
 
 impl Problem<'_> {
     fn places(&self, coefficients: &[f64]) -> impl Iterator<Item = Place<'_>> {
-        self.limits.iter().enumerate().map(move |(place, limits)| {
+        self.conditions.iter().enumerate().map(move |(place, conditions)| {
             let (first, place) = (place / PLACES.len(), place % PLACES.len());
             let basis = &self.basis[place];
             let own = [0, 1, 2].map(|k| coefficients[first + k]);
             let values = basis.map(|row| dot(row, own));
-            Place { first, basis, values, time: self.step * WEIGHTS[place] / values[0].sqrt(), limits }
+            Place { first, basis, values, time: self.step * WEIGHTS[place] / values[0].sqrt(), conditions }
         })
     }
 
-    /// The time with barriers of a height; infinite beyond the limits.
+    /// The time with barriers of a height; infinite where a condition is not met.
     fn merit(&self, coefficients: &[f64], height: f64) -> f64 {
         // The logarithm of a product, rather than many.
         let (mut merit, mut product) = (0.0, 1.0_f64);
-        for Place { values, time, limits, .. } in self.places(coefficients) {
+        for Place { values, time, conditions, .. } in self.places(coefficients) {
             if values[0].is_nan() || values[0] <= 0.0 {
                 return f64::INFINITY;
             }
@@ -135,8 +135,8 @@ impl Problem<'_> {
             if product < SMALL {
                 (merit, product) = (merit - height * product.ln(), 1.0);
             }
-            for limit in limits {
-                let (left, _) = limit.left(values);
+            for condition in conditions {
+                let (left, _) = condition.left(values);
                 if left.is_nan() || left <= 0.0 {
                     return f64::INFINITY;
                 }
@@ -150,12 +150,12 @@ impl Problem<'_> {
     fn newton(&self, coefficients: &[f64], height: f64) -> Option<(Vec<f64>, f64)> {
         let count = coefficients.len();
         let (mut slope, mut bands) = (vec![0.0; count], vec![[0.0; 3]; count]);
-        for Place { first, basis, values, time, limits } in self.places(coefficients) {
+        for Place { first, basis, values, time, conditions } in self.places(coefficients) {
             let z = values[0];
             let (mut gradient, mut second) = ([-time / (2.0 * z), 0.0, 0.0], [[0.0; 3]; 3]);
             second[0][0] = 0.75 * time / (z * z);
-            for limit in limits {
-                let (left, change) = limit.left(values);
+            for condition in conditions {
+                let (left, change) = condition.left(values);
                 for r in 0..3 {
                     gradient[r] -= height * change[r] / left;
                     for s in 0..=r {
@@ -209,13 +209,13 @@ fn solved(mut bands: Vec<[f64; 3]>, mut x: Vec<f64>) -> Option<Vec<f64>> {
 }
 
 impl Rate {
-    /// The rate with the least time over intervals of so much of the parameter each, within the limits at all of their places; `begin` is a
-    /// constant squared rate that keeps them all, with some left. None if it does not.
-    pub fn fastest(limits: &[Vec<Limit>], step: f64, begin: f64) -> Option<Self> {
-        let problem = Problem { limits, step, basis: PLACES.map(|u| basis(u, step)) };
-        let mut coefficients = vec![begin; limits.len() / PLACES.len() + 2];
+    /// The rate with the least time over intervals of so much of the parameter each that meets the conditions at all of their places; `begin` is a
+    /// constant squared rate that meets them all, with some left. None if it does not.
+    pub fn fastest(conditions: &[Vec<Condition>], step: f64, begin: f64) -> Option<Self> {
+        let problem = Problem { conditions, step, basis: PLACES.map(|u| basis(u, step)) };
+        let mut coefficients = vec![begin; conditions.len() / PLACES.len() + 2];
         let time: f64 = problem.places(&coefficients).map(|place| place.time).sum();
-        let count: usize = limits.iter().map(Vec::len).sum();
+        let count: usize = conditions.iter().map(Vec::len).sum();
         let [mut height, last] = [FIRST_HEIGHT, LAST_HEIGHT].map(|share| share * time / count as f64);
         if !problem.merit(&coefficients, height).is_finite() {
             return None;

@@ -11,7 +11,7 @@
 
 use super::clock::{nanoseconds, seconds};
 use super::limits::Limits;
-use super::retime::{Limit, PLACES, Rate};
+use super::retime::{Condition, PLACES, Rate};
 use super::sample::{SHORTEST_INTERVAL, Trajectory, USUAL_INTERVAL};
 use super::schedule::{TimedTrack, duration, places};
 use super::torque::TorqueLimit;
@@ -86,7 +86,7 @@ impl Spline {
         let interval = seconds(self.step) / parts as f64;
         let intervals =
             (0..parts * pieces).flat_map(|i| PLACES.map(|u| (i / parts, ((i % parts) as f64 + u) / parts as f64)));
-        let asked: Vec<Vec<Limit>> = intervals.map(|(piece, u)| asked(self.within(piece, u), limits)).collect();
+        let asked: Vec<Vec<Condition>> = intervals.map(|(piece, u)| asked(self.within(piece, u), limits)).collect();
         let rate = Rate::fastest(&asked, interval, BEGIN * BEGIN)?;
         let shortest = (SHORTEST_STEP * period).max(SHORTEST_INTERVAL);
         let step = nanoseconds((rate.duration() / NEW_STEPS).min(seconds(self.step)).max(shortest));
@@ -206,11 +206,11 @@ impl Spline {
 }
 
 /// What the limits ask for where a motion has such derivatives, if it is driven anew.
-fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &Limits) -> Vec<Limit> {
+fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &Limits) -> Vec<Condition> {
     let mut asked = Vec::new();
     let mut ask = |factors: [f64; 3], has_root: bool| {
         if factors != [0.0; 3] {
-            asked.push(Limit { factors, has_root });
+            asked.push(Condition { factors, has_root });
         }
     };
     for k in 0..2 {
