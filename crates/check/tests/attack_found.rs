@@ -30,6 +30,9 @@ const GOAL: [f64; 2] = [1.0, -0.3];
 /// Samples of each piece.
 const SAMPLES: u32 = 200;
 
+/// The same where it matters what is between them.
+const FINE: u32 = 4_000;
+
 /// SplitMix64.
 struct Random(u64);
 
@@ -101,7 +104,7 @@ impl Claim {
                 center: around(random),
                 radius: random.between(0.05, 0.3),
             };
-            if claim.keeps_limits(1e-3) && claim.distance() > claim.clearance + 1e-4 {
+            if claim.keeps_limits(1e-3) && claim.distance(SAMPLES) > claim.clearance + 1e-4 {
                 return claim;
             }
         }
@@ -121,7 +124,7 @@ impl Claim {
             4 => self.knots[number][3 + random.below(4)] *= random.between(-3.0, 5.0),
             5 => self.knots[number][0] += random.between(-0.3, 0.3),
             6 => self.way = random.below(4),
-            7 => self.clearance = self.distance().max(0.0) * random.between(0.8, 1.2),
+            7 => self.clearance = self.distance(SAMPLES).max(0.0) * random.between(0.8, 1.2),
             8 => self.center = [self.center[0] + random.between(-0.3, 0.3), self.center[1] + random.between(-0.3, 0.3)],
             _ => self.ring[random.below(5)] = [random.between(-2.0, 2.0), random.between(-2.0, 2.0)],
         }
@@ -145,12 +148,12 @@ impl Claim {
     }
 
     /// Samples of the motion.
-    fn samples(&self) -> impl Iterator<Item = P> {
+    fn samples(&self, count: u32) -> impl Iterator<Item = P> {
         self.knots.windows(2).flat_map(move |pair| {
             let (a, b) = (pair[0], pair[1]);
             let h = b[0] - a[0];
-            (0..=SAMPLES).map(move |i| {
-                let t = h * f64::from(i) / f64::from(SAMPLES);
+            (0..=count).map(move |i| {
+                let t = h * f64::from(i) / f64::from(count);
                 [0, 1].map(|joint| {
                     let of = |knot: &Knot| [knot[1 + joint], knot[3 + joint], knot[5 + joint]];
                     let ([p, v, a], [q, w, b]) = (of(&a), of(&b));
@@ -183,17 +186,17 @@ impl Claim {
     }
 
     fn keeps_limits(&self, room: f64) -> bool {
-        self.samples().all(|q| q.iter().all(|value| value.abs() <= LIMIT - room))
+        self.samples(SAMPLES).all(|q| q.iter().all(|value| value.abs() <= LIMIT - room))
     }
 
     /// The least distance that samples have from the obstacles; negative in the ring or the disc.
-    fn distance(&self) -> f64 {
+    fn distance(&self, count: u32) -> f64 {
         let round =
             |points: &[P]| (0..points.len()).map(|i| [points[i], points[(i + 1) % points.len()]]).collect::<Vec<_>>();
         let ring = round(&self.ring);
         let sides: Vec<[P; 2]> = ring.iter().copied().chain(self.wall.windows(2).map(|w| [w[0], w[1]])).collect();
         let mut least = f64::INFINITY;
-        for q in self.samples() {
+        for q in self.samples(count) {
             for shape in 0..2 {
                 let bar = bar(q, shape);
                 let edges = round(&bar);
@@ -222,7 +225,7 @@ impl Claim {
             && meets(&self.knots[0], START)
             && meets(&self.knots[last], GOAL)
             && self.keeps_limits(-1e-9)
-            && self.distance() > self.clearance - 1e-9
+            && self.distance(SAMPLES) > self.clearance - 1e-9
     }
 }
 
@@ -269,7 +272,8 @@ fn what_is_falsified_is_refused_or_still_true() {
     for seed in random::seeds(120) {
         let mut random = Random(seed);
         let mut claim = Claim::honest(&mut random);
-        if seed % 4 == 0 {
+        // What comes too near between two samples is no honest claim.
+        if seed % 4 == 0 && claim.distance(FINE) > claim.clearance + 1e-6 {
             claim.judged().unwrap_or_else(|why| panic!("seed {seed}: {why}\n{claim:?}"));
         }
         for _ in 0..=random.below(2) {
