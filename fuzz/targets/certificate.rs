@@ -1,4 +1,4 @@
-//! Any bytes as a certificate: among obstacles that leave no way, and among others that leave one.
+//! Any bytes as a certificate: among obstacles that leave no way, among others that leave one, among what moves, and of a task on a belt.
 #![no_main]
 
 #[path = "shipped.rs"]
@@ -18,6 +18,9 @@ fn texts(robot: &str, world: &str) -> [String; 2] {
 static CLOSED: LazyLock<[String; 2]> = LazyLock::new(|| texts("planar_2r_continuous", "no_path"));
 static OPEN: LazyLock<[String; 2]> = LazyLock::new(|| texts("planar_2r", "limits_open"));
 
+static MOVING: LazyLock<[[String; 2]; 2]> =
+    LazyLock::new(|| ["moving/crossing", "moving/belt_stop"].map(|world| texts("planar_2r", world)));
+
 fuzz_target!(|text: &str| {
     let judged = |[urdf, world]: &[String; 2]| match check(urdf, world, text) {
         Ok(proven) => Some(proven),
@@ -25,6 +28,9 @@ fuzz_target!(|text: &str| {
         Err(CheckError::Input { message, .. }) => Some(message).filter(String::is_empty),
     };
     assert_ne!(judged(&CLOSED), Some(String::new()), "no reason");
+    for files in MOVING.iter() {
+        assert_ne!(judged(files), Some(String::new()), "no reason");
+    }
     if let Some(proven) = judged(&OPEN).filter(|proven| proven.starts_with("no motion of ")) {
         // Only with ends or a clearance of its own, which may be written with escapes.
         assert!(["\"start\"", "\"goal", "\"clearance\"", "\\u"].iter().any(|own| text.contains(own)), "{proven:?}");

@@ -46,8 +46,9 @@ pub(crate) fn torque_looks(
         let q = piece.at(u);
         let [velocity, acceleration] =
             [Derivative::Velocity, Derivative::Acceleration].map(|of| piece.derivative(of, u));
-        let holding = dynamics.holding(arm, q);
-        let torque = dynamics.inertial(arm, q, acceleration) + dynamics.centrifugal(arm, q, velocity) + holding;
+        let here = dynamics.at(arm, q);
+        let holding = here.holding();
+        let torque = here.inertial(acceleration) + here.centrifugal(velocity) + holding;
         TorqueLook { u, torque, holding, off }
     })
 }

@@ -151,47 +151,15 @@ impl Dynamics {
         velocity: Configuration,
         acceleration: Configuration,
     ) -> Configuration {
-        self.inertial(arm, q, acceleration) + self.centrifugal(arm, q, velocity) + self.holding(arm, q)
+        let here = self.at(arm, q);
+        here.inertial(acceleration) + here.centrifugal(velocity) + here.holding()
     }
 
-    /// What accelerations alone ask for: the inertia matrix times them.
+    /// What all torques at a configuration depend on.
     #[must_use]
-    pub fn inertial(&self, arm: &Arm, q: Configuration, acceleration: Configuration) -> Configuration {
-        self.sum(arm, q, |link, [first, second]| {
-            let turning = turns(arm, link).map(|turn| turn.unwrap_or(0.0));
-            let along = first * acceleration[0] + second * acceleration[1];
-            (along, turning[0] * acceleration[0] + turning[1] * acceleration[1])
-        })
-    }
-
-    /// What speeds alone ask for: centrifugal and Coriolis forces.
-    #[must_use]
-    pub fn centrifugal(&self, arm: &Arm, q: Configuration, velocity: Configuration) -> Configuration {
-        self.sum(arm, q, |link, columns| (bending(arm, link, velocity, columns), 0.0))
-    }
-
-    /// What it takes to hold the arm at rest against gravity.
-    #[must_use]
-    pub fn holding(&self, arm: &Arm, q: Configuration) -> Configuration {
-        self.sum(arm, q, |_, _| (-self.gravity, 0.0))
-    }
-
-    /// Torques for accelerations of each link's centre of mass and of its turning.
-    fn sum(
-        &self,
-        arm: &Arm,
-        q: Configuration,
-        accelerations: impl Fn(usize, [Vector; 2]) -> (Vector, f64),
-    ) -> Configuration {
-        let mut torque = Configuration::zeros();
-        for (link, body) in self.bodies.iter().enumerate() {
-            let columns = arm.jacobian(link, body.center, q);
-            let (moved, turned) = accelerations(link, columns);
-            for (k, turn) in turns(arm, link).into_iter().enumerate() {
-                torque[k] += body.mass * columns[k].dot(&moved) + body.inertia * turn.unwrap_or(0.0) * turned;
-            }
-        }
-        torque
+    pub fn at<'a>(&'a self, arm: &'a Arm, q: Configuration) -> DynamicsAt<'a> {
+        let columns = [0, 1].map(|link| arm.jacobian(link, self.bodies[link].center, q));
+        DynamicsAt { dynamics: self, arm, columns }
     }
 
     /// How fast torques change by the time along a part of a motion, at the most: no farther from `middle` than `reach` seconds, with these
@@ -270,6 +238,51 @@ impl Dynamics {
                 a.mass * b.mass + (b.mass * first.perp(&second)).powi(2)
             }
         }
+    }
+}
+
+/// An arm's dynamics at a configuration.
+#[derive(Debug, Clone, Copy)]
+pub struct DynamicsAt<'a> {
+    dynamics: &'a Dynamics,
+    arm: &'a Arm,
+    /// Of each link's centre of mass its derivative by each joint.
+    columns: [[Vector; 2]; 2],
+}
+
+impl DynamicsAt<'_> {
+    /// What accelerations alone ask for: the inertia matrix times them.
+    #[must_use]
+    pub fn inertial(&self, acceleration: Configuration) -> Configuration {
+        self.sum(|link, [first, second]| {
+            let turning = turns(self.arm, link).map(|turn| turn.unwrap_or(0.0));
+            let along = first * acceleration[0] + second * acceleration[1];
+            (along, turning[0] * acceleration[0] + turning[1] * acceleration[1])
+        })
+    }
+
+    /// What speeds alone ask for: centrifugal and Coriolis forces.
+    #[must_use]
+    pub fn centrifugal(&self, velocity: Configuration) -> Configuration {
+        self.sum(|link, columns| (bending(self.arm, link, velocity, columns), 0.0))
+    }
+
+    /// What it takes to hold the arm at rest against gravity.
+    #[must_use]
+    pub fn holding(&self) -> Configuration {
+        self.sum(|_, _| (-self.dynamics.gravity, 0.0))
+    }
+
+    /// Torques for accelerations of each link's centre of mass and of its turning.
+    fn sum(&self, accelerations: impl Fn(usize, [Vector; 2]) -> (Vector, f64)) -> Configuration {
+        let mut torque = Configuration::zeros();
+        for (link, (body, columns)) in self.dynamics.bodies.iter().zip(self.columns).enumerate() {
+            let (moved, turned) = accelerations(link, columns);
+            for (k, turn) in turns(self.arm, link).into_iter().enumerate() {
+                torque[k] += body.mass * columns[k].dot(&moved) + body.inertia * turn.unwrap_or(0.0) * turned;
+            }
+        }
+        torque
     }
 }
 

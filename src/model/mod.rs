@@ -47,7 +47,7 @@ pub use carried::Carried;
 pub(crate) use carried::on_axis;
 use carried::swept;
 pub use contacts::Contacts;
-pub use dynamics::{Body, Curvature, Dynamics, Rates};
+pub use dynamics::{Body, Curvature, Dynamics, DynamicsAt, Rates};
 pub use inverse::{Freedom, Inverse, inverse, within};
 pub use joint::{Joint, JointType};
 pub use link::{Link, OutlineSource, Part};

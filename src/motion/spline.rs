@@ -229,9 +229,9 @@ fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &
         ask([(speed / (USED * tip.speed)).powi(2), 0.0, 0.0], false);
     }
     if let Some(TorqueLimit { arm, dynamics, share }) = limits.torque {
-        let inertial = dynamics.inertial(arm, position, velocity);
-        let bent = dynamics.inertial(arm, position, acceleration) + dynamics.centrifugal(arm, position, velocity);
-        let holding = dynamics.holding(arm, position);
+        let here = dynamics.at(arm, position);
+        let (inertial, bent) = (here.inertial(velocity), here.inertial(acceleration) + here.centrifugal(velocity));
+        let holding = here.holding();
         for (k, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
             let room = share * (USED * dynamics.effort[k] - sign * holding[k]);
             ask([bent[k], inertial[k] / 2.0, 0.0].map(|factor| sign * factor / room), false);

@@ -75,12 +75,9 @@ impl<'a> TorqueLimit<'a> {
         let at = |by: f64| {
             let q = part.middle + part.slope * by + part.bend * (by * by / 2.0);
             let slope = part.slope + part.bend * by;
-            let bent = dynamics.inertial(arm, q, part.bend) + dynamics.centrifugal(arm, q, slope);
-            Factors {
-                inertial: dynamics.inertial(arm, q, slope) / self.share,
-                bent: bent / self.share,
-                holding: dynamics.holding(arm, q),
-            }
+            let here = dynamics.at(arm, q);
+            let bent = here.inertial(part.bend) + here.centrifugal(slope);
+            Factors { inertial: here.inertial(slope) / self.share, bent: bent / self.share, holding: here.holding() }
         };
         OnPart {
             ends: [at(-part.half), at(part.half)],
@@ -226,7 +223,7 @@ impl<'a> TorqueLimit<'a> {
             let count = share.sqrt().ceil().min(MOST_PARTS);
             for i in 0..=count as u32 {
                 let at = from + offset * (2.0 * f64::from(i) / count);
-                let holding = self.dynamics.holding(self.arm, at);
+                let holding = self.dynamics.at(self.arm, at).holding();
                 if let Some(k) = (0..2).find(|&k| holding[k].abs() >= effort[k]) {
                     return Err(self.too_heavy(k, at, holding[k]));
                 }
