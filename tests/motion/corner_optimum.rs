@@ -75,6 +75,9 @@ impl Condition {
     }
 }
 
+/// So many nodes from either end accelerations are held to the time that is left for them: in between nodes no jerk is looked at.
+const NEAR_ENDS: usize = 8;
+
 /// What the joints' limits ask of `z` at each node; nodes at both ends have no neighbours there, and need none: the arm is at rest.
 fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<Condition> {
     let mut all = Vec::new();
@@ -89,6 +92,12 @@ fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<C
             for sign in [-1.0, 1.0] {
                 all.push(Condition { at, weights: pull.map(|w| sign * w / a[k]), has_root: false });
                 all.push(Condition { at, weights: jerk.map(|w| sign * w / j[k]), has_root: true });
+                // All of the acceleration has to come, and go, within the time from the beginning, or to the end.
+                let steps = at.min(nodes.len() - 1 - at);
+                if (1..=NEAR_ENDS).contains(&steps) {
+                    let most = j[k] * steps as f64 * step;
+                    all.push(Condition { at, weights: pull.map(|w| sign * w / most), has_root: true });
+                }
             }
         }
     }
@@ -206,7 +215,7 @@ fn optimum(motion: &Trajectory, most: Most, steps: usize, from: f64) -> f64 {
 type Case = (&'static [[f64; 2]], Most);
 
 /// By what share a motion takes longer than the least time along its curve, at the most.
-const LONGER: f64 = 0.02;
+const LONGER: f64 = 0.01;
 
 /// Right angles, gentle turns, hairpins, short legs between long ones, one joint far slower than the other.
 const PATHS: [Case; 12] = [
@@ -234,7 +243,7 @@ const PATHS: [Case; 12] = [
 ];
 
 /// Limits are kept at the steps, and may be exceeded in between: steps are halved until that makes no more difference than this share.
-const OFF: f64 = 1e-2;
+const OFF: f64 = 5e-3;
 
 /// The most steps that are tried.
 const MOST_STEPS: usize = 20_000;
@@ -243,7 +252,7 @@ const MOST_STEPS: usize = 20_000;
 fn near_the_least_time_along_the_same_curve() {
     for (i, &(waypoints, most)) in PATHS.iter().enumerate() {
         let motion = driven(waypoints, most);
-        let (mut steps, mut fine) = (1200, optimum(&motion, most, 600, 0.97));
+        let (mut steps, mut fine) = (2400, optimum(&motion, most, 1200, 0.97));
         loop {
             let coarse = std::mem::replace(&mut fine, optimum(&motion, most, steps, 0.97));
             if (coarse - fine).abs() <= OFF * fine {
