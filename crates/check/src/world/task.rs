@@ -83,7 +83,7 @@ pub enum Action {
         object: usize,
         grasp: Corner,
         supports: Vec<usize>,
-        passing: Passing,
+        passing: Box<Passing>,
     },
     /// What is carried goes to a place with its origin, where it is let go of.
     Place {
@@ -382,7 +382,7 @@ impl Steps<'_, '_> {
     fn pick(&self, object: usize, grasp: Option<Corner>, supports: Option<Vec<usize>>, passing: Passing) -> Action {
         let own = &self.objects[object];
         let (grasp, supports) = (grasp.unwrap_or(own.grasp.clone()), supports.unwrap_or(own.supports.clone()));
-        Action::Pick { object, grasp, supports, passing }
+        Action::Pick { object, grasp, supports, passing: Box::new(passing) }
     }
 
     /// What is named as supports in a table.
