@@ -33,8 +33,8 @@ const NEAR: f64 = 1e-5;
 const ENOUGH: f64 = 0.05;
 const HALVINGS: u32 = 20;
 
-/// So small a product goes on as its logarithm.
-const SMALL: f64 = 1e-150;
+/// A product outside of these goes on as its logarithm.
+const WITHIN: std::ops::Range<f64> = 1e-150..1e150;
 
 /// Places and weights of Gauss's quadrature with five points on the interval from 0 to 1.
 const GAUSS: [[f64; 2]; 5] = [
@@ -113,6 +113,7 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
+    /// All places, in order, for some coefficients.
     fn places(&self, coefficients: &[f64]) -> impl Iterator<Item = Place<'_>> {
         self.conditions.iter().enumerate().map(move |(place, conditions)| {
             let (first, place) = (place / PLACES.len(), place % PLACES.len());
@@ -132,7 +133,7 @@ impl Problem<'_> {
                 return f64::INFINITY;
             }
             merit += time;
-            if product < SMALL {
+            if !WITHIN.contains(&product) {
                 (merit, product) = (merit - height * product.ln(), 1.0);
             }
             for condition in conditions {
@@ -281,5 +282,23 @@ impl Rate {
             u -= (self.takes(interval, u) - since) * self.squared(interval, u).sqrt() / self.step;
         }
         (interval as f64 + u.clamp(0.0, 1.0)) * self.step
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against gravity more is left one way than the other: what all conditions leave may be far more than 1, and than a double holds.
+    #[test]
+    fn what_is_left_may_be_much() {
+        let conditions = [[0.25, 0.0, 0.0], [-10.0, 0.0, 0.0]].map(|factors| Condition { factors, has_root: false });
+        let all = vec![conditions.to_vec(); 1000 * PLACES.len()];
+        // The squared rate is below 4, so that a parameter of 10 takes 5 s at the least.
+        let rate = Rate::fastest(&all, 0.01, 0.5).unwrap();
+        assert!((5.0..5.05).contains(&rate.duration()), "{}", rate.duration());
+        for time in [0.0, 1.3, 4.9] {
+            assert!((rate.passes(rate.at(time)) - time).abs() < 1e-12);
+        }
     }
 }

@@ -39,14 +39,12 @@ impl Piece {
         let halves: Vec<[Vec<Values>; 2]> = self.curves.iter().map(|curve| halves(curve)).collect();
         let [begin, end] = &self.time;
         let middle = Decimal::middle(begin, end);
-        let times = [[begin.clone(), middle.clone()], [middle, end.clone()]];
-        let [first, second] = times;
         let half = |k: usize, time| Self {
             knot: self.knot,
             curves: halves.iter().map(|both| both[k].clone()).collect(),
             time,
         };
-        [half(0, first), half(1, second)]
+        [half(0, [begin.clone(), middle.clone()]), half(1, [middle, end.clone()])]
     }
 }
 

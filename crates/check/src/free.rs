@@ -487,10 +487,12 @@ fn halved(piece: &Piece, halvings: u32) -> (Stretch, Stretch) {
 /// Units of guesses.
 const ROUGH: u32 = 44;
 
+/// A number of units, about; not a number where it is too large.
 pub fn roughly(n: &BigInt) -> f64 {
     i64::try_from(n >> (BITS - ROUGH)).map_or(f64::NAN, |n| n as f64 / (1u64 << ROUGH) as f64)
 }
 
+/// A point, about.
 pub fn rough(p: &Point) -> [f64; 2] {
     p.each_ref().map(|c| roughly(&c.lower))
 }

@@ -266,12 +266,13 @@ impl<'a> Replay<'a> {
         // Where a step leaves the arm it stands until its next motion begins.
         let (first, last) = (std::mem::replace(&mut self.knot, done.knots[1]), done.knots[1]);
         let (motion, released) = (self.motion, self.released);
-        let pieces = |knots: Range<usize>| {
+        let pieces_of = |knots: Range<usize>| {
             let until = &motion.knots[..=knots.end];
             let piece = |knot: usize| piece(self.arm, &motion.interpolation, until, knot, &self.limits);
             (knots.start..knots.end.max(knots.start + 1)).map(piece).collect::<Result<Vec<Piece>, _>>()
         };
-        let (pieces, still, rest) = (pieces(first..last)?, pieces(last..last)?, pieces(last..motion.knots.len() - 1)?);
+        let (pieces, still) = (pieces_of(first..last)?, pieces_of(last..last)?);
+        let rest = after.is_empty().then(|| pieces_of(last..motion.knots.len() - 1)).transpose()?;
         let [from, to] = [first, last].map(|knot| [1, 2].map(|k| Interval::from(&motion.knots[knot][k])));
         let time = &still[0].time[0];
         let target = match &step.action {
@@ -298,7 +299,7 @@ impl<'a> Replay<'a> {
             }
         }
         // The last leaves it there, by what it came by.
-        if after.is_empty() {
+        if let Some(rest) = rest {
             self.free(&rest, &to, released, Tool::Raised)?;
         }
         Ok(())
