@@ -6,8 +6,8 @@ use super::result_files::ResultFiles;
 use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN, words};
 use crate::engine::{Options, Plan, Problem, plan_with};
-use crate::input::{self, Digests, InputError, LoadedScene};
-use crate::model::Status;
+use crate::input::{self, Digests, InputError, JointValues, LoadedScene, Overrides};
+use crate::model::{MotionProblem, Status};
 use crate::motion::write_whole;
 use std::path::Path;
 use std::time::Instant;
@@ -42,7 +42,9 @@ pub fn answer(
     if args.per_step && !loaded.has_steps() {
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));
     }
-    let problem = Problem::of_scene(loaded, &args.query.overrides())?.read_since(begun);
+    let asked = args.query.overrides();
+    let starts_at_a_place = loaded.starts_at_a_place();
+    let problem = Problem::of_scene(loaded, &asked)?.read_since(begun);
     if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
         return Err(Failure::Usage(lack));
     }
@@ -51,7 +53,11 @@ pub fn answer(
     problem.robot().warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
     let begun = Instant::now();
-    let written = written(&plan, &sinks, &files, about.as_ref(), args)?;
+    // A certificate is about joint values.
+    let found = || problem.motion().map(MotionProblem::start).or(problem.task().map(|task| task.start));
+    let implied = found().filter(|_| starts_at_a_place).map(JointValues::from);
+    let asked = Overrides { start: asked.start.or(implied), ..asked };
+    let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), args)?;
     let after = [("write", begun.elapsed())];
     let code = match plan.status() {
         Status::Found => DONE,
@@ -70,17 +76,16 @@ fn written(
     plan: &Plan,
     sinks: &[Sink],
     files: &ResultFiles,
-    about: Option<&Digests>,
+    (asked, about): (&Overrides, Option<&Digests>),
     args: &PlanArgs,
 ) -> Result<Vec<String>, Failure> {
-    let certificate =
-        args.certificate.as_deref().and_then(|path| match plan.certificate(&args.query.overrides(), about) {
-            Ok(certificate) => Some((path, certificate)),
-            Err(why) => {
-                sinks::say(&format!("warning: {} is not written: {why}", shown(path, sinks)));
-                None
-            }
-        });
+    let certificate = args.certificate.as_deref().and_then(|path| match plan.certificate(asked, about) {
+        Ok(certificate) => Some((path, certificate)),
+        Err(why) => {
+            sinks::say(&format!("warning: {} is not written: {why}", shown(path, sinks)));
+            None
+        }
+    });
     let certificate = certificate.as_ref().map(|(path, certificate)| (*path, certificate.as_str()));
     let mut written = files.write(plan, certificate)?;
     let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.plays()));

@@ -18,6 +18,12 @@ const LIMIT_ROUNDING: f64 = 1e-9;
 const LISTED: usize = 6;
 
 impl LoadedScene {
+    /// Whether the world's start is a place of the tip, so that which IK solution it is follows from what is free.
+    #[must_use]
+    pub fn starts_at_a_place(&self) -> bool {
+        matches!(self.world.start, Some((Goal::Tip(_), _)))
+    }
+
     /// The start, and where it was given: within the limits up to rounding, which is taken off with a note.
     pub(super) fn start(
         &self,

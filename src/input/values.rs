@@ -92,6 +92,13 @@ impl JointValues {
     }
 }
 
+impl From<Configuration> for JointValues {
+    /// In radians and metres.
+    fn from(q: Configuration) -> Self {
+        Self { numbers: q.into(), degrees: [false; 2] }
+    }
+}
+
 impl FromStr for JointValues {
     type Err = String;
 

@@ -8,7 +8,7 @@ use crate::arm::{self, Mover};
 use crate::certificate::{Bound, Metric, Wall};
 use crate::decimal::Decimal;
 use crate::error::CheckError;
-use crate::interval::{BITS, Interval, Point};
+use crate::interval::{BITS, Interval, Point, twice};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Body, Motion};
 use crate::sweep::{Axis, Rectangle};
@@ -401,10 +401,6 @@ fn below(a: &Interval, b: &Interval) -> bool {
 /// How far two rectangles are from each other along each axis, at least.
 fn apart(a: &Point, b: &Point) -> [BigInt; 2] {
     [0, 1].map(|k| (&b[k].lower - &a[k].upper).max(&a[k].lower - &b[k].upper).max(BigInt::ZERO))
-}
-
-fn twice(a: &Interval) -> Interval {
-    a + a
 }
 
 /// An end of a wall, for messages.

@@ -24,6 +24,8 @@ pub struct Certificate {
     pub urdf: Option<String>,
     pub world: Option<String>,
     pub others: Option<Vec<String>>,
+    /// The two joints, if the world does not say them.
+    pub joints: Option<[String; 2]>,
     /// What was asked, where it was not the world's own.
     pub start: Option<[Decimal; 2]>,
     pub goal: Option<[Decimal; 2]>,

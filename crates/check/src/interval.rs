@@ -244,6 +244,11 @@ impl Mul for &Interval {
     }
 }
 
+/// Two times a number.
+pub fn twice(a: &Interval) -> Interval {
+    a + a
+}
+
 /// The sum of two vectors.
 pub fn sum(a: &Point, b: &Point) -> Point {
     [&a[0] + &b[0], &a[1] + &b[1]]

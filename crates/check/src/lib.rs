@@ -99,24 +99,18 @@ fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) ->
         line: Some(error.pos().row as usize),
         message: error.to_string(),
     })?;
-    let arm = Arm::read(&document, &world, &files)?;
-    match certificate.answer {
-        Answer::Found => {
-            let found = match &certificate.steps {
-                Some(steps) => return task::found(&arm, &world, &certificate, steps),
-                None => motion::found(&arm, &world, &certificate)?,
-            };
-            match &certificate.bound {
-                Some(_) => Ok(format!("{found}; {}", no_shorter(&arm, &world, &certificate)?)),
-                None => Ok(found),
-            }
+    let arm = Arm::read(&document, &world, &files, certificate.joints.as_ref())?;
+    let proven = match (&certificate.answer, &certificate.steps, &certificate.cases) {
+        (Answer::Found, Some(steps), _) => task::found(&arm, &world, &certificate, steps),
+        (Answer::Found, None, _) if certificate.bound.is_some() => {
+            Ok(motion::found(&arm, &world, &certificate)? + "; " + &no_shorter(&arm, &world, &certificate)?)
         }
-        Answer::Infeasible => match &certificate.cases {
-            Some(cases) => impossible::infeasible(&arm, &world, &certificate, cases),
-            None => infeasible(&arm, &world, &certificate),
-        },
-        Answer::NoShorter => no_shorter(&arm, &world, &certificate),
-    }
+        (Answer::Found, None, _) => motion::found(&arm, &world, &certificate),
+        (Answer::Infeasible, _, Some(cases)) => impossible::infeasible(&arm, &world, &certificate, cases),
+        (Answer::Infeasible, ..) => infeasible(&arm, &world, &certificate),
+        (Answer::NoShorter, ..) => no_shorter(&arm, &world, &certificate),
+    };
+    Ok(proven? + &arm.idealized())
 }
 
 /// That no motion leads from the start to the goal.

@@ -117,8 +117,7 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Stri
     let (own_start, own_goal) = (certificate.start.as_ref(), Own::of(certificate)?);
     let start = arm.reached("start", &knots[0], own_start.map(Own::Joints), world)?;
     let goal = arm.reached("goal", &knots[knots.len() - 1], own_goal, world)?;
-    let limits = arm.limits(world)?;
-    let pieces = (0..knots.len().max(2) - 1).map(|knot| piece(arm, interpolation, knots, knot, &limits));
+    let pieces = (0..knots.len().max(2) - 1).map(|knot| piece(arm, interpolation, knots, knot));
     let pieces = pieces.collect::<Result<Vec<Piece>, CheckError>>()?;
     stays_off(arm, world, &pieces, [&knots[0][1], &knots[0][2]], clearance)?;
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
@@ -235,7 +234,6 @@ pub fn piece(
     interpolation: &[Interpolation],
     knots: &[Vec<Decimal>],
     knot: usize,
-    limits: &[Option<Range>; 2],
 ) -> Result<Piece, CheckError> {
     let mut curves = Vec::new();
     for way in interpolation {
@@ -244,15 +242,10 @@ pub fn piece(
             None => Interpolation::Linear.control(&knots[knot], &knots[knot], joint),
         };
         let control = [control(0), control(1)];
-        for (joint, limits) in limits.iter().enumerate() {
-            let Some([low, high]) =
-                limits.as_ref().map(|range| range.each_ref().map(|end| end * &Decimal::whole(SIXTY)))
-            else {
-                continue;
-            };
-            if !stays_within(&control[joint], &low, &high, HALVINGS) {
-                let name = &arm.joints[joint].name;
-                let way = way.name();
+        for (joint, control) in arm.joints.iter().zip(&control) {
+            let ends = joint.within.as_ref().map(|range| range.each_ref().map(|end| end * &Decimal::whole(SIXTY)));
+            if ends.is_some_and(|[low, high]| !stays_within(control, &low, &high, HALVINGS)) {
+                let (name, way) = (&joint.name, way.name());
                 return CheckError::fails(format!("after knot {knot} ({way}) joint \"{name}\" leaves its limits"));
             }
         }

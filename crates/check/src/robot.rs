@@ -5,23 +5,28 @@ use crate::error::{CheckError, Input};
 use crate::files::Files;
 use crate::interval::{Interval, Point};
 use crate::overlap::Shape;
-use crate::polygon::Corner;
-use crate::sweep::Axis;
+use crate::sweep::{Axis, Range};
 use crate::world::World;
 use num_bigint::Sign;
-use pose::{Pose, Vector};
+use plane::Plane;
+use pose::{Pose, Vector, dot};
 use roxmltree::{Document, Node};
 use solid::{Outline, Solid};
 use std::collections::BTreeMap;
 use tree::{Read, Tree, child};
 
+mod collada;
 mod cover;
 mod mesh;
+mod plane;
 mod pose;
 mod solid;
 mod tree;
 
 pub use cover::Covered;
+
+/// Directions within `10^-12` of one another are not told apart in words.
+const ROUNDED: u32 = 12;
 
 /// How a joint moves what it carries, in the plane.
 #[derive(Debug, Clone)]
@@ -36,7 +41,10 @@ pub enum Motion {
 pub struct Joint {
     pub name: String,
     pub motion: Motion,
+    /// What holds all its values, ...
     pub axis: Axis,
+    /// ... and what they are known to be within, if they have limits.
+    pub within: Option<Range>,
 }
 
 /// An arm in the plane. Where its parts are is said for both joints at 0.
@@ -64,33 +72,17 @@ pub struct Body {
     pub heights: Option<[Interval; 2]>,
 }
 
-/// Which coordinates of the root frame are those of the plane, and which is the height.
-#[derive(Clone, Copy)]
-struct Plane {
-    across: [usize; 2],
-    normal: usize,
-}
-
-impl Plane {
-    /// The pose of a root frame that is turned in the plane by an angle and stands at a place there.
-    fn placed(self, at: &Corner, angle: &Interval) -> Pose {
-        // Of the three, the basis (x, z) with y is left-handed.
-        let along = if self.normal == 1 { -1 } else { 1 };
-        let axis = [0, 1, 2].map(|k| Interval::whole(if k == self.normal { along } else { 0 }));
-        let mut pose = Pose::turn(&axis, angle);
-        for (k, place) in self.across.into_iter().zip(at) {
-            pose.at[k] = Interval::from(place);
-        }
-        pose
-    }
-}
-
 impl<'a> Arm<'a> {
     /// Reads the URDF and finds the two joints.
     ///
     /// # Errors
     /// What is no robot, or one that the checker does not know.
-    pub fn read(document: &'a Document<'a>, world: &World, files: &'a Files) -> Read<Self> {
+    pub fn read(
+        document: &'a Document<'a>,
+        world: &World,
+        files: &'a Files,
+        implied: Option<&[String; 2]>,
+    ) -> Read<Self> {
         let mut tree = Tree {
             files,
             document,
@@ -98,13 +90,13 @@ impl<'a> Arm<'a> {
             links: BTreeMap::new(),
             order: Vec::new(),
             joints: BTreeMap::new(),
+            named: BTreeMap::new(),
             values: BTreeMap::new(),
         };
         let root = document.root_element();
         if !root.has_tag_name("robot") {
             return tree.error(root, "this is not a URDF: it has no <robot>");
         }
-        let mut names: BTreeMap<&str, Node> = BTreeMap::new();
         let mut movable = Vec::new();
         for node in root.children().filter(|n| n.has_tag_name("link")) {
             if tree.links.insert(tree.text(node, "name")?, node).is_some() {
@@ -115,21 +107,25 @@ impl<'a> Arm<'a> {
         for node in root.children().filter(|n| n.has_tag_name("joint")) {
             let name = tree.text(node, "name")?;
             let Some(carried) = child(node, "child") else { return tree.error(node, "the joint has no child") };
-            let is_second = names.insert(name, node).is_some();
+            let is_second = tree.named.insert(name, node).is_some();
             if is_second || tree.joints.insert(tree.text(carried, "link")?, node).is_some() {
                 return tree.error(node, "a second joint of this name or with this child");
             }
             let moves = matches!(tree.text(node, "type")?, "revolute" | "continuous" | "prismatic");
             movable.extend((moves && child(node, "mimic").is_none()).then_some(name));
         }
-        let chosen: Vec<&str> =
-            world.joints.as_ref().map_or(movable.clone(), |j| j.iter().map(String::as_str).collect());
+        let said: Option<Vec<&str>> = world.joints.as_ref().map(|names| names.iter().map(String::as_str).collect());
+        let implied: Option<Vec<&str>> = implied.map(|names| names.iter().map(String::as_str).collect());
+        if said.is_some() && implied.is_some() && said != implied {
+            return CheckError::fails("it is about other joints than the world");
+        }
+        let chosen = said.or(implied).unwrap_or_else(|| movable.clone());
         let [first, second] = chosen[..] else {
             let message = format!("{} joints can move: the world file has to name two, [robot] joints", chosen.len());
             return Err(CheckError::in_file(Input::Urdf, message));
         };
-        let node = |name: &str| match names.get_key_value(name) {
-            Some((_, node)) if movable.contains(&name) => Ok(*node),
+        let node = |name: &str| match tree.named.get(name) {
+            Some(node) if movable.contains(&name) => Ok(*node),
             _ => Err(CheckError::in_file(Input::Urdf, format!("there is no joint \"{name}\" that can move"))),
         };
         let carried =
@@ -141,12 +137,12 @@ impl<'a> Arm<'a> {
         if !tree.above(carried(joints[1]))?[1..].contains(&joints[0]) {
             return tree.error(joints[1], "neither of the two joints carries the other");
         }
-        for (name, joint) in &names {
-            let is_held = movable.contains(name) && !joints.contains(joint);
-            let value = match world.fixed.get(*name) {
-                _ if !is_held => continue,
+        for name in movable {
+            let joint = tree.named[name];
+            let value = match world.fixed.get(name) {
+                _ if joints.contains(&joint) => continue,
                 Some(value) => Interval::around(value),
-                None => tree.rest(*joint, world)?,
+                None => tree.rest(joint, world)?,
             };
             tree.values.insert(name, value);
         }
@@ -164,34 +160,37 @@ impl<'a> Arm<'a> {
         };
         let axes = seen(&tree)?.map(|(_, axis)| axis);
         let slides = nodes.map(|node| node.attribute("type") == Some("prismatic"));
-        // About z the plane is (x, y), about y (x, z), about x (y, z).
-        let planes = [([0, 1], 2), ([0, 2], 1), ([1, 2], 0)].map(|(across, normal)| Plane { across, normal });
-        let moves_in = |plane: &&Plane| {
-            let along = |axis: &Vector| plane.across.iter().all(|k| axis[*k].is_whole(0));
-            axes.iter()
-                .zip(slides)
-                .all(|(axis, slides)| if slides { axis[plane.normal].is_whole(0) } else { along(axis) })
-        };
-        let Some(&plane) = planes.iter().find(moves_in) else {
-            return tree
-                .error(nodes[1], "the joints do not move, exactly, in one plane of two of the root frame's axes");
+        let Some(plane) = Plane::common(&axes, slides) else {
+            return tree.error(nodes[1], "the two joints do not move in one common plane");
         };
         tree.root = plane.placed(&world.at, &world.angle);
         let [(first, first_axis), (second, second_axis)] = seen(&tree)?;
         let (poses, axes) = ([first, second], [first_axis, second_axis]);
-        let in_plane = |v: &Vector| plane.across.map(|k| v[k].clone());
         let joint = |k: usize| {
-            let turns_left = axes[k][plane.normal].lower.sign() == Sign::Plus;
-            // Of the three, the basis (x, z) with y is left-handed.
-            let sign = if turns_left == (plane.normal != 1) { 1 } else { -1 };
-            let motion = if slides[k] { Motion::Slide(in_plane(&axes[k])) } else { Motion::Turn(sign) };
-            Ok(Joint { name: tree.text(nodes[k], "name")?.to_owned(), motion, axis: tree.range(nodes[k], world)? })
+            let sign = if dot(&axes[k], &plane.left()).lower.sign() == Sign::Plus { 1 } else { -1 };
+            let motion = if slides[k] { Motion::Slide(plane.direction(&axes[k])) } else { Motion::Turn(sign) };
+            let (axis, within) = match tree.ends(nodes[k], world)? {
+                Some([outer, inner]) => (Axis::Line(outer), Some(inner)),
+                None => (Axis::Circle, None),
+            };
+            Ok(Joint { name: tree.text(nodes[k], "name")?.to_owned(), motion, axis, within })
         };
         let joints = [joint(0)?, joint(1)?];
-        let [base, second] = [in_plane(&poses[0].at), in_plane(&poses[1].at)];
+        let [base, second] = poses.each_ref().map(|pose| plane.flat(&pose.at));
         let offset = [0, 1].map(|k| &second[k] - &base[k]);
         let (tip, bar) = (world.tip.clone(), world.bar.clone());
         Ok(Self { joints, base, offset, tree, children, plane, tip, bar })
+    }
+
+    /// By how much the joints' axes are off the plane's normal that are taken to be along it, in words, if it is more than rounding.
+    pub fn idealized(&self) -> String {
+        let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= self.plane.off;
+        match (2..=ROUNDED).rev().find(is_within).unwrap_or(0) {
+            ROUNDED => String::new(),
+            digits => {
+                format!("; its joints are taken to move in one plane, from which they deviate by up to 1e-{digits}")
+            }
+        }
     }
 
     /// A shape of a kind, `collision` or `visual`, by its link and its number among those of the link that have a size. Visual ones
@@ -235,8 +234,7 @@ impl<'a> Arm<'a> {
             _ => self.tip().map(|(tip, Body { shape, .. })| (tip, shape.points[0].clone()))?,
         };
         let radius = Interval::from(radius);
-        let heights =
-            [self.tree.pose(self.children[last])?, self.tree.pose(next)?].map(|p| p.at[self.plane.normal].clone());
+        let heights = [self.tree.pose(self.children[last])?, self.tree.pose(next)?].map(|p| self.plane.height(&p.at));
         let [a, b] = heights;
         let least = Interval { lower: (&a.lower).min(&b.lower).clone(), upper: (&a.upper).min(&b.upper).clone() };
         let most = Interval { lower: a.lower.max(b.lower), upper: a.upper.max(b.upper) };

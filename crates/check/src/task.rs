@@ -11,7 +11,6 @@ use crate::overlap::Shape;
 use crate::polygon::Corner;
 use crate::robot::{Arm, Covered};
 use crate::scene::{Part, Present, stay_off};
-use crate::sweep;
 use crate::world::task::{Action, Carrying, Group, Node, Passing, Step, Stroke, Task};
 use crate::world::{Obstacle, World};
 use num_bigint::BigInt;
@@ -182,7 +181,6 @@ struct Replay<'a> {
     arm: &'a Arm<'a>,
     task: &'a Task,
     motion: &'a Motion,
-    limits: [Option<sweep::Range>; 2],
     chain: Chain,
     tip: Point,
     /// Shapes of the arm, and whether the stroke lowers them.
@@ -235,7 +233,6 @@ impl<'a> Replay<'a> {
             arm,
             task,
             motion,
-            limits: arm.limits(world)?,
             tip: arm.tip()?.1.shape.points.swap_remove(0),
             keeps: format!("farther than {clearance} from"),
             pressed: Interval::exactly(pressed.lower),
@@ -268,7 +265,7 @@ impl<'a> Replay<'a> {
         let (motion, released) = (self.motion, self.released);
         let pieces_of = |knots: Range<usize>| {
             let until = &motion.knots[..=knots.end];
-            let piece = |knot: usize| piece(self.arm, &motion.interpolation, until, knot, &self.limits);
+            let piece = |knot: usize| piece(self.arm, &motion.interpolation, until, knot);
             (knots.start..knots.end.max(knots.start + 1)).map(piece).collect::<Result<Vec<Piece>, _>>()
         };
         let (pieces, still) = (pieces_of(first..last)?, pieces_of(last..last)?);

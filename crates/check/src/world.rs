@@ -6,6 +6,7 @@ use crate::files::Files;
 use crate::interval::{Interval, Point};
 use crate::polygon::Corner;
 use crate::sweep::Range;
+use num_bigint::BigInt;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::rc::Rc;
@@ -18,6 +19,7 @@ mod course;
 mod hung;
 mod map;
 mod obstacle;
+mod picture;
 pub mod task;
 
 pub use course::Course;
@@ -94,6 +96,11 @@ impl Reader<'_> {
     fn number(&self, value: &Value) -> Read<Decimal> {
         let text = match value.get_ref() {
             DeValue::Integer(number) if number.radix() == 10 => number.as_str(),
+            DeValue::Integer(number) => {
+                let digits = number.as_str().replace('_', "");
+                let whole = BigInt::parse_bytes(digits.as_bytes(), number.radix());
+                return whole.map_or_else(|| self.error(value, "expected a number"), |n| Ok(Decimal::dyadic(&n, 0)));
+            }
             DeValue::Float(number) => number.as_str(),
             _ => return self.error(value, "expected a decimal number"),
         };

@@ -73,7 +73,7 @@ impl Plan {
             }
             (None, None) => return Err(NoCertificate::Answer(self.status())),
         };
-        let said = [about(files), said(problem, asked)].concat();
+        let said = [about(files, problem.scene().arm()), said(problem, asked)].concat();
         Ok(written(answer, said, contacts.named().into_iter().chain(evidence)))
     }
 
@@ -86,7 +86,7 @@ impl Plan {
     ) -> Result<String, NoCertificate> {
         let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
         let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
-        let said = about(files).into_iter().chain(start).chain(clearance).collect();
+        let said = about(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
         match (&answer.verdict, self.trajectory(), &self.report().task) {
             (TaskVerdict::Infeasible(_), ..) if task.moving_at_first().next().is_some() => Err(NoCertificate::Task),
             (TaskVerdict::Infeasible(impossible), ..) => {
@@ -231,11 +231,12 @@ fn lines(entries: &[impl Serialize]) -> String {
     format!("[\n{}\n  ]", entries.join(",\n"))
 }
 
-/// The files that it is about.
-fn about(files: Option<&Digests>) -> Said {
-    let Some(Digests { urdf, world, others }) = files else { return Said::new() };
+/// The files and the joints that it is about.
+fn about(files: Option<&Digests>, arm: &Arm) -> Said {
+    let joints = ("joints", json!(arm.joints.each_ref().map(|joint| &joint.name)));
+    let Some(Digests { urdf, world, others }) = files else { return vec![joints] };
     let others = (!others.is_empty()).then(|| ("others", json!(others)));
-    [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).collect()
+    [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain([joints]).collect()
 }
 
 /// What was said in place of the world file.

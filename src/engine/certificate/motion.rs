@@ -40,7 +40,7 @@ pub fn recorded(
     let topology = &scene.arm().topology();
     let q = recording.positions();
     let own = [q[0], q[q.len() - 1]];
-    let mut said = about(Some(files));
+    let mut said = about(Some(files), scene.arm());
     for (k, (end, is_asked)) in ends.iter().zip([asked.start.is_some(), asked.goal.is_some()]).enumerate() {
         let name = ["start", "goal"][k];
         match end {

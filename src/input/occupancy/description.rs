@@ -1,6 +1,7 @@
 //! The YAML beside a picture.
 
 use super::Occupancy;
+use super::picture::Shade;
 use crate::input::error::{Diagnostic, without_place};
 use crate::input::source::Source;
 use crate::input::world::LARGEST;
@@ -100,9 +101,11 @@ impl Description {
         Ok(Self { image: file.image, resolution, origin, negate, occupied, free })
     }
 
-    /// What a shade, from 0 for black to 1 for white, says of its cell; none is of a pixel that one can see through.
-    pub fn judge(&self, shade: Option<f64>) -> Occupancy {
-        match shade.map(|shade| if self.negate { shade } else { 1.0 - shade }) {
+    /// What a shade, from 0 for black to that of white, says of its cell; none is of a pixel that one can see through. Of whole numbers the
+    /// quotient that is held against the thresholds is rounded as they are, so that it is no less than one that it equals.
+    pub fn judge(&self, shade: Option<Shade>) -> Occupancy {
+        let dark = |Shade { value, white }| if self.negate { value } else { white - value } / white;
+        match shade.map(dark) {
             Some(p) if p > self.occupied => Occupancy::Occupied,
             Some(p) if p < self.free => Occupancy::Free,
             _ => Occupancy::Unknown,

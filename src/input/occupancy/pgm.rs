@@ -2,7 +2,7 @@
 //!
 //! Format: <https://netpbm.sourceforge.net/doc/pgm.html>. A `#` in the header begins a comment up to the end of the line.
 
-use super::picture::{Broken, Judge, Picture, checked_size};
+use super::picture::{Broken, Judge, Picture, Shade, checked_size};
 
 /// What to do about most diagnostics.
 const HELP: &str = "save the picture anew";
@@ -18,7 +18,8 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
         return Err(Broken::new(format!("maxval is {most}, it must be from 1 to 65535"), HELP));
     }
     // Once for every shade, not for every pixel.
-    let said: Vec<_> = (0..=most).map(|value| judge(Some(value as f64 / most as f64))).collect();
+    let shade = |value: usize| Shade { value: value as f64, white: most as f64 };
+    let said: Vec<_> = (0..=most).map(|value| judge(Some(shade(value)))).collect();
     let checked = |value: usize, index: usize| {
         said.get(value).copied().ok_or_else(|| {
             let place = format!("row {}, column {}", index / width + 1, index % width + 1);

@@ -23,8 +23,15 @@ impl Broken {
     }
 }
 
-/// What a shade says: from 0 for black to 1 for white, none for a pixel that is not opaque.
-pub(super) type Judge<'a> = &'a dyn Fn(Option<f64>) -> Occupancy;
+/// How light a pixel is, from 0 for black on: whole numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Shade {
+    pub value: f64,
+    pub white: f64,
+}
+
+/// What a shade says; none is of a pixel that is not opaque.
+pub(super) type Judge<'a> = &'a dyn Fn(Option<Shade>) -> Occupancy;
 
 /// Reads a picture, whose format its first bytes tell.
 pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {

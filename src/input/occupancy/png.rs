@@ -1,6 +1,6 @@
 //! PNG pictures of any kind: grey, colour, palette; 1 to 16 bits; with or without opacity.
 
-use super::picture::{Broken, Judge, Picture, checked_size};
+use super::picture::{Broken, Judge, Picture, Shade, checked_size};
 use ::png::{BitDepth, Decoder, DecodingError, Transformations};
 use std::io::Cursor;
 
@@ -26,7 +26,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
         let (colors, opacity) = pixel.split_at(shades * bytes_each);
         let opaque = !has_opacity || value(opacity) == most;
         let sum: f64 = colors.chunks_exact(bytes_each).map(value).sum();
-        judge(opaque.then(|| sum / (shades as f64 * most)))
+        judge(opaque.then_some(Shade { value: sum, white: shades as f64 * most }))
     };
     let cells: Vec<_> = samples.chunks_exact(channels * bytes_each).take(count).map(cell).collect();
     if cells.len() < count {

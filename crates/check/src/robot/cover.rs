@@ -1,12 +1,15 @@
 //! All that of an arm can collide, by outlines that cover at least its projection.
 
 use super::solid::Outline;
-use super::tree::{Read, child};
+use super::tree::Read;
 use super::{Arm, Body};
+use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::interval::{Interval, length};
-use crate::sweep::{Axis, Range};
 use crate::world::World;
+
+/// The cosine of the angle between the normal and what counts as along it is no smaller than 1 by more than `10^-9`.
+const UPRIGHT: u32 = 9;
 
 /// A shape of the arm, and what it is called.
 pub struct Covered {
@@ -61,15 +64,16 @@ impl Arm<'_> {
     /// Whether a joint that lowers the tool carries a link.
     ///
     /// # Errors
-    /// A joint that is not there, or does not slide along the plane's normal, exactly.
+    /// A joint that is not there, or does not slide along the plane's normal.
     pub fn lowers(&self, joint: &str, link: &str) -> Read<bool> {
         let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the stroke's joint \"{joint}\" {why}")));
         let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(joint));
         let Some((&carried, &node)) = found else { return wrong("is none of the robot's") };
         let axis = self.tree.pose(carried)?.direction(&self.tree.axis(node)?);
-        let is_along = self.plane.across.iter().all(|k| axis[*k].is_whole(0));
-        if node.attribute("type") != Some("prismatic") || !is_along {
-            return wrong("does not slide, exactly, along the normal of the plane");
+        let along = self.plane.height(&axis).abs();
+        let least = &Decimal::whole(1) - &Decimal::power_of_ten(UPRIGHT);
+        if node.attribute("type") != Some("prismatic") || along.lower < Interval::from(&least).lower {
+            return wrong("does not slide along the normal of the plane");
         }
         let link = self.tree.order.iter().find(|name| **name == link);
         Ok(link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?.contains(&node))
@@ -90,23 +94,5 @@ impl Arm<'_> {
         let (_, tip) = self.tip()?;
         let out = &length(&self.offset) + &farthest(1, length(&tip.shape.points[0]));
         Ok([farthest(0, zero), out].into_iter().max_by(|a, b| a.lower.cmp(&b.lower)).expect("two"))
-    }
-
-    /// Least and greatest value of each joint; none of one that turns without end.
-    ///
-    /// # Errors
-    /// Soft limits, which the checker does not know.
-    pub fn limits(&self, world: &World) -> Read<[Option<Range>; 2]> {
-        for node in self.tree.joints.values().filter(|node| child(**node, "safety_controller").is_some()) {
-            if !world.limits.contains_key(self.tree.text(*node, "name")?) {
-                return self.tree.error(*node, "the checker does not know soft limits: give the joint [robot] limits");
-            }
-        }
-        Ok(self.joints.each_ref().map(|joint| match (world.limits.get(&joint.name), &joint.axis) {
-            (_, Axis::Circle) => None,
-            // Of what is in degrees no more than is known.
-            (Some([[_, low], [high, _]]), _) => Some([low.clone(), high.clone()]),
-            (None, Axis::Line(range)) => Some(range.clone()),
-        }))
     }
 }

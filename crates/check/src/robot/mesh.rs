@@ -1,8 +1,11 @@
 //! Meshes: the corners of their triangles, whose convex hull stands for them.
 
+use super::collada;
+use super::pose::Vector;
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::files::Files;
+use crate::interval::Interval;
 use num_bigint::BigInt;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -15,26 +18,68 @@ const NORMAL: usize = 12;
 /// A corner, as STL has it: in single precision.
 type Single = [u32; 3];
 
-/// The corners of an STL, as text or in bytes, each once.
+/// The corners of a mesh.
 ///
 /// # Errors
-/// A file that is not found or not read, or another format.
-pub fn vertices(files: &Files, name: &str) -> Result<Vec<[Decimal; 3]>, CheckError> {
+/// A file that is not found or not read, or of another format.
+pub fn vertices(files: &Files, name: &str) -> Result<Vec<Vector>, CheckError> {
     let wrong = |why: &str| CheckError::in_file(Input::Urdf, format!("mesh \"{name}\": {why}"));
-    if !name.to_lowercase().ends_with(".stl") {
-        return Err(wrong("the checker knows meshes as STL: convert it"));
-    }
-    let urdf = files.path(Input::Urdf)?;
-    let path = candidates(name, urdf).into_iter().find(|path| path.is_file());
+    let read: fn(&[u8]) -> Result<Vec<Vector>, String> = match name.to_lowercase().rsplit_once('.') {
+        Some((_, "stl")) => stl,
+        Some((_, "obj")) => obj,
+        Some((_, "dae")) => collada::vertices,
+        _ => return Err(wrong("the checker knows meshes as STL, OBJ and Collada (.dae)")),
+    };
+    let path = candidates(name, files.path(Input::Urdf)?).into_iter().find(|path| path.is_file());
     let bytes = files.bytes(Input::Urdf, &path.ok_or_else(|| wrong("it is not there"))?)?;
+    match read(&bytes) {
+        Ok(points) if points.is_empty() => Err(wrong("it has no corners")),
+        read => read.map_err(|why| wrong(&why)),
+    }
+}
+
+/// Those of the triangles of an STL, as text or in bytes, each once.
+fn stl(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     let count =
         bytes.get(HEADER - 4..HEADER).map(|count| count.iter().rev().fold(0, |sum, b| sum << 8 | usize::from(*b)));
     let corners = match count {
         Some(count) if bytes.len() == HEADER + TRIANGLE * count => in_bytes(&bytes[HEADER..]),
-        _ => std::str::from_utf8(&bytes).ok().and_then(as_text).ok_or_else(|| wrong("it is no STL"))?,
+        _ => std::str::from_utf8(bytes).ok().and_then(as_text).ok_or("it is no STL")?,
     };
-    let points: Option<Vec<[Decimal; 3]>> = corners.into_iter().map(exactly).collect();
-    points.filter(|points| !points.is_empty()).ok_or_else(|| wrong("it has no corners, or some that are not finite"))
+    let points: Option<Vec<Vector>> = corners.into_iter().map(exactly).collect();
+    points.ok_or_else(|| "a corner is not finite".into())
+}
+
+/// Those of the faces of an OBJ. A line that ends in a backslash goes on in the next, if it is no comment.
+fn obj(bytes: &[u8]) -> Result<Vec<Vector>, String> {
+    let text = String::from_utf8_lossy(bytes);
+    let (mut vertices, mut shown, mut lines) = (Vec::new(), Vec::new(), text.lines());
+    while let Some(first) = lines.next() {
+        let mut line = first.trim_end().to_owned();
+        while !line.trim_start().starts_with('#') && line.ends_with('\\') {
+            line.pop();
+            line = line + " " + lines.next().unwrap_or_default().trim_end();
+        }
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let numbers: Vec<Decimal> = words.take(3).map(str::parse).collect::<Result<_, _>>()?;
+                let point = <[Decimal; 3]>::try_from(numbers).map_err(|_| "a vertex needs three numbers")?;
+                vertices.push(point.each_ref().map(Interval::from));
+            }
+            // Numbers of textures and normals follow after slashes; negative numbers count from the end.
+            Some("f") => {
+                for word in words {
+                    let number = word.split('/').next().and_then(|number| number.parse::<i64>().ok());
+                    let at = number.map(|n| if n < 0 { n + vertices.len() as i64 } else { n - 1 });
+                    let point = at.and_then(|at| vertices.get(usize::try_from(at).ok()?));
+                    shown.push(point.ok_or("a face has a vertex that is not there before it")?.clone());
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(shown)
 }
 
 fn in_bytes(triangles: &[u8]) -> BTreeSet<Single> {
@@ -54,7 +99,7 @@ fn as_text(text: &str) -> Option<BTreeSet<Single>> {
 }
 
 /// The numbers that these bits stand for, which are dyadic.
-fn exactly(corner: Single) -> Option<[Decimal; 3]> {
+fn exactly(corner: Single) -> Option<Vector> {
     let number = |bits: u32| {
         let (exponent, fraction) = (bits >> 23 & 0xff, bits & 0x7f_ffff);
         let digits = BigInt::from(if exponent == 0 { fraction } else { fraction | 1 << 23 });
@@ -64,7 +109,7 @@ fn exactly(corner: Single) -> Option<[Decimal; 3]> {
         (exponent < 0xff)
             .then(|| Decimal::dyadic(&(signed << exponent.saturating_sub(150)), 150_u32.saturating_sub(exponent)))
     };
-    let [x, y, z] = corner.map(number);
+    let [x, y, z] = corner.map(|bits| number(bits).as_ref().map(Interval::from));
     Some([x?, y?, z?])
 }
 

@@ -3,7 +3,7 @@
 use super::mesh;
 use super::pose::{Pose, Vector};
 use super::tree::{Read, Tree};
-use super::{Arm, Body, Plane};
+use super::{Arm, Body};
 use crate::decimal::Decimal;
 use crate::error::CheckError;
 use crate::interval::{BITS, Interval, Point, length};
@@ -79,7 +79,8 @@ impl<'a> Tree<'a> {
                     Err(CheckError::Input { message, .. }) => return self.error(node, message),
                     points => points?,
                 };
-                let scaled = |p: [Decimal; 3]| [0, 1, 2].map(|k| Interval::from(&(&p[k] * &scale[k])));
+                let scale = scale.each_ref().map(Interval::from);
+                let scaled = |p: Vector| [0, 1, 2].map(|k| &p[k] * &scale[k]);
                 return Ok(Some(Solid::Hull(points.into_iter().map(scaled).collect())));
             }
             other => return self.error(node, format!("the checker does not know the shape {other} yet")),
@@ -94,25 +95,26 @@ impl<'a> Tree<'a> {
 impl Arm<'_> {
     /// What a solid covers in the plane.
     pub fn project(&self, link: usize, pose: &Pose, solid: &Solid, outline: Outline) -> Body {
-        let Plane { across, normal } = self.plane;
+        let plane = &self.plane;
         let joint = if link == 0 { self.base.clone() } else { [0, 1].map(|k| &self.base[k] + &self.offset[k]) };
-        let center = [0, 1].map(|k| &pose.at[across[k]] - &joint[k]);
+        let origin = plane.flat(&pose.at);
+        let center = [0, 1].map(|k| &origin[k] - &joint[k]);
         let unit = pose.direction(&[0, 0, 1].map(Interval::whole));
-        let (along, tilt) = (across.map(|k| unit[k].clone()), unit[normal].abs());
+        let (along, tilt) = (plane.flat(&unit), plane.height(&unit).abs());
         let beside = |by: &Point| [[0, 1].map(|k| &center[k] + &by[k]), [0, 1].map(|k| &center[k] - &by[k])];
-        let height = &pose.at[normal];
+        let height = &plane.height(&pose.at);
         let about = |reach: &Interval| [height - reach, height + reach];
         let (shape, heights) = match solid {
             Solid::Hull(points) => {
                 let placed: Vec<Vector> = points.iter().map(|p| pose.direction(p)).collect();
-                let flat = placed.iter().map(|p| [0, 1].map(|k| &center[k] + &p[across[k]]));
-                let ends = |p: &Vector| [p[normal].lower.clone(), p[normal].upper.clone()];
-                let [least, most] = [true, false].map(|least| {
-                    let [lower, upper] = [0, 1].map(|k| {
-                        let all = placed.iter().map(|p| ends(p)[k].clone());
-                        if least { all.min() } else { all.max() }.expect("a hull has points")
-                    });
-                    height + &Interval { lower, upper }
+                let offsets = placed.iter().map(|p| plane.flat(p));
+                let flat = offsets.map(|p| [0, 1].map(|k| &center[k] + &p[k]));
+                let heights: Vec<Interval> = placed.iter().map(|p| plane.height(p)).collect();
+                let [least, most] = [Ord::min, Ord::max].map(|outer: fn(BigInt, BigInt) -> BigInt| {
+                    let of = |end: fn(&Interval) -> &BigInt| {
+                        heights.iter().map(end).cloned().reduce(outer).expect("a hull has points")
+                    };
+                    height + &Interval { lower: of(|h| &h.lower), upper: of(|h| &h.upper) }
                 });
                 (hull_of(flat, outline), [least, most])
             }

@@ -5,14 +5,17 @@ use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::files::Files;
 use crate::interval::Interval;
-use crate::sweep::Axis;
+use crate::sweep::Range;
 use crate::world::World;
-use num_bigint::Sign;
+use num_bigint::{BigInt, Sign};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
 
 /// Ranges of a joint that turns longer than this mean that it has none.
 const LONGEST_TURN: i32 = 1000;
+
+/// Limits of a joint that are as far are none, radians or metres.
+const FARTHEST: i32 = 1_000_000;
 
 /// Joints of the longest chain.
 const MOST_JOINTS: usize = 1000;
@@ -30,7 +33,19 @@ pub struct Tree<'a> {
     pub order: Vec<&'a str>,
     /// By the link that it carries.
     pub joints: BTreeMap<&'a str, Node<'a, 'a>>,
+    /// By name.
+    pub named: BTreeMap<&'a str, Node<'a, 'a>>,
     pub values: BTreeMap<&'a str, Interval>,
+}
+
+/// What the value of a joint may be.
+pub enum Limits {
+    /// Nobody says.
+    Unset,
+    /// Anything: it turns without end.
+    Endless,
+    /// From one to another, each of which is known to lie in a range.
+    Ends([Range; 2]),
 }
 
 pub fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
@@ -68,9 +83,12 @@ impl<'a> Tree<'a> {
         let mut pose = Pose::identity();
         let Some(origin) = child(node, "origin") else { return Ok(pose) };
         if origin.has_attribute("quat_xyzw") {
-            return self.error(origin, "the checker does not know quat_xyzw: write rpy");
-        }
-        if origin.has_attribute("rpy") {
+            let quaternion = self.numbers::<4>(origin, "quat_xyzw")?.each_ref().map(Interval::from);
+            let Some(turn) = Pose::of_quaternion(&quaternion) else {
+                return self.error(origin, "the quaternion is too short");
+            };
+            pose = turn;
+        } else if origin.has_attribute("rpy") {
             let angles = self.vector(origin, "rpy")?;
             let axes = Pose::identity().rows;
             let [roll, pitch, yaw] = [0, 1, 2].map(|k| Pose::turn(&axes[k], &angles[k]));
@@ -116,14 +134,7 @@ impl<'a> Tree<'a> {
     /// The pose of a joint's child in the frame of its parent.
     pub fn step(&self, joint: Node<'a, 'a>) -> Read<Pose> {
         let origin = self.origin(joint)?;
-        let value = || {
-            let zero = Interval::whole(0);
-            let value = joint.attribute("name").and_then(|name| self.values.get(name));
-            match child(joint, "mimic") {
-                Some(mimic) => self.error(mimic, "the checker does not know joints that mimic others"),
-                None => Ok(value.cloned().unwrap_or(zero)),
-            }
-        };
+        let value = || self.value(joint, 0);
         match self.text(joint, "type")? {
             "fixed" => Ok(origin),
             "revolute" | "continuous" => Ok(origin.after(&Pose::turn(&self.axis(joint)?, &value()?))),
@@ -132,6 +143,28 @@ impl<'a> Tree<'a> {
                 Ok(origin.after(&Pose { at: axis.map(|c| &c * &value), ..Pose::identity() }))
             }
             other => self.error(joint, format!("the checker does not know joints of type {other}")),
+        }
+    }
+
+    /// Where a joint stands: one of the two that move at 0, one that mimics another where that takes it.
+    fn value(&self, joint: Node<'a, 'a>, followed: usize) -> Read<Interval> {
+        let Some(mimic) = child(joint, "mimic") else {
+            return match self.values.get(self.text(joint, "name")?) {
+                Some(value) => Ok(value.clone()),
+                None if followed == 0 => Ok(Interval::whole(0)),
+                None => self.error(joint, "another joint mimics this one, which moves"),
+            };
+        };
+        let number = |name: &str, else_: i32| match mimic.has_attribute(name) {
+            true => Ok(Interval::from(&self.number(mimic, name)?)),
+            false => Ok(Interval::whole(else_)),
+        };
+        match self.named.get(self.text(mimic, "joint")?) {
+            Some(leader) if followed < MOST_JOINTS => {
+                let by = &number("multiplier", 1)? * &self.value(*leader, followed + 1)?;
+                Ok(&by + &number("offset", 0)?)
+            }
+            _ => self.error(mimic, "the joint that it mimics is not there, or mimics this one"),
         }
     }
 
@@ -152,32 +185,79 @@ impl<'a> Tree<'a> {
         Ok(above)
     }
 
-    /// The range of a joint: the world's, else the URDF's. Soft limits are not looked at: they leave less.
-    pub fn range(&self, joint: Node<'a, 'a>, world: &World) -> Read<Axis> {
-        let turns = joint.attribute("type") != Some("prismatic");
-        let range = match (world.limits.get(self.text(joint, "name")?), child(joint, "limit")) {
-            (Some([[low, _], [_, high]]), _) => [low.clone(), high.clone()],
-            (None, _) if joint.attribute("type") == Some("continuous") => return Ok(Axis::Circle),
-            (None, None) => return self.error(joint, "the joint has no <limit>"),
-            (None, Some(limit)) => [self.number(limit, "lower")?, self.number(limit, "upper")?],
+    /// A limit of a joint; infinity is beyond all that is far.
+    fn limit(&self, limit: Node<'a, 'a>, name: &str) -> Read<Decimal> {
+        let sign = if name == "lower" { -1 } else { 1 };
+        let endless = |sign: i32| Decimal::whole(2 * FARTHEST * sign);
+        let Some(text) = limit.attribute(name) else {
+            // From version 1.2 on there is none then, before that it is 0.
+            let version = self.document.root_element().attribute("version").unwrap_or("1.0");
+            let is_new = version
+                .parse::<Decimal>()
+                .is_ok_and(|version| version >= (&Decimal::whole(12) * &Decimal::power_of_ten(1)));
+            return Ok(if is_new { endless(sign) } else { Decimal::whole(0) });
         };
-        if range[0] >= range[1] || (turns && &range[1] - &range[0] > Decimal::whole(LONGEST_TURN)) {
-            return self.error(joint, "the joint's limits are none");
+        match text.trim().to_ascii_lowercase().as_str() {
+            "inf" | "+inf" | "infinity" | "+infinity" => Ok(endless(1)),
+            "-inf" | "-infinity" => Ok(endless(-1)),
+            _ => self.number(limit, name),
         }
-        Ok(Axis::Line(range))
+    }
+
+    /// What a joint's value may be: as the world says, else the URDF, less what its soft limits take.
+    pub fn limits(&self, joint: Node<'a, 'a>, world: &World) -> Read<Limits> {
+        let turns = joint.attribute("type") != Some("prismatic");
+        if let Some(ends) = world.limits.get(self.text(joint, "name")?) {
+            return Ok(Limits::Ends(ends.clone()));
+        }
+        if joint.attribute("type") == Some("continuous") {
+            return Ok(Limits::Endless);
+        }
+        let Some(limit) = child(joint, "limit") else { return Ok(Limits::Unset) };
+        let [mut low, mut high] = [self.limit(limit, "lower")?, self.limit(limit, "upper")?];
+        if low == high {
+            return Ok(Limits::Unset);
+        }
+        let soft = child(joint, "safety_controller")
+            .filter(|soft| soft.has_attribute("soft_lower_limit") && soft.has_attribute("soft_upper_limit"));
+        if let Some(soft) = soft {
+            let ends = [self.number(soft, "soft_lower_limit")?, self.number(soft, "soft_upper_limit")?];
+            // Both 0 is what exporters write where there are none.
+            if ends.iter().any(|end| end.sign() != Sign::NoSign) {
+                [low, high] = [low.max(ends[0].clone()), high.min(ends[1].clone())];
+            }
+        }
+        let [least, most] = [-FARTHEST, FARTHEST].map(Decimal::whole);
+        if turns && low <= least && high >= most {
+            return Ok(Limits::Endless);
+        }
+        if !turns && &high - &low > Decimal::whole(2 * FARTHEST) {
+            [low, high] = [low.max(least), high.min(most)];
+        }
+        Ok(Limits::Ends([[low.clone(), low], [high.clone(), high]]))
+    }
+
+    /// The ends of what a joint's value may be, at the most and at the least; none of one that turns without end.
+    pub fn ends(&self, joint: Node<'a, 'a>, world: &World) -> Read<Option<[Range; 2]>> {
+        let turns = joint.attribute("type") != Some("prismatic");
+        match self.limits(joint, world)? {
+            Limits::Endless => Ok(None),
+            Limits::Ends([[least, low], [high, most]])
+                if low < high && !(turns && &most - &least > Decimal::whole(LONGEST_TURN)) =>
+            {
+                Ok(Some([[least, most], [low, high]]))
+            }
+            _ => self.error(joint, "the joint has no limits"),
+        }
     }
 
     /// Where a joint is held of which nothing is said: at 0, or the limit next to it.
     pub fn rest(&self, joint: Node<'a, 'a>, world: &World) -> Read<Interval> {
-        let has_limits = joint.attribute("type") != Some("continuous") && child(joint, "limit").is_some();
-        if child(joint, "safety_controller").is_some() {
-            return self
-                .error(joint, "the checker does not know where soft limits hold a joint: [robot] fixed says it");
-        }
-        if !has_limits && !world.limits.contains_key(self.text(joint, "name")?) {
-            return Ok(Interval::whole(0));
-        }
-        let Axis::Line([low, high]) = self.range(joint, world)? else { return Ok(Interval::whole(0)) };
-        Ok(Interval::from(&Decimal::whole(0).max(low).min(high)))
+        let zero = Interval::whole(0);
+        let Limits::Ends(ends) = self.limits(joint, world)? else { return Ok(zero) };
+        let [low, high] = ends.each_ref().map(Interval::around);
+        let [lower, upper] =
+            [(low.lower, high.lower), (low.upper, high.upper)].map(|(low, high)| BigInt::ZERO.max(low).min(high));
+        Ok(Interval { lower, upper })
     }
 }

@@ -190,7 +190,7 @@ impl Reader<'_> {
     /// A whole number from 1 on.
     fn count(&self, value: &Value) -> Read<usize> {
         let count = match value.get_ref() {
-            DeValue::Integer(number) if number.radix() == 10 => number.as_str().replace('_', "").parse().ok(),
+            DeValue::Integer(_) => self.number(value)?.to_string().parse().ok(),
             _ => None,
         };
         count.filter(|count| *count > 0).map_or_else(|| self.error(value, "expected a whole number from 1 on"), Ok)

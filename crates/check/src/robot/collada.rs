@@ -1,0 +1,146 @@
+//! Meshes in Collada: geometries, and the scene of nodes in which they lie, in the unit of the file. Coordinates are the file's own, whichever
+//! axis it calls up.
+
+use super::pose::{Pose, Vector, size};
+use crate::decimal::Decimal;
+use crate::interval::Interval;
+use num_bigint::Sign;
+use roxmltree::{Document, Node, ParsingOptions};
+use std::collections::BTreeMap;
+
+/// Nodes within each other, nodes of the scene, and vertices of all that it shows, at most.
+const DEEPEST: usize = 64;
+const MOST_NODES: usize = 1 << 16;
+const MOST_POINTS: usize = 1 << 22;
+
+/// A linear map and a translation after it: as a pose, though no rotation as a rule.
+type Affine = Pose;
+
+struct Scene<'a> {
+    ids: BTreeMap<&'a str, Node<'a, 'a>>,
+    nodes: usize,
+    points: Vec<Vector>,
+}
+
+/// The vertices of all geometries that the scene shows, metres.
+pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "it is no text")?;
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    let text = text.trim_start_matches('\u{feff}');
+    let document = Document::parse_with_options(text, options).map_err(|error| error.to_string())?;
+    let root = document.root_element();
+    if root.tag_name().name() != "COLLADA" {
+        return Err("it is no Collada".into());
+    }
+    let metres = child(root, "asset").and_then(|a| child(a, "unit")).and_then(|unit| unit.attribute("meter"));
+    let metres: Decimal = metres.unwrap_or("1").trim().parse()?;
+    if metres.sign() != Sign::Plus {
+        return Err("its unit is no length".into());
+    }
+    let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
+    let mut scene = Scene { ids, nodes: 0, points: Vec::new() };
+    let shown = child(root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
+    let shown = shown.and_then(|instance| scene.target(instance)).or_else(|| named(root, "visual_scene").next());
+    scene.show(shown.ok_or("it has no visual scene")?, &scaled([(); 3].map(|()| Interval::from(&metres))), 0)?;
+    Ok(scene.points)
+}
+
+fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
+    node.children().find(|child| child.tag_name().name() == name)
+}
+
+fn named<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.descendants().filter(move |node| node.tag_name().name() == name)
+}
+
+impl<'a> Scene<'a> {
+    /// What an element refers to.
+    fn target(&self, node: Node<'a, 'a>) -> Option<Node<'a, 'a>> {
+        let id = node.attribute("url").or(node.attribute("source"))?.strip_prefix('#')?;
+        self.ids.get(id).copied()
+    }
+
+    /// Adds what a node shows, whose coordinates a map takes to those of the file.
+    fn show(&mut self, node: Node<'a, 'a>, to_file: &Affine, depth: usize) -> Result<(), String> {
+        self.nodes += 1;
+        if depth > DEEPEST || self.nodes > MOST_NODES {
+            return Err("its nodes hold themselves, or too many others".into());
+        }
+        for child in node.children().filter(Node::is_element) {
+            let target = || self.target(child).ok_or_else(|| "it refers to what it does not have".to_owned());
+            match child.tag_name().name() {
+                "node" => self.show(child, &to_file.after(&placing(child)?), depth + 1)?,
+                "instance_node" => {
+                    let target = target()?;
+                    self.show(target, &to_file.after(&placing(target)?), depth + 1)?;
+                }
+                "instance_geometry" => {
+                    for vertices in named(target()?, "vertices") {
+                        self.positions(vertices, to_file)?;
+                    }
+                }
+                "instance_controller" => return Err("the checker does not know meshes that controllers bend".into()),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn positions(&mut self, vertices: Node<'a, 'a>, to_file: &Affine) -> Result<(), String> {
+        let input = vertices.children().find(|input| input.attribute("semantic") == Some("POSITION"));
+        let source = input.and_then(|input| self.target(input)).ok_or("a mesh has no positions")?;
+        let numbers = numbers(child(source, "float_array").ok_or("a mesh has no positions")?)?;
+        let accessor = named(source, "accessor").next().and_then(|accessor| accessor.attribute("stride"));
+        let stride = accessor.map_or(Ok(3), |stride| stride.trim().parse::<usize>()).unwrap_or(3);
+        if stride < 3 || !numbers.len().is_multiple_of(stride) || self.points.len() + numbers.len() > MOST_POINTS {
+            return Err("numbers of a mesh make no positions, or too many".into());
+        }
+        let point = |p: &[Interval]| to_file.point(&[p[0].clone(), p[1].clone(), p[2].clone()]);
+        self.points.extend(numbers.chunks(stride).map(point));
+        Ok(())
+    }
+}
+
+fn numbers(node: Node) -> Result<Vec<Interval>, String> {
+    let words = node.text().unwrap_or_default().split_whitespace();
+    words.map(|word| word.parse::<Decimal>().map(|number| Interval::from(&number))).collect()
+}
+
+fn scaled(by: Vector) -> Affine {
+    let mut map = Pose::identity();
+    by.into_iter().enumerate().for_each(|(k, by)| map.rows[k][k] = by);
+    map
+}
+
+/// From a node's coordinates to those of the one about it: its transformations, the first of them outermost.
+fn placing(node: Node) -> Result<Affine, String> {
+    let mut all = Pose::identity();
+    for part in node.children() {
+        let kind = part.tag_name().name();
+        if !["matrix", "translate", "rotate", "scale", "lookat", "skew"].contains(&kind) {
+            continue;
+        }
+        let values = numbers(part)?;
+        let vector = || [0, 1, 2].map(|k| values[k].clone());
+        let map = match (kind, values.len()) {
+            ("matrix", 16) if (12..16).all(|k| values[k].is_whole(i32::from(k == 15))) => {
+                let row = |i: usize| [0, 1, 2].map(|j| values[4 * i + j].clone());
+                Pose { rows: [row(0), row(1), row(2)], at: [3, 7, 11].map(|k: usize| values[k].clone()) }
+            }
+            ("translate", 3) => Pose { at: vector(), ..Pose::identity() },
+            ("scale", 3) => scaled(vector()),
+            ("rotate", 4) if vector().iter().all(|c| c.is_whole(0)) => Pose::identity(),
+            ("rotate", 4) => {
+                let length = size(&vector());
+                if length.lower.sign() != Sign::Plus {
+                    return Err("a node turns about no axis".into());
+                }
+                let axis = vector().map(|c| c.divided(&length));
+                Pose::turn(&axis, &(&values[3] * &Interval::pi().over(180)))
+            }
+            _ => return Err(format!("a node has a <{kind}> that the checker does not know")),
+        };
+        all = all.after(&map);
+    }
+    Ok(all)
+}

@@ -1,0 +1,115 @@
+//! Pictures in shades: PGM and PNG.
+
+use png::{BitDepth, Decoder, DecodingError, Transformations};
+use std::io::Cursor;
+
+/// Pixels of the largest picture.
+const MOST_PIXELS: usize = 1 << 26;
+
+/// How light pixels are.
+pub struct Picture {
+    pub size: [usize; 2],
+    /// The shade of white; that of black is 0.
+    pub white: u32,
+    /// Row by row from above; none of a pixel that is not opaque.
+    pub shades: Vec<Option<u32>>,
+}
+
+/// Reads a picture of either format.
+pub fn read(bytes: &[u8]) -> Result<Picture, String> {
+    match bytes {
+        [b'P', kind @ (b'2' | b'5'), rest @ ..] => greymap(rest, *kind == b'2'),
+        [0x89, b'P', b'N', b'G', ..] => in_png(bytes),
+        _ => Err("the checker knows pictures as PGM (P2, P5) and PNG: save it as one".into()),
+    }
+}
+
+fn pixels([width, height]: [usize; 2]) -> Result<usize, String> {
+    let count = width.checked_mul(height).filter(|count| (1..=MOST_PIXELS).contains(count));
+    count.ok_or_else(|| "it has no size, or too large a one".into())
+}
+
+/// A PNG of any kind: colours are averaged.
+fn in_png(bytes: &[u8]) -> Result<Picture, String> {
+    let wrong = |error: DecodingError| error.to_string();
+    let mut decoder = Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(Transformations::EXPAND);
+    let header = decoder.read_header_info().map_err(wrong)?;
+    let size = [header.width as usize, header.height as usize];
+    let count = pixels(size)?;
+    let mut reader = decoder.read_info().map_err(wrong)?;
+    let mut samples = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
+    let frame = reader.next_frame(&mut samples).map_err(wrong)?;
+    let channels = frame.color_type.samples();
+    let (colors, bytes_each) =
+        (if channels < 3 { 1 } else { 3 }, if frame.bit_depth == BitDepth::Sixteen { 2 } else { 1 });
+    let most = if bytes_each == 2 { 65_535 } else { 255 };
+    let shade = |pixel: &[u8]| {
+        let mut values =
+            pixel.chunks(bytes_each).map(|bytes| bytes.iter().fold(0, |sum, byte| 256 * sum + u32::from(*byte)));
+        let sum = values.by_ref().take(colors).sum();
+        values.next().is_none_or(|opacity| opacity == most).then_some(sum)
+    };
+    let shades: Vec<Option<u32>> = samples.chunks_exact(channels * bytes_each).take(count).map(shade).collect();
+    match shades.len() == count {
+        true => Ok(Picture { size, white: colors as u32 * most, shades }),
+        false => Err("pixels are missing".into()),
+    }
+}
+
+/// A PGM, as text or bytes, after its first two bytes.
+fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
+    let [width, height, white] = [number(&mut rest)?, number(&mut rest)?, number(&mut rest)?];
+    let count = pixels([width, height])?;
+    if !(1..=65535).contains(&white) {
+        return Err(format!("its maxval is {white}: it has to be from 1 to 65535"));
+    }
+    let shades: Vec<usize> = if is_text {
+        let shades = (0..count).map(|_| number(&mut rest)).collect::<Result<_, _>>()?;
+        skip(&mut rest);
+        shades
+    } else {
+        // One white space ends the header.
+        comment(&mut rest);
+        let bytes_each = if white > 255 { 2 } else { 1 };
+        let (raster, after) =
+            rest.get(1..).unwrap_or_default().split_at_checked(bytes_each * count).ok_or("it ends early")?;
+        rest = after;
+        let shade = |bytes: &[u8]| bytes.iter().fold(0, |sum, byte| 256 * sum + usize::from(*byte));
+        raster.chunks(bytes_each).map(shade).collect()
+    };
+    match shades.iter().all(|shade| *shade <= white) && rest.is_empty() {
+        true => Ok(Picture {
+            size: [width, height],
+            white: white as u32,
+            shades: shades.into_iter().map(|shade| Some(shade as u32)).collect(),
+        }),
+        false => Err("a value exceeds its maxval, or something follows the picture".into()),
+    }
+}
+
+/// Passes over a comment up to the end of its line.
+fn comment(rest: &mut &[u8]) {
+    if rest.first() == Some(&b'#') {
+        *rest = &rest[rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len())..];
+    }
+}
+
+/// Passes over white space and comments.
+fn skip(rest: &mut &[u8]) {
+    comment(rest);
+    while rest.first().is_some_and(u8::is_ascii_whitespace) {
+        *rest = &rest[1..];
+        comment(rest);
+    }
+}
+
+/// The next number of a greymap.
+fn number(rest: &mut &[u8]) -> Result<usize, String> {
+    skip(rest);
+    let length = rest.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(rest.len());
+    let (digits, after) = rest.split_at(length);
+    *rest = after;
+    let text = std::str::from_utf8(digits).unwrap_or_default();
+    text.parse().map_err(|_| format!("\"{text}\" is no number, or it ends early"))
+}
