@@ -28,10 +28,17 @@ pub struct Part {
     /// A shape within the projection, where `shape` is larger than that: proofs that something is in the way rest on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner: Option<Convex>,
+    /// The number of the shape that it is, or is a part of, among those of the URDF link that have a size.
+    #[serde(default, skip_serializing_if = "is_first")]
+    pub number: usize,
     /// Extent along the plane's normal in the root frame.
     pub heights: Heights,
     /// The URDF link that the geometry belongs to.
     pub body: String,
+}
+
+fn is_first(number: &usize) -> bool {
+    *number == 0
 }
 
 /// Everything that one joint moves and the next does not, fixed children included.
@@ -50,7 +57,7 @@ impl Link {
     /// A link of these shapes, at all heights; no shapes for one that cannot collide.
     #[must_use]
     pub fn of(name: &str, shapes: impl IntoIterator<Item = Convex>) -> Self {
-        let part = |shape| Part { shape, inner: None, heights: Heights::ALL, body: name.into() };
+        let part = |shape| Part { shape, inner: None, number: 0, heights: Heights::ALL, body: name.into() };
         let parts: Vec<Part> = shapes.into_iter().map(part).collect();
         let source = if parts.is_empty() { OutlineSource::None } else { OutlineSource::Collision };
         Self { name: name.into(), parts, source }

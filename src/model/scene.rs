@@ -435,7 +435,7 @@ impl Payload {
                 meetable.push(first..own + made.len());
             }
             let (heights, body) = (self.heights, self.object.clone());
-            parts.push((Part { shape: on_link, inner: None, heights, body }, meetable));
+            parts.push((Part { shape: on_link, inner: None, number: 0, heights, body }, meetable));
         }
         parts
     }

@@ -242,7 +242,7 @@ mod tests {
     fn scene(kinds: (bool, bool), offset: Vector, part: Convex, piece: Convex) -> Scene {
         let long = JointRange::Interval { lower: -4.0, upper: 4.0 };
         let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
-        let part = Part { shape: part, inner: None, heights: Heights::ALL, body: "body".into() };
+        let part = Part { shape: part, inner: None, number: 0, heights: Heights::ALL, body: "body".into() };
         let arm = Arm {
             name: "arm".into(),
             joints: [joint(kinds.0, long), joint(kinds.1, if kinds.1 { JointRange::Circle } else { long })],

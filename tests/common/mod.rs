@@ -61,7 +61,13 @@ pub fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64) -> Convex {
 pub fn link(name: &str, shapes: Vec<Convex>) -> Link {
     let parts = shapes
         .into_iter()
-        .map(|shape| Part { shape, inner: None, heights: Heights { lower: 0.0, upper: 0.1 }, body: name.into() })
+        .map(|shape| Part {
+            shape,
+            inner: None,
+            number: 0,
+            heights: Heights { lower: 0.0, upper: 0.1 },
+            body: name.into(),
+        })
         .collect();
     Link { name: name.into(), parts, source: OutlineSource::Collision }
 }

@@ -24,7 +24,13 @@ fn scene(obstacle: bool) -> Scene {
         acceleration: 4.0,
         jerk: None,
     };
-    let tool = Part { shape: disc(Point::origin(), 0.1), inner: None, heights: Heights::ALL, body: "slider".into() };
+    let tool = Part {
+        shape: disc(Point::origin(), 0.1),
+        inner: None,
+        number: 0,
+        heights: Heights::ALL,
+        body: "slider".into(),
+    };
     let arm = Arm {
         name: "polar".into(),
         joints: [

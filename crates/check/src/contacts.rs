@@ -7,7 +7,7 @@ use crate::error::{CheckError, Input};
 use crate::interval::{Interval, Point};
 use crate::overlap::Shape;
 use crate::polygon::Corner;
-use crate::robot::{Arm, Body};
+use crate::robot::{Arm, Body, Counted};
 use crate::sweep::{Range, Rectangle};
 use crate::world::{Obstacle, World};
 use std::borrow::Cow;
@@ -161,25 +161,25 @@ impl<'a> Contacts<'a> {
 }
 
 fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError> {
-    let own = |body: Result<Body, CheckError>| {
-        let (raised, link) = (body?, name.link.as_deref().unwrap_or_default());
+    let own = |shape: Result<&Counted, CheckError>| {
+        let Counted { link, within, .. } = shape?;
         let body = match &among.lowered {
-            Some((joint, by)) if arm.lowers(joint, link)? => raised.lowered(by),
-            _ => raised,
+            Some((joint, by)) if arm.lowers(joint, link)? => within.lowered(by),
+            _ => within.clone(),
         };
         Ok(Named { body, is_carried: false, about_tip: None })
     };
     match (&name.link, name.collision, name.visual, name.bar, &name.carried) {
-        (Some(link), Some(number), None, None, None) => own(arm.body(link, "collision", number)),
-        (Some(link), None, Some(number), None, None) => own(arm.body(link, "visual", number)),
-        (Some(link), None, None, Some(0), None) => own(arm.bar(link)),
+        (Some(link), Some(number), None, None, None) => own(arm.shape(link, "collision", number)),
+        (Some(link), None, Some(number), None, None) => own(arm.shape(link, "visual", number)),
+        (Some(link), None, None, Some(0), None) => own(arm.shape(link, "bar", 0)),
         (None, None, None, None, Some(corners)) => {
             let Some(carried) = &among.carried else { return CheckError::fails("a shape is carried where nothing is") };
             let (shape, heights) = (carried.part(corners)?, carried.heights.clone());
             Ok(match carried.is_level {
                 false => Named { body: Body { link: 1, shape, heights }, is_carried: true, about_tip: None },
                 true => {
-                    let tip = Body { heights, ..arm.tip()?.1 };
+                    let tip = Body { heights, ..arm.tip.clone() };
                     Named { body: tip, is_carried: true, about_tip: Some(shape) }
                 }
             })

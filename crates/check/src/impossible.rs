@@ -9,7 +9,6 @@ use crate::interval::{Interval, Point, sum, turned};
 use crate::polygon::Corner;
 use crate::robot::{Arm, Joint, Motion};
 use crate::sweep::{Domain, Reached, Rectangle};
-use crate::task::PRESSED;
 use crate::world::task::{Action, Carrying, Group, Node, Step, Stroke, Task};
 use crate::world::{Goal, Obstacle, World};
 use crate::{GoalRegion, MOST_PARTS, place, shown, start, within};
@@ -435,15 +434,13 @@ struct Replay<'a> {
     /// All steps in the order of the file.
     steps: &'a [&'a Step],
     /// No object presses deeper than this into what supports it.
-    pressed: Result<Interval, CheckError>,
+    pressed: Interval,
 }
 
 impl<'a> Replay<'a> {
     fn new(arm: &'a Arm, world: &'a World, task: &'a Task, steps: &'a [&'a Step]) -> Self {
         let Among { standing, .. } = Among::all(world);
-        let pressed = arm.covered(world).and_then(|covered| arm.reach(&covered));
-        let pressed = pressed.map(|reach| &reach * &Interval::from(&Decimal::power_of_ten(PRESSED)));
-        let pressed = pressed.map(|by| Interval::exactly(by.upper + guard()));
+        let pressed = Interval::exactly(arm.pressed().upper + guard());
         Self { arm, world, task, chain: Chain::from(arm), standing, held: None, released: Vec::new(), steps, pressed }
     }
 
@@ -458,8 +455,8 @@ impl<'a> Replay<'a> {
     /// The configurations in which a step may end, after one that ends in a rectangle.
     fn region(&self, domain: &Domain, step: &Step, from: Option<&Rectangle>) -> Result<GoalRegion<'a>, CheckError> {
         let unknown = || CheckError::fails(format!("where step {} ends depends on what is not known", step.number));
-        let (link, tip) = self.arm.tip()?;
-        let tip_at = |place: Point| Ok(GoalRegion::Tip { link, tip: Rc::new(self.arm.tip()?.1), place });
+        let (link, tip) = (self.arm.tip_link, &self.arm.tip);
+        let tip_at = |place: Point| Ok(GoalRegion::Tip { link, tip: Rc::new(tip.clone()), place });
         match &step.action {
             Action::Move(Goal::Tip(at)) => tip_at(at.each_ref().map(Interval::from)),
             Action::Move(goal @ Goal::Joints(_)) => {
@@ -475,7 +472,7 @@ impl<'a> Replay<'a> {
                 match (&held.hanging, angle, from) {
                     (Hanging::Level(hanging), ..) => tip_at(minus(at, &hanging.at)),
                     (Hanging::Taken(lying), _, Some(from)) => {
-                        let mut origin = tip;
+                        let mut origin = tip.clone();
                         origin.shape.points = vec![self.chain.seen_at(&lying.at, &values(from))];
                         Ok(GoalRegion::Tip { link, tip: Rc::new(origin), place: at.clone() })
                     }
@@ -500,8 +497,7 @@ impl<'a> Replay<'a> {
             let lying = self.world.obstacles[self.task.first + held.object].heights.as_ref();
             let heights = lying.map(|range| range.each_ref().map(|height| &Interval::from(height) + &lift));
             let supports = held.supports.clone();
-            let presses = || self.pressed.clone().and_then(|by| hanging.kernel(&by));
-            let kernel = (!supports.is_empty()).then(presses);
+            let kernel = (!supports.is_empty()).then(|| hanging.kernel(&self.pressed));
             Some(Carried { hanging, is_level, heights, supports, kernel })
         });
         let allowed = self.released.iter().copied().chain(picked).collect();

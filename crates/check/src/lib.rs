@@ -110,7 +110,7 @@ fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) ->
         (Answer::Infeasible, ..) => infeasible(&arm, &world, &certificate),
         (Answer::NoShorter, ..) => no_shorter(&arm, &world, &certificate),
     };
-    Ok(proven? + &arm.idealized())
+    Ok(proven? + &arm.notes)
 }
 
 /// That no motion leads from the start to the goal.
@@ -162,8 +162,7 @@ impl<'a> GoalRegion<'a> {
             }
         };
         let place = tip.each_ref().map(Interval::from);
-        let (link, tip) = arm.tip()?;
-        Ok(Self::Tip { link, tip: Rc::new(tip), place })
+        Ok(Self::Tip { link: arm.tip_link, tip: Rc::new(arm.tip.clone()), place })
     }
 
     /// What holds all of it but what is left out.

@@ -6,7 +6,7 @@ use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::free::{Chain, On, Solid, guard};
 use crate::interval::{Interval, length};
-use crate::robot::{Arm, Body, Covered};
+use crate::robot::{Arm, Counted};
 use crate::scene::{Part, Present, stay_off};
 use crate::sweep::{Axis, Range};
 use crate::world::{Goal, Obstacle, World};
@@ -194,7 +194,7 @@ impl Arm<'_> {
                 return Ok(words);
             }
             Goal::Joints(_) => {}
-            Goal::Tip(_) => words += &format!(", a place of the tip \"{}\"", self.tip()?.0),
+            Goal::Tip(_) => words += &format!(", a place of the tip \"{}\"", self.tip_link),
         }
         Ok(words + &missed(what, &self.away(knot, &wanted)?)?)
     }
@@ -205,7 +205,7 @@ impl Arm<'_> {
         Ok(match goal {
             Goal::Joints(ranges) => (0..2).map(|k| self.off(k, at[k], &ranges[k])).max().expect("two joints"),
             Goal::Tip(place) => {
-                let (_, tip) = self.tip()?;
+                let tip = &self.tip;
                 let is = Chain::from(self).point_at(&On::Link(tip.link), &tip.shape.points[0], &at.map(Interval::from));
                 length(&[0, 1].map(|k| &is[k] - &Interval::from(&place[k]))).upper
             }
@@ -296,18 +296,17 @@ fn stays_off(
     start: [&Decimal; 2],
     clearance: &Decimal,
 ) -> Result<(), CheckError> {
-    let (chain, shapes) = (Chain::from(arm), arm.covered(world)?);
+    let chain = Chain::from(arm);
     let present = |obstacle: &Obstacle| Present::new(&chain, obstacle.clone()).map(Some);
     let obstacles = world.all().map(present).collect::<Result<Vec<_>, _>>()?;
     let kept = Interval::from(clearance).upper + guard();
-    let solid = |body: &Body| Solid::new(&chain, On::Link(body.link), &body.shape, &kept);
-    let solids: Vec<Solid> = shapes.iter().map(|shape| solid(&shape.body)).collect();
+    let solid = |Counted { around, .. }: &Counted| Solid::new(&chain, On::Link(around.link), &around.shape, &kept);
+    let solids: Vec<Solid> = arm.shapes.iter().map(solid).collect();
     let keeps = format!("farther than {clearance} from");
-    let part = |(shape, solid)| {
-        let Covered { name, body, .. }: &Covered = shape;
-        let meets = world.all().map(|obstacle| !body.passes(obstacle.heights.as_ref())).collect();
-        Part { name, keeps: &keeps, solid, meets }
+    let part = |(shape, solid): (&Counted, _)| {
+        let meets = world.all().map(|obstacle| !shape.around.passes(obstacle.heights.as_ref())).collect();
+        Part { name: shape.to_string(), keeps: &keeps, solid, meets }
     };
-    let parts: Vec<Part> = shapes.iter().zip(&solids).map(part).collect();
+    let parts: Vec<Part> = arm.shapes.iter().zip(&solids).map(part).collect();
     stay_off(&chain, pieces, &start.map(Interval::from), &parts, &obstacles)
 }

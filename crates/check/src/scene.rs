@@ -11,7 +11,7 @@ use std::rc::Rc;
 /// A shape that is carried.
 pub struct Part<'a> {
     /// What it is called, and how far it has to keep, in words.
-    pub name: &'a str,
+    pub name: String,
     pub keeps: &'a str,
     pub solid: &'a Solid,
     /// Of each obstacle, whether they can meet.
@@ -64,7 +64,7 @@ pub fn stay_off(
     }
     let solids: Vec<&Solid> = parts.iter().map(|part| part.solid).collect();
     keep_off(chain, pieces, (&solids, &edges), pairs).map_err(|Open { knot, solid, edge }| {
-        let Part { name, keeps, .. } = parts[solid];
+        let Part { name, keeps, .. } = &parts[solid];
         CheckError::Fails(format!(
             "from knot {knot} to the next {name} is not shown to stay {keeps} obstacle {}",
             owners[edge]

@@ -9,7 +9,7 @@ use crate::interval::{Interval, Point, both_turns, length, turned};
 use crate::motion::{Motion, Own, SIXTY, fine, missed, piece, well_formed};
 use crate::overlap::Shape;
 use crate::polygon::Corner;
-use crate::robot::{Arm, Covered};
+use crate::robot::{Arm, Counted};
 use crate::scene::{Part, Present, stay_off};
 use crate::world::task::{Action, Carrying, Group, Node, Passing, Step, Stroke, Task};
 use crate::world::{Obstacle, World};
@@ -18,9 +18,6 @@ use serde::Deserialize;
 use std::iter::{Enumerate, Peekable};
 use std::ops::Range;
 use std::slice::Iter;
-
-/// Objects press into what supports them by no more than this share of the arm's reach: `10^-4`.
-pub const PRESSED: u32 = 4;
 
 /// An object that passes is picked no farther than this from where it is to be then, metres: `10^-3`.
 const NEAR: u32 = 3;
@@ -184,7 +181,7 @@ struct Replay<'a> {
     chain: Chain,
     tip: Point,
     /// Shapes of the arm, and whether the stroke lowers them.
-    shapes: Vec<(Covered, Solid, bool)>,
+    shapes: Vec<(&'a Counted, Solid, bool)>,
     /// How far they keep off, and in words.
     kept: BigInt,
     keeps: String,
@@ -218,24 +215,23 @@ impl<'a> Replay<'a> {
         motion: &'a Motion,
         clearance: &Decimal,
     ) -> Result<Self, CheckError> {
-        let (chain, covered) = (Chain::from(arm), arm.covered(world)?);
+        let chain = Chain::from(arm);
         let kept = Interval::from(clearance).upper + guard();
-        let pressed = &arm.reach(&covered)? * &Interval::from(&Decimal::power_of_ten(PRESSED));
-        let shape = |shape: Covered| {
-            let is_lowered = task.stroke.as_ref().map_or(Ok(false), |stroke| arm.lowers(&stroke.joint, &shape.link))?;
-            let solid = Solid::new(&chain, On::Link(shape.body.link), &shape.body.shape, &kept);
-            Ok((shape, solid, is_lowered))
+        let shape = |shape: &'a Counted| {
+            let Counted { link, around, .. } = shape;
+            let is_lowered = task.stroke.as_ref().map_or(Ok(false), |stroke| arm.lowers(&stroke.joint, link))?;
+            Ok((shape, Solid::new(&chain, On::Link(around.link), &around.shape, &kept), is_lowered))
         };
-        let shapes = covered.into_iter().map(shape).collect::<Result<_, CheckError>>()?;
+        let shapes = arm.shapes.iter().map(shape).collect::<Result<_, CheckError>>()?;
         let present = world.all().map(|obstacle| Present::new(&chain, obstacle.clone()).map(Some));
         let present = present.collect::<Result<_, _>>()?;
         Ok(Self {
             arm,
             task,
             motion,
-            tip: arm.tip()?.1.shape.points.swap_remove(0),
+            tip: arm.tip.shape.points[0].clone(),
             keeps: format!("farther than {clearance} from"),
-            pressed: Interval::exactly(pressed.lower),
+            pressed: Interval::exactly(arm.pressed().lower),
             chain,
             shapes,
             kept,
@@ -336,7 +332,7 @@ impl<'a> Replay<'a> {
         let all = 0..self.present.len();
         let part = |solid, keeps, others: bool| {
             let meets = all.clone().map(|obstacle| self.meets(held, obstacle, tool) == Some(others)).collect();
-            Part { name: "what is carried", keeps, solid, meets }
+            Part { name: "what is carried".to_owned(), keeps, solid, meets }
         };
         let supported = kernel.map(|solid| part(solid, "no deeper than it may press into", false));
         solids.iter().map(|solid| part(solid, &*self.keeps, true)).chain(supported).collect()
@@ -371,7 +367,8 @@ impl<'a> Replay<'a> {
             self.nothing_moves("a stroke of the tool")?;
         }
         let own = |shape| {
-            let (Covered { name, body, .. }, solid, is_lowered): &(Covered, Solid, bool) = shape;
+            let (counted, solid, is_lowered): &(&Counted, Solid, bool) = shape;
+            let body = &counted.around;
             let lowered = stroke.filter(|_| *is_lowered).map(|by| body.lowered(by));
             let heights = lowered.as_ref().unwrap_or(body);
             let meets = |(number, obstacle): (usize, &&Obstacle)| {
@@ -379,7 +376,7 @@ impl<'a> Replay<'a> {
                 !is_allowed && !heights.passes(obstacle.heights.as_ref())
             };
             let meets = self.all.iter().enumerate().map(meets).collect();
-            Part { name, keeps: &self.keeps, solid, meets }
+            Part { name: counted.to_string(), keeps: &self.keeps, solid, meets }
         };
         let mut parts: Vec<Part> = self.shapes.iter().map(own).collect();
         if let Some(held) = &self.held {

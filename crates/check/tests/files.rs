@@ -317,12 +317,46 @@ fn a_picture_is_carried_as_its_squares_are() {
     assert!((random::times(3)..random::times(27)).contains(&free), "{free}");
 }
 
-/// A box as triangles, in bytes or as text.
-fn block(size: [f32; 3], in_bytes: bool) -> Vec<u8> {
+/// How a mesh is written.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Format {
+    Bytes,
+    Text,
+    Obj,
+    Collada,
+}
+
+/// A box as triangles.
+fn block(size: [f32; 3], format: Format) -> Vec<u8> {
     let corner = |k: usize| [0, 1, 2].map(|i| if k >> i & 1 == 0 { -size[i] / 2.0 } else { size[i] / 2.0 });
+    let spaced = |k: usize, by: [f32; 3]| {
+        let corner = corner(k);
+        [0, 1, 2].map(|i| format!("{:e}", corner[i] + by[i])).join(" ")
+    };
     let faces = [[0, 1, 3], [0, 3, 2], [4, 5, 7], [4, 7, 6], [0, 2, 4], [1, 3, 5], [2, 6, 4], [3, 7, 5]];
     let triangles = faces.map(|face| face.map(corner));
-    if in_bytes {
+    if format == Format::Obj {
+        // Far away is a vertex of no face.
+        let vertices: String = (0..8).map(|k| format!("v {}\n", spaced(k, [0.0; 3]))).collect();
+        let faces: String = faces.iter().map(|[a, b, c]| format!("f {} -{} {}/7/7\n", a + 1, 9 - b, c + 1)).collect();
+        return format!("# a block\n{vertices}v 99 99 99\n{faces}").into_bytes();
+    }
+    if format == Format::Collada {
+        // Its axes are others in the file, where it lies elsewhere, too.
+        let numbers: Vec<String> = (0..8).map(|k| spaced(k, [0.25, 0.5, -0.5])).collect();
+        return format!(
+            r##"<COLLADA> <asset> <unit meter="0.5"/> </asset>
+            <source id="s"> <float_array>{}</float_array> </source>
+            <geometry id="g"> <vertices> <input semantic="POSITION" source="#s"/> </vertices> </geometry>
+            <node id="n"> <translate>-0.25 -0.5 0.5</translate> <instance_geometry url="#g"/> </node>
+            <visual_scene id="v"> <node> <scale>2 2 2</scale> <rotate>0 0 9 90</rotate>
+              <matrix>0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1</matrix> <instance_node url="#n"/> </node> </visual_scene>
+            <scene> <instance_visual_scene url="#v"/> </scene> </COLLADA>"##,
+            numbers.join(" ")
+        )
+        .into_bytes();
+    }
+    if format == Format::Bytes {
         let mut bytes = b"solid in name only".to_vec();
         bytes.resize(80, 0);
         bytes.extend((triangles.len() as u32).to_le_bytes());
@@ -350,14 +384,17 @@ fn a_mesh_is_its_hull() {
     let world = "[[obstacle]]\npolygon = [[0.7, 0.9], [1.2, 0.8], [1, 1.3]]\nheight = [-0.1, 0.15]\n[[obstacle]]\n\
                  circle = { center = [-0.9, -0.9], radius = 0.2 }\n[[obstacle]]\npolyline = [[0.5, -1.6], [0.3, -1.9]]\nheight = [0.1, 1]\n";
     let mut free = 0;
-    for in_bytes in [true, false] {
-        for (file, size) in [("package/meshes/upper.STL", sizes[0]), ("fore.stl", sizes[1].map(|c| 1000.0 * c))] {
-            place.write(file, block(size, in_bytes));
-        }
+    let ends =
+        [Format::Bytes, Format::Text, Format::Obj, Format::Collada].into_iter().zip(["STL", "stl", "obj", "dae"]);
+    for (format, end) in ends {
+        let [upper, fore] = [format!("package/meshes/upper.{end}"), format!("fore.{end}")];
+        place.write(&upper, block(sizes[0], format));
+        place.write(&fore, block(sizes[1].map(|c| 1000.0 * c), format));
         let meshes = [
-            r#"<mesh filename="package://package/meshes/upper.STL"/>"#,
-            r#"<mesh filename="fore.stl" scale="0.001 -0.001 0.001"/>"#,
+            format!(r#"<mesh filename="package://{upper}"/>"#),
+            format!(r#"<mesh filename="{fore}" scale="0.001 -0.001 0.001"/>"#),
         ];
+        let meshes = meshes.each_ref().map(String::as_str);
         for seed in random::seeds(60) {
             let motion = Random(seed).motion();
             let verdicts = [arm(boxes.each_ref().map(String::as_str)), arm(meshes)].map(|urdf| {
@@ -367,21 +404,41 @@ fn a_mesh_is_its_hull() {
             assert_eq!(verdicts[0], verdicts[1], "seed {seed}: {motion}");
             free += u64::from(verdicts[0]);
         }
-        place.write("arm.urdf", arm(meshes));
     }
-    assert!((random::times(10)..random::times(110)).contains(&free), "{free}");
+    assert!((random::times(20)..random::times(220)).contains(&free), "{free}");
     for (file, content, part) in [
         ("fore.stl", &b"solid x vertex 1 2"[..], "no STL"),
         ("fore.stl", b"solid x", "no corners"),
         ("fore.stl", b"solid vertex 1 2 3e99", "not finite"),
         ("fore.stl", b"PK", "no STL"),
+        ("fore.obj", b"v 1 2\nf 1", "three numbers"),
+        ("fore.obj", b"f 1 2 3\nv 1 2 3", "not there before it"),
+        ("fore.obj", b"v 1 2 3\nf 1 -2", "not there before it"),
+        ("fore.obj", b"v 1 2 3\n", "no corners"),
+        ("fore.dae", b"<html/>", "no Collada"),
+        ("fore.dae", b"<COLLADA/>", "no visual scene"),
+        ("fore.dae", b"<COLLADA><asset><unit meter=\"0\"/></asset></COLLADA>", "no length"),
+        (
+            "fore.dae",
+            b"<COLLADA><visual_scene><node id=\"n\"><instance_node url=\"#n\"/></node></visual_scene></COLLADA>",
+            "hold themselves",
+        ),
+        ("fore.dae", b"<COLLADA><visual_scene><node><lookat>0</lookat></node></visual_scene></COLLADA>", "<lookat>"),
+        (
+            "fore.dae",
+            b"<COLLADA><visual_scene><instance_geometry url=\"#g\"/></visual_scene></COLLADA>",
+            "does not have",
+        ),
     ] {
         place.write(file, content);
+        place.write("arm.urdf", arm([BOXES[0], &format!("<mesh filename=\"{file}\"/>")]));
         assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
     }
-    for (mesh, part) in
-        [("fore.dae", "knows meshes as STL"), ("none.stl", "not there"), ("package://none/a.stl", "not there")]
-    {
+    for (mesh, part) in [
+        ("fore.ply", "knows meshes as STL, OBJ and Collada"),
+        ("none.stl", "not there"),
+        ("package://none/a.stl", "not there"),
+    ] {
         place.write("arm.urdf", arm([BOXES[0], &format!("<mesh filename=\"{mesh}\"/>")]));
         assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
     }
@@ -399,19 +456,20 @@ fn pictures_that_are_none_are_refused() {
         ("0.65", "0.1", "free_thresh is above"),
         ("0.65", "x", "\"x\" is not a decimal number"),
         ("[-1.2, -1, 0.3]", "[-1.2, -1]", "origin is no list"),
-        ("[-1.2, -1, 0.3]", "", "line 4: expected"),
+        ("[-1.2, -1, 0.3]", "", "origin is no list"),
         ("negate: 0", "negate: 2", "negate is neither"),
-        ("negate: 0\n", "", "negate is missing"),
+        ("negate: 0\n", "", "negate"),
         ("negate: 0", "negate: 0\nmode: raw", "trinary and scale"),
-        ("negate: 0", "negate: 0\nnegate: 0", "line 6: negate for the second time"),
-        ("negate: 0", "colour: 0", "line 5: expected"),
+        ("negate: 0", "negate: 0\nnegate: 0", "duplicate mapping key: negate"),
+        ("negate: 0", "colour: 0", "colour"),
     ] {
         place.write("map.yaml", YAML.replace(from, to));
         assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
     }
     place.write("map.yaml", YAML);
     for (picture, part) in [
-        (&b"\x89PNG"[..], "as PGM"),
+        (&b"\x89PNG"[..], "unexpected end"),
+        (b"GIF89a", "as PGM"),
         (b"P2 2 1 1 0", "ends early"),
         (b"P2 1 1 1 0 0", "something follows"),
         (b"P2 1 1 1 2", "exceeds its maxval"),

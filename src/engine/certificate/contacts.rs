@@ -3,7 +3,7 @@
 use super::{Evidence, Stuck, lines, reaching_out};
 use crate::check::StuckBox;
 use crate::geometry::{Convex, Point};
-use crate::model::{OutlineSource, Pair, Scene, Shape};
+use crate::model::{OutlineSource, Pair, Part, Scene, Shape};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -67,8 +67,7 @@ fn shape(scene: &Scene, pair: Pair) -> Value {
         return json!({ "carried": corners });
     }
     let link = &scene.arm().links[pair.link];
-    let body = &link.parts[pair.part].body;
-    let number = link.parts[..pair.part].iter().filter(|part| part.body == *body).count();
+    let Part { body, number, .. } = &link.parts[pair.part];
     match link.source {
         OutlineSource::Visual => json!({ "link": body, "visual": number }),
         OutlineSource::Bar if pair.part + 1 == scene.own_parts(pair.link).len() => json!({ "link": body, "bar": 0 }),

@@ -174,6 +174,7 @@ impl Bodies<'_> {
         for body in bodies {
             let link = &self.document.robot.links[*body];
             let place = &self.document.links[*body];
+            let mut number = 0;
             let shapes: Vec<(&urdf_rs::Pose, &Geometry, &Range<usize>)> = match kind {
                 Kind::Collision => {
                     link.collision.iter().zip(&place.collision).map(|(c, at)| (&c.origin, &c.geometry, at)).collect()
@@ -200,8 +201,9 @@ impl Bodies<'_> {
                 let inner = solid.inner(&pose, self.plane).map(|inner| inner.at(&to_link.into()));
                 let heights = solid.heights(&pose, self.plane);
                 let shapes = if shape.core().len() > MOST_CORNERS { shape.cut_up() } else { vec![shape] };
-                let part = |shape| Part { shape, inner: inner.clone(), heights, body: link.name.clone() };
+                let part = |shape| Part { shape, inner: inner.clone(), number, heights, body: link.name.clone() };
                 found.parts.extend(shapes.into_iter().map(part));
+                number += 1;
             }
         }
         found
@@ -236,6 +238,7 @@ impl Bodies<'_> {
         let (to, high) = if index == 0 { self.joint_at(1) } else { self.at(self.chain.tip) };
         Part {
             inner: None,
+            number: 0,
             shape: capsule(Point::origin(), Point::from(Vector::from(to - from)), radius),
             heights: Heights { lower: low.min(high) - radius, upper: low.max(high) + radius },
             body: body.to_owned(),

@@ -16,7 +16,7 @@ fn joint(name: &str, joint_type: JointType, range: JointRange) -> Joint {
 }
 
 fn link(name: &str, shapes: Vec<Convex>) -> Link {
-    let part = |shape| Part { shape, inner: None, heights: Heights::ALL, body: name.into() };
+    let part = |shape| Part { shape, inner: None, number: 0, heights: Heights::ALL, body: name.into() };
     Link { name: name.into(), parts: shapes.into_iter().map(part).collect(), source: OutlineSource::Collision }
 }
 

@@ -23,6 +23,8 @@ pub struct Drawn {
     pub visual: bool,
     /// The tip as seen from the second joint; none: there.
     pub tip: Option<V>,
+    /// By how much each axis is off the plane's normal, or slide off the plane, radians: exported files have such.
+    pub tilts: V,
     /// Where the robot stands, and how it is turned.
     pub at: V,
     pub angle: f64,
@@ -112,6 +114,7 @@ impl Drawn {
             heights,
             solids,
             visual: dice.chance(0.15),
+            tilts: if dice.chance(0.3) { [0, 1].map(|_| dice.within(-4e-4, 4e-4)) } else { [0.0; 2] },
             tip: dice.chance(0.8).then_some(if dice.chance(0.2) { [length, 0.0] } else { tip }),
             at: if is_placed { [dice.within(-3.0, 3.0) * scale, dice.within(-3.0, 3.0) * scale] } else { [0.0; 2] },
             angle: if is_placed { dice.within(-4.0, 4.0) } else { 0.0 },
@@ -143,9 +146,9 @@ impl Drawn {
         for k in 0..2 {
             let Joint { slides, way, range } = self.joints[k];
             let axis = if slides {
-                self.xyz([way.cos(), way.sin()], 0.0)
+                self.xyz([way.cos(), way.sin()], self.tilts[k])
             } else {
-                self.xyz([0.0; 2], way * PLANES[self.plane].1)
+                self.xyz([0.6 * self.tilts[k], -0.8 * self.tilts[k]], way * PLANES[self.plane].1)
             };
             let kind = if slides { "prismatic" } else { range.map_or("continuous", |_| "revolute") };
             let limit = range.map_or(String::new(), |[lower, upper]| {

@@ -100,7 +100,13 @@ fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
     let lower = dice.within(0.0, 0.2);
     let parts = shapes
         .into_iter()
-        .map(|shape| Part { shape, inner: None, heights: Heights { lower, upper: lower + 0.1 }, body: name.into() })
+        .map(|shape| Part {
+            shape,
+            inner: None,
+            number: 0,
+            heights: Heights { lower, upper: lower + 0.1 },
+            body: name.into(),
+        })
         .collect();
     Link { name: name.into(), parts, source: OutlineSource::Collision }
 }

@@ -5,6 +5,7 @@ mod batch;
 mod certificates;
 mod certified_motions;
 mod certified_movers;
+mod certified_robots;
 mod certified_tasks;
 mod commands;
 mod compare;

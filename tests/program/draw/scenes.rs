@@ -38,7 +38,13 @@ pub fn arm(
     };
     let link = |k: usize| Link {
         name: format!("link{k}"),
-        parts: vec![Part { shape: bars[k].clone(), inner: None, heights: Heights::ALL, body: format!("link{k}") }],
+        parts: vec![Part {
+            shape: bars[k].clone(),
+            inner: None,
+            number: 0,
+            heights: Heights::ALL,
+            body: format!("link{k}"),
+        }],
         source: OutlineSource::Collision,
     };
     Arm {

@@ -9,6 +9,9 @@ use num_bigint::BigInt;
 /// Directions within this angle of one another count as one, radians: `10^-3`.
 const ALIGNED: u32 = 3;
 
+/// Directions within `10^-12` of one another differ by rounding.
+const ROUNDED: u32 = 12;
+
 /// The plane of two joints, in the root frame.
 pub struct Plane {
     /// The directions of its two coordinates, ...
@@ -55,6 +58,18 @@ impl Plane {
         });
         let off = off.max().expect("two axes");
         Some(Self { across, normal, off })
+    }
+
+    /// By how much the joints are off it that are taken to move in it, in words, if it is more than rounding.
+    pub fn idealized(&self) -> String {
+        let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= self.off;
+        match (0..=ROUNDED).rev().find(is_within) {
+            Some(ROUNDED) => String::new(),
+            digits => {
+                let digits = digits.unwrap_or(0);
+                format!("; the joints are taken to move in one plane, off which they are by up to 1e-{digits} rad")
+            }
+        }
     }
 
     /// A vector in the plane, by its two coordinates.

@@ -45,9 +45,15 @@ pub enum Outline {
     Around,
 }
 
+impl Solid {
+    pub fn point() -> Self {
+        Self::Capsule { radius: Interval::whole(0), half: Interval::whole(0) }
+    }
+}
+
 impl<'a> Tree<'a> {
-    /// A solid of the URDF; none if it has no size.
-    pub fn solid(&self, node: Node<'a, 'a>) -> Read<Option<Solid>> {
+    /// A solid of the URDF, or why its mesh is not read; none if it has no size.
+    pub fn solid(&self, node: Node<'a, 'a>) -> Read<Option<Read<Solid>>> {
         let half = |n: &Decimal| Interval::from(n).half();
         let read = |name: &str| self.number(node, name);
         let (numbers, solid) = match node.tag_name().name() {
@@ -76,19 +82,19 @@ impl<'a> Tree<'a> {
                     [1; 3].map(Decimal::whole)
                 };
                 let points = match mesh::vertices(self.files, self.text(node, "filename")?) {
-                    Err(CheckError::Input { message, .. }) => return self.error(node, message),
+                    Err(CheckError::Input { message, .. }) => return Ok(Some(self.error(node, message))),
                     points => points?,
                 };
                 let scale = scale.each_ref().map(Interval::from);
                 let scaled = |p: Vector| [0, 1, 2].map(|k| &p[k] * &scale[k]);
-                return Ok(Some(Solid::Hull(points.into_iter().map(scaled).collect())));
+                return Ok(Some(Ok(Solid::Hull(points.into_iter().map(scaled).collect()))));
             }
             other => return self.error(node, format!("the checker does not know the shape {other} yet")),
         };
         if numbers.iter().any(|n| n.sign() == Sign::Minus) {
             return self.error(node, "a size is negative");
         }
-        Ok(numbers.iter().any(|n| n.sign() != Sign::NoSign).then_some(solid))
+        Ok(numbers.iter().any(|n| n.sign() != Sign::NoSign).then_some(Ok(solid)))
     }
 }
 

@@ -53,6 +53,38 @@ pub fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
 }
 
 impl<'a> Tree<'a> {
+    /// Reads it, and the names of the joints that can move by themselves.
+    ///
+    /// # Errors
+    /// What is no robot.
+    pub fn read(document: &'a Document<'a>, files: &'a Files) -> Read<(Self, Vec<&'a str>)> {
+        let (links, joints, named, values) = Default::default();
+        let root = Pose::identity();
+        let mut tree = Self { files, document, root, links, order: Vec::new(), joints, named, values };
+        let robot = document.root_element();
+        if !robot.has_tag_name("robot") {
+            return tree.error(robot, "this is not a URDF: it has no <robot>");
+        }
+        for node in robot.children().filter(|n| n.has_tag_name("link")) {
+            if tree.links.insert(tree.text(node, "name")?, node).is_some() {
+                return tree.error(node, "a second link of this name");
+            }
+            tree.order.push(tree.text(node, "name")?);
+        }
+        let mut movable = Vec::new();
+        for node in robot.children().filter(|n| n.has_tag_name("joint")) {
+            let name = tree.text(node, "name")?;
+            let Some(carried) = child(node, "child") else { return tree.error(node, "the joint has no child") };
+            let is_second = tree.named.insert(name, node).is_some();
+            if is_second || tree.joints.insert(tree.text(carried, "link")?, node).is_some() {
+                return tree.error(node, "a second joint of this name or with this child");
+            }
+            let moves = matches!(tree.text(node, "type")?, "revolute" | "continuous" | "prismatic");
+            movable.extend((moves && child(node, "mimic").is_none()).then_some(name));
+        }
+        Ok((tree, movable))
+    }
+
     pub fn error<T>(&self, node: Node, message: impl Into<String>) -> Read<T> {
         Err(CheckError::at(Input::Urdf, self.document.input_text(), node.range().start, message))
     }

@@ -43,7 +43,7 @@ fn joint(turns: bool, range: JointRange) -> Joint {
 
 fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex, piece: Convex) -> Scene {
     let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
-    let part = Part { shape: part, inner: None, heights: Heights::ALL, body: "body".into() };
+    let part = Part { shape: part, inner: None, number: 0, heights: Heights::ALL, body: "body".into() };
     let arm = Arm {
         name: "arm".into(),
         joints: [0, 1].map(|k| joint(turns[k], ranges[k])),

@@ -1,0 +1,281 @@
+//! Certificates about robots as tools export them, and maps as tools write them: what the program takes the checker takes.
+
+use super::Place;
+use super::certificates::without_digests;
+use cplan_check::{CheckError, check_files};
+use std::path::PathBuf;
+
+/// Two bars of 1 m and 0.8 m. What differs is in the places of the words in braces.
+const ARM: &str = r#"<robot name="r" {version}>
+<link name="base"/>
+<joint name="j1" type="revolute">
+  <parent link="base"/> <child link="l1"/> {mounting} <axis xyz="{axis}"/> {limit} {soft}
+</joint>
+<link name="l1"> {upper} </link>
+<joint name="j2" type="revolute">
+  <parent link="l1"/> <child link="l2"/> <origin xyz="1 0 0" {turned}/> <axis xyz="{second}"/>
+  <limit lower="-2" upper="2" velocity="1" effort="1"/>
+</joint>
+<link name="l2"> <collision> <origin xyz="0.4 0 0"/> <geometry> <box size="0.8 0.1 0.1"/> </geometry> </collision> </link>
+<joint name="flange" type="fixed"> <parent link="l2"/> <child link="tool"/> <origin xyz="0.8 0 0"/> </joint>
+<link name="tool"/>
+{more}
+</robot>"#;
+
+/// What stands there where nothing is said.
+const USUAL: [(&str, &str); 9] = [
+    ("{version}", ""),
+    ("{mounting}", ""),
+    ("{axis}", "0 0 1"),
+    ("{limit}", r#"<limit lower="-3" upper="3" velocity="1" effort="1"/>"#),
+    ("{soft}", ""),
+    ("{upper}", r#"<collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1 0.1 0.1"/> </geometry> </collision>"#),
+    ("{turned}", ""),
+    ("{second}", "0 0 1"),
+    ("{more}", ""),
+];
+
+/// Discs that leave the upper arm next to no room, whichever way it turns, and the start and the goal within that.
+const WORLD: &str = "[start]\njoints = [0.0, 0.0]\n[goal]\njoints = [0.2, 0.5]\n\
+                     [[obstacle]]\ncircle = { center = [0.38, 0.32], radius = 0.1 }\n\
+                     [[obstacle]]\ncircle = { center = [0.38, -0.32], radius = 0.1 }\n\
+                     [[obstacle]]\ncircle = { center = [-0.5, 0.0], radius = 0.1 }\n";
+
+/// A robot, or a world, as somebody writes it.
+#[derive(Default)]
+struct Case<'a> {
+    what: &'a str,
+    robot: &'a [(&'a str, &'a str)],
+    /// Before and after the rest of the world.
+    world: [&'a str; 2],
+    files: &'a [(&'a str, &'a [u8])],
+    /// What the checker says besides, of motions.
+    said: &'a str,
+}
+
+impl Case<'_> {
+    fn written(&self, place: &Place) {
+        let replaced = |text: String, (from, to): &(&str, &str)| text.replace(from, to);
+        let urdf = self.robot.iter().chain(&USUAL).fold(ARM.to_owned(), replaced);
+        assert!(!urdf.contains('{'), "{urdf}");
+        place.write("arm.urdf", urdf);
+        self.files.iter().for_each(|(name, content)| place.write(name, content));
+    }
+
+    fn world(&self) -> String {
+        [self.world[0], WORLD, self.world[1]].join("\n")
+    }
+
+    /// That the program's certificates of a motion and of a proof hold, and do not where something else stands.
+    fn is_certified(&self) {
+        let place = Place::new();
+        self.written(&place);
+        let judged = |world: &str, certificate: &str| {
+            place.write("other.toml", world);
+            place.write("c.json", certificate);
+            let [urdf, world, certificate] = ["arm.urdf", "other.toml", "c.json"].map(|file| place.path(file));
+            check_files(&urdf, &world, &certificate)
+        };
+        let planned = |world: &str, code: i32| {
+            place.write("world.toml", world);
+            let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
+            assert_eq!(done.code, code, "{}: {}{}", self.what, done.stdout, done.stderr);
+            place.read("c.json")
+        };
+        let open = self.world();
+        let closed = open.replace("[0.2, 0.5]", "[1.5, 0.5]");
+        let motion = planned(&open, 0);
+        let said = judged(&open, &motion).unwrap_or_else(|why| panic!("{}: {why}", self.what));
+        assert!(said.contains("leads from the start") && said.contains(self.said), "{}: {said}", self.what);
+        let proof = planned(&closed, 3);
+        judged(&closed, &proof).unwrap_or_else(|why| panic!("{}: {why}", self.what));
+        // The elbow is where the plane's coordinates have it.
+        let blocked = format!("{open}\n[[obstacle]]\ncircle = {{ center = [1.0, 0.0], radius = 0.01 }}\n");
+        for (world, certificate) in [(&blocked, &motion), (&open, &proof)] {
+            let other = judged(world, &without_digests(certificate));
+            assert!(matches!(other, Err(CheckError::Fails(_))), "{}: {other:?}", self.what);
+        }
+    }
+}
+
+/// Frames that are turned by rounded angles, axes that are a little off, and planes along no axes.
+#[test]
+fn frames_and_axes_as_exporters_write_them() {
+    for (what, robot, said) in [
+        ("upright", &[("{mounting}", r#"<origin rpy="1.5708 0 0"/>"#)][..], "by up to 1e-5 rad"),
+        ("roughly upright", &[("{mounting}", r#"<origin rpy="1.57 0 0"/>"#)], "by up to 1e-3 rad"),
+        ("upright in all digits", &[("{mounting}", r#"<origin rpy="1.5707963267948966 0 0"/>"#)], "read as"),
+        ("upside down", &[("{mounting}", r#"<origin rpy="3.14159 0 0"/>"#)], "by up to 1e-5 rad"),
+        ("an axis in single precision", &[("{axis}", "-1.19e-5 0 0.9999")], "by up to 1e-4 rad"),
+        ("a second axis that is off", &[("{second}", "0 4e-4 1")], "by up to 1e-3 rad"),
+        ("an elbow turned over", &[("{turned}", r#"rpy="3.14159 0 0""#), ("{second}", "0 0 -1")], "by up to 1e-5"),
+        ("an oblique plane", &[("{axis}", "0 1 1"), ("{second}", "0 3 3")], "read as"),
+        ("a quaternion", &[("{mounting}", r#"<origin quat_xyzw="0.70710678 0 0 0.70710678"/>"#)], "leads"),
+    ] {
+        Case { what, robot, said, ..Case::default() }.is_certified();
+    }
+}
+
+const ENDLESS: &str = r#"<limit lower="-1e16" upper="1e16" velocity="1" effort="1"/>"#;
+
+/// Limits that are soft, infinite, or none, and joints that stand where others have them.
+#[test]
+fn limits_and_joints_that_do_not_move() {
+    let finger = |limit: &str, rest: &str| {
+        format!(
+            r#"<joint name="g" type="prismatic"> <parent link="l2"/> <child link="f1"/> <origin xyz="0.7 0 0"/> <axis xyz="0 1 0"/>
+               {limit} </joint> <link name="f1"> <collision> <geometry> <box size="0.1 0.02 0.05"/> </geometry> </collision> </link> {rest}"#
+        )
+    };
+    let limit = r#"<limit lower="0.02" upper="0.1" velocity="1" effort="1"/>"#;
+    let mimic = r#"<joint name="h" type="prismatic"> <parent link="l2"/> <child link="f2"/> <origin xyz="0.7 0 0"/> <axis xyz="0 -1 0"/>
+        <limit lower="0" upper="0.1" velocity="1" effort="1"/> <mimic joint="g" multiplier="1.5" offset="0.01"/> </joint>
+        <link name="f2"> <collision> <geometry> <box size="0.1 0.02 0.05"/> </geometry> </collision> </link>"#;
+    let soft = r#"<safety_controller soft_lower_limit="0.03" soft_upper_limit="0.05" k_velocity="1"/>"#;
+    let unset = r#"<limit lower="0" upper="0" velocity="1" effort="1"/>"#;
+    let [follows, held, loose] = [finger(limit, mimic), finger(&format!("{limit} {soft}"), ""), finger(unset, "")];
+    let spun = finger(limit, "").replace("prismatic", "revolute").replace("0 1 0", "1 0 0");
+    let two = ["[robot]\njoints = [\"j1\", \"j2\"]", ""];
+    for (what, robot, world) in [
+        (
+            "soft limits",
+            &[("{soft}", r#"<safety_controller soft_lower_limit="-2.5" soft_upper_limit="2.5" k_velocity="1"/>"#)][..],
+            ["", ""],
+        ),
+        (
+            "no soft limits",
+            &[("{soft}", r#"<safety_controller soft_lower_limit="0" soft_upper_limit="0" k_velocity="1"/>"#)],
+            ["", ""],
+        ),
+        ("a velocity's gain", &[("{soft}", r#"<safety_controller k_velocity="1"/>"#)], ["", ""]),
+        ("limits without end", &[("{limit}", ENDLESS)], ["", ""]),
+        (
+            "infinite limits",
+            &[("{limit}", r#"<limit velocity="1" effort="1"/>"#), ("{version}", "version=\"1.2\"")],
+            ["", ""],
+        ),
+        ("a finger that mimics another", &[("{more}", &follows)], two),
+        ("a finger held by soft limits", &[("{more}", &held)], two),
+        ("a finger without limits", &[("{more}", &loose)], two),
+        ("two joints of three in a plane", &[("{more}", &spun)], ["", ""]),
+    ] {
+        Case { what, robot, world, ..Case::default() }.is_certified();
+    }
+    // Within the limits, beyond the soft ones.
+    let place = Place::new();
+    let robot = [("{soft}", r#"<safety_controller soft_lower_limit="-2.5" soft_upper_limit="0.1" k_velocity="1"/>"#)];
+    let case = Case { robot: &robot, ..Case::default() };
+    case.written(&place);
+    place.write("world.toml", case.world());
+    place.write(
+        "c.json",
+        r#"{"format": "cplan certificate 1", "answer": "found",
+            "motion": {"interpolation": ["linear"], "knots": [[0, 0, 0], [1, 0.2, 0.5]]}}"#,
+    );
+    let [urdf, world, certificate]: [PathBuf; 3] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
+    let said = check_files(&urdf, &world, &certificate);
+    assert!(matches!(&said, Err(CheckError::Fails(why)) if why.contains("leaves its limits")), "{said:?}");
+}
+
+const OBJ: &str = "# a bar\nv 500 50 50\nv -500 50 50\nv -500 -50 50\nv 500 -50 50\nv 500 50 -50\nv -500 50 -50\nv 500 -50 -50\n\
+                   v -500 -50 -50\nv 9000 0 0\nf 1/1/1 2//2 3 4\nf -5 -4 -3 \\\n -2\n";
+
+const COLLADA: &str = r##"<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset> <unit name="millimetre" meter="0.001"/> <up_axis>Z_UP</up_axis> </asset>
+  <library_geometries> <geometry id="bar"> <mesh>
+    <source id="at"> <float_array id="numbers" count="12">50 500 50 -50 500 50 -50 -500 -50 50 -500 -50</float_array>
+      <technique_common> <accessor source="#numbers" count="4" stride="3"/> </technique_common> </source>
+    <vertices id="v"> <input semantic="POSITION" source="#at"/> </vertices>
+  </mesh> </geometry> </library_geometries>
+  <library_visual_scenes> <visual_scene id="scene">
+    <node> <rotate>0 0 1 -90</rotate> <scale>1 1 2</scale> <instance_geometry url="#bar"/> </node>
+  </visual_scene> </library_visual_scenes>
+  <scene> <instance_visual_scene url="#scene"/> </scene>
+</COLLADA>"##;
+
+#[test]
+fn meshes_and_what_stands_in_for_them() {
+    let mesh = |name: &str| {
+        format!(
+            r#"<collision> <origin xyz="0.5 0 0"/> <geometry> <mesh filename="{name}" scale="{0} {0} {0}"/> </geometry> </collision>"#,
+            if name.ends_with("obj") { "0.001" } else { "1" }
+        )
+    };
+    let bar = ["[robot]\nbar = 0.05", ""];
+    let [obj, dae, none] = ["bar.obj", "bar.dae", "none.stl"].map(mesh);
+    // So many corners that the outline is cut up.
+    let rim =
+        (0..1500).map(|k| f64::from(k) * std::f64::consts::TAU / 1500.0).map(|t| (500.0 * t.cos(), 60.0 * t.sin()));
+    let rim: String = rim.map(|(x, y)| format!("v {x} {y} 0\n")).collect();
+    let face: String = (1..=1500).map(|k| format!(" {k}")).collect();
+    let round = format!("{rim}f{face}\n");
+    // A mesh beside a shape that is read.
+    let both = format!("{none} {}", USUAL[5].1);
+    for (what, upper, world, files, said) in [
+        ("a mesh in OBJ", &obj, ["", ""], ("bar.obj", OBJ.as_bytes()), ""),
+        ("a mesh with many corners", &obj, ["", ""], ("bar.obj", round.as_bytes()), ""),
+        ("a mesh in Collada", &dae, ["", ""], ("bar.dae", COLLADA.as_bytes()), ""),
+        ("a bar for a mesh", &none, bar, ("none", b"".as_slice()), "a bar stands in for it"),
+        ("a bar for one of two", &both, bar, ("none", b""), "none.stl"),
+        ("a bar for no shape", &String::new(), bar, ("none", b""), "read as"),
+    ] {
+        Case { what, robot: &[("{upper}", upper)], world, files: &[files], said }.is_certified();
+    }
+}
+
+/// The description of a picture of 3 pixels by 3, of which one is dark.
+const MAP: &str =
+    "image: map.pgm\nresolution: 0.1\norigin: [0.6, -0.65, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+
+/// A PNG of one pixel in four of one colour, without compression.
+fn png(color: [u8; 4]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
+    encoder.set_color(png::ColorType::Rgba);
+    let white = [255; 4];
+    encoder.write_header().unwrap().write_image_data(&[white, color, white, white].concat()).unwrap();
+    bytes
+}
+
+#[test]
+fn maps_as_tools_write_them() {
+    let pgm = b"P2\n3 3\n255\n255 255 255\n255 0 255\n255 255 255\n";
+    let [in_lines, in_png] = [
+        MAP.replace("[0.6, -0.65, 0.0]", "\n- 0.6\n- -0.65\n- 0.0"),
+        MAP.replace("map.pgm", "map.png").replace("negate: 0", "negate: false\nmode: trinary"),
+    ];
+    let map = ["", "[[obstacle]]\nimage = \"map.yaml\"\n"];
+    let [dark, see_through] = [[0, 90, 0, 255], [255, 255, 255, 9]].map(png);
+    for (what, yaml, picture) in [
+        ("a list in lines", &in_lines, ("map.pgm", &pgm[..])),
+        ("a dark pixel in colour", &in_png, ("map.png", &dark)),
+        ("a pixel that one can see through", &in_png, ("map.png", &see_through)),
+    ] {
+        Case { what, world: map, files: &[("map.yaml", yaml.as_bytes()), picture], ..Case::default() }.is_certified();
+    }
+    // Of 255 shades 51 are the fifth from which on a pixel is not free: exactly that is unknown, and solid.
+    let place = Place::new();
+    Case { files: &[("map.yaml", MAP.as_bytes()), ("map.pgm", b"P2 1 1 255 204")], ..Case::default() }.written(&place);
+    let on_it = "[start]\njoints = [-0.75, 0.0]\n[goal]\njoints = [0.0, 0.0]\n[[obstacle]]\nimage = \"map.yaml\"\n";
+    place.write("world.toml", on_it);
+    let done = place.run(&["arm.urdf", "world.toml"], "--quiet");
+    assert!(done.code == 1 && done.stderr.contains("the start"), "{}{}", done.stdout, done.stderr);
+}
+
+/// A start that is a place of the tip, and numbers in other bases.
+#[test]
+fn worlds_as_people_write_them() {
+    let tip = WORLD.replace("joints = [0.0, 0.0]", "tip = [1.8, 0.0]");
+    let place = Place::new();
+    Case { ..Case::default() }.written(&place);
+    for (goal, code) in [("[0.2, 0.5]", 0), ("[1.5, 0.5]", 3)] {
+        let world = format!("clearance = 0x0\n{}", tip.replace("[0.2, 0.5]", goal).replace("1.8, 0.0", "1.7, 0.3"));
+        place.write("world.toml", world);
+        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
+        assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
+        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
+        let said = check_files(&urdf, &world, &certificate).unwrap();
+        assert!(said.contains("from the start ("), "{said}");
+    }
+}
