@@ -5,6 +5,9 @@
 use crate::common::reference::published;
 use cplan::input::{Overrides, load_scene};
 use cplan::model::OutlineSource::{self, Bar, Collision, Visual};
+use cplan::{Options, Problem};
+use cplan_check::check_files;
+use std::path::Path;
 
 enum Outcome {
     /// Kind of arm, where the two outlines come from, the tip's link.
@@ -100,6 +103,15 @@ fn table() -> Vec<(&'static str, String, Outcome)> {
     ]
 }
 
+/// That the motion planned there has a certificate that holds.
+fn is_certified(urdf: &Path, world: &Path, certificate: &Path) {
+    let problem = Problem::load(urdf, world).unwrap();
+    let plan = cplan::plan(&problem, &Options::default()).unwrap();
+    std::fs::write(certificate, plan.certificate(&Overrides::default(), None).unwrap()).unwrap();
+    let said = check_files(urdf, world, certificate).unwrap_or_else(|why| panic!("{}: {why}", urdf.display()));
+    println!("  {said}");
+}
+
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn published_robots_plan_or_are_refused_with_the_reason() {
@@ -124,6 +136,7 @@ fn published_robots_plan_or_are_refused_with_the_reason() {
                 assert_eq!(arm.tip_name, tip, "{file}");
                 let loaded = loaded.problem(&Overrides::default()).unwrap_or_else(|e| panic!("{file}: {e}"));
                 assert_eq!(loaded.problem.goals().pieces().len(), 1, "{file}");
+                is_certified(&urdf, &world, &work.path().join("c.json"));
             }
             (Err(error), Refused(parts)) => {
                 println!("{file} [{robot}]: refused\n{error}");
