@@ -5,7 +5,7 @@ use crate::free::{rough, roughly};
 use crate::interval::{BITS, Interval, Point, both_turns, length, sum, times, turned};
 use crate::overlap::{Shape, overlap_by_more_than, seem_to_overlap};
 use crate::robot::{Arm, Body, Motion};
-use crate::sweep::{Domain, Range, Rectangle};
+use crate::sweep::{Range, Rectangle};
 use num_bigint::BigInt;
 use std::cell::RefCell;
 
@@ -166,7 +166,6 @@ impl Arm<'_> {
     pub fn places(
         &self,
         (tip, place): (&Body, &Point),
-        domain: &Domain,
         most: usize,
         is_left_out: impl Fn(&Rectangle) -> bool,
     ) -> Vec<Rectangle> {
@@ -180,7 +179,7 @@ impl Arm<'_> {
             let middle = Decimal::middle(low, high);
             [[low.clone(), middle.clone()], [middle, high.clone()]]
         };
-        let mut parts = vec![domain.whole()];
+        let mut parts = vec![self.domain.whole()];
         for _ in 0..MOST_CUTS {
             let mut smaller = Vec::new();
             for part in &parts {

@@ -5,13 +5,16 @@
 //! reach it sooner. It remains to be seen that a straight leg that no wall crosses is at least as long as the potential grows along it.
 
 use crate::arm::{self, Mover};
-use crate::certificate::{Bound, Metric, Wall};
+use crate::certificate::{Bound, Certificate, Metric, Wall, rectangles};
+use crate::contacts::{Among, Contacts};
 use crate::decimal::Decimal;
-use crate::error::CheckError;
-use crate::interval::{BITS, Interval, Point, twice};
+use crate::ends::{End, FEW_PARTS};
+use crate::error::{CheckError, Input};
+use crate::interval::{BITS, Interval, Point, minus, twice};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Body, Motion};
-use crate::sweep::{Axis, Rectangle};
+use crate::sweep::{Axis, Rectangle, within};
+use crate::world::World;
 use num_bigint::{BigInt, Sign};
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -26,12 +29,44 @@ const MOST_CUTS: u32 = 60;
 /// Copies of walls, on all turns that a way of the length can reach, at the most.
 const MOST_COPIES: usize = 200_000;
 
+/// That no motion from the start to a configuration is shorter than a length.
+pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
+    let Some(bound) = &certificate.bound else {
+        return Err(CheckError::in_file(Input::Certificate, "it has no bound"));
+    };
+    let start = End::start(certificate, world)?;
+    let stuck = certificate.boxes.as_deref().unwrap_or_default();
+    let boxes = rectangles(stuck)?;
+    let (goals, to) = match &bound.to {
+        Some([a, b]) => {
+            let at = arm.configuration("bound", &[[a.clone(), a.clone()], [b.clone(), b.clone()]])?;
+            (vec![at], format!(" ({a}, {b})"))
+        }
+        None => {
+            let goal = End::goal(certificate, world)?;
+            let is_stuck = |part: &Rectangle| boxes.iter().any(|stuck| within(part, stuck));
+            (goal.region(arm)?.places(arm, FEW_PARTS, is_stuck), format!(" the goal{}", goal.named(arm)))
+        }
+    };
+    holds(arm, bound, &start.configuration(arm)?, &goals)?;
+    let among = Among::all(world);
+    let contacts = Contacts::new(arm, &among, certificate, certificate.clearance(world)?).complete()?;
+    contacts.hold(arm, stuck, &boxes)?;
+    for (number, wall) in bound.walls.iter().enumerate() {
+        let (body, part) = contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?;
+        if !closes(arm, wall, &body, &part) {
+            return CheckError::fails(format!("wall {number}: along it the shape can come off the part"));
+        }
+    }
+    Ok(format!("no motion from the start{} to{to} is shorter than {}", start.named(arm), bound.length))
+}
+
 /// Whether a shape and a part are seen to overlap all along a wall: it is halved until each piece is, as a box, or there were too many looks.
 ///
 /// A shape that only slides along the wall overlaps another at a convex set of places: then its ends are enough.
-pub fn closes(arm: &Arm, wall: &Wall, body: &Body, part: &Shape) -> bool {
+fn closes(arm: &Arm, wall: &Wall, body: &Body, part: &Shape) -> bool {
     let [from, to] = [&wall.from, &wall.to].map(|end| end.each_ref().map(Interval::from));
-    let along = [0, 1].map(|k| &to[k] - &from[k]);
+    let along = minus(&to, &from);
     let mover = Mover::new(arm, body);
     let turns = |k: usize| wall.from[k] != wall.to[k] && matches!(arm.joints[k].motion, Motion::Turn(_));
     if !(0..=body.link).any(turns) {
@@ -112,7 +147,7 @@ struct Plane<'a> {
 ///
 /// # Errors
 /// The leg along which a potential grows by more than its length.
-pub fn holds(arm: &Arm, bound: &Bound, start: &Rectangle, goals: &[Rectangle]) -> Result<(), CheckError> {
+fn holds(arm: &Arm, bound: &Bound, start: &Rectangle, goals: &[Rectangle]) -> Result<(), CheckError> {
     bound.metric.is_a_norm()?;
     let axes = arm.joints.each_ref().map(|joint| &joint.axis);
     let plane = Plane::new(bound, axes, start, goals)?;

@@ -2,11 +2,8 @@
 
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::impossible::Case;
-use crate::motion::Motion;
 use crate::polygon::Corner;
 use crate::sweep::Rectangle;
-use crate::task::Done;
 use crate::world::World;
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -112,6 +109,42 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
     Ok(certificate)
 }
 
+/// What is played.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Motion {
+    /// The ways in which it can be read: it is free in each.
+    pub interpolation: Vec<Interpolation>,
+    /// Time, both joints' values, and as far as an interpolation needs them their velocities and accelerations.
+    pub knots: Vec<Vec<Decimal>>,
+}
+
+/// How knots are joined.
+#[derive(Deserialize, Clone, Copy, PartialEq, PartialOrd)]
+#[serde(rename_all = "snake_case")]
+pub enum Interpolation {
+    /// Straight.
+    Linear,
+    /// By the cubic with the values and velocities of both.
+    Cubic,
+    /// By the polynomial of the fourth degree with value, velocity and acceleration of the first, value and velocity of the second.
+    Quartic,
+    /// By the polynomial of the fifth degree with the values, velocities and accelerations of both.
+    Quintic,
+}
+
+/// A step as it is done.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Done {
+    /// Its number in the world file, from 1.
+    pub step: usize,
+    /// The first and the last knot of its motion.
+    pub knots: [usize; 2],
+    /// By how much the wrist turns what is carried while the arm stands still afterwards, to the left.
+    pub turn: Option<Decimal>,
+}
+
 /// A shape of the URDF, by its number among those of its kind that the link has, or of what is carried.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -158,6 +191,23 @@ pub fn rectangles(boxes: &[StuckBox]) -> Result<Vec<Rectangle>, CheckError> {
         Some(empty) => CheckError::fails(format!("box {empty}: an upper end is below the lower one")),
         None => Ok(boxes),
     }
+}
+
+/// Some of the configurations from which a step may begin, and boxes of configurations that are not free then.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// The step's number in the world file, from 1; one more than the last: when all is done.
+    pub step: usize,
+    /// In free order: the picks of the pairs that are done before, of which the last one was done last; in whichever order if it does not say.
+    pub after: Option<Vec<usize>>,
+    /// Where the arm is before it; the start if it does not say.
+    pub from: Option<Rectangle>,
+    /// From where to where it has carried what it has let go of, turned as it happened to be: those that the certificate follows, in order.
+    pub turned: Option<Vec<[Rectangle; 2]>>,
+    pub boxes: Vec<StuckBox>,
+    /// Configurations that are not free while the tool is lowered where the step ends.
+    pub lowered: Option<Vec<StuckBox>>,
 }
 
 /// That no motion is shorter than a length.

@@ -2,7 +2,7 @@
 
 use crate::curve::{HALVINGS, Piece, Tube};
 use crate::decimal::Decimal;
-use crate::interval::{BITS, Interval, Point, both_turns, length, sum, times, turned};
+use crate::interval::{BITS, Interval, Point, both_turns, length, minus, sum, times, turned};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Motion};
 use crate::world::{Course, Obstacle};
@@ -121,10 +121,6 @@ pub struct Open {
 
 fn perpendicular([x, y]: &Point) -> Point {
     [-y, x.clone()]
-}
-
-fn minus(a: &Point, b: &Point) -> Point {
-    [&a[0] - &b[0], &a[1] - &b[1]]
 }
 
 fn negative(a: &Point) -> Point {

@@ -1,39 +1,21 @@
 //! Certificates of tasks that cannot be done: from nowhere where the arm may be before a step does a way lead to where the step ends.
 
-use crate::certificate::{Certificate, StuckBox, rectangles};
+use crate::certificate::{Case, Certificate, StuckBox, rectangles};
 use crate::contacts::{Among, Carried, Contacts};
 use crate::decimal::Decimal;
+use crate::ends::{End, MOST_PARTS, Region};
 use crate::error::{CheckError, Input};
 use crate::free::{Chain, On, guard};
-use crate::interval::{Interval, Point, sum, turned};
+use crate::interval::{Interval, Point, minus, sum, turned};
 use crate::polygon::Corner;
 use crate::robot::{Arm, Joint, Motion};
-use crate::sweep::{Domain, Reached, Rectangle};
+use crate::sweep::{Reached, Rectangle, within};
 use crate::world::task::{Action, Carrying, Group, Node, Step, Stroke, Task};
 use crate::world::{Goal, Obstacle, World};
-use crate::{GoalRegion, MOST_PARTS, place, shown, start, within};
-use serde::Deserialize;
 use std::borrow::Cow;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
-
-/// Some of the configurations from which a step may begin, and boxes of configurations that are not free then.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Case {
-    /// The step's number in the world file, from 1; one more than the last: when all is done.
-    step: usize,
-    /// In free order: the picks of the pairs that are done before, of which the last one was done last; in whichever order if it does not say.
-    after: Option<Vec<usize>>,
-    /// Where the arm is before it; the start if it does not say.
-    from: Option<Rectangle>,
-    /// From where to where it has carried what it has let go of, turned as it happened to be: those that the certificate follows, in order.
-    turned: Option<Vec<[Rectangle; 2]>>,
-    boxes: Vec<StuckBox>,
-    /// Configurations that are not free while the tool is lowered where the step ends.
-    lowered: Option<Vec<StuckBox>>,
-}
 
 /// Ways to be somewhere in the course of free orders beyond these are not followed.
 const MOST_BRANCHES: usize = 1000;
@@ -48,8 +30,8 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
         return Err(CheckError::in_file(Input::World, "an object moves: the checker knows no proof of such tasks"));
     }
     let clearance = certificate.clearance(world)?;
-    let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
-    let at_start = start(arm, &domain, world, certificate)?;
+    let start = End::start(certificate, world)?;
+    let at_start = start.configuration(arm)?;
     let mut steps = Vec::new();
     in_file_order(&task.steps, &mut steps);
     let begin = Branch {
@@ -59,14 +41,14 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
         done: None,
         turned: Vec::new(),
     };
-    let proof = Proof { arm, domain: &domain, certificate, clearance, cases, at_start: &at_start };
+    let proof = Proof { arm, certificate, clearance, cases, at_start: &at_start };
     let mut last = 0;
     let done = proof.group(&task.steps, vec![begin], &mut last)?;
     if !done.is_empty() && proof.stays(done, steps[steps.len() - 1])? {
         return CheckError::fails("the cases leave open that all steps are done");
     }
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
-    let start = shown(certificate.start.as_ref());
+    let start = start.named(arm);
     Ok(format!(
         "no motion of \"{first}\" and \"{second}\" from the start{start} on does the steps up to step {last} with clearance {clearance}"
     ))
@@ -89,7 +71,7 @@ struct Branch<'a> {
     /// All configurations in which it may be; if it is not known, those in which the step before ends at all.
     at: Option<Vec<Rectangle>>,
     /// Where the step before ends.
-    ends: Result<Vec<GoalRegion<'a>>, CheckError>,
+    ends: Result<Vec<Region>, CheckError>,
     /// In a group in free order, if that counts: the picks of the pairs that are done, the last one last.
     done: Option<Vec<usize>>,
     /// From where to where it has carried what lies as a turning arm has let go of it.
@@ -100,7 +82,6 @@ struct Branch<'a> {
 #[derive(Clone, Copy)]
 struct Proof<'a> {
     arm: &'a Arm<'a>,
-    domain: &'a Domain,
     certificate: &'a Certificate,
     clearance: &'a Decimal,
     cases: &'a [Case],
@@ -182,7 +163,7 @@ impl<'a> Proof<'a> {
             let hanging = branch.replay.chain.hung(&lying, &values(&from));
             for place in self.left_by(&branch, step.number, Some(step), case)? {
                 let mut branch = branch.clone();
-                let ends = branch.replay.region(self.domain, step, Some(&from)).map(|region| vec![region]);
+                let ends = branch.replay.region(step, Some(&from)).map(|region| vec![region]);
                 branch.replay.after(step);
                 let let_go = branch.replay.chain.lying(&On::Link(1), &hanging, &values(&place));
                 let turn = let_go.turn.clone();
@@ -206,7 +187,7 @@ impl<'a> Proof<'a> {
         if at.as_ref().is_some_and(Vec::is_empty) {
             return Ok(None);
         }
-        let ends = branch.replay.region(self.domain, step, None).map(|region| vec![region]);
+        let ends = branch.replay.region(step, None).map(|region| vec![region]);
         branch.replay.after(step);
         Ok(Some(Branch { at, ends, ..branch }))
     }
@@ -249,16 +230,16 @@ impl<'a> Proof<'a> {
     ) -> Result<Vec<Rectangle>, CheckError> {
         let from = self.from(case);
         let boxes = rectangles(&case.boxes)?;
-        let Some(reached) = Reached::new(self.domain, &boxes, &from) else {
+        let Some(reached) = Reached::new(&self.arm.domain, &boxes, &from) else {
             return CheckError::fails("the boxes leave more gaps than the checker looks at");
         };
         let lowered = rectangles(case.lowered.as_deref().unwrap_or_default())?;
         let region = match step {
-            Some(step) => branch.replay.region(self.domain, step, Some(&from))?,
-            None => GoalRegion::Configuration(from.clone()),
+            Some(step) => branch.replay.region(step, Some(&from))?,
+            None => Region::Configuration(from.clone()),
         };
         let is_left_out = |part: &Rectangle| !reached.meets(part) || lowered.iter().any(|all| within(part, all));
-        let left = region.places(self.arm, self.domain, MOST_PARTS, is_left_out);
+        let left = region.places(self.arm, MOST_PARTS, is_left_out);
         let hold = |among: &Among, stuck: &[StuckBox], boxes: &[Rectangle], when: &str| {
             let contacts = Contacts::new(self.arm, among, self.certificate, self.clearance);
             contacts.hold(self.arm, stuck, boxes).map_err(|why| match why {
@@ -282,7 +263,7 @@ impl<'a> Proof<'a> {
         if let Some(at) = &branch.at {
             return Ok(at.clone());
         }
-        let places = |region: &GoalRegion| region.places(self.arm, self.domain, MOST_PARTS, |_| false);
+        let places = |region: &Region| region.places(self.arm, MOST_PARTS, |_| false);
         Ok(branch.ends.as_ref().map_err(Clone::clone)?.iter().flat_map(places).collect())
     }
 
@@ -306,7 +287,7 @@ impl<'a> Proof<'a> {
         let after = |own: usize| {
             let mut replay = alone(own);
             replay.after(pairs[own][0]);
-            let end = replay.region(self.domain, pairs[own][1], None);
+            let end = replay.region(pairs[own][1], None);
             replay.after(pairs[own][1]);
             (end, replay.standing[numbers[own]].take())
         };
@@ -453,15 +434,12 @@ impl<'a> Replay<'a> {
     }
 
     /// The configurations in which a step may end, after one that ends in a rectangle.
-    fn region(&self, domain: &Domain, step: &Step, from: Option<&Rectangle>) -> Result<GoalRegion<'a>, CheckError> {
+    fn region(&self, step: &Step, from: Option<&Rectangle>) -> Result<Region, CheckError> {
         let unknown = || CheckError::fails(format!("where step {} ends depends on what is not known", step.number));
-        let (link, tip) = (self.arm.tip_link, &self.arm.tip);
-        let tip_at = |place: Point| Ok(GoalRegion::Tip { link, tip: Rc::new(tip.clone()), place });
+        let tip_at = |place: Point| Ok(Region::tip(self.arm, place));
         match &step.action {
             Action::Move(Goal::Tip(at)) => tip_at(at.each_ref().map(Interval::from)),
-            Action::Move(goal @ Goal::Joints(_)) => {
-                Ok(GoalRegion::Configuration(place(self.arm, domain, "target", None, Some(goal))?))
-            }
+            Action::Move(Goal::Joints(values)) => Ok(Region::Configuration(self.arm.configuration("target", values)?)),
             Action::Pick { object, grasp, .. } => match &self.standing[self.task.first + object] {
                 Some(lying) => tip_at(lying.placed(&grasp.each_ref().map(Interval::from))),
                 None => unknown(),
@@ -472,9 +450,9 @@ impl<'a> Replay<'a> {
                 match (&held.hanging, angle, from) {
                     (Hanging::Level(hanging), ..) => tip_at(minus(at, &hanging.at)),
                     (Hanging::Taken(lying), _, Some(from)) => {
-                        let mut origin = tip.clone();
+                        let mut origin = self.arm.tip.clone();
                         origin.shape.points = vec![self.chain.seen_at(&lying.at, &values(from))];
-                        Ok(GoalRegion::Tip { link, tip: Rc::new(origin), place: at.clone() })
+                        Ok(Region::Tip { tip: Rc::new(origin), place: at.clone() })
                     }
                     (_, Some(angle), _) => tip_at(sum(at, &turned(&grasp, &angle.sin_cos()))),
                     _ if grasp.iter().all(|c| c.is_whole(0)) => tip_at(at.clone()),
@@ -576,8 +554,4 @@ impl<'a> Replay<'a> {
 /// The values of the joints in a rectangle.
 fn values(rectangle: &Rectangle) -> Point {
     rectangle.each_ref().map(Interval::around)
-}
-
-fn minus(a: &Point, b: &Point) -> Point {
-    [&a[0] - &b[0], &a[1] - &b[1]]
 }

@@ -254,6 +254,11 @@ pub fn sum(a: &Point, b: &Point) -> Point {
     [&a[0] + &b[0], &a[1] + &b[1]]
 }
 
+/// The difference of two vectors.
+pub fn minus(a: &Point, b: &Point) -> Point {
+    [&a[0] - &b[0], &a[1] - &b[1]]
+}
+
 /// A vector times a number.
 pub fn times(a: &Point, factor: &Interval) -> Point {
     [&a[0] * factor, &a[1] * factor]

@@ -38,10 +38,12 @@ mod certificate;
 mod contacts;
 mod curve;
 mod decimal;
+mod ends;
 mod error;
 mod files;
 mod free;
 mod impossible;
+mod infeasible;
 mod interval;
 mod motion;
 mod overlap;
@@ -54,16 +56,11 @@ mod world;
 
 pub use error::{CheckError, Input};
 
-use certificate::{Answer, Certificate, rectangles};
-use contacts::{Among, Contacts};
-use decimal::Decimal;
+use certificate::Answer;
 use files::Files;
-use interval::{Interval, Point};
-use robot::{Arm, Body};
+use robot::Arm;
 use std::path::{Path, PathBuf};
-use std::rc::Rc;
-use sweep::{Domain, Reached, Rectangle};
-use world::{Goal, World};
+use world::World;
 
 /// Checks a certificate: the texts of the three files. What it proves is returned in words.
 ///
@@ -103,161 +100,12 @@ fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) ->
     let proven = match (&certificate.answer, &certificate.steps, &certificate.cases) {
         (Answer::Found, Some(steps), _) => task::found(&arm, &world, &certificate, steps),
         (Answer::Found, None, _) if certificate.bound.is_some() => {
-            Ok(motion::found(&arm, &world, &certificate)? + "; " + &no_shorter(&arm, &world, &certificate)?)
+            Ok(motion::found(&arm, &world, &certificate)? + "; " + &bound::no_shorter(&arm, &world, &certificate)?)
         }
         (Answer::Found, None, _) => motion::found(&arm, &world, &certificate),
         (Answer::Infeasible, _, Some(cases)) => impossible::infeasible(&arm, &world, &certificate, cases),
-        (Answer::Infeasible, ..) => infeasible(&arm, &world, &certificate),
-        (Answer::NoShorter, ..) => no_shorter(&arm, &world, &certificate),
+        (Answer::Infeasible, ..) => infeasible::infeasible(&arm, &world, &certificate),
+        (Answer::NoShorter, ..) => bound::no_shorter(&arm, &world, &certificate),
     };
     Ok(proven? + &arm.notes)
-}
-
-/// That no motion leads from the start to the goal.
-fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
-    let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
-    let start = start(arm, &domain, world, certificate)?;
-    let goal = GoalRegion::of(arm, &domain, world, certificate)?;
-    let clearance = certificate.clearance(world)?;
-    let stuck = certificate.boxes.as_deref().unwrap_or_default();
-    let boxes = rectangles(stuck)?;
-    let Some(reached) = Reached::new(&domain, &boxes, &start) else {
-        return CheckError::fails("the boxes leave more gaps than the checker looks at");
-    };
-    if !goal.places(arm, &domain, MOST_PARTS, |part| !reached.meets(part)).is_empty() {
-        return CheckError::fails("the boxes do not separate the goal from the start");
-    }
-    Contacts::new(arm, &Among::all(world), certificate, clearance).complete()?.hold(arm, stuck, &boxes)?;
-    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
-    Ok(format!(
-        "no motion of \"{first}\" and \"{second}\" leads from the start{} to the goal{} with clearance {clearance}",
-        shown(certificate.start.as_ref()),
-        goal.named(certificate)
-    ))
-}
-
-/// Parts of the domain in which the tip may be at a place, at the most, if it is to be shut off there, ...
-const MOST_PARTS: usize = 2000;
-
-/// ... and if it is only to be known where.
-const FEW_PARTS: usize = 500;
-
-/// The configurations that are to be reached.
-#[derive(Clone)]
-enum GoalRegion<'a> {
-    /// What encloses one.
-    Configuration(Rectangle),
-    /// All that put the tip, the origin of a link, at a place.
-    Tip { link: &'a str, tip: Rc<Body>, place: Point },
-}
-
-impl<'a> GoalRegion<'a> {
-    /// The certificate's, else the world's.
-    fn of(arm: &Arm<'a>, domain: &Domain, world: &World, certificate: &Certificate) -> Result<Self, CheckError> {
-        let tip = match (&certificate.goal, &certificate.goal_tip, &world.goal) {
-            (Some(_), Some(_), _) => return Err(CheckError::in_file(Input::Certificate, "it has two goals")),
-            (None, Some(tip), _) | (None, None, Some(Goal::Tip(tip))) => tip,
-            (own, None, given) => {
-                return Ok(Self::Configuration(place(arm, domain, "goal", own.as_ref(), given.as_ref())?));
-            }
-        };
-        let place = tip.each_ref().map(Interval::from);
-        Ok(Self::Tip { link: arm.tip_link, tip: Rc::new(arm.tip.clone()), place })
-    }
-
-    /// What holds all of it but what is left out.
-    fn places(
-        &self,
-        arm: &Arm,
-        domain: &Domain,
-        most: usize,
-        is_left_out: impl Fn(&Rectangle) -> bool,
-    ) -> Vec<Rectangle> {
-        match self {
-            Self::Configuration(goal) => [goal.clone()].into_iter().filter(|goal| !is_left_out(goal)).collect(),
-            Self::Tip { tip, place, .. } => arm.places((tip, place), domain, most, is_left_out),
-        }
-    }
-
-    /// What was asked in place of the world's goal, in words.
-    fn named(&self, certificate: &Certificate) -> String {
-        let own = shown(certificate.goal.as_ref().or(certificate.goal_tip.as_ref()));
-        match self {
-            Self::Configuration(_) => own,
-            Self::Tip { link, .. } => format!("{own}, a place of the tip \"{link}\","),
-        }
-    }
-}
-
-/// That no motion from the start to a configuration is shorter than a length.
-fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
-    let Some(bound) = &certificate.bound else {
-        return Err(CheckError::in_file(Input::Certificate, "it has no bound"));
-    };
-    let domain = Domain::new(&arm.joints.each_ref().map(|joint| joint.axis.clone()));
-    let start = start(arm, &domain, world, certificate)?;
-    let stuck = certificate.boxes.as_deref().unwrap_or_default();
-    let boxes = rectangles(stuck)?;
-    let (goals, to) = match &bound.to {
-        Some(to) => (vec![place(arm, &domain, "bound", Some(to), None)?], shown(Some(to))),
-        None => {
-            let goal = GoalRegion::of(arm, &domain, world, certificate)?;
-            let is_stuck = |part: &Rectangle| boxes.iter().any(|stuck| within(part, stuck));
-            (goal.places(arm, &domain, FEW_PARTS, is_stuck), format!(" the goal{}", goal.named(certificate)))
-        }
-    };
-    bound::holds(arm, bound, &start, &goals)?;
-    let among = Among::all(world);
-    let contacts = Contacts::new(arm, &among, certificate, certificate.clearance(world)?).complete()?;
-    contacts.hold(arm, stuck, &boxes)?;
-    for (number, wall) in bound.walls.iter().enumerate() {
-        let (body, part) = contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?;
-        if !bound::closes(arm, wall, &body, &part) {
-            return CheckError::fails(format!("wall {number}: along it the shape can come off the part"));
-        }
-    }
-    let from = shown(certificate.start.as_ref());
-    Ok(format!("no motion from the start{from} to{to} is shorter than {}", bound.length))
-}
-
-/// Whether a rectangle is part of another.
-fn within(part: &Rectangle, whole: &Rectangle) -> bool {
-    (0..2).all(|k| whole[k][0] <= part[k][0] && part[k][1] <= whole[k][1])
-}
-
-/// What was asked in place of the world's, in words.
-fn shown(own: Option<&[Decimal; 2]>) -> String {
-    own.map_or_else(String::new, |[a, b]| format!(" ({a}, {b})"))
-}
-
-/// The start.
-fn start(arm: &Arm, domain: &Domain, world: &World, certificate: &Certificate) -> Result<Rectangle, CheckError> {
-    match (&certificate.start, &world.start) {
-        (None, Some(Goal::Tip(_))) => {
-            let message = "the checker does not know starts that are places of the tip: give joint values";
-            Err(CheckError::in_file(Input::World, message))
-        }
-        (own, given) => place(arm, domain, "start", own.as_ref(), given.as_ref()),
-    }
-}
-
-/// The start or the goal: the certificate's, else the world's.
-fn place(
-    arm: &Arm,
-    domain: &Domain,
-    what: &str,
-    own: Option<&[Decimal; 2]>,
-    given: Option<&Goal>,
-) -> Result<Rectangle, CheckError> {
-    let own = own.map(|q| q.each_ref().map(|value| [value.clone(), value.clone()]));
-    let given = given.and_then(|given| if let Goal::Joints(values) = given { Some(values.clone()) } else { None });
-    let Some(values) = own.or(given) else {
-        return Err(CheckError::in_file(Input::World, format!("there is no {what}: [{what}] joints = [q1, q2]")));
-    };
-    let wrapped = |k: usize| {
-        let message =
-            || format!("the {what}'s joint \"{}\" is outside its limits, or at half a turn", arm.joints[k].name);
-        domain.wrapped(k, &values[k]).ok_or_else(|| CheckError::in_file(Input::World, message()))
-    };
-    Ok([wrapped(0)?, wrapped(1)?])
 }

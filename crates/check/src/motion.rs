@@ -1,47 +1,18 @@
 //! Certificates of motions: "found".
 
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Interpolation, Motion};
 use crate::curve::{FINE, LARGEST, Piece, Values};
 use crate::decimal::Decimal;
+use crate::ends::End;
 use crate::error::{CheckError, Input};
 use crate::free::{Chain, On, Solid, guard};
-use crate::interval::{Interval, length};
+use crate::interval::Interval;
 use crate::robot::{Arm, Counted};
 use crate::scene::{Part, Present, stay_off};
-use crate::sweep::{Axis, Range};
-use crate::world::{Goal, Obstacle, World};
-use num_bigint::BigInt;
-use serde::Deserialize;
-
-/// By how much a motion may miss its start or goal, radians or metres: `10^-5`.
-const MISSED: i32 = 5;
+use crate::world::{Obstacle, World};
 
 /// How often a piece is halved to see whether it keeps the limits.
 const HALVINGS: u32 = 40;
-
-/// What is played.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Motion {
-    /// The ways in which it can be read: it is free in each.
-    pub interpolation: Vec<Interpolation>,
-    /// Time, both joints' values, and as far as an interpolation needs them their velocities and accelerations.
-    pub knots: Vec<Vec<Decimal>>,
-}
-
-/// How knots are joined.
-#[derive(Deserialize, Clone, Copy, PartialEq, PartialOrd)]
-#[serde(rename_all = "snake_case")]
-pub enum Interpolation {
-    /// Straight.
-    Linear,
-    /// By the cubic with the values and velocities of both.
-    Cubic,
-    /// By the polynomial of the fourth degree with value, velocity and acceleration of the first, value and velocity of the second.
-    Quartic,
-    /// By the polynomial of the fifth degree with the values, velocities and accelerations of both.
-    Quintic,
-}
 
 /// Control points are given times this, so that they are decimals.
 pub const SIXTY: i32 = 60;
@@ -114,9 +85,8 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<Stri
     };
     let Motion { interpolation, knots } = motion;
     well_formed(interpolation, knots)?;
-    let (own_start, own_goal) = (certificate.start.as_ref(), Own::of(certificate)?);
-    let start = arm.reached("start", &knots[0], own_start.map(Own::Joints), world)?;
-    let goal = arm.reached("goal", &knots[knots.len() - 1], own_goal, world)?;
+    let start = End::start(certificate, world)?.reached(arm, &knots[0])?;
+    let goal = End::goal(certificate, world)?.reached(arm, &knots[knots.len() - 1])?;
     let pieces = (0..knots.len().max(2) - 1).map(|knot| piece(arm, interpolation, knots, knot));
     let pieces = pieces.collect::<Result<Vec<Piece>, CheckError>>()?;
     stays_off(arm, world, &pieces, [&knots[0][1], &knots[0][2]], clearance)?;
@@ -142,89 +112,6 @@ pub fn well_formed(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> R
     match knots.windows(2).position(|k| k[0][0] >= k[1][0]) {
         Some(late) => CheckError::fails(format!("knot {} is no later than the one before", late + 1)),
         None => Ok(()),
-    }
-}
-
-/// What was asked in place of the world's start or goal.
-pub enum Own<'a> {
-    Joints(&'a [Decimal; 2]),
-    Tip(&'a [Decimal; 2]),
-}
-
-impl<'a> Own<'a> {
-    fn of(certificate: &'a Certificate) -> Result<Option<Self>, CheckError> {
-        match (&certificate.goal, &certificate.goal_tip) {
-            (Some(_), Some(_)) => Err(CheckError::in_file(Input::Certificate, "it has two goals")),
-            (Some(joints), None) => Ok(Some(Self::Joints(joints))),
-            (None, tip) => Ok(tip.as_ref().map(Self::Tip)),
-        }
-    }
-}
-
-/// By how much an end is missed, in words.
-///
-/// # Errors
-/// If it is too much.
-pub fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
-    let is_within = |digits: u32| Interval::from(&Decimal::power_of_ten(digits)).lower >= *off;
-    let Some(digits) = (MISSED as u32..50).rev().find(|digits| is_within(*digits)) else {
-        return CheckError::fails(format!("the motion misses the {what} by more than 1e-{MISSED}"));
-    };
-    Ok(format!(", within 1e-{digits},"))
-}
-
-impl Arm<'_> {
-    /// How the start or the goal is reached by a knot, in words.
-    pub fn reached(&self, what: &str, knot: &[Decimal], own: Option<Own>, world: &World) -> Result<String, CheckError> {
-        let at = [&knot[1], &knot[2]];
-        let given = if what == "start" { &world.start } else { &world.goal };
-        let exactly = |[a, b]: &[Decimal; 2]| [[a.clone(), a.clone()], [b.clone(), b.clone()]];
-        let (mut words, wanted) = match (own, given) {
-            (Some(Own::Joints(q)), _) => (format!(" ({}, {})", q[0], q[1]), Goal::Joints(exactly(q))),
-            (Some(Own::Tip(place)), _) => (format!(" ({}, {})", place[0], place[1]), Goal::Tip(place.clone())),
-            (None, Some(Goal::Joints(ranges))) => (String::new(), Goal::Joints(ranges.clone())),
-            (None, Some(Goal::Tip(place))) => (String::new(), Goal::Tip(place.clone())),
-            (None, None) => {
-                let message = format!("there is no {what}: [{what}] joints = [q1, q2]");
-                return Err(CheckError::in_file(Input::World, message));
-            }
-        };
-        match &wanted {
-            Goal::Joints(ranges) if (0..2).all(|k| *at[k] == ranges[k][0] && *at[k] == ranges[k][1]) => {
-                return Ok(words);
-            }
-            Goal::Joints(_) => {}
-            Goal::Tip(_) => words += &format!(", a place of the tip \"{}\"", self.tip_link),
-        }
-        Ok(words + &missed(what, &self.away(knot, &wanted)?)?)
-    }
-
-    /// A bound on how far a knot is from where it is to be: joint by joint, or of the tip.
-    pub fn away(&self, knot: &[Decimal], goal: &Goal) -> Result<BigInt, CheckError> {
-        let at = [&knot[1], &knot[2]];
-        Ok(match goal {
-            Goal::Joints(ranges) => (0..2).map(|k| self.off(k, at[k], &ranges[k])).max().expect("two joints"),
-            Goal::Tip(place) => {
-                let tip = &self.tip;
-                let is = Chain::from(self).point_at(&On::Link(tip.link), &tip.shape.points[0], &at.map(Interval::from));
-                length(&[0, 1].map(|k| &is[k] - &Interval::from(&place[k]))).upper
-            }
-        })
-    }
-
-    /// A bound on how far a value of a joint is from another, whole turns of a joint that turns without end not counted.
-    fn off(&self, joint: usize, is: &Decimal, should: &Range) -> BigInt {
-        let apart = &Interval::from(is) - &Interval::around(should);
-        if !matches!(self.joints[joint].axis, Axis::Circle) {
-            return apart.magnitude();
-        }
-        let turn = Interval::pi() + Interval::pi();
-        let turns = &apart.lower / &turn.lower;
-        let without = |more: i32| {
-            let turns = Interval::exactly((&turns + more) << crate::interval::BITS);
-            (&apart - &(&turn * &turns)).magnitude()
-        };
-        (-1..=1).map(without).min().expect("three")
     }
 }
 

@@ -2,9 +2,9 @@
 
 use crate::error::{CheckError, Input};
 use crate::files::Files;
-use crate::interval::{Interval, Point};
+use crate::interval::{Interval, Point, minus};
 use crate::overlap::Shape;
-use crate::sweep::{Axis, Range};
+use crate::sweep::{Axis, Domain, Range};
 use crate::world::World;
 use num_bigint::Sign;
 use plane::Plane;
@@ -48,6 +48,8 @@ pub struct Arm<'a> {
     /// Origins of the two joints, the second as seen from the first.
     pub base: Point,
     pub offset: Point,
+    /// All values of both joints.
+    pub domain: Domain,
     /// The link whose origin is the tip, and that as a body without extent.
     pub tip_link: &'a str,
     pub tip: Body,
@@ -146,11 +148,12 @@ impl<'a> Arm<'a> {
         };
         let joints = [joint(0)?, joint(1)?];
         let [base, second] = poses.each_ref().map(|pose| plane.flat(&pose.at));
-        let offset = [0, 1].map(|k| &second[k] - &base[k]);
+        let offset = minus(&second, &base);
         let nowhere = Shape { points: Vec::new(), radius: Interval::whole(0) };
         let (tip_link, tip) = (children[1], Body { link: 1, shape: nowhere, heights: None });
         let (shapes, notes) = (Vec::new(), plane.idealized());
-        let mut arm = Self { joints, base, offset, tip_link, tip, shapes, notes, tree, children, plane };
+        let domain = Domain::new(joints.each_ref().map(|joint| &joint.axis));
+        let mut arm = Self { joints, domain, base, offset, tip_link, tip, shapes, notes, tree, children, plane };
         arm.tip_link = arm.tip(world.tip.as_deref())?;
         let at = arm.tree.pose(arm.tip_link)?;
         arm.tip = arm.project(1, &at, &Solid::point(), Outline::Within);

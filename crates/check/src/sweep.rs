@@ -16,6 +16,11 @@ pub type Range = [Decimal; 2];
 /// All configurations from one corner to another, joint by joint.
 pub type Rectangle = [Range; 2];
 
+/// Whether a rectangle is part of another.
+pub fn within(part: &Rectangle, whole: &Rectangle) -> bool {
+    (0..2).all(|k| whole[k][0] <= part[k][0] && part[k][1] <= whole[k][1])
+}
+
 /// The values of a joint.
 #[derive(Debug, Clone)]
 pub enum Axis {
@@ -35,10 +40,10 @@ pub struct Domain {
 }
 
 impl Domain {
-    pub fn new(axes: &[Axis; 2]) -> Self {
+    pub fn new(axes: [&Axis; 2]) -> Self {
         let turn = [(-Interval::pi()).ends(), Interval::pi().ends()];
         Self {
-            ranges: [0, 1].map(|k| match &axes[k] {
+            ranges: [0, 1].map(|k| match axes[k] {
                 Axis::Line(range) => range.clone(),
                 Axis::Circle => [turn[0][0].clone(), turn[1][1].clone()],
             }),
@@ -253,7 +258,7 @@ mod tests {
 
     fn separates(axes: [Axis; 2], list: &[[&str; 4]]) -> bool {
         let (start, goal) = (point("-1", "0.5"), point("1", "0.5"));
-        !Reached::new(&Domain::new(&axes), &boxes(list), &start).unwrap().meets(&goal)
+        !Reached::new(&Domain::new(axes.each_ref()), &boxes(list), &start).unwrap().meets(&goal)
     }
 
     fn line() -> Axis {
@@ -305,7 +310,7 @@ mod tests {
 
     #[test]
     fn whole_turns_are_taken_off() {
-        let domain = Domain::new(&[Axis::Circle, line()]);
+        let domain = Domain::new([&Axis::Circle, &line()]);
         for (value, wrapped) in
             [("7", "0.716"), ("-7", "-0.716"), ("3", "3"), ("-600.25", "2.935"), ("600.25", "-2.935")]
         {

@@ -1,12 +1,13 @@
 //! Certificates of tasks: "found", with steps.
 
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Done, Motion};
 use crate::curve::{FINE, Piece};
 use crate::decimal::Decimal;
+use crate::ends::{End, missed};
 use crate::error::{CheckError, Input};
 use crate::free::{Chain, Edge, On, Solid, guard};
-use crate::interval::{Interval, Point, both_turns, length, turned};
-use crate::motion::{Motion, Own, SIXTY, fine, missed, piece, well_formed};
+use crate::interval::{Interval, Point, both_turns, length, minus, turned};
+use crate::motion::{SIXTY, fine, piece, well_formed};
 use crate::overlap::Shape;
 use crate::polygon::Corner;
 use crate::robot::{Arm, Counted};
@@ -14,7 +15,6 @@ use crate::scene::{Part, Present, stay_off};
 use crate::world::task::{Action, Carrying, Group, Node, Passing, Step, Stroke, Task};
 use crate::world::{Obstacle, World};
 use num_bigint::BigInt;
-use serde::Deserialize;
 use std::iter::{Enumerate, Peekable};
 use std::ops::Range;
 use std::slice::Iter;
@@ -28,18 +28,6 @@ const SHORT: u32 = 6;
 /// The wrist turns by less than this, radians: more than once round nobody does.
 const LARGEST_TURN: i128 = 7;
 
-/// A step as it is done.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Done {
-    /// Its number in the world file, from 1.
-    step: usize,
-    /// The first and the last knot of its motion.
-    knots: [usize; 2],
-    /// By how much the wrist turns what is carried while the arm stands still afterwards, to the left.
-    turn: Option<Decimal>,
-}
-
 /// That a motion does all steps of a task.
 pub fn found(arm: &Arm, world: &World, certificate: &Certificate, done: &[Done]) -> Result<String, CheckError> {
     let clearance = certificate.clearance(world)?;
@@ -50,7 +38,7 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate, done: &[Done])
     }
     let Some(motion) = &certificate.motion else { return wrong(Input::Certificate, "it has no motion") };
     well_formed(&motion.interpolation, &motion.knots)?;
-    let start = arm.reached("start", &motion.knots[0], certificate.start.as_ref().map(Own::Joints), world)?;
+    let start = End::start(certificate, world)?.reached(arm, &motion.knots[0])?;
     let mut order = Order { left: done.iter().enumerate().peekable(), renewed: Vec::new(), matched: Vec::new() };
     order.group(&task.steps)?;
     if let Some((index, done)) = order.left.next() {
@@ -286,7 +274,7 @@ impl<'a> Replay<'a> {
                 self.release(at, angle.as_ref(), &to)?;
             }
             Action::Move(goal) => {
-                self.misses(self.arm.away(&motion.knots[last], goal)?)?;
+                self.misses(self.arm.away(&motion.knots[last], goal))?;
                 self.turn(done, &to)?;
                 self.released = None;
             }
@@ -487,8 +475,4 @@ impl<'a> Replay<'a> {
         self.held = Some(held);
         Ok(())
     }
-}
-
-fn minus(a: &Point, b: &Point) -> Point {
-    [&a[0] - &b[0], &a[1] - &b[1]]
 }

@@ -57,6 +57,7 @@ pub struct World {
 }
 
 /// Where the arm is, or is to go.
+#[derive(Clone)]
 pub enum Goal {
     /// Values of the joints.
     Joints([Range; 2]),

@@ -322,11 +322,7 @@ fn bad_input_is_named() {
     urdf("collision", "nothing", "could collide");
     urdf("<link name=\"fore\">", "<joint name=\"m\" type=\"revolute\"> <parent link=\"fore\"/> <child link=\"c\"/> <mimic joint=\"a\"/> </joint>
           <link name=\"c\"> <collision> <geometry> <sphere radius=\"0.1\"/> </geometry> </collision> </link> <link name=\"fore\">", "mimic");
-    urdf(
-        "<limit lower=\"-2.9\" upper=\"2.9\"/>",
-        "<limit lower=\"-2.9\" upper=\"2.9\"/> <safety_controller soft_lower_limit=\"-1\"/>",
-        "soft",
-    );
+    urdf("<limit lower=\"-2.9\" upper=\"2.9\"/>", "<limit lower=\"2.9\" upper=\"2.9\"/>", "no limits");
     let worlds = |text: &str, part: &str| bad(&arm(), &world(text), &good, Input::World, part);
     worlds("[[obstacle]]\nimage = \"map.yaml\"", "check_files");
     worlds("[[obstacle]]\npolygon = [[0, 0], [1, 1]]", "too few");

@@ -276,7 +276,7 @@ fn visual_shapes_count_where_there_are_no_others() {
     assert_eq!((on_wall(&bare, "bar = 0.05", upper), on_wall(&bare, "bar = 0.02", upper)), (0, 3));
     assert_eq!(
         (on_wall(&bare, "", upper), on_wall(&arm, "bar = 0.05", upper), on_wall(&seen, "bar = 0.05", upper)),
-        (3, 3, 3)
+        (1, 3, 3)
     );
     assert_eq!((on_wall(&bare, "bar = 0.05", &upper.replace('0', "1")), on_wall(&bare, "bar = -1", upper)), (1, 1));
     // From the second joint to the tip, whatever the elbow; all at the height of the joints.
@@ -322,7 +322,7 @@ fn bad_input_is_named() {
     urdf("box size=\"1.0 0.1 0.1\"", "mesh filename=\"m\"", Some(7), "mesh");
     urdf("lower=\"-2.9\"", "lower=\"2.9\"", Some(3), "limits");
     urdf("name=\"b\"", "name=\"a\"", Some(10), "second joint");
-    urdf("xyz=\"0 0 1\"", "xyz=\"0 0.001 1\"", Some(10), "plane");
+    urdf("xyz=\"1 0 0\"/> <axis xyz=\"0 0 1\"", "xyz=\"1 0 0\"/> <axis xyz=\"0 1 1\"", Some(10), "plane");
     urdf("xyz=\"0 0 1\"", "xyz=\"0 0 0\"", Some(4), "no direction");
     urdf("parent link=\"base\"", "parent link=\"fore\"", Some(10), "ring");
     urdf("parent link=\"upper\"", "parent link=\"base\"", Some(10), "carries");
@@ -330,11 +330,11 @@ fn bad_input_is_named() {
     let worlds = |text: &str, at, part| bad(&arm, text, &good, Input::World, at, part);
     worlds("start = 3", Some(1), "table");
     worlds("start.joints = [1]", Some(1), "two numbers");
-    worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "starts");
+    worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "from a start that is a place");
     worlds("start = { joints = [1, 2], near = 3 }", Some(1), "joints");
     worlds("goal.tip = [1, 2]\ngoal.joints = [1, 2]", Some(1), "joints");
     worlds("\nstart.joints = [1, inf]", Some(2), "decimal");
-    worlds("start.joints = [1, 0x10]", Some(1), "decimal");
+    worlds("start.joints = [1, true]", Some(1), "decimal");
     worlds("goal.joints = [1, 2]", None, "no start");
     worlds(&format!("{ENDS}[[step]]"), Some(3), "step");
     worlds(&format!("{ENDS}[[obstacle]]"), Some(3), "one shape");

@@ -6,7 +6,7 @@ use super::tree::{Read, Tree};
 use super::{Arm, Body};
 use crate::decimal::Decimal;
 use crate::error::CheckError;
-use crate::interval::{BITS, Interval, Point, length};
+use crate::interval::{BITS, Interval, Point, length, minus, sum};
 use crate::overlap::{Shape, hull};
 use crate::sweep::Range;
 use num_bigint::{BigInt, Sign};
@@ -104,10 +104,10 @@ impl Arm<'_> {
         let plane = &self.plane;
         let joint = if link == 0 { self.base.clone() } else { [0, 1].map(|k| &self.base[k] + &self.offset[k]) };
         let origin = plane.flat(&pose.at);
-        let center = [0, 1].map(|k| &origin[k] - &joint[k]);
+        let center = minus(&origin, &joint);
         let unit = pose.direction(&[0, 0, 1].map(Interval::whole));
         let (along, tilt) = (plane.flat(&unit), plane.height(&unit).abs());
-        let beside = |by: &Point| [[0, 1].map(|k| &center[k] + &by[k]), [0, 1].map(|k| &center[k] - &by[k])];
+        let beside = |by: &Point| [sum(&center, by), minus(&center, by)];
         let height = &plane.height(&pose.at);
         let about = |reach: &Interval| [height - reach, height + reach];
         let (shape, heights) = match solid {

@@ -4,7 +4,7 @@ use super::picture::{self, Picture};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::files::Files;
-use crate::interval::{BITS, Interval, Point, sum, turned};
+use crate::interval::{BITS, Interval, Point, minus, sum, turned};
 use num_bigint::{BigInt, Sign};
 use serde::Deserialize;
 use std::path::Path;
@@ -92,7 +92,7 @@ impl Cells {
     /// A point of the obstacle's frame in the squares' own, whose sides are 1.
     fn counted(&self, p: &Point) -> Point {
         let [sine, cosine] = &self.turn;
-        let from_there = [0, 1].map(|k| &p[k] - &self.at[k]);
+        let from_there = minus(p, &self.at);
         turned(&from_there, &[-sine, cosine.clone()]).map(|c| c.divided(&Interval::from(&self.side)))
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Read, Reader, Value, point};
 use crate::decimal::Decimal;
-use crate::interval::{Interval, Point, length, sum, times, turned};
+use crate::interval::{Interval, Point, length, minus, sum, times, turned};
 use crate::overlap::Shape;
 use num_bigint::BigInt;
 
@@ -51,7 +51,7 @@ impl Course {
         let stops = self.stops.iter().map(|stop| &stop.time).filter(|time| from < time && *time < to);
         let away = [from, to].into_iter().chain(stops).map(|time| {
             let (there, turned) = self.pose(time);
-            let gone = length(&[0, 1].map(|k| &there[k] - &at[k]));
+            let gone = length(&minus(&there, &at));
             (&gone + &(&reach * &(&turned - &angle).abs())).upper
         });
         let away: BigInt = away.max().expect("two ends");

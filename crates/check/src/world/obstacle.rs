@@ -5,7 +5,7 @@ use super::course::Course;
 use super::point;
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::interval::{BITS, Interval, Point, sum, turned};
+use crate::interval::{BITS, Interval, Point, minus, sum, turned};
 use crate::overlap::Shape;
 use crate::polygon::{self, Corner, edges, surrounds};
 use crate::sweep::Range;
@@ -60,7 +60,7 @@ impl Obstacle {
     /// A point of the plane in its frame.
     fn own(&self, p: &Point) -> Point {
         let [sine, cosine] = &self.turn;
-        turned(&[0, 1].map(|k| &p[k] - &self.at[k]), &[-sine, cosine.clone()])
+        turned(&minus(p, &self.at), &[-sine, cosine.clone()])
     }
 
     /// A convex part of it, in its place: a disc all of it, of a polyline two points that follow one another, of a polygon

@@ -1,0 +1,29 @@
+//! Certificates that there is no motion: "infeasible".
+
+use crate::certificate::{Certificate, rectangles};
+use crate::contacts::{Among, Contacts};
+use crate::ends::{End, MOST_PARTS};
+use crate::error::CheckError;
+use crate::robot::Arm;
+use crate::sweep::Reached;
+use crate::world::World;
+
+/// That no motion leads from the start to the goal.
+pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
+    let (start, goal) = (End::start(certificate, world)?, End::goal(certificate, world)?);
+    let clearance = certificate.clearance(world)?;
+    let stuck = certificate.boxes.as_deref().unwrap_or_default();
+    let boxes = rectangles(stuck)?;
+    let Some(reached) = Reached::new(&arm.domain, &boxes, &start.configuration(arm)?) else {
+        return CheckError::fails("the boxes leave more gaps than the checker looks at");
+    };
+    if !goal.region(arm)?.places(arm, MOST_PARTS, |part| !reached.meets(part)).is_empty() {
+        return CheckError::fails("the boxes do not separate the goal from the start");
+    }
+    Contacts::new(arm, &Among::all(world), certificate, clearance).complete()?.hold(arm, stuck, &boxes)?;
+    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
+    let [start, goal] = [start, goal].map(|end| end.named(arm));
+    Ok(format!(
+        "no motion of \"{first}\" and \"{second}\" leads from the start{start} to the goal{goal} with clearance {clearance}"
+    ))
+}
