@@ -255,32 +255,6 @@ impl Reader<'_> {
         }
         Ok(())
     }
-
-    /// `[map]`: its walls come after the obstacles, and its goal is the world's if that has none.
-    fn map(&self, value: &Value, world: &mut World) -> Read<()> {
-        let (mut walls, mut wishes, mut is_framed, mut heights) = (None, None, true, None);
-        let mut unit = map::Unit { scale: Decimal::power_of_ten(3), offset: origin() };
-        for (key, value) in self.table(value)? {
-            match &**key.get_ref() {
-                "file" => walls = Some(self.file(&self.text(value)?)?),
-                "preferences" => wishes = Some(self.file(&self.text(value)?)?),
-                "scale" => unit.scale = self.number(value)?,
-                "offset" => unit.offset = self.two(value, |n| self.number(n))?,
-                "frame" => is_framed = value.get_ref().as_bool().unwrap_or(true),
-                "height" => heights = Some(self.heights(value)?),
-                other => return self.error(value, &format!("the checker does not know the key {other} of a map")),
-            }
-        }
-        let Some(walls) = walls else { return self.error(value, "the map has no file") };
-        for outline in map::walls(self.files, &walls, &unit, is_framed)? {
-            let (at, turn) = (point(&origin()), [0, 1].map(Interval::whole));
-            world.obstacles.push(Obstacle { name: None, outline, at, turn, heights: heights.clone(), course: None });
-        }
-        if let (None, Some(path)) = (&world.goal, wishes) {
-            world.goal = Some(Goal::Tip(map::goal(self.files, &path, &unit)?));
-        }
-        Ok(())
-    }
 }
 
 fn origin() -> Corner {

@@ -1,22 +1,51 @@
 //! Line maps, and the goal of a preference file.
 
-use super::Outline;
+use super::{Goal, Obstacle, Outline, Read, Reader, Value, World, origin, point};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::files::Files;
+use crate::interval::Interval;
 use crate::polygon::Corner;
 use std::collections::VecDeque;
 use std::path::Path;
 
 /// What is in the world's unit: maps have one of their own.
-pub struct Unit {
-    pub scale: Decimal,
-    pub offset: Corner,
+struct Unit {
+    scale: Decimal,
+    offset: Corner,
 }
 
 impl Unit {
     fn place(&self, p: &Corner) -> Corner {
         [0, 1].map(|k| &(&p[k] * &self.scale) + &self.offset[k])
+    }
+}
+
+impl Reader<'_> {
+    /// `[map]`: its walls come after the obstacles, and its goal is the world's if that has none.
+    pub(super) fn map(&self, value: &Value, world: &mut World) -> Read<()> {
+        let (mut file, mut wishes, mut is_framed, mut heights) = (None, None, true, None);
+        let mut unit = Unit { scale: Decimal::power_of_ten(3), offset: origin() };
+        for (key, value) in self.table(value)? {
+            match &**key.get_ref() {
+                "file" => file = Some(self.file(&self.text(value)?)?),
+                "preferences" => wishes = Some(self.file(&self.text(value)?)?),
+                "scale" => unit.scale = self.number(value)?,
+                "offset" => unit.offset = self.two(value, |n| self.number(n))?,
+                "frame" => is_framed = value.get_ref().as_bool().unwrap_or(true),
+                "height" => heights = Some(self.heights(value)?),
+                other => return self.error(value, &format!("the checker does not know the key {other} of a map")),
+            }
+        }
+        let Some(file) = file else { return self.error(value, "the map has no file") };
+        for outline in walls(self.files, &file, &unit, is_framed)? {
+            let (at, turn) = (point(&origin()), [0, 1].map(Interval::whole));
+            world.obstacles.push(Obstacle { name: None, outline, at, turn, heights: heights.clone(), course: None });
+        }
+        if let (None, Some(path)) = (&world.goal, wishes) {
+            world.goal = Some(Goal::Tip(goal(self.files, &path, &unit)?));
+        }
+        Ok(())
     }
 }
 
@@ -77,7 +106,7 @@ fn text_of(files: &Files, path: &Path) -> Result<String, CheckError> {
 ///
 /// # Errors
 /// What is no line map.
-pub fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec<Outline>, CheckError> {
+fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec<Outline>, CheckError> {
     let (name, content) = (path.display().to_string(), text_of(files, path)?);
     let mut text = Text::new(&name, &content);
     let [[left, low], [right, high]] = text.bounds()?;
@@ -128,7 +157,7 @@ pub fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result
 ///
 /// # Errors
 /// What is no preference file, up to there.
-pub fn goal(files: &Files, path: &Path, unit: &Unit) -> Result<Corner, CheckError> {
+fn goal(files: &Files, path: &Path, unit: &Unit) -> Result<Corner, CheckError> {
     let (name, content) = (path.display().to_string(), text_of(files, path)?);
     let mut text = Text::new(&name, &content);
     text.bounds()?;
