@@ -45,6 +45,20 @@ pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
     Ok(basis(normal))
 }
 
+/// What is told of axes that are off the plane's normal, and of slides that are off the plane, if it is more than anybody could notice.
+pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String> {
+    /// A micrometre over a metre.
+    const NOTICED: f64 = 1e-6;
+    let off = |axis: &SpatialAxis| {
+        let [across, along] = [axis.direction.cross(&plane.normal).norm(), axis.direction.dot(&plane.normal).abs()];
+        if axis.revolute { across } else { along }
+    };
+    let off = axes.iter().map(off).fold(0.0, f64::max);
+    (off > NOTICED).then(|| {
+        format!("the joints' axes are up to {off:.1e} rad off the plane that they are taken to move in ({off:.1e} m over a metre)")
+    })
+}
+
 fn refusal(axes: [SpatialAxis; 2], reason: &str) -> String {
     let describe = |axis: SpatialAxis| {
         let d = axis.direction;
@@ -155,6 +169,17 @@ mod tests {
             let n = Vector3::from(n).normalize();
             assert!((plane.u.cross(&plane.v) - n).norm() < 1e-12 && (plane.normal - n).norm() < 1e-12);
             assert!((plane.u.norm() - 1.0).abs() < 1e-12 && plane.u.dot(&n).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn axes_that_are_off_are_told() {
+        let told = |a, b| deviation(&common_plane([a, b]).unwrap(), [a, b]);
+        assert_eq!(told(turn("a", [0.0, 0.0, 1.0]), turn("b", [0.0, 1e-7, -1.0])), None);
+        assert_eq!(told(turn("a", [0.0, 1.0, 1.0]), slide("b", [0.0, 1.0, -1.0])), None);
+        for b in [turn("b", [0.0, 5e-4, 1.0]), slide("b", [1.0, 0.0, -5e-4])] {
+            let told = told(turn("a", [0.0, 0.0, 1.0]), b).unwrap();
+            assert!(told.contains("up to 5.0e-4 rad"), "{told}");
         }
     }
 

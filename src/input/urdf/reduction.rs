@@ -108,6 +108,7 @@ impl<'a> Reduction<'a> {
             report.notes.push("link \"world\" is not declared in the URDF; taken as the root".into());
         }
         report.geometry.push(format!("tip: origin of link \"{}\"", self.tree.links[self.chain.tip]));
+        report.notes.extend(plane::deviation(&plane, self.axes()));
         report.notes.extend(self.chain.notes.iter().cloned());
         let held = |&j: &usize| (self.document.robot.joints[j].name.clone(), self.chain.values[j]);
         report.held = self.chain.held.iter().map(held).collect();
