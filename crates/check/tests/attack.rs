@@ -1,55 +1,23 @@
 //! Falsified certificates: each is refused, or what it says is still true, as an oracle in floating point has it that shares no code with
 //! the checker: samples of the boxes, and a flood fill of the cells between their ends.
 
+#[path = "../../../tests/common/dice.rs"]
+mod dice;
 #[path = "../../../tests/common/random.rs"]
 mod random;
+#[path = "common/two_bars.rs"]
+mod two_bars;
 
 use cplan_check::{CheckError, check};
-
-/// Two bars of 1 m and 0.8 m, 0.1 m wide, at one height.
-const ROBOT: &str = r#"<robot name="r">
-  <link name="base"/>
-  <joint name="a" type="revolute">
-    <parent link="base"/> <child link="upper"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="upper">
-    <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1.0 0.1 0.1"/> </geometry> </collision>
-  </link>
-  <joint name="b" type="revolute">
-    <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="fore">
-    <collision> <origin xyz="0.4 0 0"/> <geometry> <box size="0.8 0.1 0.1"/> </geometry> </collision>
-  </link>
-</robot>"#;
+use dice::Dice;
+use two_bars::{LIMIT, TWO_BARS};
 
 /// Corners of both bars, as seen from their joints.
 const BARS: [[[f64; 2]; 4]; 2] =
     [[[0.0, -0.05], [1.0, -0.05], [1.0, 0.05], [0.0, 0.05]], [[0.0, -0.05], [0.8, -0.05], [0.8, 0.05], [0.0, 0.05]]];
 
-const LIMIT: f64 = 2.9;
 const START: [f64; 2] = [-1.0, 0.2];
 const GOAL: [f64; 2] = [1.0, -0.3];
-
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 /// A wall from `from` to 2.5 on the x axis, and a box that says which of the bars meets it, or a second wall that is out of reach.
 #[derive(Clone, Debug)]
@@ -68,21 +36,21 @@ struct Stuck {
 
 impl Claim {
     /// Rows that overlap or share an end, each cut in two at some value near 0.
-    fn honest(random: &mut Random) -> Self {
+    fn honest(random: &mut Dice) -> Self {
         let mut boxes = Vec::new();
         let mut bottom = -LIMIT;
         while bottom < LIMIT {
-            let top = (bottom + random.between(0.3, 1.5)).min(LIMIT);
-            let cut = random.between(-0.005, 0.005);
+            let top = (bottom + random.within(0.3, 1.5)).min(LIMIT);
+            let cut = random.within(-0.005, 0.005);
             for [left, right] in [[cut - 0.02, cut], [cut, cut + 0.02]] {
                 boxes.push(Stuck { lower: [left, bottom], upper: [right, top], shape: 0, part: 0 });
             }
-            bottom = if top == LIMIT { top } else { top - random.between(0.0, 0.2) * random.below(2) as f64 };
+            bottom = if top == LIMIT { top } else { top - random.within(0.0, 0.2) * random.below(2) as f64 };
         }
         Self { from: 0.5, boxes }
     }
 
-    fn falsify(&mut self, random: &mut Random) {
+    fn falsify(&mut self, random: &mut Dice) {
         let number = random.below(self.boxes.len());
         let [k, end] = [random.below(2), random.below(2)];
         let kind = random.below(10);
@@ -93,16 +61,16 @@ impl Claim {
             0 => _ = self.boxes.remove(number),
             1 => ends[k] = ends[k].next_up(),
             2 => ends[k] = ends[k].next_down(),
-            3 => ends[k] += random.between(-0.1, 0.1),
-            4 => ends[k] += random.between(-1e-9, 1e-9),
+            3 => ends[k] += random.within(-0.1, 0.1),
+            4 => ends[k] += random.within(-1e-9, 1e-9),
             5 => (stuck.lower[k], stuck.upper[k]) = (other.lower[k], other.upper[k]),
             6 => std::mem::swap(&mut stuck.lower[k], &mut stuck.upper[k]),
             7 => [stuck.shape, stuck.part] = [random.below(3), random.below(3)],
             8 => {
-                stuck.lower[0] -= random.between(0.0, 0.05);
-                stuck.upper[0] += random.between(0.0, 0.05);
+                stuck.lower[0] -= random.within(0.0, 0.05);
+                stuck.upper[0] += random.within(0.0, 0.05);
             }
-            _ => self.from = random.between(0.3, 1.1),
+            _ => self.from = random.within(0.3, 1.1),
         }
         if self.boxes.is_empty() {
             *self = Self::honest(random);
@@ -126,7 +94,7 @@ impl Claim {
             "boxes": [{}]}}"#,
             boxes.join(",")
         );
-        check(ROBOT, &world, &certificate)
+        check(TWO_BARS, &world, &certificate)
     }
 
     /// Whether every box is stuck, as far as samples show, up to rounding.
@@ -219,7 +187,7 @@ fn apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
 fn what_is_falsified_is_refused_or_still_true() {
     let (mut held, mut refused) = (0, 0);
     for seed in random::seeds(600) {
-        let mut random = Random(seed);
+        let mut random = Dice::new(seed);
         let mut claim = Claim::honest(&mut random);
         if seed % 100 == 0 {
             claim.judged().unwrap_or_else(|why| panic!("seed {seed}: {why}"));

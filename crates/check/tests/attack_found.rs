@@ -1,29 +1,17 @@
 //! Falsified certificates of motions: each is refused, or the motion is still free, as an oracle in floating point has it that shares no
 //! code with the checker: samples of the motion, by power series of its own, and distances of sides and corners.
 
+#[path = "../../../tests/common/dice.rs"]
+mod dice;
 #[path = "../../../tests/common/random.rs"]
 mod random;
+#[path = "common/two_bars.rs"]
+mod two_bars;
 
 use cplan_check::{CheckError, check};
+use dice::Dice;
+use two_bars::{LIMIT, TWO_BARS};
 
-/// Two bars of 1 m and 0.8 m, 0.1 m wide.
-const ROBOT: &str = r#"<robot name="r">
-  <link name="base"/>
-  <joint name="a" type="revolute">
-    <parent link="base"/> <child link="upper"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="upper">
-    <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1.0 0.1 0.1"/> </geometry> </collision>
-  </link>
-  <joint name="b" type="revolute">
-    <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="fore">
-    <collision> <origin xyz="0.4 0 0"/> <geometry> <box size="0.8 0.1 0.1"/> </geometry> </collision>
-  </link>
-</robot>"#;
-
-const LIMIT: f64 = 2.9;
 const START: [f64; 2] = [-1.0, 0.2];
 const GOAL: [f64; 2] = [1.0, -0.3];
 
@@ -32,26 +20,6 @@ const SAMPLES: u32 = 200;
 
 /// The same where it matters what is between them.
 const FINE: u32 = 4_000;
-
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 type P = [f64; 2];
 
@@ -74,25 +42,25 @@ const WAYS: [&str; 4] = ["linear", "cubic", "quartic", "quintic"];
 
 impl Claim {
     /// A motion with some knots, of a slow and a swinging joint, among obstacles that it keeps off.
-    fn honest(random: &mut Random) -> Self {
+    fn honest(random: &mut Dice) -> Self {
         loop {
             let count = 2 + random.below(5);
             let mut knots: Vec<Knot> = (0..count)
                 .map(|k| {
                     let t = k as f64 / (count - 1) as f64;
                     let q1 = START[0] + (GOAL[0] - START[0]) * t;
-                    let q2 = START[1] + (GOAL[1] - START[1]) * t + random.between(-1.5, 2.5) * t * (1.0 - t) * 4.0;
-                    let speed = |random: &mut Random| random.between(-1.0, 1.0);
+                    let q2 = START[1] + (GOAL[1] - START[1]) * t + random.within(-1.5, 2.5) * t * (1.0 - t) * 4.0;
+                    let speed = |random: &mut Dice| random.within(-1.0, 1.0);
                     [t * 2.0, q1, q2, speed(random), speed(random), speed(random), speed(random)]
                 })
                 .collect();
             knots[0][1..3].copy_from_slice(&START);
             knots[count - 1][1..3].copy_from_slice(&GOAL);
-            let around = |random: &mut Random| {
-                let (angle, far) = (random.between(-3.0, 3.0), random.between(0.3, 2.2));
+            let around = |random: &mut Dice| {
+                let (angle, far) = (random.within(-3.0, 3.0), random.within(0.3, 2.2));
                 [far * angle.cos(), far * angle.sin()]
             };
-            let near = |random: &mut Random, [x, y]: P| [x + random.between(-0.4, 0.4), y + random.between(-0.4, 0.4)];
+            let near = |random: &mut Dice, [x, y]: P| [x + random.within(-0.4, 0.4), y + random.within(-0.4, 0.4)];
             let [a, b] = [around(random), around(random)];
             let claim = Self {
                 way: random.below(4),
@@ -102,7 +70,7 @@ impl Claim {
                 ring: (0..5).map(|_| near(random, a)).collect(),
                 wall: (0..3).map(|_| near(random, b)).collect(),
                 center: around(random),
-                radius: random.between(0.05, 0.3),
+                radius: random.within(0.05, 0.3),
             };
             if claim.keeps_limits(1e-3) && claim.distance(SAMPLES) > claim.clearance + 1e-4 {
                 return claim;
@@ -110,7 +78,7 @@ impl Claim {
         }
     }
 
-    fn falsify(&mut self, random: &mut Random) {
+    fn falsify(&mut self, random: &mut Dice) {
         let (number, other) = (random.below(self.knots.len()), random.below(self.knots.len()));
         let column = 1 + random.below(6);
         match random.below(10) {
@@ -119,14 +87,14 @@ impl Claim {
                 let (a, b) = (self.knots[number][column], self.knots[other][column]);
                 (self.knots[number][column], self.knots[other][column]) = (b, a);
             }
-            2 => self.knots[number][column] += random.between(-0.5, 0.5),
-            3 => self.knots[number][1 + random.below(2)] += random.between(-3e-5, 3e-5),
-            4 => self.knots[number][3 + random.below(4)] *= random.between(-3.0, 5.0),
-            5 => self.knots[number][0] += random.between(-0.3, 0.3),
+            2 => self.knots[number][column] += random.within(-0.5, 0.5),
+            3 => self.knots[number][1 + random.below(2)] += random.within(-3e-5, 3e-5),
+            4 => self.knots[number][3 + random.below(4)] *= random.within(-3.0, 5.0),
+            5 => self.knots[number][0] += random.within(-0.3, 0.3),
             6 => self.way = random.below(4),
-            7 => self.clearance = self.distance(SAMPLES).max(0.0) * random.between(0.8, 1.2),
-            8 => self.center = [self.center[0] + random.between(-0.3, 0.3), self.center[1] + random.between(-0.3, 0.3)],
-            _ => self.ring[random.below(5)] = [random.between(-2.0, 2.0), random.between(-2.0, 2.0)],
+            7 => self.clearance = self.distance(SAMPLES).max(0.0) * random.within(0.8, 1.2),
+            8 => self.center = [self.center[0] + random.within(-0.3, 0.3), self.center[1] + random.within(-0.3, 0.3)],
+            _ => self.ring[random.below(5)] = [random.within(-2.0, 2.0), random.within(-2.0, 2.0)],
         }
     }
 
@@ -144,7 +112,7 @@ impl Claim {
             WAYS[self.way],
             knots.join(",")
         );
-        check(ROBOT, &world, &certificate)
+        check(TWO_BARS, &world, &certificate)
     }
 
     /// Samples of the motion.
@@ -270,7 +238,7 @@ fn within(p: P, ring: &[[P; 2]]) -> bool {
 fn what_is_falsified_is_refused_or_still_true() {
     let (mut held, mut refused) = (0, 0);
     for seed in random::seeds(120) {
-        let mut random = Random(seed);
+        let mut random = Dice::new(seed);
         let mut claim = Claim::honest(&mut random);
         // What comes too near between two samples is no honest claim.
         if seed % 4 == 0 && claim.distance(FINE) > claim.clearance + 1e-6 {

@@ -6,33 +6,15 @@
 mod dice;
 #[path = "../../../tests/common/random.rs"]
 mod random;
+#[path = "common/two_bars.rs"]
+mod two_bars;
 
 use cplan_check::{CheckError, check};
 use dice::Dice;
 use std::fmt::Write;
+use two_bars::{LIMIT, TWO_BARS};
 
 type P = [f64; 2];
-
-/// Two bars of 1 m and 0.8 m, 0.1 m wide; the tip is at the end of the second.
-const ROBOT: &str = r#"<robot name="r">
-  <link name="base"/>
-  <joint name="a" type="revolute">
-    <parent link="base"/> <child link="upper"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="upper">
-    <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1.0 0.1 0.1"/> </geometry> </collision>
-  </link>
-  <joint name="b" type="revolute">
-    <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="fore">
-    <collision> <origin xyz="0.4 0 0"/> <geometry> <box size="0.8 0.1 0.1"/> </geometry> </collision>
-  </link>
-  <joint name="t" type="fixed"> <parent link="fore"/> <child link="tool"/> <origin xyz="0.8 0 0"/> </joint>
-  <link name="tool"/>
-</robot>"#;
-
-const LIMIT: f64 = 2.9;
 
 /// Samples of a motion or a turn.
 const SAMPLES: u32 = 300;
@@ -583,7 +565,7 @@ fn compared(in_time: bool) {
         for round in 0..4 {
             let claim = if round == 0 { honest.clone() } else { honest.falsified(&mut dice) };
             let margin = claim.margin();
-            let judged = check(ROBOT, &claim.world(), &claim.certificate());
+            let judged = check(TWO_BARS, &claim.world(), &claim.certificate());
             assert!(
                 !matches!(judged, Err(CheckError::Input { .. })),
                 "seed {seed}, {round}: {judged:?}\n{}",

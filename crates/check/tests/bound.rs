@@ -1,9 +1,12 @@
 //! Lower bounds written by hand, and falsified ones.
 
+#[path = "../../../tests/common/dice.rs"]
+mod dice;
 #[path = "../../../tests/common/random.rs"]
 mod random;
 
 use cplan_check::{CheckError, check};
+use dice::Dice;
 use std::fmt::Write as _;
 
 /// A square of 1 m that slides over 10 m by 10 m.
@@ -155,32 +158,20 @@ fn on_a_circle_ways_lead_round_both_sides() {
     }
 }
 
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 /// Walls, potentials and lengths at random: what holds is no more than the true optimum, over the two corners of the C-obstacle.
 #[test]
 fn nothing_that_is_longer_than_the_optimum_holds() {
     let optimum = 2.0 * 2.5_f64.hypot(6.5) + 3.0;
     let (mut held, mut longest) = (0, 0.0_f64);
     for seed in random::seeds(300) {
-        let mut random = Random(seed);
+        let mut random = Dice::new(seed);
         let (length, mut walls) = over_the_wall();
-        let length = length * random.between(0.9, 1.1);
+        let length = length * random.within(0.9, 1.1);
         for (from, to, potential) in &mut walls {
-            let x = from[0] + random.between(-0.2, 0.2);
-            (from[0], *to) = (x, [x + random.between(-0.1, 0.1), 7.4 + random.between(-0.3, 0.2)]);
+            let x = from[0] + random.within(-0.2, 0.2);
+            (from[0], *to) = (x, [x + random.within(-0.1, 0.1), 7.4 + random.within(-0.3, 0.2)]);
             *potential =
-                potential.map(|value| value * random.between(0.9, 1.05)).filter(|_| random.between(0.0, 1.0) < 0.9);
+                potential.map(|value| value * random.within(0.9, 1.05)).filter(|_| random.within(0.0, 1.0) < 0.9);
         }
         if code(GANTRY, WORLD, &certificate(length, EUCLIDEAN, &walls)) == 0 {
             assert!(length <= optimum, "{length}: {walls:?}");

@@ -1,9 +1,12 @@
 //! Files that the URDF and the world name: pictures, line maps and meshes, held to the same in other words.
 
+#[path = "../../../tests/common/dice.rs"]
+mod dice;
 #[path = "../../../tests/common/random.rs"]
 mod random;
 
 use cplan_check::{CheckError, Input, check, check_files};
+use dice::Dice;
 use std::path::{Path, PathBuf};
 
 /// Two bars of 1 m and 0.8 m, given by what is in the places of `{upper}` and `{fore}`.
@@ -91,29 +94,10 @@ fn straight(from: [f64; 2], to: [f64; 2]) -> String {
     )
 }
 
-/// A generator of numbers (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let share = ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
-        low + share * (high - low)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        self.between(0.0, n as f64) as usize
-    }
-
-    fn motion(&mut self) -> String {
-        let mut q = || [0; 2].map(|_| self.between(-2.8, 2.8));
-        straight(q(), q())
-    }
+fn motion(dice: &mut Dice) -> String {
+    let mut q = || [0; 2].map(|_| dice.within(-2.8, 2.8));
+    straight(q(), q())
 }
-
 const YAML: &str = "# a map\nimage: \"map.pgm\"\nresolution: 0.4 # metres\norigin: [-1.2, -1, 0.3]\nnegate: 0\noccupied_thresh: 0.65\n\
                     free_thresh: 0.196\n";
 
@@ -124,7 +108,7 @@ fn a_picture_is_its_dark_squares() {
     place.write("map.yaml", YAML);
     let mut free = 0;
     for seed in random::seeds(20) {
-        let mut random = Random(seed);
+        let mut random = Dice::new(seed);
         let (width, height, most) = (1 + random.below(6), 1 + random.below(6), [1, 9, 255, 300][random.below(4)]);
         let shades: Vec<usize> =
             (0..width * height).map(|_| if random.below(4) == 0 { random.below(most + 1) } else { most }).collect();
@@ -159,7 +143,7 @@ fn a_picture_is_its_dark_squares() {
             many += &format!("[[obstacle]]\npolygon = {ring:?}\n{pose}");
         }
         for _ in 0..4 {
-            let motion = random.motion();
+            let motion = motion(&mut random);
             let verdicts = [&one, &many].map(|world| place.is_free(world, &motion));
             assert_eq!(verdicts[0], verdicts[1], "seed {seed}: {motion}");
             free += u64::from(verdicts[0]);
@@ -224,7 +208,7 @@ fn a_line_map_is_its_walls() {
                 holes = [[[-2.8, -2.6], [3.2, -2.6], [3.2, 2.4], [-2.8, 2.4]]]\n";
     let mut free = 0;
     for seed in random::seeds(60) {
-        let motion = Random(seed).motion();
+        let motion = motion(&mut Dice::new(seed));
         let verdicts = [world, same].map(|world| place.is_free(world, &motion));
         assert_eq!(verdicts[0], verdicts[1], "seed {seed}: {motion}");
         free += u64::from(verdicts[0]);
@@ -301,8 +285,8 @@ fn a_picture_is_carried_as_its_squares_are() {
         ["image = \"map.yaml\"", "polygon = [[-0.4, -0.2], [0, -0.2], [0, 0.2], [0.4, 0.2], [0.4, 0.6], [-0.4, 0.6]]"];
     let mut free = 0;
     for seed in random::seeds(30) {
-        let mut random = Random(seed);
-        let (x, y) = (random.between(0.5, 4.0), random.between(0.5, 2.0));
+        let mut random = Dice::new(seed);
+        let (x, y) = (random.within(0.5, 4.0), random.within(0.5, 2.0));
         let verdicts = shapes.map(|shape| {
             let world = format!(
                 "robot.payload = \"level\"\nstart.joints = [0, 1]\n[[object]]\nname = \"block\"\nat = [1, 1]\nangle = 0.2\n{shape}\n\
@@ -396,7 +380,7 @@ fn a_mesh_is_its_hull() {
         ];
         let meshes = meshes.each_ref().map(String::as_str);
         for seed in random::seeds(60) {
-            let motion = Random(seed).motion();
+            let motion = motion(&mut Dice::new(seed));
             let verdicts = [arm(boxes.each_ref().map(String::as_str)), arm(meshes)].map(|urdf| {
                 place.write("arm.urdf", urdf);
                 place.is_free(world, &motion)

@@ -1,10 +1,13 @@
 //! Robots in space, held to kinematics in floating point that share nothing with the checker: planes along any directions, frames turned by
 //! angles and quaternions, joints that are held, and joints that mimic these.
 
+#[path = "../../../tests/common/dice.rs"]
+mod dice;
 #[path = "../../../tests/common/random.rs"]
 mod random;
 
 use cplan_check::{CheckError, check};
+use dice::Dice;
 
 type V = [f64; 3];
 type Turn = [V; 3];
@@ -38,50 +41,31 @@ fn after(a: &Turn, b: &Turn) -> Turn {
     [0, 1, 2].map(|i| columns.map(|column| column[i]))
 }
 
-/// A generator of numbers (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let share = ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
-        low + share * (high - low)
-    }
-
-    fn chance(&mut self, share: f64) -> bool {
-        self.between(0.0, 1.0) < share
-    }
-
-    fn vector(&mut self, size: f64) -> V {
-        [0; 3].map(|_| self.between(-size, size))
-    }
-
-    /// A turn, and the attribute of an origin that says it: of any angles up to this.
-    fn turn(&mut self, most: f64) -> (Turn, String) {
-        if most > 1.0 && self.chance(0.5) {
-            let q = [0; 4].map(|_| self.between(-2.0, 2.0));
-            let size = q.iter().map(|c| c * c).sum::<f64>().sqrt();
-            let [x, y, z, w] = q.map(|c| c / size);
-            let spun = |v: V| plus(plus(v, cross([x, y, z], v), 2.0 * w), cross([x, y, z], cross([x, y, z], v)), 2.0);
-            let columns = [spun([1.0, 0.0, 0.0]), spun([0.0, 1.0, 0.0]), spun([0.0, 0.0, 1.0])];
-            let [a, b, c, d] = q;
-            return ([0, 1, 2].map(|i| columns.map(|column| column[i])), format!("quat_xyzw=\"{a} {b} {c} {d}\""));
-        }
-        let [r, p, y] = self.vector(most);
-        let about = |axis: usize, angle: f64| -> Turn {
-            let (s, c) = angle.sin_cos();
-            let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
-            let mut rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            (rows[i][i], rows[i][j], rows[j][i], rows[j][j]) = (c, -s, s, c);
-            rows
-        };
-        (after(&after(&about(2, y), &about(1, p)), &about(0, r)), format!("rpy=\"{r} {p} {y}\""))
-    }
+fn vector(dice: &mut Dice, size: f64) -> V {
+    [0; 3].map(|_| dice.within(-size, size))
 }
 
+/// A turn, and the attribute of an origin that says it: of any angles up to this.
+fn turn(dice: &mut Dice, most: f64) -> (Turn, String) {
+    if most > 1.0 && dice.chance(0.5) {
+        let q = [0; 4].map(|_| dice.within(-2.0, 2.0));
+        let size = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let [x, y, z, w] = q.map(|c| c / size);
+        let spun = |v: V| plus(plus(v, cross([x, y, z], v), 2.0 * w), cross([x, y, z], cross([x, y, z], v)), 2.0);
+        let columns = [spun([1.0, 0.0, 0.0]), spun([0.0, 1.0, 0.0]), spun([0.0, 0.0, 1.0])];
+        let [a, b, c, d] = q;
+        return ([0, 1, 2].map(|i| columns.map(|column| column[i])), format!("quat_xyzw=\"{a} {b} {c} {d}\""));
+    }
+    let [r, p, y] = vector(dice, most);
+    let about = |axis: usize, angle: f64| -> Turn {
+        let (s, c) = angle.sin_cos();
+        let [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
+        let mut rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        (rows[i][i], rows[i][j], rows[j][i], rows[j][j]) = (c, -s, s, c);
+        rows
+    };
+    (after(&after(&about(2, y), &about(1, p)), &about(0, r)), format!("rpy=\"{r} {p} {y}\""))
+}
 /// Where an arm has its tip, in the plane's coordinates, and its URDF and world.
 struct Drawn {
     urdf: String,
@@ -93,22 +77,22 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn new(dice: &mut Random, kind: u64) -> Self {
+    fn new(dice: &mut Dice, kind: u64) -> Self {
         let slides = [kind / 2 == 1, kind % 2 == 1];
         // A mounting on a wall, or one that is to be none.
         let most = if dice.chance(0.3) { 3e-4 } else { 3.0 };
-        let (mounting, mounted) = dice.turn(most);
-        let base = dice.vector(0.5);
+        let (mounting, mounted) = turn(dice, most);
+        let base = vector(dice, 0.5);
         // Axes as the frame of the mounting has them: along its z, or across that.
-        let axis_of = |dice: &mut Random, slides: bool| {
-            let angle = dice.between(-3.0, 3.0);
+        let axis_of = |dice: &mut Dice, slides: bool| {
+            let angle = dice.within(-3.0, 3.0);
             let way = if dice.chance(0.7) { 1.0 } else { -1.0 };
             if slides { [angle.cos(), angle.sin(), 0.0] } else { [0.0, 0.0, way] }
         };
         let axes = [axis_of(dice, slides[0]), axis_of(dice, slides[1])];
-        let (elbow_turn, elbow_turned) = dice.turn(3.0);
-        let [elbow, tip, hold, follow] = [dice.vector(1.0), dice.vector(0.8), dice.vector(1.0), dice.vector(1.0)];
-        let [held, by, more] = [dice.between(-0.5, 0.5), dice.between(-2.0, 2.0), dice.between(-0.2, 0.2)];
+        let (elbow_turn, elbow_turned) = turn(dice, 3.0);
+        let [elbow, tip, hold, follow] = [vector(dice, 1.0), vector(dice, 0.8), vector(dice, 1.0), vector(dice, 1.0)];
+        let [held, by, more] = [dice.within(-0.5, 0.5), dice.within(-2.0, 2.0), dice.within(-0.2, 0.2)];
         let own = turned_back(&elbow_turn, axes[1]);
         let text = |v: V| format!("{} {} {}", v[0], v[1], v[2]);
         let kind = |k: usize| if slides[k] { "prismatic" } else { "continuous" };
@@ -196,13 +180,13 @@ fn coordinates(axes: [V; 2], slides: [bool; 2]) -> [V; 2] {
 fn robots_are_where_their_kinematics_have_them() {
     let (mut free, mut hit) = (0, 0);
     for seed in random::seeds(200) {
-        let mut dice = Random(seed);
+        let mut dice = Dice::new(seed);
         let drawn = Drawn::new(&mut dice, seed % 4);
-        let q = [dice.between(-2.9, 2.9), dice.between(-2.9, 2.9)];
+        let q = [dice.within(-2.9, 2.9), dice.within(-2.9, 2.9)];
         let [x, y] = drawn.tip(q);
-        let (angle, radius) = (dice.between(-3.0, 3.0), dice.between(0.01, 0.3));
+        let (angle, radius) = (dice.within(-3.0, 3.0), dice.within(0.01, 0.3));
         // Nearer or farther than the sum of the radii by very little.
-        let apart = 10_f64.powf(dice.between(-9.0, -1.0)) * if dice.chance(0.5) { 1.0 } else { -1.0 };
+        let apart = 10_f64.powf(dice.within(-9.0, -1.0)) * if dice.chance(0.5) { 1.0 } else { -1.0 };
         let far = 0.1 + radius + apart;
         let [a, b] = [x + far * angle.cos(), y + far * angle.sin()];
         let (first, second) = (q[0], q[1]);
