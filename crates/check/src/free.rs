@@ -2,7 +2,7 @@
 
 use crate::curve::{HALVINGS, Piece, Tube};
 use crate::decimal::Decimal;
-use crate::interval::{BITS, Interval, Point, both_turns, length, minus, sum, times, turned};
+use crate::interval::{BITS, Interval, Point, both_turns, dot, length, minus, sum, times, turned};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Motion};
 use crate::world::{Course, Obstacle};
@@ -125,10 +125,6 @@ fn perpendicular([x, y]: &Point) -> Point {
 
 fn negative(a: &Point) -> Point {
     [-&a[0], -&a[1]]
-}
-
-fn dot(a: &Point, b: &Point) -> Interval {
-    &(&a[0] * &b[0]) + &(&a[1] * &b[1])
 }
 
 /// A vector that does not turn, beside others: added to one of them, if there is one.

@@ -6,10 +6,11 @@ use crate::decimal::Decimal;
 use crate::ends::{End, MOST_PARTS, Region};
 use crate::error::{CheckError, Input};
 use crate::free::{Chain, On, guard};
-use crate::interval::{Interval, Point, minus, sum, turned};
+use crate::interval::{Interval, Point, length, minus, sum, turned};
 use crate::polygon::Corner;
 use crate::robot::{Arm, Joint, Motion};
 use crate::sweep::{Reached, Rectangle, within};
+use crate::task::NEAR;
 use crate::world::task::{Action, Carrying, Group, Node, Step, Stroke, Task};
 use crate::world::{Goal, Obstacle, World};
 use std::borrow::Cow;
@@ -26,14 +27,26 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
     if certificate.goal.is_some() || certificate.goal_tip.is_some() {
         return Err(CheckError::in_file(Input::Certificate, "that of a task has no goal"));
     }
-    if world.obstacles.iter().any(|obstacle| obstacle.course.is_some()) {
-        return Err(CheckError::in_file(Input::World, "an object moves: the checker knows no proof of such tasks"));
-    }
     let clearance = certificate.clearance(world)?;
     let start = End::start(certificate, world)?;
     let at_start = start.configuration(arm)?;
     let mut steps = Vec::new();
     in_file_order(&task.steps, &mut steps);
+    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
+    let proven = |last: usize, why: &str| {
+        let start = start.named(arm);
+        Ok(format!(
+            "no motion of \"{first}\" and \"{second}\" from the start{start} on does the steps up to step {last} with clearance {clearance}{why}"
+        ))
+    };
+    if let Some(step) = out_of_reach(arm, world, task, &steps) {
+        return proven(step.number, ", since what it picks is never within reach then");
+    }
+    if world.obstacles.iter().any(|obstacle| obstacle.course.is_some()) {
+        let message =
+            "an object moves: the checker knows no other proof of such tasks than that one is never within reach";
+        return Err(CheckError::in_file(Input::World, message));
+    }
     let begin = Branch {
         replay: Replay::new(arm, world, task, &steps),
         at: Some(vec![at_start.clone()]),
@@ -47,11 +60,26 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
     if !done.is_empty() && proof.stays(done, steps[steps.len() - 1])? {
         return CheckError::fails("the cases leave open that all steps are done");
     }
-    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
-    let start = start.named(arm);
-    Ok(format!(
-        "no motion of \"{first}\" and \"{second}\" from the start{start} on does the steps up to step {last} with clearance {clearance}"
-    ))
+    proven(last, "")
+}
+
+/// A step that picks an object on its way, as no other does, which is never within reach when it is to be picked.
+fn out_of_reach<'a>(arm: &Arm, world: &World, task: &Task, steps: &[&'a Step]) -> Option<&'a Step> {
+    let picks = |step: &Step, wanted: usize| matches!(&step.action, Action::Pick { object, .. } if *object == wanted);
+    let is_out = |step: &&&Step| {
+        let Action::Pick { object, grasp, passing, .. } = &step.action else { return false };
+        let Some(course) = &world.obstacles[task.first + object].course else { return false };
+        let reach = arm.tip_reach() + length(&grasp.each_ref().map(Interval::from)).upper;
+        let (begin, end) = match &passing.window {
+            Some([begin, end]) => (begin.clone(), Some(end)),
+            None => (Decimal::whole(0), None),
+        };
+        let near = Interval::from(&Decimal::power_of_ten(NEAR)).upper;
+        let is_far = |at: &Point| length(&minus(at, &arm.base)).lower > &reach + &near;
+        steps.iter().filter(|step| picks(step, *object)).count() == 1
+            && (course.nearest(&arm.base, &begin, end) > reach || passing.at.as_ref().is_some_and(is_far))
+    };
+    steps.iter().find(is_out).copied()
 }
 
 /// All steps, those of a group in free order as they stand in the file.

@@ -274,6 +274,11 @@ pub fn both_turns([s, c]: &[Interval; 2], [t, d]: &[Interval; 2]) -> [Interval; 
     [&(s * d) + &(c * t), &(c * d) - &(s * t)]
 }
 
+/// The scalar product of two vectors.
+pub fn dot(a: &Point, b: &Point) -> Interval {
+    &(&a[0] * &b[0]) + &(&a[1] * &b[1])
+}
+
 /// The length of a vector.
 pub fn length([x, y]: &Point) -> Interval {
     let [x, y] = [x.abs(), y.abs()];

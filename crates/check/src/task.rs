@@ -20,7 +20,7 @@ use std::ops::Range;
 use std::slice::Iter;
 
 /// An object that passes is picked no farther than this from where it is to be then, metres: `10^-3`.
-const NEAR: u32 = 3;
+pub const NEAR: u32 = 3;
 
 /// The arm may stand still for less than it is to by this, seconds: `10^-6`.
 const SHORT: u32 = 6;

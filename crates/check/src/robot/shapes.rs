@@ -2,12 +2,13 @@
 
 use super::solid::Outline;
 use super::tree::{Read, child};
-use super::{Arm, Body};
+use super::{Arm, Body, Joint, Motion};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::interval::{Interval, length};
 use crate::overlap::Shape;
-use num_bigint::Sign;
+use crate::sweep::Axis;
+use num_bigint::{BigInt, Sign};
 use std::fmt;
 
 /// No object presses deeper than this share of the arm's reach into what supports it: `10^-4`.
@@ -138,6 +139,16 @@ impl Arm<'_> {
         }
         let link = self.tree.order.iter().find(|name| **name == link);
         Ok(link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?.contains(&node))
+    }
+
+    /// How far from the first joint's origin the tip gets at most.
+    pub fn tip_reach(&self) -> BigInt {
+        let slide = |joint: &Joint| match (&joint.motion, &joint.axis) {
+            (Motion::Slide(_), Axis::Line(range)) => Interval::around(range).magnitude(),
+            _ => BigInt::ZERO,
+        };
+        let links = &length(&self.offset) + &length(&self.tip.shape.points[0]);
+        self.joints.iter().map(slide).sum::<BigInt>() + links.upper
     }
 
     /// By how much objects may press into what supports them: a share of how far the arm reaches, from the first joint to the second, and on
