@@ -450,10 +450,13 @@ fn called((wall, end, turns): (usize, usize, [i64; 2])) -> String {
 impl Metric {
     fn is_a_norm(&self) -> Result<(), CheckError> {
         let (Self::Weights(factors) | Self::Speeds(factors)) = self else { return Ok(()) };
-        if factors.iter().all(|factor| Interval::from(factor).lower.sign() == Sign::Plus) {
+        let is_positive = |factor: &Decimal| Interval::from(factor).lower.sign() == Sign::Plus;
+        // Whole turns have to be of some length.
+        let tells = |k: usize| self.scaled(k, &Interval::whole(1)).lower.sign() == Sign::Plus;
+        if factors.iter().all(is_positive) && tells(0) && tells(1) {
             return Ok(());
         }
-        CheckError::fails("the metric's weights or speeds are not greater than 0")
+        CheckError::fails("the metric's weights or speeds are not greater than 0, or too great")
     }
 
     /// Whether lengths are the greatest entry's; or else they are the root of the sum of squares.

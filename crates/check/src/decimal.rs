@@ -12,6 +12,9 @@ use std::str::FromStr;
 /// compute with.
 const MOST_DIGITS: usize = 1100;
 
+/// Numbers of robots and worlds are below `10^15`: none means more, and what is computed of many would take long if it did.
+const LARGEST: u32 = 15;
+
 /// `mantissa * 10^-scale`: every decimal, and so every dyadic number. Sums and products are exact.
 #[derive(Debug, Clone)]
 pub struct Decimal {
@@ -23,6 +26,19 @@ impl Decimal {
     /// `mantissa / 2^bits`.
     pub fn dyadic(mantissa: &BigInt, bits: u32) -> Self {
         Self { mantissa: mantissa * BigInt::from(5).pow(bits), scale: bits }
+    }
+
+    /// A number of a robot or a world.
+    ///
+    /// # Errors
+    /// What is none, or too large.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let number: Self = text.parse()?;
+        let largest = Self { mantissa: BigInt::from(10).pow(LARGEST), scale: 0 };
+        match number < largest && -&number < largest {
+            true => Ok(number),
+            false => Err(format!("\"{text}\" is not below 1e{LARGEST}")),
+        }
     }
 
     /// A whole number.

@@ -59,6 +59,9 @@ impl Files {
     /// # Errors
     /// What cannot be read, is larger than 256 MiB, or is another than the certificate is about.
     pub fn bytes(&self, of: Input, path: &Path) -> Result<Vec<u8>, CheckError> {
+        if !path.is_file() {
+            return Err(CheckError::in_file(of, format!("{} cannot be read: there is no such file", path.display())));
+        }
         let mut bytes = Vec::new();
         let read = File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
         let name = path.display();

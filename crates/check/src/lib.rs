@@ -91,7 +91,9 @@ fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) ->
     // A byte order mark says nothing.
     let [urdf, world] = [urdf, world].map(|text| text.strip_prefix('\u{feff}').unwrap_or(text));
     let world = World::read(world, &files)?;
-    let document = roxmltree::Document::parse(urdf).map_err(|error| CheckError::Input {
+    // A document type is no matter; what entities stand for is bounded by the parser.
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
+    let document = roxmltree::Document::parse_with_options(urdf, options).map_err(|error| CheckError::Input {
         input: Input::Urdf,
         line: Some(error.pos().row as usize),
         message: error.to_string(),

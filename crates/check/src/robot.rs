@@ -139,7 +139,11 @@ impl<'a> Arm<'a> {
         let (poses, axes) = ([first, second], [first_axis, second_axis]);
         let joint = |k: usize| {
             let sign = if dot(&axes[k], &plane.left()).lower.sign() == Sign::Plus { 1 } else { -1 };
-            let motion = if slides[k] { Motion::Slide(plane.direction(&axes[k])) } else { Motion::Turn(sign) };
+            let motion = match (slides[k], plane.direction(&axes[k])) {
+                (false, _) => Motion::Turn(sign),
+                (true, Some(direction)) => Motion::Slide(direction),
+                (true, None) => return tree.error(nodes[k], "the direction of the joint is not known"),
+            };
             let (axis, within) = match tree.ends(nodes[k], world)? {
                 Some([outer, inner]) => (Axis::Line(outer), Some(inner)),
                 None => (Axis::Circle, None),

@@ -105,7 +105,7 @@ impl Reader<'_> {
             DeValue::Float(number) => number.as_str(),
             _ => return self.error(value, "expected a decimal number"),
         };
-        text.replace('_', "").parse().or_else(|why: String| self.error(value, &why))
+        Decimal::read(&text.replace('_', "")).or_else(|why: String| self.error(value, &why))
     }
 
     /// A number, or an enclosure of degrees in radians.
@@ -114,7 +114,7 @@ impl Reader<'_> {
             let number = self.number(value)?;
             return Ok([number.clone(), number]);
         };
-        let degrees = text.trim().strip_suffix("deg").and_then(|number| number.trim_end().parse::<Decimal>().ok());
+        let degrees = text.trim().strip_suffix("deg").and_then(|number| Decimal::read(number.trim_end()).ok());
         let Some(degrees) = degrees else {
             return self.error(value, "expected a number, or an angle such as \"30deg\"");
         };

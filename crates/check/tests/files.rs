@@ -392,8 +392,19 @@ fn a_mesh_is_its_hull() {
     assert!((random::times(20)..random::times(220)).contains(&free), "{free}");
     for (file, content, part) in [
         ("fore.stl", &b"solid x vertex 1 2"[..], "no STL"),
-        ("fore.stl", b"solid x", "no corners"),
-        ("fore.stl", b"solid vertex 1 2 3e99", "not finite"),
+        ("fore.stl", b"solid x", "no STL"),
+        ("fore.stl", b"solid x\nendsolid x", "no corners"),
+        ("fore.stl", b"solid vertex 1 2 3\nendsolid", "no corners"),
+        (
+            "fore.stl",
+            b"solid\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3e99\nvertex 1 2 3\nvertex 1 2 4\nendloop\nendfacet\nendsolid",
+            "not finite",
+        ),
+        (
+            "fore.stl",
+            b"solid\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\nvertex 1 2 3\nvertex 1 2 4\nendloop\nendfacet",
+            "no STL",
+        ),
         ("fore.stl", b"PK", "no STL"),
         ("fore.obj", b"v 1 2\nf 1", "three numbers"),
         ("fore.obj", b"f 1 2 3\nv 1 2 3", "not there before it"),
@@ -462,7 +473,9 @@ fn pictures_that_are_none_are_refused() {
         (b"P2 99999999999 99999999999 1", "too large"),
         (b"P5 2 2 255\nabc", "ends early"),
         (b"P5 1 1 255\nabc", "something follows"),
-        (b"P5", "no number"),
+        (b"P5 ", "no number"),
+        (b"P5", "its header is none"),
+        (b"P23 3 1", "its header is none"),
     ] {
         place.write("map.pgm", picture);
         assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));

@@ -317,7 +317,7 @@ fn bad_input_is_named() {
         bad(&arm().replace(from, to), &place, &good, Input::Urdf, part);
     };
     urdf("box size=\"0.8 0.1 0.1\"", "mesh filename=\"m\"", "mesh");
-    urdf("<collision> <origin xyz=\"0.4 0 0\"/> <geometry>", "<collision> <geometry/> <geometry>", "no geometry");
+    urdf("<collision> <origin xyz=\"0.4 0 0\"/> <geometry>", "<collision> <geometry/> <geometry>", "second element");
     urdf("<link name=\"fore\">", "<link name=\"fore\"> <collision/>", "no geometry");
     urdf("collision", "nothing", "could collide");
     urdf("<link name=\"fore\">", "<joint name=\"m\" type=\"revolute\"> <parent link=\"fore\"/> <child link=\"c\"/> <mimic joint=\"a\"/> </joint>
@@ -382,6 +382,6 @@ fn every_shape_counts() {
         assert_eq!((at(corner), at(-0.005)), (0, 3), "{solid} {turn}");
     }
     // Turned by so much that nobody knows how it lies.
-    let urdf = tipped("cylinder radius=\"0.2\" length=\"0.6\"", "0 1e300 0");
+    let urdf = tipped("cylinder radius=\"0.2\" length=\"0.6\"", "0 1e14 0");
     assert_eq!(straight(&urdf, "[[obstacle]]\npolyline = [[2.9, 0], [3, 0]]\n").0, 3);
 }

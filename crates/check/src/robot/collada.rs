@@ -13,12 +13,17 @@ const DEEPEST: usize = 64;
 const MOST_NODES: usize = 1 << 16;
 const MOST_POINTS: usize = 1 << 22;
 
+/// What a node is placed by, and how often at most.
+const PLACING: [&str; 6] = ["matrix", "translate", "rotate", "scale", "lookat", "skew"];
+const MOST_PLACINGS: usize = 16;
+
 /// A linear map and a translation after it: as a pose, though no rotation as a rule.
 type Affine = Pose;
 
 struct Scene<'a> {
     ids: BTreeMap<&'a str, Node<'a, 'a>>,
     nodes: usize,
+    numbers: usize,
     points: Vec<Vector>,
 }
 
@@ -33,12 +38,12 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
         return Err("it is no Collada".into());
     }
     let metres = child(root, "asset").and_then(|a| child(a, "unit")).and_then(|unit| unit.attribute("meter"));
-    let metres: Decimal = metres.unwrap_or("1").trim().parse()?;
+    let metres = Decimal::read(metres.unwrap_or("1").trim())?;
     if metres.sign() != Sign::Plus {
         return Err("its unit is no length".into());
     }
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
-    let mut scene = Scene { ids, nodes: 0, points: Vec::new() };
+    let mut scene = Scene { ids, nodes: 0, numbers: 0, points: Vec::new() };
     let shown = child(root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
     let shown = shown.and_then(|instance| scene.target(instance)).or_else(|| named(root, "visual_scene").next());
     scene.show(shown.ok_or("it has no visual scene")?, &scaled([(); 3].map(|()| Interval::from(&metres))), 0)?;
@@ -92,7 +97,8 @@ impl<'a> Scene<'a> {
         let numbers = numbers(child(source, "float_array").ok_or("a mesh has no positions")?)?;
         let accessor = named(source, "accessor").next().and_then(|accessor| accessor.attribute("stride"));
         let stride = accessor.map_or(Ok(3), |stride| stride.trim().parse::<usize>()).unwrap_or(3);
-        if stride < 3 || !numbers.len().is_multiple_of(stride) || self.points.len() + numbers.len() > MOST_POINTS {
+        self.numbers += numbers.len();
+        if stride < 3 || !numbers.len().is_multiple_of(stride) || self.numbers > 3 * MOST_POINTS {
             return Err("numbers of a mesh make no positions, or too many".into());
         }
         let point = |p: &[Interval]| to_file.point(&[p[0].clone(), p[1].clone(), p[2].clone()]);
@@ -103,7 +109,7 @@ impl<'a> Scene<'a> {
 
 fn numbers(node: Node) -> Result<Vec<Interval>, String> {
     let words = node.text().unwrap_or_default().split_whitespace();
-    words.map(|word| word.parse::<Decimal>().map(|number| Interval::from(&number))).collect()
+    words.map(|word| Decimal::read(word).map(|number| Interval::from(&number))).collect()
 }
 
 fn scaled(by: Vector) -> Affine {
@@ -115,11 +121,12 @@ fn scaled(by: Vector) -> Affine {
 /// From a node's coordinates to those of the one about it: its transformations, the first of them outermost.
 fn placing(node: Node) -> Result<Affine, String> {
     let mut all = Pose::identity();
-    for part in node.children() {
+    let is_one = |part: &Node| PLACING.contains(&part.tag_name().name());
+    if node.children().filter(is_one).count() > MOST_PLACINGS {
+        return Err("a node is placed by too many transformations".into());
+    }
+    for part in node.children().filter(is_one) {
         let kind = part.tag_name().name();
-        if !["matrix", "translate", "rotate", "scale", "lookat", "skew"].contains(&kind) {
-            continue;
-        }
         let values = numbers(part)?;
         let vector = || [0, 1, 2].map(|k| values[k].clone());
         let map = match (kind, values.len()) {

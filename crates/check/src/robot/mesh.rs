@@ -50,20 +50,23 @@ fn stl(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     points.ok_or_else(|| "a corner is not finite".into())
 }
 
-/// Those of the faces of an OBJ. A line that ends in a backslash goes on in the next, if it is no comment.
+/// Those of the faces of an OBJ, each once. A line that ends in a backslash goes on in the next, if it is no comment.
 fn obj(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     let text = String::from_utf8_lossy(bytes);
-    let (mut vertices, mut shown, mut lines) = (Vec::new(), Vec::new(), text.lines());
-    while let Some(first) = lines.next() {
-        let mut line = first.trim_end().to_owned();
-        while !line.trim_start().starts_with('#') && line.ends_with('\\') {
-            line.pop();
-            line = line + " " + lines.next().unwrap_or_default().trim_end();
+    let (mut vertices, mut shown, mut lines) = (Vec::<Vector>::new(), BTreeSet::new(), text.split('\n'));
+    while let Some(mut piece) = lines.next() {
+        let mut line = String::new();
+        while let Some(begun) = piece.trim_end().strip_suffix('\\').filter(|begun| !begun.trim_start().starts_with('#'))
+        {
+            line += begun;
+            line.push(' ');
+            piece = lines.next().unwrap_or_default();
         }
+        line += piece;
         let mut words = line.split_whitespace();
         match words.next() {
             Some("v") => {
-                let numbers: Vec<Decimal> = words.take(3).map(str::parse).collect::<Result<_, _>>()?;
+                let numbers: Vec<Decimal> = words.take(3).map(Decimal::read).collect::<Result<_, _>>()?;
                 let point = <[Decimal; 3]>::try_from(numbers).map_err(|_| "a vertex needs three numbers")?;
                 vertices.push(point.each_ref().map(Interval::from));
             }
@@ -71,15 +74,15 @@ fn obj(bytes: &[u8]) -> Result<Vec<Vector>, String> {
             Some("f") => {
                 for word in words {
                     let number = word.split('/').next().and_then(|number| number.parse::<i64>().ok());
-                    let at = number.map(|n| if n < 0 { n + vertices.len() as i64 } else { n - 1 });
-                    let point = at.and_then(|at| vertices.get(usize::try_from(at).ok()?));
-                    shown.push(point.ok_or("a face has a vertex that is not there before it")?.clone());
+                    let at = number.map(|n| if n < 0 { n.saturating_add(vertices.len() as i64) } else { n - 1 });
+                    let at = at.and_then(|at| usize::try_from(at).ok()).filter(|at| *at < vertices.len());
+                    shown.insert(at.ok_or("a face has a vertex that is not there before it")?);
                 }
             }
             _ => {}
         }
     }
-    Ok(shown)
+    Ok(shown.into_iter().map(|at| vertices[at].clone()).collect())
 }
 
 fn in_bytes(triangles: &[u8]) -> BTreeSet<Single> {
@@ -88,12 +91,28 @@ fn in_bytes(triangles: &[u8]) -> BTreeSet<Single> {
     corners.map(|corner| [0, 4, 8].map(|at| number(&corner[at..at + 4]))).collect()
 }
 
+/// Solids one after the other, in the words of the format.
 fn as_text(text: &str) -> Option<BTreeSet<Single>> {
-    let mut words = text.strip_prefix("solid")?.split_whitespace();
+    let lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+    let mut lines = lines.filter(|words| !words.is_empty());
     let mut corners = BTreeSet::new();
-    while words.any(|word| word == "vertex") {
-        let mut number = || Some(words.next()?.parse::<f32>().ok()?.to_bits());
-        corners.insert([number()?, number()?, number()?]);
+    while let Some(words) = lines.next() {
+        (words[0] == "solid").then_some(())?;
+        loop {
+            match lines.next()?[..] {
+                ["endsolid", ..] => break,
+                ["facet", "normal", _, _, _] => {}
+                _ => return None,
+            }
+            (lines.next()?[..] == ["outer", "loop"]).then_some(())?;
+            for _ in 0..3 {
+                let ["vertex", x, y, z] = lines.next()?[..] else { return None };
+                let number = |word: &str| Some(word.parse::<f32>().ok()?.to_bits());
+                corners.insert([number(x)?, number(y)?, number(z)?]);
+            }
+            (lines.next()?[..] == ["endloop"]).then_some(())?;
+            (lines.next()?[..] == ["endfacet"]).then_some(())?;
+        }
     }
     Some(corners)
 }
@@ -124,8 +143,9 @@ fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
         let paths = std::env::var_os(variable).unwrap_or_default();
         std::env::split_paths(&paths).filter(|path| !path.as_os_str().is_empty()).collect::<Vec<_>>()
     };
-    let urdf = urdf.canonicalize().unwrap_or_else(|_| urdf.to_owned());
-    let above = urdf.ancestors().skip(1).map(Path::to_owned);
+    let folder = urdf.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let above = folder.ancestors().map(Path::to_owned);
     let ros = from("ROS_PACKAGE_PATH");
     let ament = from("AMENT_PREFIX_PATH").into_iter().map(|path| path.join("share"));
     let is_package = |folder: &Path| folder.file_name().is_some_and(|name| name == package);

@@ -4,7 +4,7 @@ use super::pose::{Pose, Vector, cross, dot, size};
 use crate::decimal::Decimal;
 use crate::interval::{Interval, Point};
 use crate::polygon::Corner;
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 
 /// Directions within this angle of one another count as one, radians: `10^-3`.
 const ALIGNED: u32 = 3;
@@ -37,19 +37,23 @@ impl Plane {
             [false, false] if parallel => a.clone(),
             [false, true] if square => a.clone(),
             [true, false] if square => b.clone(),
-            [true, true] if size(&beside).lower > aligned.upper => unit(&beside),
+            [true, true] if size(&beside).lower > aligned.upper => unit(&beside)?,
             _ => return None,
         };
         let [x, y, z] = Pose::identity().rows;
         let frames = [([&x, &y], &z), ([&x, &z], &y), ([&y, &z], &x)];
         let is_along = |axis: &Vector| size(&cross(&normal, axis)).upper <= aligned.lower;
+        // Angles that are known too little are no directions.
+        if frames.iter().all(|(_, axis)| size(&cross(&normal, axis)).lower <= aligned.upper && !is_along(axis)) {
+            return None;
+        }
         let (across, normal) = match frames.into_iter().find(|(_, axis)| is_along(axis)) {
             Some((across, axis)) => (across.map(Clone::clone), axis.clone()),
             None => {
                 let most = Interval::from(&(&Decimal::power_of_ten(1) * &Decimal::whole(9)));
                 let along = if normal[0].abs().upper < most.lower { &x } else { &y };
                 let share = dot(&normal, along);
-                let first = unit(&[0, 1, 2].map(|k| &along[k] - &(&normal[k] * &share)));
+                let first = unit(&[0, 1, 2].map(|k| &along[k] - &(&normal[k] * &share)))?;
                 ([first.clone(), cross(&normal, &first)], normal)
             }
         };
@@ -82,15 +86,15 @@ impl Plane {
         dot(v, &self.normal)
     }
 
-    /// A direction in the plane, of unit length.
-    pub fn direction(&self, axis: &Vector) -> Point {
+    /// A direction in the plane, of unit length; none if it is not known.
+    pub fn direction(&self, axis: &Vector) -> Option<Point> {
         let flat = self.flat(axis);
         // What lies in it is of unit length.
         if self.height(axis).is_whole(0) {
-            return flat;
+            return Some(flat);
         }
         let size = crate::interval::length(&flat);
-        flat.map(|c| c.divided(&size))
+        (size.lower.sign() == Sign::Plus).then(|| flat.map(|c| c.divided(&size)))
     }
 
     /// What turns left about this.
@@ -107,7 +111,7 @@ impl Plane {
     }
 }
 
-fn unit(v: &Vector) -> Vector {
+fn unit(v: &Vector) -> Option<Vector> {
     let size = size(v);
-    v.each_ref().map(|c| c.divided(&size))
+    (size.lower.sign() == Sign::Plus).then(|| v.each_ref().map(|c| c.divided(&size)))
 }

@@ -1,7 +1,7 @@
 //! The shapes of the arm that count: all that its joints move and that can collide.
 
 use super::solid::Outline;
-use super::tree::{Read, child};
+use super::tree::{Read, child, children};
 use super::{Arm, Body, Joint, Motion};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
@@ -72,7 +72,7 @@ impl Arm<'_> {
         let (mut found, mut unread) = (Vec::new(), Vec::new());
         for &link in &self.tree.order {
             let mut number = 0;
-            let nodes = self.tree.links[link].children().filter(|node| node.has_tag_name(kind));
+            let nodes = children(self.tree.links[link], kind);
             for node in if self.moved_by(link)? == Some(last) { nodes.collect() } else { Vec::new() } {
                 let geometry = child(node, "geometry").and_then(|geometry| geometry.first_element_child());
                 let Some(geometry) = geometry else { return self.tree.error(node, "it has no geometry") };

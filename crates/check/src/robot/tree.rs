@@ -9,7 +9,7 @@ use crate::sweep::Range;
 use crate::world::World;
 use num_bigint::{BigInt, Sign};
 use roxmltree::{Document, Node};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Ranges of a joint that turns longer than this mean that it has none.
 const LONGEST_TURN: i32 = 1000;
@@ -48,8 +48,14 @@ pub enum Limits {
     Ends([Range; 2]),
 }
 
-pub fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {
-    node.children().find(|n| n.has_tag_name(name))
+/// Children of a name, of the node's own namespace: whatever else is in the file is none of the robot's.
+pub fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
+    let namespace = node.tag_name().namespace();
+    node.children().filter(move |n| n.tag_name().name() == name && n.tag_name().namespace() == namespace)
+}
+
+pub fn child<'a>(node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>> {
+    children(node, name).next()
 }
 
 impl<'a> Tree<'a> {
@@ -62,25 +68,39 @@ impl<'a> Tree<'a> {
         let root = Pose::identity();
         let mut tree = Self { files, document, root, links, order: Vec::new(), joints, named, values };
         let robot = document.root_element();
-        if !robot.has_tag_name("robot") {
+        if robot.tag_name().name() != "robot" {
             return tree.error(robot, "this is not a URDF: it has no <robot>");
         }
-        for node in robot.children().filter(|n| n.has_tag_name("link")) {
+        for node in children(robot, "link") {
             if tree.links.insert(tree.text(node, "name")?, node).is_some() {
                 return tree.error(node, "a second link of this name");
             }
             tree.order.push(tree.text(node, "name")?);
+            for shape in ["collision", "visual"].into_iter().flat_map(|kind| children(node, kind)) {
+                tree.has_one(shape, &["origin", "geometry"])?;
+            }
         }
         let mut movable = Vec::new();
-        for node in robot.children().filter(|n| n.has_tag_name("joint")) {
-            let name = tree.text(node, "name")?;
+        for node in children(robot, "joint") {
+            tree.has_one(node, &["origin", "parent", "child", "axis", "limit", "mimic", "safety_controller"])?;
+            let (name, parent) = (tree.text(node, "name")?, tree.parent(node)?);
             let Some(carried) = child(node, "child") else { return tree.error(node, "the joint has no child") };
+            let carried = tree.text(carried, "link")?;
+            // Only the root may go without saying.
+            if !tree.links.contains_key(carried) || !(tree.links.contains_key(parent) || parent == "world") {
+                return tree.error(node, "the joint is between links that the robot does not have");
+            }
             let is_second = tree.named.insert(name, node).is_some();
-            if is_second || tree.joints.insert(tree.text(carried, "link")?, node).is_some() {
+            if is_second || tree.joints.insert(carried, node).is_some() {
                 return tree.error(node, "a second joint of this name or with this child");
             }
             let moves = matches!(tree.text(node, "type")?, "revolute" | "continuous" | "prismatic");
             movable.extend((moves && child(node, "mimic").is_none()).then_some(name));
+        }
+        let parents = tree.named.values().map(|joint| tree.parent(*joint)).collect::<Read<Vec<_>>>()?;
+        let all: BTreeSet<&str> = tree.order.iter().copied().chain(parents).collect();
+        if all.iter().filter(|link| !tree.joints.contains_key(**link)).count() > 1 {
+            return tree.error(robot, "several links have no joint above them: a robot has one root");
         }
         Ok((tree, movable))
     }
@@ -89,12 +109,21 @@ impl<'a> Tree<'a> {
         Err(CheckError::at(Input::Urdf, self.document.input_text(), node.range().start, message))
     }
 
+    /// That a node has no two children of one of these names.
+    fn has_one(&self, node: Node<'a, 'a>, names: &[&'static str]) -> Read<()> {
+        match names.iter().find_map(|name| children(node, name).nth(1)) {
+            Some(second) => self.error(second, "a second element of this kind"),
+            None => Ok(()),
+        }
+    }
+
     pub fn text(&self, node: Node<'a, 'a>, name: &str) -> Read<&'a str> {
         node.attribute(name).map_or_else(|| self.error(node, format!("the attribute {name} is missing")), Ok)
     }
 
     pub fn numbers<const N: usize>(&self, node: Node<'a, 'a>, name: &str) -> Read<[Decimal; N]> {
-        let numbers: Result<Vec<Decimal>, String> = self.text(node, name)?.split_whitespace().map(str::parse).collect();
+        let numbers: Result<Vec<Decimal>, String> =
+            self.text(node, name)?.split_whitespace().map(Decimal::read).collect();
         match numbers.map(<[Decimal; N]>::try_from) {
             Ok(Ok(numbers)) => Ok(numbers),
             Ok(Err(_)) => self.error(node, format!("{name} has not {N} numbers")),
@@ -115,6 +144,9 @@ impl<'a> Tree<'a> {
         let mut pose = Pose::identity();
         let Some(origin) = child(node, "origin") else { return Ok(pose) };
         if origin.has_attribute("quat_xyzw") {
+            if origin.has_attribute("rpy") {
+                return self.error(origin, "it has both rpy and quat_xyzw: keep one");
+            }
             let quaternion = self.numbers::<4>(origin, "quat_xyzw")?.each_ref().map(Interval::from);
             let Some(turn) = Pose::of_quaternion(&quaternion) else {
                 return self.error(origin, "the quaternion is too short");
@@ -217,21 +249,18 @@ impl<'a> Tree<'a> {
         Ok(above)
     }
 
-    /// A limit of a joint; infinity is beyond all that is far.
+    /// A limit of a joint; what is farther than all is as far as anything.
     fn limit(&self, limit: Node<'a, 'a>, name: &str) -> Read<Decimal> {
-        let sign = if name == "lower" { -1 } else { 1 };
-        let endless = |sign: i32| Decimal::whole(2 * FARTHEST * sign);
+        let endless = |sign: f64| Decimal::whole(10 * FARTHEST * sign as i32);
         let Some(text) = limit.attribute(name) else {
             // From version 1.2 on there is none then, before that it is 0.
-            let version = self.document.root_element().attribute("version").unwrap_or("1.0");
-            let is_new = version
-                .parse::<Decimal>()
-                .is_ok_and(|version| version >= (&Decimal::whole(12) * &Decimal::power_of_ten(1)));
-            return Ok(if is_new { endless(sign) } else { Decimal::whole(0) });
+            let version = self.document.root_element().attribute("version").unwrap_or("1.0").trim();
+            let numbers = version.split_once('.').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+            let is_new = numbers.unwrap_or((1_u32, 0_u32)) >= (1, 2);
+            return Ok(if is_new { endless(if name == "lower" { -1.0 } else { 1.0 }) } else { Decimal::whole(0) });
         };
-        match text.trim().to_ascii_lowercase().as_str() {
-            "inf" | "+inf" | "infinity" | "+infinity" => Ok(endless(1)),
-            "-inf" | "-infinity" => Ok(endless(-1)),
+        match text.trim().parse::<f64>() {
+            Ok(number) if number.abs() > f64::from(10 * FARTHEST) => Ok(endless(number.signum())),
             _ => self.number(limit, name),
         }
     }
@@ -253,11 +282,14 @@ impl<'a> Tree<'a> {
         let soft = child(joint, "safety_controller")
             .filter(|soft| soft.has_attribute("soft_lower_limit") && soft.has_attribute("soft_upper_limit"));
         if let Some(soft) = soft {
-            let ends = [self.number(soft, "soft_lower_limit")?, self.number(soft, "soft_upper_limit")?];
+            let ends = [self.limit(soft, "soft_lower_limit")?, self.limit(soft, "soft_upper_limit")?];
             // Both 0 is what exporters write where there are none.
             if ends.iter().any(|end| end.sign() != Sign::NoSign) {
                 [low, high] = [low.max(ends[0].clone()), high.min(ends[1].clone())];
             }
+        }
+        if low >= high {
+            return self.error(joint, "its limits are reversed, or its soft limits leave nothing of them");
         }
         let [least, most] = [-FARTHEST, FARTHEST].map(Decimal::whole);
         if turns && low <= least && high >= most {
@@ -265,13 +297,19 @@ impl<'a> Tree<'a> {
         }
         if !turns && &high - &low > Decimal::whole(2 * FARTHEST) {
             [low, high] = [low.max(least), high.min(most)];
+            if low >= high {
+                return Ok(Limits::Unset);
+            }
+        }
+        if &high - &low > Decimal::whole(if turns { LONGEST_TURN } else { 2 * FARTHEST }) {
+            return Ok(Limits::Unset);
         }
         Ok(Limits::Ends([[low.clone(), low], [high.clone(), high]]))
     }
 
     /// The ends of what a joint's value may be, at the most and at the least; none of one that turns without end.
     pub fn ends(&self, joint: Node<'a, 'a>, world: &World) -> Read<Option<[Range; 2]>> {
-        let turns = joint.attribute("type") != Some("prismatic");
+        let (name, turns) = (self.text(joint, "name")?, joint.attribute("type") != Some("prismatic"));
         match self.limits(joint, world)? {
             Limits::Endless => Ok(None),
             Limits::Ends([[least, low], [high, most]])
@@ -279,7 +317,10 @@ impl<'a> Tree<'a> {
             {
                 Ok(Some([[least, most], [low, high]]))
             }
-            _ => self.error(joint, "the joint has no limits"),
+            _ => self.error(
+                joint,
+                format!("the joint has no limits: [robot] limits = {{ {name} = [lower, upper] }} in the world file"),
+            ),
         }
     }
 

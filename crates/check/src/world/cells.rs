@@ -45,10 +45,18 @@ impl Cells {
         let description = serde_saphyr::from_str::<Description>(&text);
         let Description { image, resolution, origin, negate, occupied_thresh, free_thresh, mode } =
             description.map_err(|error| wrong(yaml, &error.without_snippet().to_string()))?;
-        let number = |text: &String| text.parse::<Decimal>().map_err(|why| wrong(yaml, &why));
+        let number = |text: &String| Decimal::read(text).map_err(|why| wrong(yaml, &why));
         let [occupied, free, side] = [number(&occupied_thresh)?, number(&free_thresh)?, number(&resolution)?];
-        if free > occupied || Interval::from(&side).lower.sign() != Sign::Plus {
-            return Err(wrong(yaml, "free_thresh is above occupied_thresh, or the resolution is no length"));
+        let is_share = |share: &Decimal| *share >= Decimal::whole(0) && *share <= Decimal::whole(1);
+        if free > occupied
+            || !is_share(&free)
+            || !is_share(&occupied)
+            || Interval::from(&side).lower.sign() != Sign::Plus
+        {
+            return Err(wrong(
+                yaml,
+                "free_thresh is above occupied_thresh, one is no share, or the resolution is no length",
+            ));
         }
         let [x, y, yaw] = &origin[..] else { return Err(wrong(yaml, "origin is no list [x, y, yaw]")) };
         let [x, y, yaw] = [number(x)?, number(y)?, number(yaw)?];

@@ -111,7 +111,8 @@ impl Reader<'_> {
             Some(stops) => self.list(stops)?.into_iter().map(stop).collect::<Read<_>>()?,
             None => vec![Stop { time: Decimal::whole(0), at: at.clone(), angle: angle.clone() }],
         };
-        if stops.is_empty() || stops.windows(2).any(|pair| pair[0].time >= pair[1].time) {
+        let is_later = |pair: &[Stop]| Interval::from(&(&pair[1].time - &pair[0].time)).lower.sign() == Sign::Plus;
+        if stops.is_empty() || !stops.windows(2).all(is_later) {
             return self.error(value, "a motion has stops, each later than the one before");
         }
         let velocity = table.get("velocity").map(|v| self.two(v, |n| self.number(n))).transpose()?;

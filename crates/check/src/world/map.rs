@@ -83,7 +83,7 @@ impl<'a> Text<'a> {
             "" => Some(line),
             key => line.strip_prefix(key)?.trim_start().strip_prefix(':'),
         };
-        let words = line.and_then(after).map(|rest| rest.split_whitespace().map(str::parse::<Decimal>));
+        let words = line.and_then(after).map(|rest| rest.split_whitespace().map(Decimal::read));
         let numbers = words.and_then(|words| words.collect::<Result<Vec<_>, _>>().ok()?.try_into().ok());
         let Some(numbers) = numbers else { return self.wrong(&format!("{key} {N} numbers")) };
         self.next += 1;

@@ -59,6 +59,9 @@ fn in_png(bytes: &[u8]) -> Result<Picture, String> {
 
 /// A PGM, as text or bytes, after its first two bytes.
 fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
+    if !rest.first().is_some_and(|byte| byte.is_ascii_whitespace() || *byte == b'#') {
+        return Err("its header is none".into());
+    }
     let [width, height, white] = [number(&mut rest)?, number(&mut rest)?, number(&mut rest)?];
     let count = pixels([width, height])?;
     if !(1..=65535).contains(&white) {
