@@ -11,7 +11,7 @@ use plane::Plane;
 use pose::{Pose, Vector, dot};
 use roxmltree::{Document, Node};
 use solid::{Outline, Solid};
-use tree::{Read, Tree, child};
+use tree::{Read, Tree, child, moves};
 
 mod collada;
 mod mesh;
@@ -103,7 +103,22 @@ impl<'a> Arm<'a> {
             |joint: Node<'a, 'a>| child(joint, "child").and_then(|c| c.attribute("link")).expect("has been read");
         let mut joints = [node(first)?, node(second)?];
         if tree.above(carried(joints[0]))?[1..].contains(&joints[1]) {
+            if world.joints.is_some() {
+                return Err(CheckError::in_file(
+                    Input::World,
+                    "[robot] joints: the second carries the first: swap them",
+                ));
+            }
             joints.swap(0, 1);
+        }
+        for name in world.fixed.keys().chain(world.limits.keys()) {
+            let joint = tree.named.get(name.as_str()).filter(|joint| moves(joint));
+            if joint.is_none_or(|joint| {
+                world.fixed.contains_key(name) && (joints.contains(joint) || child(*joint, "mimic").is_some())
+            }) {
+                let message = format!("[robot] fixed or limits: \"{name}\" is no joint of which that can be said");
+                return Err(CheckError::in_file(Input::World, message));
+            }
         }
         if !tree.above(carried(joints[1]))?[1..].contains(&joints[0]) {
             return tree.error(joints[1], "neither of the two joints carries the other");
@@ -161,7 +176,7 @@ impl<'a> Arm<'a> {
         arm.tip_link = arm.tip(world.tip.as_deref())?;
         let at = arm.tree.pose(arm.tip_link)?;
         arm.tip = arm.project(1, &at, &Solid::point(), Outline::Within);
-        arm.count(world.bar.as_ref())?;
+        arm.count(world.bar.as_ref(), world.task.as_ref())?;
         Ok(arm)
     }
 

@@ -367,7 +367,7 @@ fn a_stroke_takes_the_tool_through_all_heights() {
     holds(beneath(", travel = 0.13"));
     fails(beneath(", travel = 0.15"), "link \"quill\", collision 0");
     fails(beneath(""), "link \"quill\", collision 0");
-    is_wrong(with("stroke = { joint = \"y\" },", "[0.1, 0.2]"), "does not slide along the normal");
+    is_wrong(with("stroke = { joint = \"y\" },", "[0.1, 0.2]"), "does not move the tool along the normal");
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::document::{escaped, tag};
 use crate::input::error::Diagnostic;
 use crate::input::source::Source;
 use crate::input::world::LARGEST;
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 /// Attributes that hold numbers, in any element of a link or joint; those of [`UNLIMITED`] do, too.
@@ -61,6 +62,19 @@ pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterat
     node.children().filter(move |n| {
         n.is_element() && n.tag_name().name() == name && n.tag_name().namespace() == node.tag_name().namespace()
     })
+}
+
+/// The angles of a turn by a quaternion of any length, x, y, z and w; none of one without length. One angle is taken off after the other, so that
+/// together they are the turn also where pitch is a right angle and the other two are about one axis. (`urdf-rs` has them there to 5e-3.)
+fn roll_pitch_yaw(quaternion: &[f64]) -> Option<[f64; 3]> {
+    let &[x, y, z, w] = quaternion else { return None };
+    let unit = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)?;
+    let turn = unit.to_rotation_matrix();
+    let yaw = turn[(1, 0)].atan2(turn[(0, 0)]);
+    let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), -yaw) * turn;
+    let pitch = (-turn[(2, 0)]).atan2(turn[(0, 0)]);
+    let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), -pitch) * turn;
+    Some([turn[(2, 1)].atan2(turn[(1, 1)]), pitch, yaw])
 }
 
 impl Attributes<'_> {
@@ -154,9 +168,18 @@ impl Attributes<'_> {
     pub fn origin(&mut self, node: Node) -> String {
         let Some(origin) = self.only(node, "origin", false) else { return String::new() };
         let mut copy = "<origin".to_owned();
-        for (name, count) in [("xyz", 3), ("rpy", 3), ("quat_xyzw", 4)] {
-            if self.numbers(origin, name, count).is_some() {
+        for name in ["xyz", "rpy"] {
+            if self.numbers(origin, name, 3).is_some() {
                 copy += &format!(" {name}=\"{}\"", escaped(origin.attribute(name).unwrap_or("")));
+            }
+        }
+        if let Some(quaternion) = self.numbers(origin, "quat_xyzw", 4) {
+            match roll_pitch_yaw(&quaternion) {
+                Some([roll, pitch, yaw]) => copy += &format!(" rpy=\"{roll:?} {pitch:?} {yaw:?}\""),
+                None => {
+                    let message = "the quaternion is zero".to_owned();
+                    self.diagnostic(origin, Some("quat_xyzw"), message, "0 0 0 1 is no turn");
+                }
             }
         }
         if origin.has_attribute("rpy") && origin.has_attribute("quat_xyzw") {

@@ -6,7 +6,7 @@ use super::mesh;
 use super::plane::project;
 use super::solid::{Solid, capsule};
 use super::tree::{Tree, isometry};
-use crate::geometry::{Point, Vector};
+use crate::geometry::{Convex, Point, Vector, separation};
 use crate::input::error::{Diagnostic, InputError};
 use crate::input::world::World;
 use crate::model::{Heights, Link, OutlineSource, Part, Plane};
@@ -44,7 +44,24 @@ struct Found {
     empty: Vec<String>,
     /// Meshes that cannot be used.
     unread: Vec<Diagnostic>,
+    /// Shapes of which it is not known what they cover.
+    uncertain: Vec<Diagnostic>,
 }
+
+/// What a shape covers, whichever way it is turned about a point, and what it covers at all angles; none if that is nothing. `certain` is what is within
+/// the shape.
+fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, Option<Convex>)> {
+    let is_disc = |convex: &Convex| convex.core().len() == 1 && (convex.core()[0] - axis).norm() <= OFF_AXIS;
+    if is_disc(shape) && is_disc(certain) {
+        return Some((shape.clone(), (certain != shape).then(|| certain.clone())));
+    }
+    let within = -separation(&Convex::point(axis), certain).distance * (1.0 - OFF_AXIS);
+    let disc = |radius: f64| Convex::trusted(vec![axis], radius);
+    (within > 0.0).then(|| (disc(shape.reach_from(axis)), Some(disc(within))))
+}
+
+/// How far from its axis a disc may be that is about it, metres; and a share of what is known of others.
+const OFF_AXIS: f64 = 1e-9;
 
 /// Two links, and what the user should know of them.
 pub(super) struct Outlines {
@@ -109,7 +126,8 @@ impl Bodies<'_> {
             let bodies = found.empty.join(", ");
             notes.push(format!("link {} \"{name}\": shapes of size zero are ignored (in {bodies})", index + 1));
         }
-        let Found { mut parts, unread, .. } = found;
+        let Found { mut parts, unread, uncertain, .. } = found;
+        InputError::check(uncertain)?;
         if !unread.is_empty() || parts.is_empty() {
             match bar {
                 Some(radius) => {
@@ -200,6 +218,21 @@ impl Bodies<'_> {
                 let shape = solid.outline(&pose, self.plane).at(&to_link.into());
                 let inner = solid.inner(&pose, self.plane).map(|inner| inner.at(&to_link.into()));
                 let heights = solid.heights(&pose, self.plane);
+                let (shape, inner) = match self.wrist_axis(*body).map(|axis| to_link * axis) {
+                    Some(axis) => match all_round(axis, &shape, inner.as_ref().unwrap_or(&shape)) {
+                        Some(all_round) => all_round,
+                        None => {
+                            let message = format!(
+                                "link \"{}\" turns with the wrist and is not about its axis, so that what it covers is another thing at each angle",
+                                link.name
+                            );
+                            let help = "give it <collision> geometry that covers it all round: a <cylinder> along the axis of the wrist's joint";
+                            found.uncertain.push(self.document.diagnostic_at(at, message).help(help));
+                            continue;
+                        }
+                    },
+                    None => (shape, inner),
+                };
                 let shapes = if shape.core().len() > MOST_CORNERS { shape.cut_up() } else { vec![shape] };
                 let part = |shape| Part { shape, inner: inner.clone(), number, heights, body: link.name.clone() };
                 found.parts.extend(shapes.into_iter().map(part));
@@ -207,6 +240,13 @@ impl Bodies<'_> {
             }
         }
         found
+    }
+
+    /// Where the wrist's axis is that a link turns about while steps are done.
+    fn wrist_axis(&self, body: usize) -> Option<Point> {
+        let name = self.world.robot.wrist_joint().filter(|_| self.world.steps.is_some())?;
+        let joint = self.document.robot.joints.iter().position(|joint| joint.name == *name.get_ref())?;
+        self.tree.carries(joint, body).then(|| self.at(self.tree.child[joint]).0)
     }
 
     fn solid(&self, geometry: &Geometry) -> Result<Solid, mesh::Unread> {

@@ -272,7 +272,7 @@ impl Chooser<'_> {
                     .joint_diagnostic(j, &message)
                     .help("make it fixed, or choose joints above it"));
             }
-            if joint.mimic.is_none() || !carried {
+            if joint.mimic.is_none() || !(carried || self.tree.carries(j, self.tree.child[chosen[0]])) {
                 continue;
             }
             let leader = self.leader(j)?;

@@ -74,6 +74,22 @@ impl Reduction<'_> {
         Ok(Stroke { joint, travel, velocity, acceleration: acceleration.unwrap_or(own), bodies })
     }
 
+    /// A joint that mimics a joint of the tool and moves something that can collide, or the tip.
+    fn follower_with_shapes(&self, chooser: &Chooser, leader: usize) -> Result<Option<String>, Diagnostic> {
+        let links = &self.document.robot.links;
+        let counts = |link: usize| {
+            link == self.chain.tip
+                || links.get(link).is_some_and(|link| !link.collision.is_empty() || !link.visual.is_empty())
+        };
+        for (index, joint) in chooser.all().iter().enumerate().filter(|(_, joint)| joint.mimic.is_some()) {
+            let moves = |link: &usize| self.tree.carries(index, *link);
+            if chooser.leader(index)? == leader && (0..self.tree.links.len()).filter(moves).any(counts) {
+                return Ok(Some(joint.name.clone()));
+            }
+        }
+        Ok(None)
+    }
+
     /// A joint that moves the tool along the plane's normal or about it.
     fn tool_joint(
         &self,
@@ -103,6 +119,13 @@ impl Reduction<'_> {
         if !self.tree.carries(second, self.tree.child[index]) {
             let second = &chooser.all()[second].name;
             return diagnostic(&format!("is not carried by joint \"{second}\""), "name a joint of the tool");
+        }
+        if let Some(follower) = self.follower_with_shapes(chooser, index)? {
+            let why = format!("is mimicked by joint \"{follower}\", whose links would move otherwise than the tool");
+            return diagnostic(
+                &why,
+                "make the other joint fixed in a copy of the file, or take its links' geometry away",
+            );
         }
         let direction = self.poses[self.tree.child[index]] * tree::axis(joint);
         let along = direction.dot(&plane.normal);

@@ -58,6 +58,11 @@ pub fn child<'a>(node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>>
     children(node, name).next()
 }
 
+/// Whether a joint has one value that it can move by.
+pub fn moves(joint: &Node) -> bool {
+    matches!(joint.attribute("type"), Some("revolute" | "continuous" | "prismatic"))
+}
+
 impl<'a> Tree<'a> {
     /// Reads it, and the names of the joints that can move by themselves.
     ///
@@ -94,8 +99,8 @@ impl<'a> Tree<'a> {
             if is_second || tree.joints.insert(carried, node).is_some() {
                 return tree.error(node, "a second joint of this name or with this child");
             }
-            let moves = matches!(tree.text(node, "type")?, "revolute" | "continuous" | "prismatic");
-            movable.extend((moves && child(node, "mimic").is_none()).then_some(name));
+            tree.text(node, "type")?;
+            movable.extend((moves(&node) && child(node, "mimic").is_none()).then_some(name));
         }
         let parents = tree.named.values().map(|joint| tree.parent(*joint)).collect::<Read<Vec<_>>>()?;
         let all: BTreeSet<&str> = tree.order.iter().copied().chain(parents).collect();
@@ -230,6 +235,18 @@ impl<'a> Tree<'a> {
             }
             _ => self.error(mimic, "the joint that it mimics is not there, or mimics this one"),
         }
+    }
+
+    /// The joint that a joint mimics, through others; none of one that mimics none.
+    pub fn leader(&self, joint: Node<'a, 'a>) -> Read<Option<Node<'a, 'a>>> {
+        let mut leader = None;
+        let mut at = joint;
+        for _ in 0..MOST_JOINTS {
+            let Some(mimic) = child(at, "mimic") else { return Ok(leader) };
+            let Some(next) = self.named.get(self.text(mimic, "joint")?) else { return Ok(None) };
+            (leader, at) = (Some(*next), *next);
+        }
+        self.error(joint, "joints mimic one another")
     }
 
     pub fn parent(&self, joint: Node<'a, 'a>) -> Read<&'a str> {

@@ -17,7 +17,7 @@ pub struct Task {
     pub first: usize,
     pub objects: Vec<Object>,
     pub steps: Group,
-    pub has_wrist: bool,
+    pub wrist: Option<Wrist>,
     pub stroke: Option<Stroke>,
 }
 
@@ -34,6 +34,11 @@ pub struct Object {
     /// What it may touch where it is picked and placed: obstacles by their numbers.
     pub supports: Vec<usize>,
     renews: bool,
+}
+
+/// What keeps and turns level objects: which joint it is, if the world says it.
+pub struct Wrist {
+    pub joint: Option<String>,
 }
 
 /// A joint that lowers the tool, and how far; as far as objects are lifted if it does not say.
@@ -116,7 +121,7 @@ impl Task {
         });
         let then = place.map(|(_, own)| own.unwrap_or(&self.objects[object].supports));
         let supports = supports.iter().chain(then.into_iter().flatten()).copied().collect();
-        Carrying { supports, may_turn: self.has_wrist && place.is_some_and(|(has_angle, _)| has_angle) }
+        Carrying { supports, may_turn: self.wrist.is_some() && place.is_some_and(|(has_angle, _)| has_angle) }
     }
 }
 
@@ -183,7 +188,9 @@ impl Reader<'_> {
         }
         let steps = reading.group(steps, manner, &dwell)?;
         let stroke = own("stroke").map(|value| self.stroke(value)).transpose()?;
-        world.task = Some(Task { first, objects, steps, has_wrist: own("wrist").is_some(), stroke });
+        let joint = |value| self.table(value)?.get("joint").map(|name| self.text(name)).transpose();
+        let wrist = own("wrist").map(|value| Ok(Wrist { joint: joint(value)? })).transpose()?;
+        world.task = Some(Task { first, objects, steps, wrist, stroke });
         Ok(())
     }
 

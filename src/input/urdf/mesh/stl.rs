@@ -11,15 +11,49 @@ const TRIANGLE: usize = 50;
 pub(super) fn read(mut bytes: Vec<u8>) -> Result<Vec<Point3<f64>>, String> {
     let count = bytes.get(80..HEADER).and_then(|c| c.try_into().ok()).map(u32::from_le_bytes);
     let binary = count.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + TRIANGLE as u64 * u64::from(n));
-    if binary {
+    let points = if binary {
         // Exporters begin binary headers with "solid" too, by which readers tell text; the header means nothing else.
         bytes[..5].fill(0);
-    } else if !bytes.starts_with(b"solid") {
+        let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| format!("the STL is broken: {e}"))?;
+        mesh.vertices.iter().map(|v| Point3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))).collect()
+    } else if bytes.starts_with(b"solid") {
+        text(&String::from_utf8_lossy(&bytes))?
+    } else {
         return Err("the file is no STL: its length does not fit its number of triangles".into());
+    };
+    if points.is_empty() { Err("the mesh has no triangle".into()) } else { Ok(points) }
+}
+
+/// Vertices of an STL in words: solids one after the other, each from `solid` to `endsolid`. (`stl_io` reads the first one alone.)
+fn text(text: &str) -> Result<Vec<Point3<f64>>, String> {
+    /// What a facet has, line by line.
+    const FACET: [&str; 7] = ["facet normal", "outer loop", "vertex", "vertex", "vertex", "endloop", "endfacet"];
+    let mut points = Vec::new();
+    // The line of a facet that is next; none outside of solids.
+    let mut next: Option<usize> = None;
+    for (number, line) in text.lines().enumerate() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let Some(first) = words.first() else { continue };
+        next = match next {
+            None if *first == "solid" => Some(0),
+            Some(0) if *first == "endsolid" => None,
+            Some(k) if words.join(" ").starts_with(FACET[k]) => {
+                let numbers = &words[FACET[k].split(' ').count()..];
+                let parsed: Vec<f64> =
+                    numbers.iter().filter_map(|word| word.parse::<f32>().ok().map(f64::from)).collect();
+                match (FACET[k], &parsed[..]) {
+                    ("vertex", &[x, y, z]) if numbers.len() == 3 => points.push(Point3::new(x, y, z)),
+                    ("facet normal", _) if numbers.len() == 3 => {}
+                    ("outer loop" | "endloop" | "endfacet", _) if numbers.is_empty() => {}
+                    _ => return Err(format!("the STL is broken: line {}: {:?}", number + 1, line.trim())),
+                }
+                Some((k + 1) % FACET.len())
+            }
+            _ => return Err(format!("the STL is broken: line {}: {:?}", number + 1, line.trim())),
+        };
     }
-    let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| format!("the STL is broken: {e}"))?;
-    if mesh.faces.is_empty() {
-        return Err("the mesh has no triangle".into());
+    match next {
+        None => Ok(points),
+        Some(_) => Err("the STL is broken: its last solid does not end".into()),
     }
-    Ok(mesh.vertices.iter().map(|v| Point3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))).collect())
 }
