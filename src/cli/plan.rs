@@ -9,6 +9,7 @@ use crate::engine::{Options, Plan, Problem, plan_with};
 use crate::input::{self, Digests, InputError, JointValues, LoadedScene, Overrides};
 use crate::model::{MotionProblem, Status};
 use crate::motion::write_whole;
+use crate::space::Configuration;
 use std::path::Path;
 use std::time::Instant;
 
@@ -43,7 +44,7 @@ pub fn answer(
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));
     }
     let asked = args.query.overrides();
-    let starts_at_a_place = loaded.starts_at_a_place();
+    let said = loaded.said_ends();
     let problem = Problem::of_scene(loaded, &asked)?.read_since(begun);
     if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
         return Err(Failure::Usage(lack));
@@ -53,10 +54,15 @@ pub fn answer(
     problem.robot().warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
     let begun = Instant::now();
-    // A certificate is about joint values.
-    let found = || problem.motion().map(MotionProblem::start).or(problem.task().map(|task| task.start));
-    let implied = found().filter(|_| starts_at_a_place).map(JointValues::from);
-    let asked = Overrides { start: asked.start.or(implied), ..asked };
+    // Where ends were found from a place of the tip, or put at a limit, the certificate says them.
+    let start = problem.motion().map(MotionProblem::start).or(problem.task().map(|task| task.start));
+    let goal = problem.motion().filter(|_| said[1].is_some()).map(|motion| motion.goals().pieces()[0].ends()[0]);
+    let implied = |end: Option<Configuration>, said| end.filter(|_| end != said).map(JointValues::from);
+    let asked = Overrides {
+        start: asked.start.or(implied(start, said[0])),
+        goal: asked.goal.or(implied(goal, said[1]).filter(|_| asked.goal_tip.is_none())),
+        ..asked
+    };
     let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), args)?;
     let after = [("write", begun.elapsed())];
     let code = match plan.status() {

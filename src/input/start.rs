@@ -18,10 +18,13 @@ const LIMIT_ROUNDING: f64 = 1e-9;
 const LISTED: usize = 6;
 
 impl LoadedScene {
-    /// Whether the world's start is a place of the tip, so that which IK solution it is follows from what is free.
+    /// The joint values that the world's start and goal are; none of a place of the tip, and where it has none.
     #[must_use]
-    pub fn starts_at_a_place(&self) -> bool {
-        matches!(self.world.start, Some((Goal::Tip(_), _)))
+    pub fn said_ends(&self) -> [Option<Configuration>; 2] {
+        [&self.world.start, &self.world.goal].map(|end| match end {
+            Some((Goal::Joints(q), _)) => Some(*q),
+            _ => None,
+        })
     }
 
     /// The start, and where it was given: within the limits up to rounding, which is taken off with a note.

@@ -16,7 +16,7 @@ const MOST_DIGITS: usize = 1100;
 const LARGEST: u32 = 15;
 
 /// `mantissa * 10^-scale`: every decimal, and so every dyadic number. Sums and products are exact.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Decimal {
     mantissa: BigInt,
     scale: u32,

@@ -114,7 +114,7 @@ impl Interval {
     }
 
     /// It, and all that is within `by` units.
-    fn widened(&self, by: &BigInt) -> Self {
+    pub fn widened(&self, by: &BigInt) -> Self {
         Self { lower: &self.lower - by, upper: &self.upper + by }
     }
 

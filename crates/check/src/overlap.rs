@@ -1,6 +1,6 @@
 //! How deep two convex shapes overlap.
 
-use crate::interval::{BITS, Interval, Point};
+use crate::interval::{Interval, Point};
 use num_bigint::BigInt;
 use std::ops::{Add, Mul, Sub};
 
@@ -137,23 +137,6 @@ pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     }
     reaches(&ring, &(about - 2)) && reaches(&hull(differences(&b_middles, &a_middles)), &needed)
 }
-
-/// A bound on how deep a point is in a shape, to a part in some 10^12; 0 where it is not seen to be within.
-pub fn depth(shape: &Shape, point: &Point) -> BigInt {
-    let own = Shape { points: vec![point.clone()], radius: Interval::whole(0) };
-    let mut depth = BigInt::ZERO;
-    for halvings in 0..DIGITS {
-        let deeper = &depth + (BigInt::from(1) << (BITS + DEEPEST - halvings));
-        if overlap_by_more_than(&own, shape, &deeper) {
-            depth = deeper;
-        }
-    }
-    depth
-}
-
-/// Depths are looked for below `2^DEEPEST` metres, bit by bit.
-const DEEPEST: u32 = 10;
-const DIGITS: u32 = 60;
 
 /// Whether it seems that the convex hulls of some points overlap by more than a depth: of their first digits, in doubt yes.
 pub fn seem_to_overlap(a: &[[f64; 2]], b: &[[f64; 2]], depth: f64) -> bool {

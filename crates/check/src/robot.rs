@@ -19,6 +19,7 @@ mod plane;
 mod pose;
 mod shapes;
 mod solid;
+mod tool;
 mod tree;
 
 pub use shapes::Counted;
@@ -176,7 +177,9 @@ impl<'a> Arm<'a> {
         arm.tip_link = arm.tip(world.tip.as_deref())?;
         let at = arm.tree.pose(arm.tip_link)?;
         arm.tip = arm.project(1, &at, &Solid::point(), Outline::Within);
-        arm.count(world.bar.as_ref(), world.task.as_ref())?;
+        arm.count(world.bar.as_ref())?;
+        arm.move_alone(&nodes)?;
+        world.task.as_ref().map_or(Ok(()), |task| arm.with_tool(task))?;
         Ok(arm)
     }
 

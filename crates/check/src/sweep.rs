@@ -1,7 +1,8 @@
 //! Whether boxes separate configurations from one another.
 
 use crate::decimal::Decimal;
-use crate::interval::Interval;
+use crate::interval::{BITS, Interval};
+use num_bigint::BigInt;
 use std::collections::BTreeSet;
 
 /// More gaps are not looked at: they take some hundred megabytes.
@@ -9,6 +10,9 @@ const MOST_GAPS: usize = 1 << 22;
 
 /// Strips within a seam's enclosure, of which each is held against each of those at the other end.
 const MOST_AT_A_SEAM: usize = 100;
+
+/// Enclosures of half a turn reach `2^-SEAM` beyond what is known of it.
+const SEAM: u32 = 100;
 
 /// All values from the first to the second.
 pub type Range = [Decimal; 2];
@@ -41,7 +45,9 @@ pub struct Domain {
 
 impl Domain {
     pub fn new(axes: [&Axis; 2]) -> Self {
-        let turn = [(-Interval::pi()).ends(), Interval::pi().ends()];
+        // So wide that they hold half a turn in degrees.
+        let pi = Interval::pi().widened(&(BigInt::from(1) << (BITS - SEAM)));
+        let turn = [(-&pi).ends(), pi.ends()];
         Self {
             ranges: [0, 1].map(|k| match axes[k] {
                 Axis::Line(range) => range.clone(),
@@ -66,8 +72,7 @@ impl Domain {
         let value = Interval::around(value);
         let turn = Interval::pi() + Interval::pi();
         let turns = (&value.lower + &Interval::pi().lower) / &turn.lower;
-        let candidates =
-            [-1, 0, 1].map(|more| &value - &(&turn * &(Interval::exactly((&turns + more) << crate::interval::BITS))));
+        let candidates = [-1, 0, 1].map(|more| &value - &(&turn * &(Interval::exactly((&turns + more) << BITS))));
         candidates.into_iter().map(|c| c.ends()).find(within)
     }
 }

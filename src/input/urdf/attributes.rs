@@ -68,7 +68,8 @@ pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterat
 /// together they are the turn also where pitch is a right angle and the other two are about one axis. (`urdf-rs` has them there to 5e-3.)
 fn roll_pitch_yaw(quaternion: &[f64]) -> Option<[f64; 3]> {
     let &[x, y, z, w] = quaternion else { return None };
-    let unit = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9)?;
+    let quaternion = Quaternion::new(w, x, y, z);
+    let unit = (1e-9..1e9).contains(&quaternion.norm()).then(|| UnitQuaternion::new_normalize(quaternion))?;
     let turn = unit.to_rotation_matrix();
     let yaw = turn[(1, 0)].atan2(turn[(0, 0)]);
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), -yaw) * turn;
@@ -177,7 +178,7 @@ impl Attributes<'_> {
             match roll_pitch_yaw(&quaternion) {
                 Some([roll, pitch, yaw]) => copy += &format!(" rpy=\"{roll:?} {pitch:?} {yaw:?}\""),
                 None => {
-                    let message = "the quaternion is zero".to_owned();
+                    let message = "the quaternion has no length, or too great a one".to_owned();
                     self.diagnostic(origin, Some("quat_xyzw"), message, "0 0 0 1 is no turn");
                 }
             }

@@ -272,7 +272,9 @@ impl Chooser<'_> {
                     .joint_diagnostic(j, &message)
                     .help("make it fixed, or choose joints above it"));
             }
-            if joint.mimic.is_none() || !(carried || self.tree.carries(j, self.tree.child[chosen[0]])) {
+            // Beside the arm it matters if it could collide.
+            let matters = || carried || self.tree.carries(j, self.tree.child[chosen[0]]) || self.has_shapes(j);
+            if joint.mimic.is_none() || !matters() {
                 continue;
             }
             let leader = self.leader(j)?;
@@ -283,6 +285,12 @@ impl Chooser<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Whether a joint moves a link with shapes.
+    fn has_shapes(&self, joint: usize) -> bool {
+        let links = self.document.robot.links.iter().enumerate().filter(|(link, _)| self.tree.carries(joint, *link));
+        links.into_iter().any(|(_, link)| !link.collision.is_empty() || !link.visual.is_empty())
     }
 
     pub(super) fn mimic_diagnostic(&self, joint: usize, message: &str) -> Diagnostic {

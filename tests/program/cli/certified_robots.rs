@@ -110,7 +110,8 @@ fn frames_and_axes_as_exporters_write_them() {
         ("a second axis that is off", &[("{second}", "0 4e-4 1")], "by up to 1e-3 rad"),
         ("an elbow turned over", &[("{turned}", r#"rpy="3.14159 0 0""#), ("{second}", "0 0 -1")], "by up to 1e-5"),
         ("an oblique plane", &[("{axis}", "0 1 1"), ("{second}", "0 3 3")], "read as"),
-        ("a quaternion", &[("{mounting}", r#"<origin quat_xyzw="0.70710678 0 0 0.70710678"/>"#)], "leads"),
+        ("a quaternion", &[("{mounting}", r#"<origin quat_xyzw="0 0 0 2"/>"#)], "read as"),
+        ("an upright quaternion", &[("{mounting}", r#"<origin quat_xyzw="0.70710678 0 0 0.70710678"/>"#)], "leads"),
     ] {
         Case { what, robot, said, ..Case::default() }.is_certified();
     }
@@ -177,6 +178,143 @@ fn limits_and_joints_that_do_not_move() {
     assert!(matches!(&said, Err(CheckError::Fails(why)) if why.contains("leaves its limits")), "{said:?}");
 }
 
+/// Corners between others on a line, at the place or turned; ends at half a turn, and beyond a limit by rounding.
+#[test]
+fn worlds_whose_numbers_are_no_doubles() {
+    for (what, obstacle) in [
+        ("four on a line", "polygon = [[3.1, 0.1], [3.2, 0.2], [3.3, 0.3], [3.6, 0.0]]"),
+        (
+            "an L of equal arms",
+            "polygon = [[0, 0], [0.6, 0], [0.6, 0.3], [0.3, 0.3], [0.3, 0.6], [0, 0.6]]\nat = [3.3, 0.3]",
+        ),
+        (
+            "one on a side, turned",
+            "polygon = [[0, 0], [0.2, 0], [0.4, 0], [0.4, 0.4], [0, 0.4]]\nat = [-0.7, -0.6]\nangle = \"45deg\"",
+        ),
+        (
+            "a T, turned",
+            "polygon = [[0, 0], [0.6, 0], [0.6, 0.2], [0.4, 0.2], [0.4, 0.6], [0.2, 0.6], [0.2, 0.2], [0, 0.2]]\nat = [-0.9, 0.2]\nangle = 0.3",
+        ),
+    ] {
+        let after = format!("[[obstacle]]\n{obstacle}\n");
+        Case { what, world: ["", &after], ..Case::default() }.is_certified();
+    }
+    // The part that a proof names has them.
+    let flat = "polygon = [[0.2, 0.3], [0.3, 0.3], [0.4, 0.3], [0.4, 0.5], [0.2, 0.5]]";
+    let circle = "circle = { center = [0.38, 0.32], radius = 0.1 }";
+    for (what, robot, from, to) in [
+        ("a side of two", &[][..], circle, flat),
+        (
+            "a side of two, turned",
+            &[],
+            circle,
+            "polygon = [[0, 0], [0.1, 0], [0.2, 0], [0.2, 0.2], [0, 0.2]]\nat = [0.3, 0.25]\nangle = 0.7",
+        ),
+        ("half a turn", &[("{limit}", ENDLESS)], "[0.0, 0.0]", "[\"360deg\", 0.0]"),
+        (
+            "a limit but for rounding",
+            &[("{limit}", r#"<limit lower="-1.047197551" upper="1.570796327"/>"#)],
+            "[0.2, 0.5]",
+            "[\"11.459155902616466deg\", 0.5]",
+        ),
+    ] {
+        let place = Place::new();
+        let case = Case { what, robot, ..Case::default() };
+        case.written(&place);
+        for (goal, code) in [("[0.2, 0.5]", 0), ("[1.5, 0.5]", 3)] {
+            let world = case.world().replace("[0.2, 0.5]", goal).replace(from, to);
+            place.write("world.toml", world);
+            let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
+            assert_eq!(done.code, code, "{what}: {}{}", done.stdout, done.stderr);
+            let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
+            check_files(&urdf, &world, &certificate).unwrap_or_else(|why| panic!("{what}: {why}"));
+        }
+    }
+    let place = Place::new();
+    let limit = [("{limit}", r#"<limit lower="-1.570796326" upper="1.570796326"/>"#)];
+    for (limit, ends, code) in [
+        (&limit[..], ["\"-90deg\", 0", "\"-80deg\", 0"], 0),
+        (&limit, ["\"-90deg\", 0", "\"90deg\", 0"], 3),
+        (&[("{limit}", ENDLESS)], ["\"180deg\", 1.7", "3.0, 1.7"], 0),
+        (&[("{limit}", ENDLESS)], ["\"-540deg\", 1.7", "0, 0"], 3),
+    ] {
+        Case { robot: limit, ..Case::default() }.written(&place);
+        let world =
+            WORLD.replace("0.0, 0.0", ends[0]).replace("0.2, 0.5", ends[1]).replace("[-0.5, 0.0]", "[-0.5, 0.3]");
+        place.write("world.toml", &world);
+        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
+        assert_eq!(done.code, code, "{ends:?}: {}{}", done.stdout, done.stderr);
+        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
+        check_files(&urdf, &world, &certificate).unwrap_or_else(|why| panic!("{ends:?}: {why}"));
+    }
+}
+
+/// What a wrist turns covers a disc, and at all angles one within; what does not hold its axis, and what mimics a joint of the arm or the tool, is refused.
+#[test]
+fn what_moves_besides_the_arm() {
+    let place = Place::new();
+    let bar = |at: &str| {
+        format!(
+            r#"<joint name="w" type="revolute"> <parent link="tool"/> <child link="gripper"/> <axis xyz="0 0 1"/>
+               <limit lower="-3" upper="3" velocity="1" effort="1"/> </joint>
+               <link name="gripper"> <collision> <origin xyz="{at}"/> <geometry> <box size="0.02 0.3 0.02"/> </geometry> </collision> </link>"#
+        )
+    };
+    let task = |post: f64| {
+        format!(
+            "[robot]\njoints = [\"j1\", \"j2\"]\npayload = \"level\"\nwrist = {{ joint = \"w\", velocity = 3.0 }}\n[start]\njoints = [0.0, 0.0]\n\
+             [[step]]\nmove = {{ joints = [0.2, 0.5] }}\n[[obstacle]]\ncircle = {{ center = [{post}, 0.0], radius = 0.01 }}\n"
+        )
+    };
+    let run = |more: &str, world: &str| {
+        Case { robot: &[("{more}", more)], ..Case::default() }.written(&place);
+        place.write("world.toml", world);
+        place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json")
+    };
+    let judged = || {
+        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
+        check_files(&urdf, &world, &certificate)
+    };
+    // A post 0.1 m ahead of a gripper whose ends are 0.15 m from the axis and now are beside.
+    let done = run(&bar("0 0 0"), &task(1.9));
+    assert!(done.code == 1 && done.stderr.contains("not free"), "{}{}", done.stdout, done.stderr);
+    let done = run(&bar("0 0 0"), &task(2.0));
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    judged().unwrap();
+    place.write("world.toml", task(1.9));
+    let certificate = without_digests(&place.read("c.json"));
+    place.write("c.json", certificate);
+    assert!(matches!(judged(), Err(CheckError::Fails(_))), "{:?}", judged());
+    let beside = run(&bar("0.1 0 0"), &task(2.5));
+    assert!(beside.code == 1 && beside.stderr.contains("turns with the wrist"), "{}", beside.stderr);
+    assert!(matches!(judged(), Err(CheckError::Input { message, .. }) if message.contains("turns with the wrist")));
+    // A bar beside the base that turns as the arm does, one above the arm, and one that follows the wrist.
+    for (parent, leader, world) in
+        [("base", "j1", WORLD), ("l1", "j2", WORLD), ("gripper", "w", &task(2.5)), ("base", "w", &task(2.5))]
+    {
+        let more = format!(
+            r#"{} <joint name="f" type="revolute"> <parent link="{parent}"/> <child link="blade"/> <axis xyz="0 0 1"/> <mimic joint="{leader}"/>
+               <limit lower="-9" upper="9" velocity="1" effort="1"/> </joint>
+               <link name="blade"> <collision> <geometry> <box size="4 0.1 0.1"/> </geometry> </collision> </link>"#,
+            bar("0 0 0")
+        );
+        let joints =
+            if world == WORLD { format!("[robot]\njoints = [\"j1\", \"j2\"]\n{WORLD}") } else { world.to_owned() };
+        let done = run(&more, &joints);
+        assert!(done.code == 1 && done.stderr.contains("mimic"), "{parent}: {}{}", done.stdout, done.stderr);
+        place.write(
+            "c.json",
+            r#"{"format": "cplan certificate 1", "answer": "found", "start": [0, 0], "goal": [0, 0],
+                "motion": {"interpolation": ["linear"], "knots": [[0, 0, 0]]}}"#,
+        );
+        let said = judged();
+        assert!(
+            matches!(&said, Err(CheckError::Input { message, .. }) if message.contains("mimic")),
+            "{parent}: {said:?}"
+        );
+    }
+}
+
 const OBJ: &str = "# a bar\nv 500 50 50\nv -500 50 50\nv -500 -50 50\nv 500 -50 50\nv 500 50 -50\nv -500 50 -50\nv 500 -50 -50\n\
                    v -500 -50 -50\nv 9000 0 0\nf 1/1/1 2//2 3 4\nf -5 -4 -3 \\\n -2\n";
 
@@ -210,10 +348,16 @@ fn meshes_and_what_stands_in_for_them() {
     let rim: String = rim.map(|(x, y)| format!("v {x} {y} 0\n")).collect();
     let face: String = (1..=1500).map(|k| format!(" {k}")).collect();
     let round = format!("{rim}f{face}\n");
+    let two = ["-1 -0.05 -0.05", "0.05 -0.05 0.05", "0.05 0.05 0.05"].map(|first| {
+        let facet = format!("facet normal 0 0 1\nouter loop\nvertex {first}\nvertex -0.5 0.05 0\nvertex 0.5 -0.05 0\nendloop\nendfacet\n");
+        format!("solid vertex of a bar\n{}endsolid\n", facet.replace("-1 -0.05", "0.5 0.05"))
+    });
+    let stl = mesh("two.stl");
     // A mesh beside a shape that is read.
     let both = format!("{none} {}", USUAL[5].1);
     for (what, upper, world, files, said) in [
         ("a mesh in OBJ", &obj, ["", ""], ("bar.obj", OBJ.as_bytes()), ""),
+        ("a mesh of several solids", &stl, ["", ""], ("two.stl", two.concat().as_bytes()), ""),
         ("a mesh with many corners", &obj, ["", ""], ("bar.obj", round.as_bytes()), ""),
         ("a mesh in Collada", &dae, ["", ""], ("bar.dae", COLLADA.as_bytes()), ""),
         ("a bar for a mesh", &none, bar, ("none", b"".as_slice()), "a bar stands in for it"),

@@ -18,7 +18,7 @@ const LONGEST_TURN: i32 = 1000;
 const FARTHEST: i32 = 1_000_000;
 
 /// Joints of the longest chain.
-const MOST_JOINTS: usize = 1000;
+pub const MOST_JOINTS: usize = 1000;
 
 pub type Read<T> = Result<T, CheckError>;
 
@@ -220,7 +220,7 @@ impl<'a> Tree<'a> {
         let Some(mimic) = child(joint, "mimic") else {
             return match self.values.get(self.text(joint, "name")?) {
                 Some(value) => Ok(value.clone()),
-                None if followed == 0 => Ok(Interval::whole(0)),
+                None if followed == 0 || !moves(&joint) => Ok(Interval::whole(0)),
                 None => self.error(joint, "another joint mimics this one, which moves"),
             };
         };
@@ -235,18 +235,6 @@ impl<'a> Tree<'a> {
             }
             _ => self.error(mimic, "the joint that it mimics is not there, or mimics this one"),
         }
-    }
-
-    /// The joint that a joint mimics, through others; none of one that mimics none.
-    pub fn leader(&self, joint: Node<'a, 'a>) -> Read<Option<Node<'a, 'a>>> {
-        let mut leader = None;
-        let mut at = joint;
-        for _ in 0..MOST_JOINTS {
-            let Some(mimic) = child(at, "mimic") else { return Ok(leader) };
-            let Some(next) = self.named.get(self.text(mimic, "joint")?) else { return Ok(None) };
-            (leader, at) = (Some(*next), *next);
-        }
-        self.error(joint, "joints mimic one another")
     }
 
     pub fn parent(&self, joint: Node<'a, 'a>) -> Read<&'a str> {

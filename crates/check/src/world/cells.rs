@@ -61,8 +61,8 @@ impl Cells {
         let [x, y, yaw] = &origin[..] else { return Err(wrong(yaml, "origin is no list [x, y, yaw]")) };
         let [x, y, yaw] = [number(x)?, number(y)?, number(yaw)?];
         let is_light = match negate.to_lowercase().as_str() {
-            "0" | "false" => false,
-            "1" | "true" => true,
+            "0" | "false" | "no" | "off" | "n" => false,
+            "1" | "true" | "yes" | "on" | "y" => true,
             _ => return Err(wrong(yaml, "negate is neither 0 nor 1")),
         };
         if !mode.is_none_or(|mode| ["trinary", "scale"].contains(&mode.as_str())) {

@@ -1,10 +1,11 @@
 //! What moves in time.
 
-use super::{Read, Reader, Value, point};
+use super::{Obstacle, Read, Reader, Value, point};
 use crate::decimal::Decimal;
 use crate::interval::{Interval, Point, dot, length, minus, sum, times, turned};
 use crate::overlap::Shape;
 use num_bigint::{BigInt, Sign};
+use std::borrow::Cow;
 
 /// Straight and evenly from stop to stop; before the first it waits there, the last it leaves at a velocity.
 pub struct Course {
@@ -86,6 +87,16 @@ fn apart(place: &Point, from: &Point, along: &Point, is_endless: bool) -> BigInt
     // No nearer than the whole line.
     let (across, size) = (dot(&way, &[-&along[1], along[0].clone()]).abs(), length(along));
     if size.lower.sign() == Sign::Plus { across.divided(&size).lower } else { BigInt::ZERO }
+}
+
+impl Obstacle {
+    /// The same where it is at a time.
+    pub fn at_time(&self, time: &Decimal) -> Cow<'_, Self> {
+        self.course.as_ref().map_or(Cow::Borrowed(self), |course| {
+            let [at, turn] = course.place(time);
+            Cow::Owned(self.clone().moved(at, turn))
+        })
+    }
 }
 
 impl Reader<'_> {

@@ -9,6 +9,11 @@ use crate::polygon::{Corner, is_convex, side};
 use num_bigint::Sign;
 
 impl Obstacle {
+    /// The same elsewhere, where it stands.
+    pub fn moved(self, at: Point, turn: Point) -> Self {
+        Self { at, turn, course: None, ..self }
+    }
+
     /// Convex shapes, in its place: itself, or else its sides. What they stay off, and what neither lies in the other, is off it.
     ///
     /// # Errors

@@ -6,11 +6,10 @@ use super::point;
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::interval::{BITS, Interval, Point, minus, sum, turned};
-use crate::overlap::Shape;
+use crate::overlap::{Shape, hull};
 use crate::polygon::{self, Corner, edges, surrounds};
 use crate::sweep::Range;
 use num_bigint::{BigInt, Sign};
-use std::borrow::Cow;
 use std::rc::Rc;
 
 /// An obstacle, as it stands in the file.
@@ -39,19 +38,6 @@ pub enum Outline {
 }
 
 impl Obstacle {
-    /// The same elsewhere, where it stands.
-    pub fn moved(self, at: Point, turn: Point) -> Self {
-        Self { at, turn, course: None, ..self }
-    }
-
-    /// The same where it is at a time.
-    pub fn at_time(&self, time: &Decimal) -> Cow<'_, Self> {
-        self.course.as_ref().map_or(Cow::Borrowed(self), |course| {
-            let [at, turn] = course.place(time);
-            Cow::Owned(self.clone().moved(at, turn))
-        })
-    }
-
     /// A point of its frame in its place.
     pub fn placed(&self, p: &Point) -> Point {
         sum(&self.at, &turned(p, &self.turn))
@@ -96,12 +82,11 @@ impl Obstacle {
                 }
             }
             Outline::Polygon(rings) => {
-                let part = named(&rings.iter().flatten().collect::<Vec<_>>());
+                // Corners between others on a line say nothing.
+                let part = hull(named(&rings.iter().flatten().collect::<Vec<_>>()));
                 match polygon::holds(rings, &part) {
                     true => Ok(shape(&part, thin)),
-                    false => CheckError::fails(
-                        "its corners are not those, turning left, of a convex polygon within the obstacle",
-                    ),
+                    false => CheckError::fails("its corners are not those of a convex polygon within the obstacle"),
                 }
             }
             Outline::Cells(cells) => {

@@ -1,0 +1,168 @@
+//! The joints of the tool: a wrist, and one that lowers it.
+
+use super::shapes::Counted;
+use super::tree::{MOST_JOINTS, Read, Tree, child, moves};
+use super::{Arm, Body, Joint, Motion};
+use crate::decimal::Decimal;
+use crate::error::{CheckError, Input};
+use crate::interval::{BITS, Interval, Point, length, minus, sum};
+use crate::overlap::{Shape, overlap_by_more_than};
+use crate::sweep::Axis;
+use crate::world::task::Task;
+use num_bigint::{BigInt, Sign};
+use roxmltree::Node;
+
+/// No object presses deeper than this share of the arm's reach into what supports it: `10^-4`.
+const PRESSED: u32 = 4;
+
+/// The cosine of the angle between the normal and what counts as along it is no smaller than 1 by more than `10^-9`.
+const UPRIGHT: u32 = 9;
+
+/// A disc that is about the wrist's axis is off it by no more than `10^-8`, metres.
+const OFF_AXIS: u32 = 8;
+
+/// A bound on how deep a point is in a shape, to a part in some 10^12; 0 where it is not seen to be within.
+fn depth(shape: &Shape, point: &Point) -> BigInt {
+    let own = Shape { points: vec![point.clone()], radius: Interval::whole(0) };
+    let mut depth = BigInt::ZERO;
+    for halvings in 0..DIGITS {
+        let deeper = &depth + (BigInt::from(1) << (BITS + DEEPEST - halvings));
+        if overlap_by_more_than(&own, shape, &deeper) {
+            depth = deeper;
+        }
+    }
+    depth
+}
+
+/// Depths are looked for below `2^DEEPEST` metres, bit by bit.
+const DEEPEST: u32 = 10;
+const DIGITS: u32 = 60;
+
+impl Counted {
+    /// What it covers whichever way it is turned about a point, and what it covers at all angles.
+    ///
+    /// # Errors
+    /// A shape that does not hold the point: it covers nothing at all angles.
+    fn turn_about(&mut self, axis: &Point) -> Read<()> {
+        let off = |point: &Point| length(&minus(point, axis));
+        let round = Decimal::power_of_ten(OFF_AXIS);
+        let is_disc =
+            |body: &Body| matches!(&body.shape.points[..], [one] if off(one).upper <= Interval::from(&round).lower);
+        if is_disc(&self.around) && is_disc(&self.within) {
+            return Ok(());
+        }
+        let shape = &self.around.shape;
+        let farthest = shape.points.iter().map(|p| off(p).upper).max().expect("a shape has points");
+        let deepest = depth(&self.within.shape, axis);
+        if deepest.sign() != Sign::Plus {
+            let message = format!(
+                "{self} turns with the wrist and does not hold its axis: give it a shape that covers it all round"
+            );
+            return Err(CheckError::in_file(Input::Urdf, message));
+        }
+        let disc = |radius: BigInt| Shape { points: vec![axis.clone()], radius: Interval::exactly(radius) };
+        self.around.shape = disc(farthest + &shape.radius.upper);
+        self.within.shape = disc(deepest);
+        Ok(())
+    }
+}
+
+impl<'a> Tree<'a> {
+    /// The joint that a joint mimics, through others; none of one that mimics none.
+    fn leader(&self, joint: Node<'a, 'a>) -> Read<Option<Node<'a, 'a>>> {
+        let mut leader = None;
+        let mut at = joint;
+        for _ in 0..MOST_JOINTS {
+            let Some(mimic) = child(at, "mimic") else { return Ok(leader) };
+            let Some(next) = self.named.get(self.text(mimic, "joint")?) else { return Ok(None) };
+            (leader, at) = (Some(*next), *next);
+        }
+        self.error(joint, "joints mimic one another")
+    }
+}
+
+impl<'a> Arm<'a> {
+    /// That no joint mimics one of these and moves what could collide, or the tip: none of that is where it is taken to be.
+    pub(super) fn move_alone(&self, joints: &[Node<'a, 'a>]) -> Read<()> {
+        for &link in &self.tree.order {
+            let has_shapes = ["collision", "visual"].iter().any(|kind| child(self.tree.links[link], kind).is_some());
+            let counts = has_shapes || link == self.tip_link;
+            for joint in if counts { self.tree.above(link)? } else { Vec::new() } {
+                if self.tree.leader(joint)?.is_some_and(|leader| joints.contains(&leader)) {
+                    return self
+                        .tree
+                        .error(joint, "it mimics a joint that moves, and carries what could collide, or the tip");
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Sees to it that the joints of the tool are some, and that what the wrist turns is covered all round.
+    ///
+    /// # Errors
+    /// Joints that are none, and shapes that do not hold the wrist's axis.
+    pub(super) fn with_tool(&mut self, task: &Task) -> Read<()> {
+        if let Some(name) = task.wrist.as_ref().and_then(|wrist| wrist.joint.as_deref()) {
+            let (joint, carried) = self.of_the_tool(name, "wrist")?;
+            let [at, axis] = [&self.base, &self.offset];
+            let axis = minus(&self.plane.flat(&self.tree.pose(carried)?.at), &sum(at, axis));
+            for k in 0..self.shapes.len() {
+                let link = self.tree.order.iter().find(|link| ***link == *self.shapes[k].link);
+                if link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?.contains(&joint) {
+                    self.shapes[k].turn_about(&axis)?;
+                }
+            }
+        }
+        task.stroke.as_ref().map_or(Ok(()), |stroke| self.of_the_tool(&stroke.joint, "stroke").map(|_| ()))
+    }
+
+    /// A joint of the tool, and the link that it carries: it moves about the plane's normal or along it, and nothing that counts goes with it.
+    fn of_the_tool(&self, name: &str, what: &str) -> Read<(Node<'a, 'a>, &'a str)> {
+        let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the {what}'s joint \"{name}\" {why}")));
+        let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(name));
+        let Some((&carried, &joint)) = found else { return wrong("is none of the robot's") };
+        let along = self.plane.height(&self.tree.pose(carried)?.direction(&self.tree.axis(joint)?)).abs();
+        let least = &Decimal::whole(1) - &Decimal::power_of_ten(UPRIGHT);
+        let slides = joint.attribute("type") == Some("prismatic");
+        let is_of_kind = moves(&joint) && slides == (what == "stroke") && child(joint, "mimic").is_none();
+        if !is_of_kind || along.lower < Interval::from(&least).lower || self.moved_by(carried)? != Some(1) {
+            return wrong("does not move the tool along the normal of the plane, or about it");
+        }
+        self.move_alone(&[joint])?;
+        Ok((joint, carried))
+    }
+
+    /// Whether a joint that lowers the tool carries a link.
+    ///
+    /// # Errors
+    /// A joint that is not there, or does not slide along the plane's normal.
+    pub fn lowers(&self, joint: &str, link: &str) -> Read<bool> {
+        let (node, _) = self.of_the_tool(joint, "stroke")?;
+        let link = self.tree.order.iter().find(|name| **name == link);
+        Ok(link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?.contains(&node))
+    }
+
+    /// How far from the first joint's origin the tip gets at most.
+    pub fn tip_reach(&self) -> BigInt {
+        let slide = |joint: &Joint| match (&joint.motion, &joint.axis) {
+            (Motion::Slide(_), Axis::Line(range)) => Interval::around(range).magnitude(),
+            _ => BigInt::ZERO,
+        };
+        let links = &length(&self.offset) + &length(&self.tip.shape.points[0]);
+        self.joints.iter().map(slide).sum::<BigInt>() + links.upper
+    }
+
+    /// By how much objects may press into what supports them: a share of how far the arm reaches, from the first joint to the second, and on
+    /// to where its shapes or the tip are.
+    pub fn pressed(&self) -> Interval {
+        let greatest = |link: usize, first: Interval| {
+            let own = self.shapes.iter().map(|shape| &shape.around).filter(|body| body.link == link);
+            let all = own.flat_map(|body| body.shape.points.iter().map(|p| &length(p) + &body.shape.radius));
+            all.fold(first, |a, b| if b.lower > a.lower { b } else { a })
+        };
+        let out = &length(&self.offset) + &greatest(1, length(&self.tip.shape.points[0]));
+        let near = greatest(0, Interval::whole(0));
+        &(if near.lower > out.lower { near } else { out }) * &Interval::from(&Decimal::power_of_ten(PRESSED))
+    }
+}
