@@ -2,7 +2,7 @@
 
 use super::shapes::Counted;
 use super::tree::{MOST_JOINTS, Read, Tree, child, moves};
-use super::{Arm, Body, Joint, Motion};
+use super::{Arm, Joint, Motion};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::interval::{BITS, Interval, Point, length, minus, sum};
@@ -17,9 +17,6 @@ const PRESSED: u32 = 4;
 
 /// The cosine of the angle between the normal and what counts as along it is no smaller than 1 by more than `10^-9`.
 const UPRIGHT: u32 = 9;
-
-/// A disc that is about the wrist's axis is off it by no more than `10^-8`, metres.
-const OFF_AXIS: u32 = 8;
 
 /// A bound on how deep a point is in a shape, to a part in some 10^12; 0 where it is not seen to be within.
 fn depth(shape: &Shape, point: &Point) -> BigInt {
@@ -45,12 +42,6 @@ impl Counted {
     /// A shape that does not hold the point: it covers nothing at all angles.
     fn turn_about(&mut self, axis: &Point) -> Read<()> {
         let off = |point: &Point| length(&minus(point, axis));
-        let round = Decimal::power_of_ten(OFF_AXIS);
-        let is_disc =
-            |body: &Body| matches!(&body.shape.points[..], [one] if off(one).upper <= Interval::from(&round).lower);
-        if is_disc(&self.around) && is_disc(&self.within) {
-            return Ok(());
-        }
         let shape = &self.around.shape;
         let farthest = shape.points.iter().map(|p| off(p).upper).max().expect("a shape has points");
         let deepest = depth(&self.within.shape, axis);
@@ -133,14 +124,14 @@ impl<'a> Arm<'a> {
         Ok((joint, carried))
     }
 
-    /// Whether a joint that lowers the tool carries a link.
+    /// Whether the joint that lowers the tool carries a link.
     ///
     /// # Errors
-    /// A joint that is not there, or does not slide along the plane's normal.
+    /// What is no tree.
     pub fn lowers(&self, joint: &str, link: &str) -> Read<bool> {
-        let (node, _) = self.of_the_tool(joint, "stroke")?;
         let link = self.tree.order.iter().find(|name| **name == link);
-        Ok(link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?.contains(&node))
+        let above = link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?;
+        Ok(above.iter().any(|node| node.attribute("name") == Some(joint)))
     }
 
     /// How far from the first joint's origin the tip gets at most.
