@@ -106,6 +106,9 @@ impl Drawn {
         let reach = 2.2 * length;
         let obstacles = (0..1 + dice.below(5)).map(|_| obstacle(dice, base, reach, scale)).collect();
         let is_placed = dice.chance(0.3);
+        // By dice of their own: all else is as it was without.
+        let mut own = Dice::new(scale.to_bits());
+        let tilts = if own.chance(0.3) { [0, 1].map(|_| own.within(-4e-4, 4e-4)) } else { [0.0; 2] };
         let tip = [dice.within(0.2, 1.0) * length, if dice.chance(0.7) { 0.0 } else { 0.1 * length }];
         Self {
             plane,
@@ -114,7 +117,7 @@ impl Drawn {
             heights,
             solids,
             visual: dice.chance(0.15),
-            tilts: if dice.chance(0.3) { [0, 1].map(|_| dice.within(-4e-4, 4e-4)) } else { [0.0; 2] },
+            tilts,
             tip: dice.chance(0.8).then_some(if dice.chance(0.2) { [length, 0.0] } else { tip }),
             at: if is_placed { [dice.within(-3.0, 3.0) * scale, dice.within(-3.0, 3.0) * scale] } else { [0.0; 2] },
             angle: if is_placed { dice.within(-4.0, 4.0) } else { 0.0 },

@@ -21,6 +21,9 @@ pub struct Cells {
     turn: [Interval; 2],
 }
 
+/// Pieces of the longest border: they take some gigabyte.
+const MOST_PIECES: usize = 1 << 18;
+
 /// What a description says, the YAML of ROS's map server. Numbers as they are written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -125,7 +128,10 @@ impl Cells {
     }
 
     /// The border between what is solid and what is not, in straight pieces, in the frame of the obstacle.
-    pub fn border(&self) -> Vec<[Point; 2]> {
+    ///
+    /// # Errors
+    /// Where there are more than can be looked at.
+    pub fn border(&self) -> Result<Vec<[Point; 2]>, CheckError> {
         let [width, height] = self.size.map(|n| n as i64);
         let mut border = Vec::new();
         for (lines, steps, is_upright) in [(width, height, true), (height, width, false)] {
@@ -139,13 +145,18 @@ impl Cells {
                 let mut from = 0;
                 for step in 0..=steps {
                     if step == steps || !is_border(step) {
-                        border.extend((from < step).then(|| [at(from), at(step)].map(|end| self.corner(end))));
+                        border.extend((from < step).then(|| [at(from), at(step)]));
                         from = step + 1;
                     }
                 }
             }
         }
-        border
+        if border.len() > MOST_PIECES {
+            let message =
+                format!("a picture has a border of {} pieces: more than {MOST_PIECES} are not looked at", border.len());
+            return Err(CheckError::in_file(Input::World, message));
+        }
+        Ok(border.into_iter().map(|ends| ends.map(|end| self.corner(end))).collect())
     }
 
     /// Whether a point of the obstacle's frame that is off the border is in something solid.

@@ -121,7 +121,7 @@ impl Obstacle {
             }
             Outline::Cells(cells) => {
                 let cells = cells.as_ref().map_err(Clone::clone)?;
-                Ok(cells.border().iter().map(|ends| side(ends, Interval::whole(0))).collect())
+                Ok(cells.border()?.iter().map(|ends| side(ends, Interval::whole(0))).collect())
             }
             _ => Err(CheckError::in_file(Input::World, "an obstacle has too few points, or no radius")),
         }
