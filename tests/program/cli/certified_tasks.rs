@@ -242,6 +242,9 @@ fn proofs_about_supports_have_certificates_if_what_rests_is_convex() {
     let (code, stderr, said) = certified(&into(1e-2).replace(square, bent));
     assert!(code == 3 && said.is_none(), "{code} {stderr} {said:?}");
     assert!(stderr.contains("the proof that the task cannot be done is of a kind that has no certificate"), "{stderr}");
+    // So have motions.
+    let (code, stderr, said) = certified(&into(-1e-2).replace(square, bent));
+    assert!(code == 0 && said.is_none() && stderr.contains("not convex rests on supports"), "{code} {stderr} {said:?}");
 }
 
 #[test]
