@@ -189,7 +189,7 @@ impl Ends {
         }
         let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
         // All of them share the parts that a checker looks at: those on other turns, too.
-        let least = STRETCHED * (solved.solutions(arm).len() as f64 / 2.0).max(1.0);
+        let least = STRETCHED * solved.solutions(arm).len().max(1) as f64;
         if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
             return None;
         }
@@ -204,7 +204,7 @@ const ABOUT_A_GOAL: f64 = 1e-6;
 
 /// Where [`tells_apart`] is less, a checker does not tell configurations that put the tip at a place from those beside them, as it cuts both
 /// joints' ranges in equal shares.
-const STRETCHED: f64 = 0.015;
+const STRETCHED: f64 = 0.012;
 
 /// The area between the ways in which the joints move the tip, as a share of the square of both together: at most a quarter, and nothing where
 /// the arm is stretched or folded.

@@ -17,6 +17,9 @@ const MOST_POINTS: usize = 1 << 22;
 const PLACING: [&str; 6] = ["matrix", "translate", "rotate", "scale", "lookat", "skew"];
 const MOST_PLACINGS: usize = 16;
 
+/// What is nearer to a number than `2^-ROUNDED` is that.
+const ROUNDED: u32 = 40;
+
 /// A linear map and a translation after it: as a pose, though no rotation as a rule.
 type Affine = Pose;
 
@@ -129,8 +132,13 @@ fn placing(node: Node) -> Result<Affine, String> {
         let kind = part.tag_name().name();
         let values = numbers(part)?;
         let vector = || [0, 1, 2].map(|k| values[k].clone());
+        // Up to rounding: 0 0 0 1.
+        let is_last_row = |k: usize| {
+            (&values[k] - &Interval::whole(i32::from(k == 15))).magnitude()
+                < Interval::whole(1).in_halves(ROUNDED).lower
+        };
         let map = match (kind, values.len()) {
-            ("matrix", 16) if (12..16).all(|k| values[k].is_whole(i32::from(k == 15))) => {
+            ("matrix", 16) if (12..16).all(is_last_row) => {
                 let row = |i: usize| [0, 1, 2].map(|j| values[4 * i + j].clone());
                 Pose { rows: [row(0), row(1), row(2)], at: [3, 7, 11].map(|k: usize| values[k].clone()) }
             }
