@@ -104,7 +104,10 @@ impl Description {
     /// What a shade, from 0 for black to that of white, says of its cell; none is of a pixel that one can see through. Of whole numbers the
     /// quotient that is held against the thresholds is rounded as they are, so that it is no less than one that it equals.
     pub fn judge(&self, shade: Option<Shade>) -> Occupancy {
-        let dark = |Shade { value, white }| if self.negate { value } else { white - value } / white;
+        let dark = |Shade { value, white }| {
+            let dark = if self.negate { value } else { white - value };
+            dark / white
+        };
         match shade.map(dark) {
             Some(p) if p > self.occupied => Occupancy::Occupied,
             Some(p) if p < self.free => Occupancy::Free,

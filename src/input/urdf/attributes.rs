@@ -318,3 +318,29 @@ impl Attributes<'_> {
         Some(shape)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Together the angles are the turn, also where pitch is a right angle or nearly one.
+    #[test]
+    fn angles_of_quaternions() {
+        let half = std::f64::consts::FRAC_PI_2;
+        for pitch in [0.3, half, -half, half - 1e-3, half - 1e-7, 1e-9 - half, 2.0] {
+            for (roll, yaw) in [(0.0, 0.0), (0.4, -2.0), (-3.0, 1.0)] {
+                let turn = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+                let [x, y, z, w] = turn.coords.map(|c| 3.0 * c).into();
+                let [r, p, y] = roll_pitch_yaw(&[x, y, z, w]).unwrap();
+                let off = UnitQuaternion::from_euler_angles(r, p, y).angle_to(&turn);
+                assert!(off < 1e-7, "{roll} {pitch} {yaw}: {off}");
+                let apart = UnitQuaternion::from_euler_angles(r, p, y).to_rotation_matrix().matrix()
+                    - turn.to_rotation_matrix().matrix();
+                assert!(apart.abs().max() < 1e-14, "{roll} {pitch} {yaw}: {apart}");
+            }
+        }
+        for none in [[0.0; 4], [0.0, 0.0, 1e-20, 1e-20], [0.0, 0.0, 1e200, 1e200]] {
+            assert_eq!(roll_pitch_yaw(&none), None);
+        }
+    }
+}

@@ -288,9 +288,9 @@ impl Chooser<'_> {
     }
 
     /// Whether a joint moves a link with shapes.
-    fn has_shapes(&self, joint: usize) -> bool {
+    pub(super) fn has_shapes(&self, joint: usize) -> bool {
         let links = self.document.robot.links.iter().enumerate().filter(|(link, _)| self.tree.carries(joint, *link));
-        links.into_iter().any(|(_, link)| !link.collision.is_empty() || !link.visual.is_empty())
+        links.map(|(_, link)| link).any(|link| !link.collision.is_empty() || !link.visual.is_empty())
     }
 
     pub(super) fn mimic_diagnostic(&self, joint: usize, message: &str) -> Diagnostic {

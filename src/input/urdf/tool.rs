@@ -76,14 +76,9 @@ impl Reduction<'_> {
 
     /// A joint that mimics a joint of the tool and moves something that can collide, or the tip.
     fn follower_with_shapes(&self, chooser: &Chooser, leader: usize) -> Result<Option<String>, Diagnostic> {
-        let links = &self.document.robot.links;
-        let counts = |link: usize| {
-            link == self.chain.tip
-                || links.get(link).is_some_and(|link| !link.collision.is_empty() || !link.visual.is_empty())
-        };
         for (index, joint) in chooser.all().iter().enumerate().filter(|(_, joint)| joint.mimic.is_some()) {
-            let moves = |link: &usize| self.tree.carries(index, *link);
-            if chooser.leader(index)? == leader && (0..self.tree.links.len()).filter(moves).any(counts) {
+            let counts = chooser.has_shapes(index) || self.tree.carries(index, self.chain.tip);
+            if counts && chooser.leader(index)? == leader {
                 return Ok(Some(joint.name.clone()));
             }
         }
