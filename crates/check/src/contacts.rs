@@ -43,17 +43,15 @@ pub struct Carried {
     pub heights: Option<[Interval; 2]>,
     /// What it may touch.
     pub supports: Vec<usize>,
-    /// What keeps off these, if it has any.
-    pub kernel: Option<Result<Shape, CheckError>>,
+    /// What of it stays off these, if it has any.
+    pub pressed: Option<Result<Obstacle, CheckError>>,
 }
 
-impl Carried {
-    /// A convex part of it that is named by its corners in its own frame, as it hangs.
-    fn part(&self, corners: &[Corner]) -> Result<Shape, CheckError> {
-        let own = self.hanging.clone().moved([0, 0].map(Interval::whole), [0, 1].map(Interval::whole));
-        let Shape { points, radius } = own.part(corners)?;
-        Ok(Shape { points: points.iter().map(|p| self.hanging.placed(p)).collect(), radius })
-    }
+/// A convex part of what hangs that is named by its corners in its own frame, or by those that were these once, as it hangs.
+fn part(hanging: &Obstacle, corners: &[Corner]) -> Result<Shape, CheckError> {
+    let own = hanging.clone().moved([0, 0].map(Interval::whole), [0, 1].map(Interval::whole));
+    let Shape { points, radius } = own.part(corners)?;
+    Ok(Shape { points: points.iter().map(|p| hanging.placed(p)).collect(), radius })
 }
 
 /// A shape that evidence names.
@@ -63,6 +61,8 @@ struct Named {
     is_carried: bool,
     /// What is kept level, as seen from the tip.
     about_tip: Option<Shape>,
+    /// What of it stays off its supports.
+    pressed: Option<Result<Shape, CheckError>>,
 }
 
 /// A part of an obstacle that evidence names, grown by the clearance.
@@ -132,7 +132,7 @@ impl<'a> Contacts<'a> {
         let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {
             return fails(" names a shape or a part that is not there");
         };
-        let Named { body, is_carried, about_tip } = shape.as_ref().map_err(Clone::clone)?;
+        let Named { body, is_carried, about_tip, pressed } = shape.as_ref().map_err(Clone::clone)?;
         let part = part.as_ref().map_err(Clone::clone)?;
         if !body.is_at(part.heights) {
             return fails(": the shape passes over or under the obstacle");
@@ -142,12 +142,14 @@ impl<'a> Contacts<'a> {
         }
         let (mut body, mut about_tip) = (Cow::Borrowed(body), about_tip.as_ref().map(Cow::Borrowed));
         let mut part_shape = Cow::Borrowed(&part.shape);
-        let carried = self.among.carried.as_ref().filter(|_| *is_carried);
-        if let Some(Carried { kernel: Some(kernel), .. }) = carried.filter(|c| c.supports.contains(&part.obstacle)) {
-            let kernel = kernel.clone()?;
+        let rests = |carried: &Carried| carried.supports.contains(&part.obstacle);
+        if self.among.carried.as_ref().is_some_and(rests)
+            && let Some(pressed) = pressed
+        {
+            let pressed = pressed.clone()?;
             match &mut about_tip {
-                Some(shape) => *shape = Cow::Owned(kernel),
-                None => body.to_mut().shape = kernel,
+                Some(shape) => *shape = Cow::Owned(pressed),
+                None => body.to_mut().shape = pressed,
             }
             part_shape.to_mut().radius = part.radius.clone();
         }
@@ -167,7 +169,7 @@ fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError
             Some((joint, by)) if arm.lowers(joint, link)? => within.lowered(by),
             _ => within.clone(),
         };
-        Ok(Named { body, is_carried: false, about_tip: None })
+        Ok(Named { body, is_carried: false, about_tip: None, pressed: None })
     };
     match (&name.link, name.collision, name.visual, name.bar, &name.carried) {
         (Some(link), Some(number), None, None, None) => own(arm.shape(link, "collision", number)),
@@ -175,14 +177,14 @@ fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError
         (Some(link), None, None, Some(0), None) => own(arm.shape(link, "bar", 0)),
         (None, None, None, None, Some(corners)) => {
             let Some(carried) = &among.carried else { return CheckError::fails("a shape is carried where nothing is") };
-            let (shape, heights) = (carried.part(corners)?, carried.heights.clone());
-            Ok(match carried.is_level {
-                false => Named { body: Body { link: 1, shape, heights }, is_carried: true, about_tip: None },
-                true => {
-                    let tip = Body { heights, ..arm.tip.clone() };
-                    Named { body: tip, is_carried: true, about_tip: Some(shape) }
-                }
-            })
+            let (shape, heights) = (part(&carried.hanging, corners)?, carried.heights.clone());
+            let pressed = carried.pressed.as_ref();
+            let pressed = pressed.map(|own| own.as_ref().map_err(Clone::clone).and_then(|own| part(own, corners)));
+            let (body, about_tip) = match carried.is_level {
+                false => (Body { link: 1, shape, heights }, None),
+                true => (Body { heights, ..arm.tip.clone() }, Some(shape)),
+            };
+            Ok(Named { body, is_carried: true, about_tip, pressed })
         }
         _ => {
             Err(CheckError::in_file(Input::Certificate, "a shape has a link and one number, of a bar 0, or is carried"))

@@ -503,8 +503,8 @@ impl<'a> Replay<'a> {
             let lying = self.world.obstacles[self.task.first + held.object].heights.as_ref();
             let heights = lying.map(|range| range.each_ref().map(|height| &Interval::from(height) + &lift));
             let supports = held.supports.clone();
-            let kernel = (!supports.is_empty()).then(|| hanging.kernel(&self.pressed));
-            Some(Carried { hanging, is_level, heights, supports, kernel })
+            let pressed = (!supports.is_empty()).then(|| hanging.pressed(&self.pressed));
+            Some(Carried { hanging, is_level, heights, supports, pressed })
         });
         let allowed = self.released.iter().copied().chain(picked).collect();
         Among { standing: self.standing.clone(), allowed, carried, lowered: None }

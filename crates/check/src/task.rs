@@ -8,14 +8,13 @@ use crate::error::{CheckError, Input};
 use crate::free::{Chain, Edge, On, Solid, guard};
 use crate::interval::{Interval, Point, both_turns, length, minus, turned};
 use crate::motion::{SIXTY, fine, piece, well_formed};
-use crate::overlap::Shape;
 use crate::polygon::Corner;
 use crate::robot::{Arm, Counted};
 use crate::scene::{Part, Present, stay_off};
 use crate::world::task::{Action, Carrying, Group, Node, Passing, Step, Stroke, Task};
 use crate::world::{Obstacle, World};
 use num_bigint::BigInt;
-use std::iter::{Enumerate, Peekable};
+use std::iter::{self, Enumerate, Peekable};
 use std::ops::Range;
 use std::slice::Iter;
 
@@ -153,11 +152,11 @@ fn stands(motion: &Motion, steps: &[Matched]) -> Result<Vec<Decimal>, CheckError
 struct Held {
     object: usize,
     on: On,
-    /// It as it lies to what it hangs on.
+    /// It as it lies to what it hangs on, and what of it keeps off supports if it has any.
     hanging: Obstacle,
-    /// Its shapes, and what keeps off supports if it has any.
-    solids: Vec<Solid>,
-    kernel: Option<Solid>,
+    pressed: Option<Obstacle>,
+    /// The shapes of both.
+    solids: [Vec<Solid>; 2],
     carrying: Carrying,
 }
 
@@ -219,7 +218,7 @@ impl<'a> Replay<'a> {
             motion,
             tip: arm.tip.shape.points[0].clone(),
             keeps: format!("farther than {clearance} from"),
-            pressed: Interval::exactly(arm.pressed().lower),
+            pressed: Interval::exactly(arm.pressed().lower - guard()),
             chain,
             shapes,
             kept,
@@ -310,31 +309,28 @@ impl<'a> Replay<'a> {
     }
 
     /// The parts of what is held.
-    fn hanging<'h>(
-        &'h self,
-        held: &'h Held,
-        solids: &'h [Solid],
-        kernel: Option<&'h Solid>,
-        tool: Tool,
-    ) -> Vec<Part<'h>> {
+    fn hanging<'h>(&'h self, held: &'h Held, solids: &'h [Vec<Solid>; 2], tool: Tool) -> Vec<Part<'h>> {
         let all = 0..self.present.len();
         let part = |solid, keeps, others: bool| {
             let meets = all.clone().map(|obstacle| self.meets(held, obstacle, tool) == Some(others)).collect();
             Part { name: "what is carried".to_owned(), keeps, solid, meets }
         };
-        let supported = kernel.map(|solid| part(solid, "no deeper than it may press into", false));
-        solids.iter().map(|solid| part(solid, &*self.keeps, true)).chain(supported).collect()
+        let [others, supports] = solids;
+        let supported = supports.iter().map(|solid| part(solid, "no deeper than it may press into", false));
+        others.iter().map(|solid| part(solid, &*self.keeps, true)).chain(supported).collect()
     }
 
-    /// That no obstacle begins within what is held, its supports aside.
+    /// That no obstacle begins within what is held, or no support within what of it keeps off these.
     fn surrounds_none(&self, held: &Held, values: &Point, time: &Decimal, tool: Tool) -> Result<(), CheckError> {
-        let lying = self.chain.lying(&held.on, &held.hanging, values);
-        for (number, present) in self.present.iter().enumerate() {
-            if self.meets(held, number, tool) == Some(true) {
-                let mut edges = present.iter().flat_map(|present| &present.edges);
-                let side = |edge: &Edge| edge.during(&self.chain, [time, time]).point().clone();
-                if edges.any(|edge| lying.surrounds(&side(edge), &guard()) != Some(false)) {
-                    return CheckError::fails(format!("obstacle {number} is inside what is carried"));
+        for (hanging, others) in iter::once((&held.hanging, true)).chain(held.pressed.iter().map(|own| (own, false))) {
+            let lying = self.chain.lying(&held.on, hanging, values);
+            for (number, present) in self.present.iter().enumerate() {
+                if self.meets(held, number, tool) == Some(others) {
+                    let mut edges = present.iter().flat_map(|present| &present.edges);
+                    let side = |edge: &Edge| edge.during(&self.chain, [time, time]).point().clone();
+                    if edges.any(|edge| lying.surrounds(&side(edge), &guard()) != Some(false)) {
+                        return CheckError::fails(format!("obstacle {number} is inside what is carried"));
+                    }
                 }
             }
         }
@@ -368,24 +364,24 @@ impl<'a> Replay<'a> {
         };
         let mut parts: Vec<Part> = self.shapes.iter().map(own).collect();
         if let Some(held) = &self.held {
-            parts.extend(self.hanging(held, &held.solids, held.kernel.as_ref(), tool));
+            parts.extend(self.hanging(held, &held.solids, tool));
             self.surrounds_none(held, from, &pieces[0].time[0], tool)?;
         }
         stay_off(&self.chain, pieces, from, &parts, &self.present)
     }
 
-    /// The shapes of an object as it hangs on something, and what keeps off its supports.
+    /// The shapes of an object as it hangs on something, and of what of it keeps off its supports.
     fn hung(
         &self,
         chain: &Chain,
         on: &On,
         hanging: &Obstacle,
-        rests: bool,
-    ) -> Result<(Vec<Solid>, Option<Solid>), CheckError> {
-        let solid = |shape: &Shape, kept: &BigInt| Solid::new(chain, on.clone(), shape, kept);
-        let solids = hanging.solids()?.iter().map(|shape| solid(shape, &self.kept)).collect();
-        let kernel = rests.then(|| hanging.kernel(&self.pressed)).transpose()?;
-        Ok((solids, kernel.map(|shape| solid(&shape, &guard()))))
+        pressed: Option<&Obstacle>,
+    ) -> Result<[Vec<Solid>; 2], CheckError> {
+        let solids = |own: &Obstacle, kept: &BigInt| {
+            own.solids().map(|all| all.iter().map(|shape| Solid::new(chain, on.clone(), shape, kept)).collect())
+        };
+        Ok([solids(hanging, &self.kept)?, pressed.map_or(Ok(Vec::new()), |own| solids(own, &guard()))?])
     }
 
     /// For what is not looked at in time.
@@ -425,8 +421,9 @@ impl<'a> Replay<'a> {
         } else {
             (On::Link(1), self.chain.hung(&lying, at))
         };
-        let (solids, kernel) = self.hung(&self.chain, &on, &hanging, !carrying.supports.is_empty())?;
-        self.held = Some(Held { object, on, hanging, solids, kernel, carrying });
+        let pressed = (!carrying.supports.is_empty()).then(|| hanging.pressed(&self.pressed)).transpose()?;
+        let solids = self.hung(&self.chain, &on, &hanging, pressed.as_ref())?;
+        self.held = Some(Held { object, on, hanging, pressed, solids, carrying });
         self.released = None;
         Ok(())
     }
@@ -458,20 +455,21 @@ impl<'a> Replay<'a> {
         };
         let time = [0, 1].map(Decimal::whole);
         let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]], time };
-        let rests = held.kernel.is_some();
-        let (solids, kernel) = self.hung(&wrist, &On::Link(0), &held.hanging, rests)?;
+        let solids = self.hung(&wrist, &On::Link(0), &held.hanging, held.pressed.as_ref())?;
         let seen = |(number, present): (usize, &Option<Present>)| {
             let met = present.as_ref().filter(|_| self.meets(&held, number, Tool::Raised).is_some());
             met.map(|present| Present::new(&wrist, present.obstacle.clone())).transpose()
         };
         let present = self.present.iter().enumerate().map(seen).collect::<Result<Vec<_>, _>>()?;
-        let parts = self.hanging(&held, &solids, kernel.as_ref(), Tool::Raised);
+        let parts = self.hanging(&held, &solids, Tool::Raised);
         self.surrounds_none(&held, at, &swept.time[0], Tool::Raised)?;
         stay_off(&wrist, &[swept], &[0, 0].map(Interval::whole), &parts, &present)?;
         let angle = Interval::from(by).sin_cos();
-        held.hanging.at = turned(&held.hanging.at, &angle);
-        held.hanging.turn = both_turns(&held.hanging.turn, &angle);
-        (held.solids, held.kernel) = self.hung(&self.chain, &held.on, &held.hanging, rests)?;
+        for own in iter::once(&mut held.hanging).chain(&mut held.pressed) {
+            own.at = turned(&own.at, &angle);
+            own.turn = both_turns(&own.turn, &angle);
+        }
+        held.solids = self.hung(&self.chain, &held.on, &held.hanging, held.pressed.as_ref())?;
         self.held = Some(held);
         Ok(())
     }

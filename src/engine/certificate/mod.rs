@@ -34,9 +34,9 @@ pub enum NoCertificate {
              how an object lies that the arm has turned on the way over several steps"
     )]
     Task,
-    /// A task in which something that is not convex rests on supports.
+    /// A task in which a polyline rests on supports.
     #[error(
-        "an object that is not convex rests on supports: the checker does not know how deep such an object presses into them"
+        "an object that is a polyline rests on supports: the checker does not know how deep such an object presses into them"
     )]
     Supports,
     /// A motion without times in a world in which something moves.
@@ -101,7 +101,7 @@ impl Plan {
                 let evidence = task::cases(task, impossible.step.number).ok_or(NoCertificate::Task)?;
                 Ok(written("infeasible", said, evidence))
             }
-            (_, Some(_), _) if task::rests_in_parts(task) => Err(NoCertificate::Supports),
+            (_, Some(_), _) if task::rests_without_inside(task) => Err(NoCertificate::Supports),
             (_, Some(trajectory), Some(figures)) => {
                 let evidence = [motion::evidence(&task.arm, trajectory), task::steps(&figures.steps)];
                 Ok(written("found", said, evidence))

@@ -37,10 +37,9 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
     }
 }
 
-/// Whether something that is not convex is picked from supports, or placed on some.
-pub(super) fn rests_in_parts(task: &Task) -> bool {
-    let is_convex =
-        |object: &Object| object.pieces.len() == 1 && !matches!(object.shape, Shape::Polyline(_) | Shape::Pieces);
+/// Whether something without an inside is picked from supports, or placed on some.
+pub(super) fn rests_without_inside(task: &Task) -> bool {
+    let has_inside = |object: &Object| !matches!(object.shape, Shape::Polyline(_) | Shape::Pieces);
     let mut held = None;
     task.steps().any(|step| {
         let (object, supports) = match &step.action {
@@ -51,7 +50,7 @@ pub(super) fn rests_in_parts(task: &Task) -> bool {
             },
             Action::Move(_) => return false,
         };
-        !supports.is_empty() && !is_convex(&task.objects[object])
+        !supports.is_empty() && !has_inside(&task.objects[object])
     })
 }
 
@@ -146,9 +145,9 @@ fn rule_out(scene: &Scene, ends: [Configuration; 2]) -> Option<Vec<StuckBox>> {
     }
 }
 
-/// Less of what is carried than a checker makes of it for its supports, among these alone; none where it has several pieces.
+/// Less of what is carried than a checker makes of it for its supports, among these alone.
 fn pressing(scene: &Scene) -> Option<Scene> {
-    let payload = scene.payload().filter(|payload| payload.pieces.len() == 1)?;
+    let payload = scene.payload()?;
     let (arm, mut workspace) = scene.clone().into_parts();
     let deeper = PRESSED_DEEPER * Payload::penetration_allowance(&arm);
     let pieces = payload.pieces.iter().map(|piece| piece.inner_approximation(deeper, &[])).collect();

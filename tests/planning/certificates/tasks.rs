@@ -85,7 +85,7 @@ fn world(dice: &mut Dice, drawn: &Drawn, mut free: impl FnMut(&mut Dice) -> Opti
         if dice.chance(0.3) {
             let _ = writeln!(text, "height = [0.0, {:?}]\nlift = {:?}", 0.02 * scale, dice.within(0.0, 0.1) * scale);
         }
-        if dice.chance(0.3) && kind < 3 {
+        if dice.chance(0.3) {
             text += "supports = [\"obstacle 1\"]\n";
         }
         let angle = match is_level && has_wrist && dice.chance(0.5) {

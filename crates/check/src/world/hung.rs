@@ -2,11 +2,15 @@
 
 use super::obstacle::Outline;
 use super::{Obstacle, Read, point};
+use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::interval::{Interval, Point, length, sum, times};
+use crate::interval::{BITS, Interval, Point, length, minus, sum, times};
 use crate::overlap::Shape;
-use crate::polygon::{Corner, is_convex, side};
+use crate::polygon::{Corner, edges, is_convex, side};
 use num_bigint::Sign;
+
+/// Of an object's corners that press into supports, sines of half their angles and lengths of sides are above `2^-SHARPEST`.
+const SHARPEST: u64 = 30;
 
 impl Obstacle {
     /// The same elsewhere, where it stands.
@@ -25,38 +29,27 @@ impl Obstacle {
         }
     }
 
-    /// A convex shape, in its place, of which a point is within `by` of each of its points: what does not meet that shape and is convex
-    /// comes off this one by a translation of `by`.
+    /// What of it stays off its supports: the same with each corner moved inwards by a length, halfway between its sides; of a disc one with a
+    /// radius that is smaller by that, or its centre.
     ///
     /// # Errors
-    /// An object that is not convex.
-    pub fn kernel(&self, by: &Interval) -> Read<Shape> {
-        if let Outline::Circle(..) = self.outline {
-            let Shape { points, radius } = self.sides()?.swap_remove(0);
-            let left = &radius - by;
-            let radius = if left.lower.sign() == Sign::Plus { left } else { Interval::whole(0) };
-            return Ok(Shape { points, radius });
-        }
-        let wrong =
-            "the checker does not know how deep an object presses into its supports that is no disc and not convex";
-        let Some(corners) = self.convex() else { return Err(CheckError::in_file(Input::World, wrong)) };
-        let Shape { points, radius } = self.hull(&corners);
-        let corner = |k: usize| {
-            let to = |other: usize| {
-                let [p, q] = [&points[k], &points[other % points.len()]];
-                let way = [0, 1].map(|c| &q[c] - &p[c]);
-                let far = length(&way);
-                (far.lower.sign() == Sign::Plus).then(|| way.map(|c| c.divided(&far)))
-            };
-            let (next, last) = (to(k + 1)?, to(k + points.len() - 1)?);
-            // To the left of the one, and so between the two, which turn left.
-            let inward = [&last[1] - &next[1], &next[0] - &last[0]];
-            let far = length(&inward);
-            (far.lower.sign() == Sign::Plus).then(|| sum(&points[k], &times(&inward.map(|c| c.divided(&far)), by)))
+    /// An object without an inside.
+    pub fn pressed(&self, by: &Interval) -> Read<Self> {
+        let wrong = |why: &str| CheckError::in_file(Input::World, why);
+        let outline = match &self.outline {
+            Outline::Circle(center, radius) => {
+                Outline::Circle(center.clone(), (radius - &by.ends()[1]).max(Decimal::whole(0)))
+            }
+            Outline::Polygon(rings) => {
+                let inset = |(number, ring): (usize, &Vec<Corner>)| inset(bent(ring), number > 0, by);
+                let rings = rings.iter().enumerate().map(inset).collect::<Option<_>>();
+                Outline::Polygon(rings.ok_or_else(|| wrong("a corner of an object is too sharp"))?)
+            }
+            Outline::Polyline(_) | Outline::Cells(_) => {
+                return Err(wrong("the checker does not know how deep a polyline presses into its supports"));
+            }
         };
-        let points: Option<Vec<Point>> = (0..points.len()).map(corner).collect();
-        let sharp = || CheckError::in_file(Input::World, "a corner of an object is too sharp");
-        Ok(Shape { points: points.ok_or_else(sharp)?, radius })
+        Ok(Self { outline, ..self.clone() })
     }
 
     fn hull(&self, corners: &[Corner]) -> Shape {
@@ -71,14 +64,7 @@ impl Obstacle {
             Outline::Circle(center, radius) => (radius.sign() != Sign::Minus).then(|| vec![center.clone()]),
             Outline::Polygon(rings) => {
                 let [ring] = &rings[..] else { return None };
-                let mut ring = ring.clone();
-                let is_straight = |ring: &[Corner], k: usize| {
-                    let [last, next] = [ring.len() - 1, 1].map(|by| &ring[(k + by) % ring.len()]);
-                    side(last, &ring[k], next) == Sign::NoSign
-                };
-                while let Some(k) = (0..ring.len()).find(|k| is_straight(&ring, *k)) {
-                    ring.remove(k);
-                }
+                let mut ring = bent(ring);
                 if !is_convex(&ring) {
                     ring.reverse();
                 }
@@ -87,4 +73,40 @@ impl Obstacle {
             Outline::Polyline(_) | Outline::Cells(_) => None,
         }
     }
+}
+
+/// A ring without the corners that lie on a line with those beside them.
+fn bent(ring: &[Corner]) -> Vec<Corner> {
+    let mut ring = ring.to_vec();
+    let is_straight = |ring: &[Corner], k: usize| {
+        let [last, next] = [ring.len() - 1, 1].map(|by| &ring[(k + by) % ring.len()]);
+        side(last, &ring[k], next) == Sign::NoSign
+    };
+    while let Some(k) = (0..ring.len()).find(|k| is_straight(&ring, *k)) {
+        ring.remove(k);
+    }
+    ring
+}
+
+/// A ring whose corners are moved by a length, halfway between its sides: to what it surrounds, or away from there. None where it has corners
+/// that are too sharp to tell.
+fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Corner>> {
+    let doubled = edges(&ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));
+    let turns_left = doubled.fold(Decimal::whole(0), |sum, area| &sum + &area).sign() == Sign::Plus;
+    if turns_left == outwards {
+        ring.reverse();
+    }
+    let points: Vec<Point> = ring.iter().map(point).collect();
+    let along = |way: &Point| {
+        let far = length(way);
+        (far.lower.bits() + SHARPEST > BITS.into()).then(|| way.each_ref().map(|c| c.divided(&far)))
+    };
+    let corner = |k: usize| {
+        let to = |other: usize| along(&minus(&points[other % points.len()], &points[k]));
+        let [x, y] = minus(&to(k + 1)?, &to(k + points.len() - 1)?);
+        // To the left of both.
+        let moved = sum(&points[k], &times(&along(&[-&y, x])?, by));
+        Some(moved.map(|c| Decimal::dyadic(&c.middle().0, BITS)))
+    };
+    (0..points.len()).map(corner).collect()
 }
