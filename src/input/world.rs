@@ -102,7 +102,7 @@ pub(super) struct RobotTable {
     /// How its root frame is turned, rad; by default 0.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
-    /// The two joints that move, in any order; needed only if the URDF has more than two that can.
+    /// The two joints that move, from the base to the tip; needed only if the URDF has more than two that can.
     #[schemars(with = "Option<[String; 2]>")]
     pub joints: Option<Spanned<Vec<Spanned<String>>>>,
     /// Link whose origin is the tip; by default the end of the chain.

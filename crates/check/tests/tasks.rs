@@ -399,9 +399,42 @@ fn objects_that_are_not_convex() {
         assert!(code == 3 && said.contains("inside what is carried"), "{code} {said}");
     }
     holds(with("[[obstacle]]\ncircle = { center = [1.05, 1.4], radius = 0.01 }\n"));
-    let resting = block(angle).replace("at =", "supports = [\"wall\"]\nat =");
-    let world = format!("{HEAD}{resting}[[obstacle]]\nname = \"wall\"\npolyline = [[0, -5], [1, -5]]\n{STEPS}");
-    is_wrong(judged(GANTRY, &world, KNOTS, DONE), "no disc and not convex");
+}
+
+/// A block like a C, open to the right, over a rail that it takes into its slot. The arm reaches 1.01 m, so that sides beside right angles give
+/// way by 0.0714 mm.
+#[test]
+fn what_is_not_convex_presses_no_deeper_than_it_may() {
+    let slotted =
+        "[[-0.2, -0.1], [0.2, -0.1], [0.2, 0.2], [-0.1, 0.2], [-0.1, 0.3], [0.2, 0.3], [0.2, 0.5], [-0.2, 0.5]]";
+    let flat = GANTRY.replace(
+        "<link name=\"bridge\"> <collision> <geometry>",
+        "<link name=\"bridge\"> <collision> <origin xyz=\"0 -1 0\"/> <geometry>",
+    );
+    let over = |outline: &str, support: &str, rests: bool| {
+        let supports = if rests { "supports = [\"rail\"]" } else { "" };
+        let block = format!("[[object]]\nname = \"block\"\nat = [1, 1]\n{outline}\n{supports}\n");
+        let world = format!("{HEAD}{block}[[obstacle]]\nname = \"rail\"\n{support}\n{STEPS}");
+        judged(&flat, &world, KNOTS, DONE)
+    };
+    let rail = |y: f64| format!("polyline = [[3.06, {y}], [9, {y}]]");
+    let backwards =
+        "[[-0.2, 0.5], [0.2, 0.5], [0.2, 0.3], [-0.1, 0.3], [-0.1, 0.2], [0.2, 0.2], [0.2, -0.1], [-0.2, -0.1]]";
+    for outline in [slotted, backwards] {
+        let slotted = format!("polygon = {outline}");
+        holds(over(&slotted, &rail(1.25), false));
+        fails(over(&slotted, &rail(1.2), false), "farther than 0 from obstacle 0");
+        for (y, is_free) in
+            [(1.25, true), (1.2 - 7.1e-5, true), (1.2 - 7.2e-5, false), (1.3 + 7.1e-5, true), (1.31, false)]
+        {
+            let (code, said) = over(&slotted, &rail(y), true);
+            assert!(code == if is_free { 0 } else { 3 }, "{y}: {said}");
+            assert!(is_free || said.contains("no deeper than it may press into obstacle 0"), "{y}: {said}");
+        }
+        // It may touch it, and not hold it inside.
+        let button = "circle = { center = [1, 1.1], radius = 1e-6 }";
+        fails(over(&slotted, button, true), "obstacle 0 is inside what is carried");
+    }
 }
 
 #[test]

@@ -34,11 +34,6 @@ pub enum NoCertificate {
              how an object lies that the arm has turned on the way over several steps"
     )]
     Task,
-    /// A task in which a polyline rests on supports.
-    #[error(
-        "an object that is a polyline rests on supports: the checker does not know how deep such an object presses into them"
-    )]
-    Supports,
     /// A motion without times in a world in which something moves.
     #[error("the motion says no times, and among what moves it depends on them whether it is free")]
     Untimed,
@@ -101,7 +96,6 @@ impl Plan {
                 let evidence = task::cases(task, impossible.step.number).ok_or(NoCertificate::Task)?;
                 Ok(written("infeasible", said, evidence))
             }
-            (_, Some(_), _) if task::rests_without_inside(task) => Err(NoCertificate::Supports),
             (_, Some(trajectory), Some(figures)) => {
                 let evidence = [motion::evidence(&task.arm, trajectory), task::steps(&figures.steps)];
                 Ok(written("found", said, evidence))

@@ -7,7 +7,7 @@ use crate::check::StuckBox;
 use crate::engine::task::{RefutedCase, StepReport, refuted};
 use crate::engine::{Options, Verdict, solve};
 use crate::geometry::{Convex, Point, Vector};
-use crate::model::{Action, MotionProblem, Object, Obstacle, Payload, RecordedStep, Scene, Shape, Task};
+use crate::model::{MotionProblem, Obstacle, Payload, RecordedStep, Scene, Shape, Task};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
 use std::iter;
@@ -35,23 +35,6 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
         None => json!({ "step": step, "knots": knots }),
         Some(turn) => json!({ "step": step, "knots": knots, "turn": turn }),
     }
-}
-
-/// Whether something without an inside is picked from supports, or placed on some.
-pub(super) fn rests_without_inside(task: &Task) -> bool {
-    let has_inside = |object: &Object| !matches!(object.shape, Shape::Polyline(_) | Shape::Pieces);
-    let mut held = None;
-    task.steps().any(|step| {
-        let (object, supports) = match &step.action {
-            Action::Pick { object, supports, .. } => (*held.insert(*object), supports),
-            Action::Place { supports, .. } => match held.take() {
-                Some(object) => (object, supports),
-                None => return false,
-            },
-            Action::Move(_) => return false,
-        };
-        !supports.is_empty() && !has_inside(&task.objects[object])
-    })
 }
 
 /// By which share objects are taken for smaller than they are, so that evidence has room for rounding of how they lie and hang.

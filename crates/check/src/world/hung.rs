@@ -46,7 +46,7 @@ impl Obstacle {
                 Outline::Polygon(rings.ok_or_else(|| wrong("a corner of an object is too sharp"))?)
             }
             Outline::Polyline(_) | Outline::Cells(_) => {
-                return Err(wrong("the checker does not know how deep a polyline presses into its supports"));
+                return Err(wrong("an object is a polygon or a circle"));
             }
         };
         Ok(Self { outline, ..self.clone() })
@@ -109,4 +109,32 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
         Some(moved.map(|c| Decimal::dyadic(&c.middle().0, BITS)))
     };
     (0..points.len()).map(corner).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn corners_move_into_the_solid_whichever_way_rings_turn() {
+        let ring = |text: &str| {
+            let numbers: Vec<Decimal> = text.split(' ').map(|n| n.parse().unwrap()).collect();
+            numbers.chunks(2).map(|p| [p[0].clone(), p[1].clone()]).collect::<Vec<Corner>>()
+        };
+        // Along the diagonal of a unit square; a corner in the middle of a side says nothing.
+        let by = Interval::whole(2).sqrt().over(10);
+        for (outwards, is_inside) in [(false, true), (true, false)] {
+            for text in ["0 0 1 0 1 1 0 1", "0 0 0 1 1 1 1 0", "0 0 0.5 0 1 0 1 1 0 1"] {
+                let moved = inset(bent(&ring(text)), outwards, &by).unwrap();
+                assert_eq!(moved.len(), 4);
+                let near = |a: &Decimal, b: &str| {
+                    let off = a - &b.parse().unwrap();
+                    off < Decimal::power_of_ten(40) && -&off < Decimal::power_of_ten(40)
+                };
+                let [low, high] = if is_inside { ["0.1", "0.9"] } else { ["-0.1", "1.1"] };
+                assert!(moved.iter().flatten().all(|c| near(c, low) || near(c, high)), "{text}: {moved:?}");
+            }
+        }
+        assert!(inset(ring("0 0 1 0 1 1e-12"), false, &by).is_none());
+    }
 }
