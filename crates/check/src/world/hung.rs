@@ -6,7 +6,7 @@ use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::interval::{BITS, Interval, Point, length, minus, sum, times};
 use crate::overlap::Shape;
-use crate::polygon::{Corner, edges, is_convex, side};
+use crate::polygon::{Corner, edges, is_convex, side, surrounds};
 use num_bigint::Sign;
 
 /// Of an object's corners that press into supports, sines of half their angles and lengths of sides are above `2^-SHARPEST`.
@@ -29,8 +29,8 @@ impl Obstacle {
         }
     }
 
-    /// What of it stays off its supports: the same with each corner moved inwards by a length, halfway between its sides; of a disc one with a
-    /// radius that is smaller by that, or its centre.
+    /// What of it stays off its supports: the same with each corner moved inwards by a length, halfway between its sides, or half of that, and so
+    /// on, until all are within it; of a disc one with a radius that is smaller by that, or its centre.
     ///
     /// # Errors
     /// An object without an inside.
@@ -42,8 +42,12 @@ impl Obstacle {
             }
             Outline::Polygon(rings) => {
                 let inset = |(number, ring): (usize, &Vec<Corner>)| inset(bent(ring), number > 0, by);
-                let rings = rings.iter().enumerate().map(inset).collect::<Option<_>>();
-                Outline::Polygon(rings.ok_or_else(|| wrong("a corner of an object is too sharp"))?)
+                let smaller: Option<Vec<_>> = rings.iter().enumerate().map(inset).collect();
+                match smaller.filter(|all| all.iter().flatten().all(|corner| surrounds(rings, corner))) {
+                    Some(smaller) => Outline::Polygon(smaller),
+                    None if by.lower.bits() > SHARPEST => return self.pressed(&by.half()),
+                    None => return Err(wrong("an object on supports is too thin, or too pointed")),
+                }
             }
             Outline::Polyline(_) | Outline::Cells(_) => {
                 return Err(wrong("an object is a polygon or a circle"));
@@ -88,12 +92,14 @@ fn bent(ring: &[Corner]) -> Vec<Corner> {
     ring
 }
 
-/// A ring whose corners are moved by a length, halfway between its sides: to what it surrounds, or away from there. None where it has corners
-/// that are too sharp to tell.
+/// A ring whose corners are moved by a length, halfway between its sides: to what it surrounds, or away from there. None where that turns it
+/// over, or it has corners that are too sharp to tell.
 fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Corner>> {
-    let doubled = edges(&ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));
-    let turns_left = doubled.fold(Decimal::whole(0), |sum, area| &sum + &area).sign() == Sign::Plus;
-    if turns_left == outwards {
+    let turns_left = |ring: &[Corner]| {
+        let doubled = edges(ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));
+        doubled.fold(Decimal::whole(0), |sum, area| &sum + &area).sign() == Sign::Plus
+    };
+    if turns_left(&ring) == outwards {
         ring.reverse();
     }
     let points: Vec<Point> = ring.iter().map(point).collect();
@@ -108,7 +114,8 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
         let moved = sum(&points[k], &times(&along(&[-&y, x])?, by));
         Some(moved.map(|c| Decimal::dyadic(&c.middle().0, BITS)))
     };
-    (0..points.len()).map(corner).collect()
+    let moved = (0..points.len()).map(corner).collect::<Option<Vec<_>>>();
+    moved.filter(|moved| turns_left(moved) != outwards)
 }
 
 #[cfg(test)]
