@@ -47,8 +47,7 @@ pub struct Scene {
     allowed_contacts: Vec<usize>,
     /// Parts of link 2 that are the arm's own; those that follow are the payload's.
     own_parts: usize,
-    /// Which heights can meet.
-    meet: Meet,
+    doubts: Doubts,
     pairs: Vec<Pair>,
     /// The same with what moves.
     moving: Vec<Pair>,
@@ -73,6 +72,19 @@ impl Meet {
         }
     }
 }
+
+/// How it takes what is left open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Doubts {
+    /// Which heights can meet.
+    meet: Meet,
+    /// How many times deeper than it may a payload presses into its supports.
+    deeper: f64,
+}
+
+/// Whichever way corners are moved into a convex piece by what it may press in, no less stays off its supports than if it pressed in so many times deeper
+/// ([`Convex::inner_approximation`]).
+const CERTAINLY_DEEPER: f64 = 1.5;
 
 /// What a payload's part can meet.
 #[derive(Clone, Copy, PartialEq)]
@@ -122,7 +134,7 @@ impl Scene {
         payload: Option<Payload>,
         allowed_contacts: &[usize],
     ) -> Self {
-        Self::assembled(arm, workspace, payload, allowed_contacts, Meet::Perhaps)
+        Self::assembled(arm, workspace, payload, allowed_contacts, Doubts { meet: Meet::Perhaps, deeper: 1.0 })
     }
 
     fn assembled(
@@ -130,19 +142,20 @@ impl Scene {
         workspace: Workspace,
         payload: Option<Payload>,
         allowed_contacts: &[usize],
-        meet: Meet,
+        doubts: Doubts,
     ) -> Self {
         debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
         let own_parts = arm.links[1].parts.len();
         let mut differences = vec![Vec::new(); workspace.obstacles.len() + workspace.movers.len()];
-        let carried = payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &mut differences));
+        let carried =
+            payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, doubts.deeper, &mut differences));
         arm.links[1].parts.extend(carried.iter().map(|(part, _)| part.clone()));
         let (mut pairs, mut moving) = (Vec::new(), Vec::new());
         let standing = workspace.obstacles.len();
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
                 let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
-                let as_high = |(_, o): &(usize, &Obstacle)| meet.holds(p.heights, o.heights);
+                let as_high = |(_, o): &(usize, &Obstacle)| doubts.meet.holds(p.heights, o.heights);
                 for (obstacle, o) in workspace.all().enumerate().filter(as_high) {
                     let pieces = match meetable {
                         Some(meetable) => meetable[obstacle].clone(),
@@ -155,7 +168,7 @@ impl Scene {
             }
         }
         let allowed_contacts = allowed_contacts.to_vec();
-        Self { arm, workspace, payload, allowed_contacts, own_parts, meet, pairs, moving, differences }
+        Self { arm, workspace, payload, allowed_contacts, own_parts, doubts, pairs, moving, differences }
     }
 
     /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within, and what is as
@@ -164,7 +177,7 @@ impl Scene {
     pub(crate) fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
         let heights = || parts().flat_map(|part| self.workspace.all().map(|obstacle| (part.heights, obstacle.heights)));
-        let is_exact = self.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
+        let is_exact = self.doubts.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
         if is_exact && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
@@ -173,17 +186,40 @@ impl Scene {
                 part.shape = inner;
             }
         };
-        Cow::Owned(self.remade(shrink, |obstacle| obstacle.pieces.clone(), Meet::Surely))
+        Cow::Owned(self.remade(
+            shrink,
+            |obstacle| obstacle.pieces.clone(),
+            Doubts { meet: Meet::Surely, ..self.doubts },
+        ))
     }
 
     /// The same scene with other shapes for the arm's own parts and for the pieces of obstacles; each part stays one part,
     /// each obstacle one obstacle, and what is carried stays as it is.
     #[must_use]
     pub(crate) fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
-        self.remade(reshape, pieces, self.meet)
+        self.remade(reshape, pieces, self.doubts)
     }
 
-    fn remade(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>, meet: Meet) -> Self {
+    /// The same scene for evidence that a payload presses too deep into its supports, whichever way its corners are moved inwards by what it may
+    /// press in.
+    #[must_use]
+    pub(crate) fn certainly_pressed(&self) -> Cow<'_, Self> {
+        match &self.payload {
+            Some(payload) if !payload.supports.is_empty() => Cow::Owned(self.remade(
+                |_| (),
+                |obstacle| obstacle.pieces.clone(),
+                Doubts { deeper: CERTAINLY_DEEPER, ..self.doubts },
+            )),
+            _ => Cow::Borrowed(self),
+        }
+    }
+
+    fn remade(
+        &self,
+        reshape: impl Fn(&mut Part),
+        pieces: impl FnMut(&Obstacle) -> Vec<Convex>,
+        doubts: Doubts,
+    ) -> Self {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
         arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(reshape);
@@ -191,7 +227,7 @@ impl Scene {
         for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
             obstacle.pieces = pieces;
         }
-        Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, meet)
+        Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, doubts)
     }
 
     /// The same scene with another distance to keep, metres.
@@ -201,9 +237,9 @@ impl Scene {
     pub fn with_clearance(mut self, clearance: f64) -> Result<Self, SceneError> {
         check_clearance(clearance)?;
         let (payload, allowed_contacts) = (self.payload.take(), std::mem::take(&mut self.allowed_contacts));
-        let meet = self.meet;
+        let doubts = self.doubts;
         let (arm, workspace) = self.into_parts();
-        Ok(Self::assembled(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts, meet))
+        Ok(Self::assembled(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts, doubts))
     }
 
     /// The same scene at a time: what moves stands where it is then, after all that stands.
@@ -216,7 +252,7 @@ impl Scene {
         let (payload, allowed_contacts) = (scene.payload.take(), std::mem::take(&mut scene.allowed_contacts));
         let (arm, mut workspace) = scene.into_parts();
         workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| mover.at(time)));
-        Self::assembled(arm, workspace, payload, &allowed_contacts, self.meet)
+        Self::assembled(arm, workspace, payload, &allowed_contacts, self.doubts)
     }
 
     /// The same scene on a clock that begins at this time.
@@ -236,7 +272,7 @@ impl Scene {
         let payload = self.payload.clone();
         let (arm, mut workspace) = self.clone().into_parts();
         workspace.obstacles.push(obstacle);
-        Self::assembled(arm, workspace, payload, &contacts, self.meet)
+        Self::assembled(arm, workspace, payload, &contacts, self.doubts)
     }
 
     /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
@@ -367,10 +403,12 @@ impl Scene {
         pair.link == 1 && pair.part >= self.own_parts
     }
 
-    /// Which of the payload's pieces a pair is about; none if it is about the arm itself, or about what is made of pieces for supports.
+    /// Which of the payload's pieces a pair is about, be it by what is made of that for supports; none if it is about the arm itself.
     #[must_use]
     pub(crate) fn payload_piece(&self, pair: Pair) -> Option<&Convex> {
-        self.payload.as_ref().filter(|_| self.is_payload(pair))?.pieces.get(pair.part - self.own_parts)
+        let pieces = &self.payload.as_ref().filter(|_| self.is_payload(pair))?.pieces;
+        // What is made of them comes after them.
+        Some(&pieces[(pair.part - self.own_parts) % pieces.len()])
     }
 
     /// The piece of the obstacle that a pair is about, in its place, whatever is made of it for a payload.
@@ -402,9 +440,15 @@ type Meetable = Vec<Range<usize>>;
 impl Payload {
     /// It as parts of link 2, each with what it can meet; what is made of the obstacles' pieces for it is added to
     /// `differences`.
-    fn on_link(&self, arm: &Arm, workspace: &Workspace, differences: &mut [Vec<Convex>]) -> Vec<(Part, Meetable)> {
+    fn on_link(
+        &self,
+        arm: &Arm,
+        workspace: &Workspace,
+        deeper: f64,
+        differences: &mut [Vec<Convex>],
+    ) -> Vec<(Part, Meetable)> {
         let mut parts = Vec::new();
-        for (shape, kind) in self.parts(arm) {
+        for (shape, kind) in self.parts_pressed(arm, deeper) {
             let (on_link, level) = match self.grip {
                 Grip::Rigid(in_link) => (shape.at(&in_link), None),
                 Grip::Level { angle, point } => {
@@ -443,13 +487,17 @@ impl Payload {
     /// Its pieces, and smaller ones for its supports, in its own frame. Pieces go on sharing their sides but for what may be
     /// pressed into the ends, so that nothing gets in between them.
     pub(crate) fn parts(&self, arm: &Arm) -> Vec<(Convex, Meets)> {
+        self.parts_pressed(arm, 1.0)
+    }
+
+    /// The same where it presses in so many times deeper than it may; if that is more than once, each piece by itself.
+    fn parts_pressed(&self, arm: &Arm, deeper: f64) -> Vec<(Convex, Meets)> {
         let mut parts: Vec<_> = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others)).collect();
         if !self.supports.is_empty() {
-            let penetration_allowance = Self::penetration_allowance(arm);
-            let pressed = self.pieces.iter().zip(seams(&self.pieces, penetration_allowance));
-            parts.extend(
-                pressed.map(|(piece, seam)| (piece.inner_approximation(penetration_allowance, &seam), Meets::Supports)),
-            );
+            let depth = deeper * Self::penetration_allowance(arm);
+            let seams = if deeper > 1.0 { vec![Vec::new(); self.pieces.len()] } else { seams(&self.pieces, depth) };
+            let pressed = self.pieces.iter().zip(seams);
+            parts.extend(pressed.map(|(piece, seam)| (piece.inner_approximation(depth, &seam), Meets::Supports)));
         }
         parts
     }

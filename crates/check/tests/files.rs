@@ -230,6 +230,23 @@ fn a_line_map_is_its_walls() {
     assert!(matches!(goal, Err(CheckError::Fails(why)) if why.contains("misses the goal")));
     assert!(named(4, "").contains("no obstacle 4"));
     assert!(named(3, ", \"corners\": [[-2.8, -2.6], [3.2, 2.4]]").contains("obstacle 3: its corners"));
+    // They have names, by which they support objects.
+    for (name, is_one) in [
+        ("room, lines 1 to 3", true),
+        ("room, line 4", true),
+        ("room, line 5", true),
+        ("room, frame", true),
+        ("room, line 1", false),
+        ("room, lines 4 to 5", false),
+    ] {
+        let object = format!(
+            "[[object]]\nname = \"nut\"\nat = [1, 1]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nsupports = [\"{name}\"]\n\
+             [[step]]\npick = \"nut\"\n"
+        );
+        let judged = place.judged(&(world.to_owned() + &object), &straight([0.0; 2], [0.0; 2]));
+        let is_refused = matches!(judged, Err(CheckError::Input { message, .. }) if message.contains("no obstacle and no object of this name"));
+        assert_eq!(is_refused, !is_one, "{name}");
+    }
     for (broken, part) in [
         (map.replace("NumLines: 5", "NumLines: 6"), "as many lines as NumLines says"),
         (map.replace("DATA", ""), "at its end: expected"),

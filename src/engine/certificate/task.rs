@@ -7,7 +7,7 @@ use crate::check::StuckBox;
 use crate::engine::task::{RefutedCase, StepReport, refuted};
 use crate::engine::{Options, Verdict, solve};
 use crate::geometry::{Convex, Point, Vector};
-use crate::model::{MotionProblem, Obstacle, Payload, RecordedStep, Scene, Shape, Task};
+use crate::model::{MotionProblem, RecordedStep, Scene, Task};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
 use std::iter;
@@ -53,9 +53,6 @@ const ABOUT_IK_SOLUTIONS: f64 = 1e-10;
 /// ... and less well those where something is let go of that was taken in one of these rectangles.
 const AFTER_ANOTHER: f64 = 1e-8;
 
-/// How much deeper than it may press into its supports something is to be in them, for a proof that it is too deep: a checker moves corners otherwise.
-const PRESSED_DEEPER: f64 = 2.0;
-
 /// That the steps up to one cannot be done, case by case; none where the proof is of a kind that the checker does not know.
 pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let mut smaller = task.clone();
@@ -91,11 +88,6 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
         let lowered =
             lowered.iter().filter(|(_, stuck)| !stuck.is_empty()).map(|(scene, stuck)| ("lowered", scene, stuck));
         for (name, scene, stuck) in iter::once(("boxes", scene, stuck)).chain(lowered) {
-            let is_known =
-                |stuck: &StuckBox| !scene.is_payload(stuck.pair) || scene.payload_piece(stuck.pair).is_some();
-            if !stuck.iter().all(is_known) {
-                return None;
-            }
             contacts = contacts.among(scene);
             let boxes: Vec<Stuck> = stuck.iter().map(|stuck| contacts.stuck(stuck)).collect();
             case[name] = json!(boxes);
@@ -112,33 +104,18 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
 
 /// What rules out a motion: its ends are not free, or colliding configurations separate them.
 fn rule_out(scene: &Scene, ends: [Configuration; 2]) -> Option<Vec<StuckBox>> {
+    // A checker moves corners in its own way.
+    let scene = &*scene.certainly_pressed();
     let is_free = |q: &Configuration| scene.obstructions(*q).is_empty();
     if let Some(end) = ends.iter().find(|end| !is_free(end)) {
         let at = Segment::new(*end, *end);
-        let is_known = |scene: &Scene, stuck: &StuckBox| {
-            !scene.is_payload(stuck.pair) || scene.payload_piece(stuck.pair).is_some()
-        };
-        let stuck = stuck_about(scene, &at).filter(|stuck| is_known(scene, stuck));
-        return stuck.or_else(|| stuck_about(&pressing(scene)?, &at)).map(|stuck| vec![stuck]);
+        return stuck_about(scene, &at).map(|stuck| vec![stuck]);
     }
     let problem = MotionProblem::trusted(scene.clone(), ends[0], ends[1]);
     match solve(&problem, &Options { bounded: false, ..Options::default() }, &mut |_| {}).verdict {
         Verdict::Infeasible(proof) => Some(proof.stuck().to_vec()),
         Verdict::Found(_) | Verdict::Unknown(_) => None,
     }
-}
-
-/// Less of what is carried than a checker makes of it for its supports, among these alone.
-fn pressing(scene: &Scene) -> Option<Scene> {
-    let payload = scene.payload()?;
-    let (arm, mut workspace) = scene.clone().into_parts();
-    let deeper = PRESSED_DEEPER * Payload::penetration_allowance(&arm);
-    let pieces = payload.pieces.iter().map(|piece| piece.inner_approximation(deeper, &[])).collect();
-    workspace.clearance = 0.0;
-    let others = workspace.obstacles.iter_mut().enumerate().filter(|(number, _)| !payload.supports.contains(number));
-    others.for_each(|(_, other)| *other = Obstacle { shape: Shape::Pieces, pieces: Vec::new(), ..other.clone() });
-    let carried = Payload { pieces, supports: Vec::new(), ..payload.clone() };
-    Some(Scene::handling_trusted(arm, workspace, Some(carried), &payload.supports))
 }
 
 /// A little smaller, about its middle.

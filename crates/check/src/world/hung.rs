@@ -29,11 +29,11 @@ impl Obstacle {
         }
     }
 
-    /// What of it stays off its supports: the same with each corner moved inwards by a length, halfway between its sides, or half of that, and so
-    /// on, until all are within it; of a disc one with a radius that is smaller by that, or its centre.
+    /// What of it stays off its supports: the same with each corner moved inwards by a length, halfway between its sides; of a disc one with a
+    /// radius that is smaller by that, or its centre.
     ///
     /// # Errors
-    /// An object without an inside.
+    /// An object that has no inside, or is too thin.
     pub fn pressed(&self, by: &Interval) -> Read<Self> {
         let wrong = |why: &str| CheckError::in_file(Input::World, why);
         let outline = match &self.outline {
@@ -43,15 +43,12 @@ impl Obstacle {
             Outline::Polygon(rings) => {
                 let inset = |(number, ring): (usize, &Vec<Corner>)| inset(bent(ring), number > 0, by);
                 let smaller: Option<Vec<_>> = rings.iter().enumerate().map(inset).collect();
-                match smaller.filter(|all| all.iter().flatten().all(|corner| surrounds(rings, corner))) {
-                    Some(smaller) => Outline::Polygon(smaller),
-                    None if by.lower.bits() > SHARPEST => return self.pressed(&by.half()),
-                    None => return Err(wrong("an object on supports is too thin, or too pointed")),
-                }
+                let within = smaller.filter(|all| all.iter().flatten().all(|corner| surrounds(rings, corner)));
+                let thin =
+                    || wrong("an object on supports is too thin for what it may press into them, or too pointed");
+                Outline::Polygon(within.ok_or_else(thin)?)
             }
-            Outline::Polyline(_) | Outline::Cells(_) => {
-                return Err(wrong("an object is a polygon or a circle"));
-            }
+            Outline::Polyline(_) | Outline::Cells(_) => return Err(wrong("an object is a polygon or a circle")),
         };
         Ok(Self { outline, ..self.clone() })
     }

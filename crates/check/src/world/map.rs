@@ -38,9 +38,11 @@ impl Reader<'_> {
             }
         }
         let Some(file) = file else { return self.error(value, "the map has no file") };
-        for outline in walls(self.files, &file, &unit, is_framed)? {
+        let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+        for (own, outline) in walls(self.files, &file, &unit, is_framed)? {
             let (at, turn) = (point(&origin()), [0, 1].map(Interval::whole));
-            world.obstacles.push(Obstacle { name: None, outline, at, turn, heights: heights.clone(), course: None });
+            let (name, heights) = (Some(format!("{stem}, {own}")), heights.clone());
+            world.obstacles.push(Obstacle { name, outline, at, turn, heights, course: None });
         }
         if let (None, Some(path)) = (&world.goal, wishes) {
             world.goal = Some(Goal::Tip(goal(self.files, &path, &unit)?));
@@ -103,27 +105,28 @@ fn text_of(files: &Files, path: &Path) -> Result<String, CheckError> {
     Ok(text.trim_start_matches('\u{feff}').to_owned())
 }
 
-/// The walls of a line map: lines that follow one another and share an end are one.
+/// The walls of a line map, and what they are called: lines that follow one another and share an end are one.
 ///
 /// # Errors
 /// What is no line map.
-fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec<Outline>, CheckError> {
+fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec<(String, Outline)>, CheckError> {
     let (name, content) = (path.display().to_string(), text_of(files, path)?);
     let mut text = Text::new(&name, &content);
     let [[left, low], [right, high]] = text.bounds()?;
     let [count] = text.numbers("NumLines")?;
     text.word("LINES")?;
-    let mut walls: Vec<VecDeque<Corner>> = Vec::new();
-    let mut lines = 0;
+    let mut walls: Vec<(String, VecDeque<Corner>)> = Vec::new();
+    let (mut lines, mut first) = (0, 0);
     while text.word("DATA").is_err() {
         let [a, b, c, d] = text.numbers::<4>("")?;
         let (from, to) = ([a, b], [c, d]);
         lines += 1;
         let is_point = from == to;
         // At its end, else at its beginning.
-        let open = walls.last_mut().and_then(|wall| {
+        let open = walls.last_mut().and_then(|(called, wall)| {
             let at_end = [wall.back(), wall.front()].map(|end| end.is_some_and(|end| *end == from || *end == to));
             let end = at_end.iter().position(|found| *found)?;
+            *called = format!("lines {first} to {lines}");
             Some((wall, end == 0))
         });
         match open {
@@ -136,7 +139,10 @@ fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec
                     (false, false) => wall.push_front(other),
                 }
             }
-            None => walls.push(if is_point { [from].into() } else { [from, to].into() }),
+            None => {
+                first = lines;
+                walls.push((format!("line {first}"), if is_point { [from].into() } else { [from, to].into() }));
+            }
         }
     }
     if count != Decimal::whole(lines) || text.next != text.lines.len() {
@@ -145,13 +151,13 @@ fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec
     if is_framed {
         let corner = |x: &Decimal, y: &Decimal| [x.clone(), y.clone()];
         let [a, b] = [corner(&left, &low), corner(&right, &high)];
-        walls.push([a.clone(), corner(&right, &low), b, corner(&left, &high), a].into());
+        walls.push(("frame".into(), [a.clone(), corner(&right, &low), b, corner(&left, &high), a].into()));
     }
-    let outline = |wall: &VecDeque<Corner>| {
+    let outline = |wall: VecDeque<Corner>| {
         let mut points: Vec<Corner> = wall.iter().map(|p| unit.place(p)).collect();
         if points.len() > 1 { Outline::Polyline(points) } else { Outline::Circle(points.remove(0), Decimal::whole(0)) }
     };
-    Ok(walls.iter().map(outline).collect())
+    Ok(walls.into_iter().map(|(called, wall)| (called, outline(wall))).collect())
 }
 
 /// The middle of the goal of a preference file.
