@@ -20,17 +20,19 @@ mod page;
 mod parameter;
 mod pictures;
 mod row;
+mod schema;
 mod search;
 mod summary;
 mod table;
 mod template;
 
-pub use file::{ReadOptions, study_schema};
+pub use file::ReadOptions;
 pub use journal::{Journal, JournalError};
 pub use measure::{Condition, Measure, Objective};
 pub use parameter::{Parameter, Values};
 pub use pictures::pictures;
 pub use row::{Ending, Row};
+pub use schema::study_schema;
 pub use summary::Summary;
 
 use crate::engine::{Options, Plan, Problem, plan, solve};
