@@ -43,10 +43,11 @@ impl MotionPlan {
             Verdict::Infeasible(_) | Verdict::Unknown(_) => None,
         };
         if !problem.scene().workspace().movers.is_empty()
-            && let Verdict::Found(certified) = &answer.verdict
             && let Some((timed, fastest)) = driven.take()
         {
-            match in_time(&problem, certified, timed, options, &Demand::ALONE)? {
+            // The fastest motion may take another path than the shortest, to another goal.
+            let path = timed.curve.straight();
+            match in_time(&problem, &path, timed, options, &Demand::ALONE)? {
                 Ok(InTime { timed, figures }) => {
                     // The bound stays; the duration has its waits now.
                     let duration = timed.trajectory.duration();

@@ -18,6 +18,7 @@ use crate::world::World;
 use num_bigint::{BigInt, Sign};
 use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::RangeInclusive;
 
 /// Looks along a wall at the most.
@@ -58,7 +59,12 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
             return CheckError::fails(format!("wall {number}: along it the shape can come off the part"));
         }
     }
-    Ok(format!("no motion from the start{} to{to} is shorter than {}", start.named(arm), bound.length))
+    let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
+    let (start, clearance, length) = (start.named(arm), certificate.clearance(world)?, &bound.length);
+    let metric = &bound.metric;
+    Ok(format!(
+        "no motion of \"{first}\" and \"{second}\" from the start{start} to{to} with clearance {clearance} is shorter than {length}{metric}"
+    ))
 }
 
 /// Whether a shape and a part are seen to overlap all along a wall: it is halved until each piece is, as a box, or there were too many looks.
@@ -444,6 +450,17 @@ fn called((wall, end, turns): (usize, usize, [i64; 2])) -> String {
     match turns {
         [0, 0] => format!("where wall {wall} {end}"),
         [first, second] => format!("where wall {wall} {end}, {first} and {second} turns on"),
+    }
+}
+
+impl fmt::Display for Metric {
+    /// What follows on a length.
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Euclidean => Ok(()),
+            Self::Weights([a, b]) => write!(f, ", with the joints' values times {a} and {b}"),
+            Self::Speeds([a, b]) => write!(f, " s, at speeds of the joints of no more than {a} and {b}"),
+        }
     }
 }
 

@@ -164,10 +164,10 @@ impl<'a> Contacts<'a> {
 
 fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError> {
     let own = |shape: Result<&Counted, CheckError>| {
-        let Counted { link, within, .. } = shape?;
+        let shape = shape?;
         let body = match &among.lowered {
-            Some((joint, by)) if arm.lowers(joint, link)? => within.lowered(by),
-            _ => within.clone(),
+            Some((joint, by)) if arm.lowers(joint, shape)? => shape.within.lowered(by),
+            _ => shape.within.clone(),
         };
         Ok(Named { body, is_carried: false, about_tip: None, pressed: None })
     };

@@ -65,9 +65,7 @@ impl Files {
         let mut bytes = Vec::new();
         let read = File::open(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
         let name = path.display();
-        if let Err(error) = read {
-            return Err(CheckError::in_file(of, format!("{name} cannot be read: {error}")));
-        }
+        read.map_err(|error| CheckError::in_file(of, format!("{name} cannot be read: {error}")))?;
         if bytes.len() as u64 > LARGEST {
             return Err(CheckError::in_file(of, format!("{name} is larger than {} MiB", LARGEST >> 20)));
         }

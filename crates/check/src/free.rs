@@ -406,8 +406,10 @@ impl<'a> Posture<'a> {
             return true;
         }
         let corners = placed.corners.get_or_init(|| solid.corners.iter().map(|c| self.moving(c)).collect());
-        let here: Vec<[f64; 2]> = solid.ring.iter().map(|i| rough(&corners[*i].at)).collect();
-        let there: Vec<[f64; 2]> = side.shape.points.iter().map(rough).collect();
+        // As seen from the shape, however far from the origin that is.
+        let seen = |p: &Point| rough(&minus(p, &placed.center.at));
+        let here: Vec<[f64; 2]> = solid.ring.iter().map(|i| seen(&corners[*i].at)).collect();
+        let there: Vec<[f64; 2]> = side.shape.points.iter().map(seen).collect();
         let Some([x, y]) = direction(&here, &there, roughly(&apart)) else { return false };
         let exact =
             |n: [f64; 2]| n.map(|c| Interval::exactly(BigInt::from((c * f64::from(1 << 30)) as i64) << (BITS - 30)));

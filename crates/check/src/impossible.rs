@@ -16,6 +16,7 @@ use crate::world::{Goal, Obstacle, World};
 use std::borrow::Cow;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 use std::rc::Rc;
 
 /// Ways to be somewhere in the course of free orders beyond these are not followed.
@@ -30,8 +31,8 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
     let clearance = certificate.clearance(world)?;
     let start = End::start(certificate, world)?;
     let at_start = start.configuration(arm)?;
-    let mut steps = Vec::new();
-    in_file_order(&task.steps, &mut steps);
+    let (mut steps, mut repeated) = (Vec::new(), Vec::new());
+    in_file_order(&task.steps, &mut steps, &mut repeated);
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
     let proven = |last: usize, why: &str| {
         let start = start.named(arm);
@@ -48,7 +49,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate, cases: &[
         return Err(CheckError::in_file(Input::World, message));
     }
     let begin = Branch {
-        replay: Replay::new(arm, world, task, &steps),
+        replay: Replay::new(arm, world, task, (&steps, &repeated)),
         at: Some(vec![at_start.clone()]),
         ends: Ok(Vec::new()),
         done: None,
@@ -82,14 +83,16 @@ fn out_of_reach<'a>(arm: &Arm, world: &World, task: &Task, steps: &[&'a Step]) -
     steps.iter().find(is_out).copied()
 }
 
-/// All steps, those of a group in free order as they stand in the file.
-fn in_file_order<'a>(group: &'a Group, steps: &mut Vec<&'a Step>) {
+/// All steps, those of a group in free order as they stand in the file, and the numbers of those that are repeated together.
+fn in_file_order<'a>(group: &'a Group, steps: &mut Vec<&'a Step>, repeated: &mut Vec<Range<usize>>) {
+    let first = steps.len() + 1;
     for node in &group.nodes {
         match node {
             Node::Step(step) => steps.push(step),
-            Node::Group(group) => in_file_order(group, steps),
+            Node::Group(group) => in_file_order(group, steps, repeated),
         }
     }
+    repeated.extend((group.repeat > 1).then_some(first..steps.len() + 1));
 }
 
 /// What has been done, and where the arm may be then.
@@ -130,7 +133,7 @@ impl<'a> Proof<'a> {
     fn once(self, group: &'a Group, before: Vec<Branch<'a>>, last: &mut usize) -> Result<Vec<Branch<'a>>, CheckError> {
         if group.is_free {
             let mut steps = Vec::new();
-            in_file_order(group, &mut steps);
+            in_file_order(group, &mut steps, &mut Vec::new());
             *last = steps[steps.len() - 1].number;
             let after = before.into_iter().map(|branch| self.in_any_order(&steps, branch));
             return Ok(after.collect::<Result<Vec<_>, _>>()?.concat());
@@ -157,7 +160,8 @@ impl<'a> Proof<'a> {
     /// Whether the arm can stay where the last step ends. It has come there by what may be touched until then.
     fn stays(self, branches: Vec<Branch<'a>>, last: &Step) -> Result<bool, CheckError> {
         let own: Vec<&Case> = self.cases.iter().filter(|case| case.step == last.number + 1).collect();
-        if own.is_empty() || matches!(last.action, Action::Move(_)) {
+        // What was let go of before a pick may be touched until the arm goes on.
+        if own.is_empty() || !matches!(last.action, Action::Place { .. }) {
             return Ok(true);
         }
         for branch in &branches {
@@ -440,17 +444,24 @@ struct Replay<'a> {
     held: Option<Held<'a>>,
     /// What has just been let go of, or may have been.
     released: Vec<usize>,
-    /// All steps in the order of the file.
+    /// All steps in the order of the file, and the numbers of those that are repeated together.
     steps: &'a [&'a Step],
+    repeated: &'a [Range<usize>],
     /// No object presses deeper than this into what supports it.
     pressed: Interval,
 }
 
 impl<'a> Replay<'a> {
-    fn new(arm: &'a Arm, world: &'a World, task: &'a Task, steps: &'a [&'a Step]) -> Self {
+    fn new(
+        arm: &'a Arm,
+        world: &'a World,
+        task: &'a Task,
+        (steps, repeated): (&'a [&'a Step], &'a [Range<usize>]),
+    ) -> Self {
         let Among { standing, .. } = Among::all(world);
         let pressed = Interval::exactly(arm.pressed().upper + guard());
-        Self { arm, world, task, chain: Chain::from(arm), standing, held: None, released: Vec::new(), steps, pressed }
+        let (chain, released) = (Chain::from(arm), Vec::new());
+        Self { arm, world, task, chain, standing, held: None, released, steps, repeated, pressed }
     }
 
     /// The number of what a step picks.
@@ -533,6 +544,20 @@ impl<'a> Replay<'a> {
         Some(among)
     }
 
+    /// The places of which one follows on a pick: as in the file, but where only one of the two is repeated any.
+    fn placing(&self, pick: &Step) -> Vec<&'a Step> {
+        let places = || self.steps.iter().copied().filter(|step| matches!(step.action, Action::Place { .. }));
+        let next = places().find(|place| place.number > pick.number);
+        let with = |place: &Step| {
+            self.repeated.iter().all(|group| group.contains(&pick.number) == group.contains(&place.number))
+        };
+        match next {
+            Some(place) if with(place) => vec![place],
+            None if self.repeated.iter().all(|group| !group.contains(&pick.number)) => Vec::new(),
+            _ => places().collect(),
+        }
+    }
+
     /// Takes a step as done.
     fn after(&mut self, step: &'a Step) {
         let first = self.task.first;
@@ -540,8 +565,7 @@ impl<'a> Replay<'a> {
         match &step.action {
             Action::Pick { object, grasp, supports, .. } => {
                 let lying = self.standing[first + object].take();
-                let after = self.steps[step.number..].iter().copied();
-                let Carrying { supports, may_turn } = self.task.carrying(*object, supports, after);
+                let Carrying { supports, may_turn } = self.task.carrying(*object, supports, self.placing(step));
                 // What nothing turns is level.
                 let slides = |joint: &Joint| matches!(joint.motion, Motion::Slide(_));
                 let is_level = self.task.objects[*object].is_level || self.arm.joints.iter().all(slides);

@@ -86,13 +86,13 @@ impl<'a> Arm<'a> {
         implied: Option<&[String; 2]>,
     ) -> Read<Self> {
         let (mut tree, movable) = Tree::read(document, files)?;
-        let said: Option<Vec<&str>> = world.joints.as_ref().map(|names| names.iter().map(String::as_str).collect());
-        let implied: Option<Vec<&str>> = implied.map(|names| names.iter().map(String::as_str).collect());
-        if said.is_some() && implied.is_some() && said != implied {
+        let (said, implied) = (&world.joints, implied.map(|names| names.to_vec()));
+        if said.is_some() && implied.is_some() && *said != implied {
             return CheckError::fails("it is about other joints than the world");
         }
-        let chosen = said.or(implied).unwrap_or_else(|| movable.clone());
-        let [first, second] = chosen[..] else {
+        let own = || movable.iter().map(|name| (*name).to_owned()).collect();
+        let chosen: Vec<String> = said.clone().or(implied).unwrap_or_else(own);
+        let [first, second] = &chosen[..] else {
             let message = format!("{} joints can move: the world file has to name two, [robot] joints", chosen.len());
             return Err(CheckError::in_file(Input::Urdf, message));
         };
@@ -105,10 +105,8 @@ impl<'a> Arm<'a> {
         let mut joints = [node(first)?, node(second)?];
         if tree.above(carried(joints[0]))?[1..].contains(&joints[1]) {
             if world.joints.is_some() {
-                return Err(CheckError::in_file(
-                    Input::World,
-                    "[robot] joints: the second carries the first: swap them",
-                ));
+                let message = "[robot] joints: the second carries the first: swap them";
+                return Err(CheckError::in_file(Input::World, message));
             }
             joints.swap(0, 1);
         }
@@ -171,7 +169,7 @@ impl<'a> Arm<'a> {
         let offset = minus(&second, &base);
         let nowhere = Shape { points: Vec::new(), radius: Interval::whole(0) };
         let (tip_link, tip) = (children[1], Body { link: 1, shape: nowhere, heights: None });
-        let (shapes, notes) = (Vec::new(), plane.idealized());
+        let (shapes, notes) = (Vec::new(), String::new());
         let domain = Domain::new(joints.each_ref().map(|joint| &joint.axis));
         let mut arm = Self { joints, domain, base, offset, tip_link, tip, shapes, notes, tree, children, plane };
         arm.tip_link = arm.tip(world.tip.as_deref())?;
@@ -180,6 +178,7 @@ impl<'a> Arm<'a> {
         arm.count(world.bar.as_ref())?;
         arm.move_alone(&nodes)?;
         world.task.as_ref().map_or(Ok(()), |task| arm.with_tool(task))?;
+        arm.notes.insert_str(0, &arm.plane.idealized());
         Ok(arm)
     }
 

@@ -13,7 +13,7 @@ use crate::robot::{Arm, Counted};
 use crate::scene::{Part, Present, stay_off};
 use crate::world::task::{Action, Carrying, Group, Node, Passing, Step, Stroke, Task};
 use crate::world::{Obstacle, World};
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use std::iter::{self, Enumerate, Peekable};
 use std::ops::Range;
 use std::slice::Iter;
@@ -48,6 +48,9 @@ pub fn found(arm: &Arm, world: &World, certificate: &Certificate, done: &[Done])
     let mut replay = Replay::new(arm, world, task, motion, clearance)?;
     for (index, step) in steps.iter().enumerate() {
         let number = step.step.number;
+        if motion.knots[step.done.knots[1]].iter().skip(3).take(2).any(|rate| rate.sign() != Sign::NoSign) {
+            return CheckError::fails(format!("steps[{index}], step {number}: at its end the arm moves"));
+        }
         replay.step(step, &steps[index + 1..]).map_err(|error| match error {
             CheckError::Fails(why) => CheckError::Fails(format!("steps[{index}], step {number}: {why}")),
             other => other,
@@ -205,8 +208,8 @@ impl<'a> Replay<'a> {
         let chain = Chain::from(arm);
         let kept = Interval::from(clearance).upper + guard();
         let shape = |shape: &'a Counted| {
-            let Counted { link, around, .. } = shape;
-            let is_lowered = task.stroke.as_ref().map_or(Ok(false), |stroke| arm.lowers(&stroke.joint, link))?;
+            let around = &shape.around;
+            let is_lowered = task.stroke.as_ref().map_or(Ok(false), |stroke| arm.lowers(&stroke.joint, shape))?;
             Ok((shape, Solid::new(&chain, On::Link(around.link), &around.shape, &kept), is_lowered))
         };
         let shapes = arm.shapes.iter().map(shape).collect::<Result<_, CheckError>>()?;
@@ -242,6 +245,8 @@ impl<'a> Replay<'a> {
                 return CheckError::fails("there is to be a new one of an object that moves");
             }
             self.present[number] = Some(Present::new(&self.chain, self.all[number].clone())?);
+            // It is another one that may be touched.
+            self.released = self.released.filter(|released| *released != number);
         }
         // Where a step leaves the arm it stands until its next motion begins.
         let (first, last) = (std::mem::replace(&mut self.knot, done.knots[1]), done.knots[1]);
@@ -262,7 +267,9 @@ impl<'a> Replay<'a> {
         self.free(&pieces, &from, target, Tool::Raised)?;
         match &step.action {
             Action::Pick { object, grasp, supports, passing } => {
-                let carrying = self.task.carrying(*object, supports, after.iter().map(|next| next.step));
+                let places = |step: &&Step| matches!(step.action, Action::Place { .. });
+                let placing = after.iter().map(|next| next.step).find(places);
+                let carrying = self.task.carrying(*object, supports, placing);
                 self.grasp(*object, grasp, carrying, &to, (time, passing))?;
                 self.free(&still, &to, None, Tool::Swept)?;
                 self.turn(done, &to)?;

@@ -309,7 +309,8 @@ impl World {
                 other => return reader.error(value, &format!("the checker does not know worlds with {other} yet")),
             }
         }
-        table.get_ref().get("map").map_or(Ok(()), |map| reader.map(map, &mut world))?;
+        let has_steps = table.get_ref().contains_key("step");
+        table.get_ref().get("map").map_or(Ok(()), |map| reader.map(map, has_steps, &mut world))?;
         reader.task(table.get_ref(), &mut world)?;
         Ok(world)
     }

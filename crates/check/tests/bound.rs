@@ -70,7 +70,7 @@ fn the_way_over_a_wall_is_no_shorter_than_its_corners_make_it() {
     let of = |length: f64, walls: &Walls| code(GANTRY, WORLD, &certificate(length, EUCLIDEAN, walls));
     assert_eq!(
         check(GANTRY, WORLD, &certificate(16.5, EUCLIDEAN, &walls)).unwrap(),
-        "no motion from the start to (9, 1) is shorter than 16.5"
+        "no motion of \"x\" and \"y\" from the start to (9, 1) with clearance 0 is shorter than 16.5"
     );
     assert_eq!(of(length, &walls), 0);
     assert_eq!(of(length + 1e-8, &walls), 3, "the last leg is no longer than that");
@@ -229,7 +229,10 @@ fn to_wherever_the_tip_is_at_a_place() {
     assert_eq!(of("[1, 1]", near, &about(0.1)), 3, "it comes off the disc there");
     assert_eq!(of("[1, 1]", far - 1e-9, &about(1e-14)), 3, "the box is no larger than what is not known");
     let said = check(ARM, &world("[1, 1]"), &certificate(3.0, &stuck)).unwrap();
-    assert_eq!(said, "no motion from the start to the goal, a place of the tip \"tip\", is shorter than 3");
+    assert_eq!(
+        said,
+        "no motion of \"a\" and \"b\" from the start to the goal, a place of the tip \"tip\", with clearance 0 is shorter than 3"
+    );
     // Stretched, two become one, which is known less well; out of reach is no way at all.
     assert_eq!((of("[2, 0]", 0.8, ""), of("[2, 0]", 1.0 + 1e-9, ""), of("[2.1, 0]", 100.0, "")), (0, 3, 0));
     // With the tip on the first axis the first joint is free, and the second at half a turn: outside the limits.

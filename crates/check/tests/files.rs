@@ -343,17 +343,25 @@ fn block(size: [f32; 3], format: Format) -> Vec<u8> {
         return format!("# a block\n{vertices}v 99 99 99\n{faces}").into_bytes();
     }
     if format == Format::Collada {
-        // Its axes are others in the file, where it lies elsewhere, too.
-        let numbers: Vec<String> = (0..8).map(|k| spaced(k, [0.25, 0.5, -0.5])).collect();
+        // Its axes are others in the file, where it lies elsewhere, too. Far away is a vertex of no triangle.
+        let numbers: Vec<String> = (0..8).map(|k| spaced(k, [0.25, 0.5, -0.5])).chain(["99 99 99".into()]).collect();
+        let indices: Vec<String> = faces.iter().flatten().map(|corner| format!("0 {corner}")).collect();
         return format!(
             r##"<COLLADA> <asset> <unit meter="0.5"/> </asset>
-            <source id="s"> <float_array>{}</float_array> </source>
-            <geometry id="g"> <vertices> <input semantic="POSITION" source="#s"/> </vertices> </geometry>
+            <geometry id="g"> <mesh>
+              <source id="s"> <float_array id="a"><!-- x, y, z -->{}</float_array> <technique_common>
+                <accessor source="#a" count="9" stride="3"> <param name="X"/> <param name="Y"/> <param name="Z"/> </accessor>
+              </technique_common> </source>
+              <vertices id="w"> <input semantic="POSITION" source="#s"/> </vertices>
+              <triangles count="8"> <input semantic="NORMAL" offset="0"/> <input semantic="VERTEX" source="#w" offset="1"/>
+                <p>{}</p> </triangles>
+            </mesh> </geometry>
             <node id="n"> <translate>-0.25 -0.5 0.5</translate> <instance_geometry url="#g"/> </node>
             <visual_scene id="v"> <node> <scale>2 2 2</scale> <rotate>0 0 9 90</rotate>
               <matrix>0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1</matrix> <instance_node url="#n"/> </node> </visual_scene>
             <scene> <instance_visual_scene url="#v"/> </scene> </COLLADA>"##,
-            numbers.join(" ")
+            numbers.join(" "),
+            indices.join(" ")
         )
         .into_bytes();
     }

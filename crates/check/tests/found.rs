@@ -319,6 +319,7 @@ fn bad_input_is_named() {
     urdf("box size=\"0.8 0.1 0.1\"", "mesh filename=\"m\"", "mesh");
     urdf("<collision> <origin xyz=\"0.4 0 0\"/> <geometry>", "<collision> <geometry/> <geometry>", "second element");
     urdf("<link name=\"fore\">", "<link name=\"fore\"> <collision/>", "no geometry");
+    urdf("<box size=\"0.8 0.1 0.1\"/>", "<box size=\"0.8 0.1 0.1\"/> <sphere radius=\"3\"/>", "of several shapes");
     urdf("collision", "nothing", "could collide");
     urdf("<link name=\"fore\">", "<joint name=\"m\" type=\"revolute\"> <parent link=\"fore\"/> <child link=\"c\"/> <mimic joint=\"a\"/> </joint>
           <link name=\"c\"> <collision> <geometry> <sphere radius=\"0.1\"/> </geometry> </collision> </link> <link name=\"fore\">", "mimic");

@@ -49,7 +49,7 @@ fn the_page_says_how_much_there_is_to_read() {
     assert!(left.is_empty(), "the page does not name {left:?}");
     // What it says of sums is of the same rows, and none of the two grows beyond what was once asked for.
     let below: usize = sums[..4].iter().sum();
-    for (answer, said) in [(sums[4], "on 2 790 lines"), (sums[5], "on 3 000")] {
+    for (answer, said) in [(sums[4], "on 2 796 lines"), (sums[5], "on 2 999")] {
         let digits: usize = said.chars().filter(char::is_ascii_digit).collect::<String>().parse().unwrap();
         assert!(table.contains(said) && (below + answer).abs_diff(digits) < 10 && digits <= 3000, "{said}");
     }

@@ -6,7 +6,7 @@ use crate::decimal::Decimal;
 use crate::interval::Interval;
 use num_bigint::Sign;
 use roxmltree::{Document, Node, ParsingOptions};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Nodes within each other, nodes of the scene, and vertices of all that it shows, at most.
 const DEEPEST: usize = 64;
@@ -83,9 +83,9 @@ impl<'a> Scene<'a> {
                     self.show(target, &to_file.after(&placing(target)?), depth + 1)?;
                 }
                 "instance_geometry" => {
-                    for vertices in named(target()?, "vertices") {
-                        self.positions(vertices, to_file)?;
-                    }
+                    let target = target()?;
+                    let mesh = self::child(target, "mesh").ok_or("the checker knows geometries that are a <mesh>")?;
+                    self.positions(mesh, to_file)?;
                 }
                 "instance_controller" => return Err("the checker does not know meshes that controllers bend".into()),
                 _ => {}
@@ -94,25 +94,70 @@ impl<'a> Scene<'a> {
         Ok(())
     }
 
-    fn positions(&mut self, vertices: Node<'a, 'a>, to_file: &Affine) -> Result<(), String> {
-        let input = vertices.children().find(|input| input.attribute("semantic") == Some("POSITION"));
-        let source = input.and_then(|input| self.target(input)).ok_or("a mesh has no positions")?;
-        let numbers = numbers(child(source, "float_array").ok_or("a mesh has no positions")?)?;
-        let accessor = named(source, "accessor").next().and_then(|accessor| accessor.attribute("stride"));
-        let stride = accessor.map_or(Ok(3), |stride| stride.trim().parse::<usize>()).unwrap_or(3);
+    /// Adds the positions that a mesh's primitives name.
+    fn positions(&mut self, mesh: Node<'a, 'a>, to_file: &Affine) -> Result<(), String> {
+        let vertices = child(mesh, "vertices").ok_or("a mesh has no vertices")?;
+        let source = of_semantic(vertices, "POSITION").and_then(|input| self.target(input));
+        let source = source.ok_or("a mesh has no positions")?;
+        let array = child(source, "float_array").ok_or("a mesh has no positions")?;
+        let accessor = named(source, "accessor").next().ok_or("positions have no accessor")?;
+        let whole = |name: &str, else_: usize| match accessor.attribute(name) {
+            Some(text) => text.trim().parse().map_err(|_| format!("an accessor's {name} is no number")),
+            None => Ok(else_),
+        };
+        let (numbers, stride, count) = (numbers(array)?, whole("stride", 1)?, whole("count", 0)?);
+        let names: Vec<_> = accessor.children().filter(Node::is_element).map(|param| param.attribute("name")).collect();
+        let is_plain = whole("offset", 0)? == 0
+            && self.target(accessor) == Some(array)
+            && (names.is_empty() || names == [Some("X"), Some("Y"), Some("Z")]);
         self.numbers += numbers.len();
-        if stride < 3 || !numbers.len().is_multiple_of(stride) || self.numbers > 3 * MOST_POINTS {
-            return Err("numbers of a mesh make no positions, or too many".into());
+        if !is_plain || stride < 3 || count.checked_mul(stride) != Some(numbers.len()) || self.numbers > 3 * MOST_POINTS
+        {
+            return Err("numbers of a mesh make no positions x, y and z, or too many".into());
         }
-        let point = |p: &[Interval]| to_file.point(&[p[0].clone(), p[1].clone(), p[2].clone()]);
-        self.points.extend(numbers.chunks(stride).map(point));
+        let mut shown = BTreeSet::new();
+        for primitive in mesh.children().filter(Node::is_element) {
+            match primitive.tag_name().name() {
+                "source" | "vertices" | "extra" => continue,
+                "triangles" | "polylist" | "trifans" | "tristrips" => {}
+                "polygons" if named(primitive, "ph").next().is_none() => {}
+                other => return Err(format!("the checker does not know <{other}> in a mesh")),
+            }
+            let offset = |input: Node| input.attribute("offset").and_then(|offset| offset.trim().parse::<usize>().ok());
+            let own = of_semantic(primitive, "VERTEX").and_then(offset).ok_or("a primitive has no vertices")?;
+            let each = primitive.children().filter_map(offset).max().unwrap_or(0).saturating_add(1);
+            for list in primitive.children().filter(|list| list.tag_name().name() == "p") {
+                let text = text_of(list);
+                let indices = text.split_whitespace().map(|word| word.parse::<usize>().ok().filter(|at| *at < count));
+                let indices = indices.collect::<Option<Vec<_>>>().unwrap_or_default();
+                let are_whole = !indices.is_empty() && indices.len().is_multiple_of(each);
+                if !are_whole && !text.trim().is_empty() {
+                    return Err("a primitive's indices are none of the mesh's".into());
+                }
+                shown.extend(indices.into_iter().skip(own).step_by(each));
+            }
+        }
+        let point = |at: usize| {
+            let p = &numbers[stride * at..];
+            to_file.point(&[p[0].clone(), p[1].clone(), p[2].clone()])
+        };
+        self.points.extend(shown.into_iter().map(point));
         Ok(())
     }
 }
 
+/// The input of a kind.
+fn of_semantic<'a>(node: Node<'a, 'a>, semantic: &str) -> Option<Node<'a, 'a>> {
+    node.children().find(|input| input.attribute("semantic") == Some(semantic))
+}
+
+/// The text of a node, whatever comments are in it.
+fn text_of(node: Node) -> String {
+    node.children().filter_map(|part| part.is_text().then(|| part.text())?).collect()
+}
+
 fn numbers(node: Node) -> Result<Vec<Interval>, String> {
-    let words = node.text().unwrap_or_default().split_whitespace();
-    words.map(|word| Decimal::read(word).map(|number| Interval::from(&number))).collect()
+    text_of(node).split_whitespace().map(|word| Decimal::read(word).map(|number| Interval::from(&number))).collect()
 }
 
 fn scaled(by: Vector) -> Affine {

@@ -79,7 +79,11 @@ fn obj(bytes: &[u8]) -> Result<Vec<Vector>, String> {
                     shown.insert(at.ok_or("a face has a vertex that is not there before it")?);
                 }
             }
-            _ => {}
+            // What is said of looks, and names.
+            None
+            | Some("vt" | "vn" | "vp" | "g" | "o" | "s" | "mg" | "usemtl" | "mtllib" | "shadow_obj" | "trace_obj") => {}
+            Some(word) if word.starts_with('#') => {}
+            Some(word) => return Err(format!("the checker does not know \"{word}\" in an OBJ")),
         }
     }
     Ok(shown.into_iter().map(|at| vertices[at].clone()).collect())

@@ -8,6 +8,7 @@ use crate::error::{CheckError, Input};
 use crate::interval::Interval;
 use crate::overlap::Shape;
 use num_bigint::Sign;
+use roxmltree::Node;
 use std::fmt;
 
 /// A shape of the arm that counts.
@@ -67,8 +68,11 @@ impl<'a> Arm<'a> {
             let mut number = 0;
             let nodes = children(self.tree.links[link], kind);
             for node in if self.moved_by(link)? == Some(last) { nodes.collect() } else { Vec::new() } {
-                let geometry = child(node, "geometry").and_then(|geometry| geometry.first_element_child());
-                let Some(geometry) = geometry else { return self.tree.error(node, "it has no geometry") };
+                let mut geometry = child(node, "geometry").into_iter().flat_map(|all| all.children());
+                let mut next = || geometry.by_ref().find(Node::is_element);
+                let (Some(geometry), None) = (next(), next()) else {
+                    return self.tree.error(node, "it has no geometry, or one of several shapes");
+                };
                 let solid = match self.tree.solid(geometry)? {
                     Some(Ok(solid)) => solid,
                     Some(Err(why)) => {

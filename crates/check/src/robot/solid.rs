@@ -170,7 +170,6 @@ fn oblique(
     half: &Interval,
     outline: Outline,
 ) -> (Vec<Point>, Interval) {
-    let plus = |a: &Point, b: &Point| [0, 1].map(|k| &a[k] + &b[k]);
     let end = along.each_ref().map(|c| c * half);
     let length = length(along);
     let (one, least) = (Interval::whole(1), Interval::whole(1).over(OBLIQUE));
@@ -185,11 +184,11 @@ fn oblique(
     let step = Interval::pi().over(2 * ELLIPSE_STEPS as u32);
     let rim = |k: i32| {
         let [sine, cosine] = (&step * &Interval::whole(k)).sin_cos();
-        plus(&across.each_ref().map(|c| c * &cosine), &bulge.each_ref().map(|c| c * &sine))
+        sum(&across.each_ref().map(|c| c * &cosine), &bulge.each_ref().map(|c| c * &sine))
     };
     let half_way: Vec<Point> = match outline {
         Outline::Around if tilt.upper <= least.upper => [false, true]
-            .map(|turned| plus(&bulge, &across.each_ref().map(|c| if turned { -c } else { c.clone() })))
+            .map(|turned| sum(&bulge, &across.each_ref().map(|c| if turned { -c } else { c.clone() })))
             .to_vec(),
         // The sides touch the ellipse halfway between corners.
         Outline::Around => {
@@ -199,7 +198,7 @@ fn oblique(
         Outline::Within if tilt.upper.bits() + LYING < u64::from(BITS) => [0, 2 * ELLIPSE_STEPS].map(rim).to_vec(),
         Outline::Within => (0..=ELLIPSE_STEPS).map(|k| rim(2 * k)).collect(),
     };
-    (half_way.iter().map(|by| plus(&end, by)).collect(), Interval::whole(0))
+    (half_way.iter().map(|by| sum(&end, by)).collect(), Interval::whole(0))
 }
 
 impl Body {

@@ -1,5 +1,6 @@
 //! The joints of the tool: a wrist, and one that lowers it.
 
+use super::pose::{cross, size};
 use super::shapes::Counted;
 use super::tree::{MOST_JOINTS, Read, Tree, child, moves};
 use super::{Arm, Joint, Motion};
@@ -14,6 +15,9 @@ use roxmltree::Node;
 
 /// No object presses deeper than this share of the arm's reach into what supports it: `10^-4`.
 const PRESSED: u32 = 4;
+
+/// The tip is off the wrist's axis by no more than rounding, metres: `10^-6`.
+const ON_AXIS: u32 = 6;
 
 /// The cosine of the angle between the normal and what counts as along it is no smaller than 1 by more than `10^-9`.
 const UPRIGHT: u32 = 9;
@@ -98,6 +102,11 @@ impl<'a> Arm<'a> {
             let (joint, carried) = self.of_the_tool(name, "wrist")?;
             let [at, axis] = [&self.base, &self.offset];
             let axis = minus(&self.plane.flat(&self.tree.pose(carried)?.at), &sum(at, axis));
+            let off = length(&minus(&axis, &self.tip.shape.points[0])).upper;
+            if off > Interval::from(&Decimal::power_of_ten(ON_AXIS)).lower {
+                let message = format!("the wrist's joint \"{name}\" moves the tip: its axis does not go through that");
+                return Err(CheckError::in_file(Input::World, message));
+            }
             for k in 0..self.shapes.len() {
                 let link = self.tree.order.iter().find(|link| ***link == *self.shapes[k].link);
                 if link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?.contains(&joint) {
@@ -109,27 +118,34 @@ impl<'a> Arm<'a> {
     }
 
     /// A joint of the tool, and the link that it carries: it moves about the plane's normal or along it, and nothing that counts goes with it.
-    fn of_the_tool(&self, name: &str, what: &str) -> Read<(Node<'a, 'a>, &'a str)> {
+    fn of_the_tool(&mut self, name: &str, what: &str) -> Read<(Node<'a, 'a>, &'a str)> {
         let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the {what}'s joint \"{name}\" {why}")));
         let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(name));
         let Some((&carried, &joint)) = found else { return wrong("is none of the robot's") };
-        let along = self.plane.height(&self.tree.pose(carried)?.direction(&self.tree.axis(joint)?)).abs();
+        let axis = self.tree.pose(carried)?.direction(&self.tree.axis(joint)?);
+        let along = self.plane.height(&axis).abs();
         let least = &Decimal::whole(1) - &Decimal::power_of_ten(UPRIGHT);
         let slides = joint.attribute("type") == Some("prismatic");
         let is_of_kind = moves(&joint) && slides == (what == "stroke") && child(joint, "mimic").is_none();
         if !is_of_kind || along.lower < Interval::from(&least).lower || self.moved_by(carried)? != Some(1) {
             return wrong("does not move the tool along the normal of the plane, or about it");
         }
+        if !self.tree.above(self.tip_link)?.contains(&joint) {
+            return wrong("does not carry the tip");
+        }
         self.move_alone(&[joint])?;
+        self.plane.off = size(&cross(&axis, &self.plane.normal)).upper.max(self.plane.off.clone());
         Ok((joint, carried))
     }
 
-    /// Whether the joint that lowers the tool carries a link.
+    /// Whether the joint that lowers the tool carries a shape: of a bar, which ends there, the tip.
     ///
     /// # Errors
     /// What is no tree.
-    pub fn lowers(&self, joint: &str, link: &str) -> Read<bool> {
-        let link = self.tree.order.iter().find(|name| **name == link);
+    pub fn lowers(&self, joint: &str, shape: &Counted) -> Read<bool> {
+        let is_bar = shape.kind == "bar" && shape.around.link == 1;
+        let link =
+            self.tree.order.iter().find(|name| if is_bar { **name == self.tip_link } else { **name == shape.link });
         let above = link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?;
         Ok(above.iter().any(|node| node.attribute("name") == Some(joint)))
     }

@@ -284,10 +284,10 @@ impl<'a> Tree<'a> {
         if low == high {
             return Ok(Limits::Unset);
         }
-        let soft = child(joint, "safety_controller")
-            .filter(|soft| soft.has_attribute("soft_lower_limit") && soft.has_attribute("soft_upper_limit"));
-        if let Some(soft) = soft {
-            let ends = [self.limit(soft, "soft_lower_limit")?, self.limit(soft, "soft_upper_limit")?];
+        if let Some(soft) = child(joint, "safety_controller") {
+            let zero = || Ok(Decimal::whole(0));
+            let end = |name| if soft.has_attribute(name) { self.limit(soft, name) } else { zero() };
+            let ends = [end("soft_lower_limit")?, end("soft_upper_limit")?];
             // Both 0 is what exporters write where there are none.
             if ends.iter().any(|end| end.sign() != Sign::NoSign) {
                 [low, high] = [low.max(ends[0].clone()), high.min(ends[1].clone())];

@@ -22,8 +22,8 @@ impl Unit {
 }
 
 impl Reader<'_> {
-    /// `[map]`: its walls come after the obstacles, and its goal is the world's if that has none.
-    pub(super) fn map(&self, value: &Value, world: &mut World) -> Read<()> {
+    /// `[map]`: its walls come after the obstacles, and its goal is the world's if that has none, and no steps.
+    pub(super) fn map(&self, value: &Value, has_steps: bool, world: &mut World) -> Read<()> {
         let (mut file, mut wishes, mut is_framed, mut heights) = (None, None, true, None);
         let mut unit = Unit { scale: Decimal::power_of_ten(3), offset: origin() };
         for (key, value) in self.table(value)? {
@@ -44,7 +44,7 @@ impl Reader<'_> {
             let (name, heights) = (Some(format!("{stem}, {own}")), heights.clone());
             world.obstacles.push(Obstacle { name, outline, at, turn, heights, course: None });
         }
-        if let (None, Some(path)) = (&world.goal, wishes) {
+        if let (None, Some(path), false) = (&world.goal, wishes, has_steps) {
             world.goal = Some(Goal::Tip(goal(self.files, &path, &unit)?));
         }
         Ok(())

@@ -108,20 +108,21 @@ pub struct Carrying {
 }
 
 impl Task {
-    /// Of an object that is picked from supports; `after` are the steps that follow.
+    /// Of an object that is picked from supports, and placed by one of some steps.
     pub fn carrying<'s>(
         &self,
         object: usize,
         supports: &[usize],
-        mut after: impl Iterator<Item = &'s Step>,
+        placing: impl IntoIterator<Item = &'s Step>,
     ) -> Carrying {
-        let place = after.find_map(|next| match &next.action {
-            Action::Place { angle, supports, .. } => Some((angle.is_some(), supports.as_ref())),
-            _ => None,
-        });
-        let then = place.map(|(_, own)| own.unwrap_or(&self.objects[object].supports));
-        let supports = supports.iter().chain(then.into_iter().flatten()).copied().collect();
-        Carrying { supports, may_turn: self.wrist.is_some() && place.is_some_and(|(has_angle, _)| has_angle) }
+        let mut carrying = Carrying { supports: supports.to_vec(), may_turn: false };
+        for step in placing {
+            if let Action::Place { angle, supports, .. } = &step.action {
+                carrying.supports.extend(supports.as_ref().unwrap_or(&self.objects[object].supports));
+                carrying.may_turn |= self.wrist.is_some() && angle.is_some();
+            }
+        }
+        carrying
     }
 }
 
