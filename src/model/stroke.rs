@@ -1,7 +1,7 @@
 //! A tool that is lowered at picks and places, and a wrist that turns it.
 
 use super::scene_error::check_range;
-use super::{Arm, Heights, Object};
+use super::{Arm, Heights, Object, OutlineSource};
 use crate::space::JointRange;
 use serde::{Deserialize, Serialize};
 
@@ -64,11 +64,14 @@ impl Stroke {
         self.joint.rest - self.joint.sign * depth
     }
 
-    /// The arm with all that the stroke moves at all the heights that it takes there.
+    /// The arm with all that the stroke moves at all the heights that it takes there. A bar ends at the tip, and so is moved.
     #[must_use]
     pub fn swept(&self, arm: &Arm, depth: f64) -> Arm {
         let mut arm = arm.clone();
-        for part in arm.links[1].parts.iter_mut().filter(|part| self.bodies.contains(&part.body)) {
+        let link = &mut arm.links[1];
+        let bar = if link.source == OutlineSource::Bar { link.parts.len() - 1 } else { usize::MAX };
+        let parts = link.parts.iter_mut().enumerate();
+        for (_, part) in parts.filter(|(k, part)| *k == bar || self.bodies.contains(&part.body)) {
             let Heights { lower, upper } = part.heights;
             part.heights = Heights { lower: lower.min(lower - depth), upper: upper.max(upper - depth) };
         }

@@ -187,7 +187,10 @@ pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found:
 impl Ledger {
     /// What is said of any motion.
     fn general(&mut self, arm: &Arm, recording: &Recording, claims: &Claims) {
-        if let Some(status) = &claims.status {
+        // An exploration's motion is one, too.
+        if let Some(status) =
+            claims.status.as_ref().filter(|status| !["reached", "explored"].contains(&status.as_str()))
+        {
             self.same("status", status, &"found".to_owned());
         }
         if let Some(certified) = claims.certified {

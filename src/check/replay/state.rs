@@ -26,6 +26,8 @@ impl State {
 
     pub fn renew(&mut self, task: &Task, objects: &[usize]) {
         objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
+        // A new one is not the one that may be touched.
+        self.released = self.released.filter(|released| !objects.contains(released));
     }
 
     /// Stops an object that moves where it is at a time. Whether it moved.

@@ -257,6 +257,8 @@ impl State {
         while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
             let poses = Arc::make_mut(&mut self.poses);
             objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at));
+            // A new one is not the one that may be touched.
+            self.released = self.released.filter(|released| !objects.contains(released));
             self.progress.item += 1;
         }
         self

@@ -259,10 +259,10 @@ impl Attributes<'_> {
         values
     }
 
-    /// The soft limits, if both are given and they are not both 0, which exporters write for none.
+    /// The soft limits, by default 0, if they are not both 0, which exporters write for none.
     pub fn soft_limits(&mut self, safety: Node) -> Option<[f64; 2]> {
-        let lower = self.number(safety, "soft_lower_limit")?;
-        let upper = self.number(safety, "soft_upper_limit")?;
+        let [lower, upper] = ["soft_lower_limit", "soft_upper_limit"].map(|name| self.number(safety, name));
+        let [lower, upper] = [lower, upper].map(|limit| limit.unwrap_or(0.0));
         if lower > upper {
             let message = format!("the soft limits are reversed: {lower} is above {upper}");
             self.diagnostic(safety, Some("soft_lower_limit"), message, "swap soft_lower_limit and soft_upper_limit");
@@ -272,7 +272,13 @@ impl Attributes<'_> {
 
     /// The shape in a `<geometry>`, with sizes that are positive, or all zero (which exporters write for no shape).
     pub fn geometry<'a, 'i>(&mut self, geometry: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
-        let Some(shape) = geometry.children().find(Node::is_element) else {
+        let mut shapes = geometry.children().filter(Node::is_element);
+        let (first, second) = (shapes.next(), shapes.next());
+        if let Some(second) = second {
+            let message = "the <geometry> has a second shape".into();
+            self.diagnostic(second, None, message, "give each shape a <collision> of its own");
+        }
+        let Some(shape) = first else {
             self.diagnostic(
                 geometry,
                 None,

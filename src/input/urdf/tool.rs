@@ -15,6 +15,9 @@ use urdf_rs::JointType;
 /// How far an axis may be from the plane's normal: the cosine falls short of 1 by no more than rounding.
 const PARALLEL: f64 = 1e-9;
 
+/// How far the tip may be off the wrist's axis, metres: rounding.
+const ON_AXIS: f64 = 1e-6;
+
 impl Reduction<'_> {
     /// The movable joints in the order of the file, and which of them the tool moves by.
     ///
@@ -127,6 +130,18 @@ impl Reduction<'_> {
         if along.abs() < 1.0 - PARALLEL {
             let why = "is not parallel to the normal of the plane that the arm moves in";
             return diagnostic(why, "name a joint of the tool whose axis is");
+        }
+        let tip = self.chain.tip;
+        let tip_link = &self.tree.links[tip];
+        if !self.tree.carries(index, tip) {
+            let why = format!("does not carry the tip \"{tip_link}\"");
+            return diagnostic(&why, "name a joint of the tool, or another tip: [robot] tip = \"LINK\"");
+        }
+        let to_tip = self.poses[tip].translation.vector - self.poses[self.tree.child[index]].translation.vector;
+        let off = (to_tip - plane.normal * to_tip.dot(&plane.normal)).norm();
+        if table == "wrist" && off > ON_AXIS {
+            let why = format!("moves the tip \"{tip_link}\", which is {off:.2e} m off its axis");
+            return diagnostic(&why, "name a link on the axis: [robot] tip = \"LINK\"");
         }
         let axis = Limits { document: self.document, world: self.world }.planned_range(index)?;
         Ok(ToolJoint { name: joint.name.clone(), rest: self.chain.values[index], sign: along.signum(), range: axis })
