@@ -230,6 +230,13 @@ fn a_line_map_is_its_walls() {
     assert!(matches!(goal, Err(CheckError::Fails(why)) if why.contains("misses the goal")));
     assert!(named(4, "").contains("no obstacle 4"));
     assert!(named(3, ", \"corners\": [[-2.8, -2.6], [3.2, 2.4]]").contains("obstacle 3: its corners"));
+    // Steps count for more than the goal of the preferences.
+    let moving = format!("{world}[[step]]\nmove = {{ joints = [0, 0] }}\n");
+    let goal = place.judged(&moving, &straight([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
+    assert!(
+        matches!(&goal, Err(CheckError::Input { message, .. }) if message.contains("there is no goal")),
+        "{goal:?}"
+    );
     // They have names, by which they support objects.
     for (name, is_one) in [
         ("room, lines 1 to 3", true),

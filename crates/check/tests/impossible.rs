@@ -347,6 +347,48 @@ fn the_arm_stays_where_the_last_step_ends() {
     says(of_robot(&robot, &moved, &certificate(4)), 3, "leave open");
 }
 
+/// Where a pick is repeated and the place after it is not, the arm may be on its way to another place, and touch what supports the block there.
+#[test]
+fn what_a_repeated_pick_places_may_rest_on_what_either_place_says() {
+    let steps = |repeat: usize| {
+        format!(
+            "[[step]]\npick = \"block\"\n[[step]]\nrepeat = {repeat}\n[[step.steps]]\nplace = {{ at = [0.5, 1], supports = [\"sill\"] }}\n\
+             [[step.steps]]\npick = \"block\"\n[[step]]\nplace = {{ at = [3, 1] }}\n"
+        )
+    };
+    // 0.25 m would do if no clearance were kept from the sill.
+    let clear = |repeat: usize| "clearance = 0.05\n".to_owned() + &world("", 0.27, "", &steps(repeat));
+    let boxes = (0..1000).map(|k| {
+        let [low, high] = [0.002 * f64::from(k), 0.002 * f64::from(k + 1)];
+        format!(r#"{{"lower": [1.999, {low}], "upper": [2.001, {high}], "shape": 0, "part": {}}}"#, k / 500)
+    });
+    let boxes = boxes.collect::<Vec<_>>().join(", ");
+    let case = format!(r#"{{"step": 4, "from": [[0.499999, 0.500001], [0.999999, 1.000001]], "boxes": [{boxes}]}}"#);
+    let certificate =
+        certificate(SHAPES, "CASE").replace("0.95", "0.865").replace("1.05", "1.135").replace("CASE", &case);
+    says(judged(&clear(1), &certificate), 0, "up to step 4");
+    says(judged(&clear(2), &certificate), 3, "can come off the part");
+}
+
+/// The head may touch what it has let go of until the arm goes on from where it has picked something else.
+#[test]
+fn the_arm_may_stay_where_it_picks_last() {
+    let world = |last: &str| {
+        format!(
+            "robot = {{ payload = \"level\" }}\nstart.joints = [0, 0]\n\
+             [[object]]\nname = \"a\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [0.5, 0.5]\n\
+             [[object]]\nname = \"b\"\ncircle = {{ center = [0, 0], radius = 0.01 }}\nat = [1, 1.12]\n\
+             [[step]]\npick = \"a\"\n[[step]]\nplace = {{ at = [1, 1] }}\n[[step]]\npick = \"b\"\n{last}"
+        )
+    };
+    let certificate = r#"{"format": "cplan certificate 1", "answer": "infeasible", "shapes": [{"link": "head", "collision": 0}],
+        "parts": [{"obstacle": 0}], "cases": [{"step": 4, "from": [[0.999, 1.001], [1.119, 1.121]],
+        "boxes": [{"lower": [0.998, 1.118], "upper": [1.002, 1.122], "shape": 0, "part": 0}]}]}"#;
+    says(judged(&world(""), certificate), 3, "leave open");
+    // It cannot go on from there.
+    says(judged(&world("[[step]]\nmove = { joints = [3, 1] }\n"), certificate), 0, "up to step 4");
+}
+
 /// The head reaches 0.0707 m, so that corners may be 7.07e-6 m deep in the table, and sides 5e-6 m.
 #[test]
 fn a_block_presses_into_its_support_no_deeper_than_it_may() {

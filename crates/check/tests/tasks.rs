@@ -337,6 +337,58 @@ fn repetitions_find_a_new_object_where_it_is_renewed() {
     ));
 }
 
+/// The head goes through where the new one lies, which has the number of the one that it has just let go of.
+#[test]
+fn a_new_object_is_not_the_one_that_was_let_go_of() {
+    let side = "[[object]]\nname = \"pin\"\nat = [6, 5]\ncircle = { center = [0, 0], radius = 0.01 }\n";
+    let world = |renew: &str| {
+        format!(
+            "{HEAD}{BLOCK}{renew}{side}[task]\nrepeat = 2\n[[step]]\nmove = {{ joints = [5, 1] }}\n[[step]]\npick = \"block\"\n             [[step]]\nplace = {{ at = [1, 1] }}\n"
+        )
+    };
+    let knots = "[0, 0, 1], [1, 0, 3], [2, 5, 3], [3, 5, 1], [4, 5, 3], [5, 1, 3], [6, 1, 1], [7, 5, 1], [8, 1, 1]";
+    let steps = r#"{"step": 1, "knots": [0, 3]}, {"step": 2, "knots": [3, 6]}, {"step": 3, "knots": [6, 6]},
+                   {"step": 1, "knots": [6, 7]}, {"step": 2, "knots": [7, 8]}, {"step": 3, "knots": [8, 8]}"#;
+    // It leaves what it has let go of, and no other.
+    holds(judged(GANTRY, &world(""), knots, steps));
+    fails(judged(GANTRY, &world("renew = true\n"), knots, steps), "link \"head\"");
+}
+
+/// Read as a cubic, a motion that goes on at the end of a step does not stand there.
+#[test]
+fn the_arm_stands_where_a_step_ends() {
+    let played = |speed: &str| {
+        let knots = format!("[0, 0, 1, 0, 0], [1, 1, 1, {speed}, 0], [3, 3, 1, 0, 0], [5, 3, 2, 0, 0]");
+        let steps = r#"{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [1, 2]}, {"step": 3, "knots": [2, 3]}"#;
+        let certificate = certificate(&knots, steps).replace("linear", "cubic");
+        check(GANTRY, &format!("{HEAD}{BLOCK}{STEPS}"), &certificate)
+    };
+    assert!(played("0").is_ok(), "{:?}", played("0"));
+    let fails =
+        |speed: &str| matches!(played(speed), Err(CheckError::Fails(why)) if why.contains("at its end the arm moves"));
+    assert!(fails("0.5") && fails("1e-300"));
+}
+
+/// The wrist turns what is held about the tip, and the stroke lowers it: both carry the tip, and the wrist's axis goes through it.
+#[test]
+fn the_tool_carries_the_tip() {
+    let with = |wrist: &str, tip: &str| {
+        let end = format!(
+            "<link name=\"spindle\"/> <joint name=\"w\" type=\"revolute\"> <parent link=\"quill\"/> <child link=\"spindle\"/>
+               <axis xyz=\"0 0 1\"/> <limit lower=\"-3\" upper=\"3\"/> </joint>
+             <link name=\"flange\"/> <joint name=\"f\" type=\"fixed\"> <parent link=\"{wrist}\"/> <child link=\"flange\"/>
+               <origin xyz=\"{tip} 0 -0.1\"/> </joint> </robot>"
+        );
+        let head = HEAD
+            .replace("velocity = 1", "velocity = 1, joint = \"w\"")
+            .replace("robot = {", "robot = { tip = \"flange\",");
+        judged(&GANTRY.replace("</robot>", &end), &format!("{head}{BLOCK}{STEPS}"), KNOTS, DONE)
+    };
+    holds(with("spindle", "0"));
+    is_wrong(with("spindle", "1e-5"), "does not go through");
+    is_wrong(with("quill", "0"), "does not carry the tip");
+}
+
 #[test]
 fn a_stroke_takes_the_tool_through_all_heights() {
     let world = |robot: &str, height: &str| {

@@ -155,6 +155,25 @@ fn verify_writes_certificates_of_motions_that_it_accepts() {
     assert!(code == 3 && !exists && why.contains("not accepted"), "{code} {why}");
 }
 
+/// Coordinates of a map, in the hundreds of kilometres.
+#[test]
+fn an_arm_far_from_the_origin() {
+    let place = Place::new();
+    let urdf = shipped("robots/planar_2r.urdf");
+    let obstacle =
+        "polygon = [[600001.15, 900000.18], [600001.6, 900000.18], [600001.6, 900000.3], [600001.15, 900000.3]]";
+    place.write(
+        "w.toml",
+        format!(
+            "robot.at = [6e5, 9e5]\nstart.joints = [-0.9, 0.4]\ngoal.joints = [1.55, -0.35]\n[[obstacle]]\n{obstacle}\n"
+        ),
+    );
+    let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let said = check(&read(&urdf), &place.read("w.toml"), &place.read("c.json"));
+    assert!(said.as_ref().is_ok_and(|said| said.contains("is shorter than")), "{said:?}");
+}
+
 /// A double beside a limit that is no double, degrees or more digits than a double has, may lie a hair beyond it.
 #[test]
 fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {

@@ -250,6 +250,40 @@ fn what_presses_into_its_supports_has_certificates() {
     assert!(code == 0 && said.is_some_and(|said| said.contains("does all")), "{code} {stderr}");
 }
 
+/// What has just been let go of may be touched, and a new one in its stead may not: the arm goes round it.
+#[test]
+fn a_new_object_is_an_obstacle() {
+    let walls = |low: f64, high: f64| {
+        format!(
+            "[[obstacle]]\nname = \"walls\"\npolygon = [[0.8, {low}], [1.2, {low}], [1.2, {high}], [0.8, {high}]]\nheight = [0, 0.1]\n"
+        )
+    };
+    let object = |name: &str, radius: f64, x: f64, more: &str| {
+        format!(
+            "[[object]]\nname = \"{name}\"\ncircle = {{ center = [0, 0], radius = {radius} }}\nat = [{x}, 0.75]\nheight = [0, 0.1]\n{more}"
+        )
+    };
+    let place = Place::new();
+    let world = [
+        "start.joints = [0.3, 0.6]\n".to_owned(),
+        walls(0.0, 0.64),
+        walls(0.86, 1.7),
+        object("a", 0.06, 1.0, "renew = true\n"),
+        object("b", 0.03, 0.3, ""),
+        "[[step]]\nrepeat = 2\n[[step.steps]]\npick = \"b\"\n[[step.steps]]\nplace = { at = [0.3, 0.5] }\n".into(),
+        "[[step.steps]]\npick = \"a\"\n[[step.steps]]\nplace = { at = [1.7, 0.75] }\n".into(),
+    ];
+    place.write("w.toml", world.concat());
+    let urdf = shipped("robots/gantry.urdf");
+    let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
+    // Between the walls there is no other way than through the new one.
+    assert_eq!(done.code, 4, "{}", done.stderr);
+    // Where it is not renewed there is.
+    place.write("w.toml", world.concat().replace("renew = true\n", ""));
+    let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+}
+
 #[test]
 fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
     let place = Place::new();

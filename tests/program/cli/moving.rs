@@ -60,6 +60,37 @@ fn the_arm_waits_until_the_cart_has_gone() {
     assert!(judged.stdout.contains("no times"), "{}", judged.stdout);
 }
 
+/// To a place of the tip the fastest motion may take another path than the shortest, to another IK solution: when that is free counts.
+#[test]
+fn the_fastest_motion_is_timed_along_its_own_path() {
+    let place = Place::new();
+    let world = |stops: &str| {
+        format!(
+            "robot.velocity = {{ shoulder = 3.0, elbow = 0.3 }}\nstart.joints = [0.0, -0.1]\ngoal.tip = [1.432242, 0.673177]\n\
+             [[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nmotion = {{ stops = [{stops}] }}\n"
+        )
+    };
+    let plan = |stops: &str| {
+        place.write("w.toml", world(stops));
+        place.run(&[&shipped("robots/planar_2r.urdf"), "w.toml"], "--optimize time --json").json()
+    };
+    // The disc comes to where the upper arm stands then.
+    let told = plan("{ time = 4, at = [0, 3] }, { time = 6, at = [0.638, 0.77] }");
+    let until = told["moving"]["free_until"].as_f64().expect("a time");
+    let goal = told["path"].as_array().unwrap().last().unwrap().to_string();
+    for (time, code) in [(until - 0.01, 0), (until + 0.01, 3)] {
+        let at = format!("--at={} --time {time}", goal.trim_matches(['[', ']']));
+        let checked = place.run(&["check", &shipped("robots/planar_2r.urdf"), "w.toml"], &at);
+        assert_eq!(checked.code, code, "{at}: {}{}", checked.stdout, checked.stderr);
+    }
+    // It is in the way of the other solution alone.
+    let told = plan(
+        "{ time = 0, at = [3, 0.2] }, { time = 3, at = [1.25, 0.25] }, { time = 6, at = [1.25, 0.25] }, { time = 9, at = [3, 0.2] }",
+    );
+    assert_eq!(told["moving"]["waits"].as_array().map(Vec::len), Some(0), "{told}");
+    assert!(told["duration"].as_f64().unwrap() < 3.5, "{told}");
+}
+
 #[test]
 fn a_posture_is_checked_at_a_time() {
     let place = Place::new();
