@@ -106,7 +106,14 @@ struct Target {
 
 fn target(path: &Path) -> Result<Target, WriteError> {
     let refused = |source: io::Error| WriteError::Refused { path: path.to_owned(), source };
-    let target = if path.is_symlink() { fs::canonicalize(path).map_err(refused)? } else { path.to_owned() };
+    let target = match (path.is_symlink(), fs::canonicalize(path)) {
+        (false, _) => path.to_owned(),
+        // The file behind the link is not there yet.
+        (true, Err(error)) if error.kind() == io::ErrorKind::NotFound => {
+            path.with_file_name(fs::read_link(path).map_err(refused)?)
+        }
+        (true, found) => found.map_err(refused)?,
+    };
     let kept = match fs::metadata(&target) {
         Ok(found) if found.is_file() => Some(found.permissions()),
         Ok(_) => return Err(WriteError::NotAFile { path: path.to_owned() }),

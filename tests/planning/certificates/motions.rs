@@ -66,7 +66,9 @@ fn ways(seed: u64, tally: &mut Tally) {
         let judged = check(&urdf, &world, &certificate);
         let took = begun.elapsed();
         let Ok(said) = judged else { panic!("seed {seed}, {turn}: {judged:?}\n{urdf}\n{world}") };
-        tally.to_tips += usize::from(said.contains("to the goal, a place of the tip \"tool\", is shorter"));
+        tally.to_tips += usize::from(
+            said.contains("to the goal, a place of the tip \"tool\", with clearance") && said.contains("is shorter"),
+        );
         tally.found[kind as usize] += 1;
         tally.oblique += usize::from(drawn.has_oblique_cylinder());
         tally.tips += usize::from(matches!(drawn.goal, Goal::Tip(_)));

@@ -325,6 +325,7 @@ const COLLADA: &str = r##"<?xml version="1.0"?>
     <source id="at"> <float_array id="numbers" count="12">50 500 50 -50 500 50 -50 -500 -50 50 -500 -50</float_array>
       <technique_common> <accessor source="#numbers" count="4" stride="3"/> </technique_common> </source>
     <vertices id="v"> <input semantic="POSITION" source="#at"/> </vertices>
+    <polylist count="1"> <input semantic="VERTEX" source="#v" offset="0"/> <vcount>4</vcount> <p>0 1 2 3</p> </polylist>
   </mesh> </geometry> </library_geometries>
   <library_visual_scenes> <visual_scene id="scene">
     <node> <rotate>0 0 1 -90</rotate> <scale>1 1 2</scale> <instance_geometry url="#bar"/> </node>

@@ -277,7 +277,7 @@ fn a_new_object_is_an_obstacle() {
     let urdf = shipped("robots/gantry.urdf");
     let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
     // Between the walls there is no other way than through the new one.
-    assert_eq!(done.code, 4, "{}", done.stderr);
+    assert_eq!(done.code, 3, "{}", done.stderr);
     // Where it is not renewed there is.
     place.write("w.toml", world.concat().replace("renew = true\n", ""));
     let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");

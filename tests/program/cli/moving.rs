@@ -78,10 +78,10 @@ fn the_fastest_motion_is_timed_along_its_own_path() {
     let told = plan("{ time = 4, at = [0, 3] }, { time = 6, at = [0.638, 0.77] }");
     let until = told["moving"]["free_until"].as_f64().expect("a time");
     let goal = told["path"].as_array().unwrap().last().unwrap().to_string();
-    for (time, code) in [(until - 0.01, 0), (until + 0.01, 3)] {
+    for (time, result) in [(until - 0.01, "result     free"), (until + 0.01, "result     not free")] {
         let at = format!("--at={} --time {time}", goal.trim_matches(['[', ']']));
         let checked = place.run(&["check", &shipped("robots/planar_2r.urdf"), "w.toml"], &at);
-        assert_eq!(checked.code, code, "{at}: {}{}", checked.stdout, checked.stderr);
+        assert!(checked.stdout.contains(result), "{at}: {}{}", checked.stdout, checked.stderr);
     }
     // It is in the way of the other solution alone.
     let told = plan(

@@ -23,6 +23,22 @@ fn refused(place: &Place, arguments: &[&str], names: &[&str]) {
     assert_eq!(files.map(|file| place.read(file)), before, "{arguments:?}");
 }
 
+/// A symbolic link stays one, whether what is behind it is there or not.
+#[cfg(unix)]
+#[test]
+fn outputs_are_written_behind_links() {
+    let place = place();
+    std::fs::create_dir(place.path("behind")).unwrap();
+    std::os::unix::fs::symlink("behind/plan.json", place.path("link.json")).unwrap();
+    for _ in 0..2 {
+        let done = place.run(&["arm.urdf", "world.json", "--quiet", "--output", "link.json"], "");
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        assert!(place.path("link.json").is_symlink() && place.read("behind/plan.json").contains("\"found\""));
+    }
+    std::os::unix::fs::symlink("none/plan.json", place.path("dangling.json")).unwrap();
+    refused(&place, &["arm.urdf", "world.json", "--output", "dangling.json"], &["there is no folder"]);
+}
+
 #[test]
 fn an_input_is_not_overwritten_by_any_path_to_it() {
     let place = place();
