@@ -36,7 +36,7 @@ fn outputs_are_written_behind_links() {
         assert!(place.path("link.json").is_symlink() && place.read("behind/plan.json").contains("\"found\""));
     }
     std::os::unix::fs::symlink("none/plan.json", place.path("dangling.json")).unwrap();
-    refused(&place, &["arm.urdf", "world.json", "--output", "dangling.json"], &["there is no folder"]);
+    place.run(&["arm.urdf", "world.json", "--output", "dangling.json"], "").refused(1, &["there is no folder none"]);
 }
 
 #[test]
