@@ -66,6 +66,9 @@ fn timed<T>(runs: usize, mut work: impl FnMut() -> Result<T, GpuError>) -> Resul
     best.ok_or_else(|| GpuError::Refused("no run".into()))
 }
 
+/// What is timed: its name, drift, whether upwind, the sweep with its factor, and the published times of a CPU and of a GPU.
+type Row = (&'static str, Drift, bool, (Sweep, f64), &'static str, &'static str);
+
 fn main() -> Result<(), GpuError> {
     let gpu = Gpu::open()?;
     let kind = if gpu.is_software() { "all in software, on the CPU: no times of a GPU" } else { "hardware" };
@@ -74,7 +77,7 @@ fn main() -> Result<(), GpuError> {
     println!("{:<28} {:>8} {:>8} {:>10} {:>7}", "", "CPU 2011", "GPU 2011", "here", "sweeps");
     let (gs, sor) = ((Sweep::RedBlack, 1.0), (Sweep::RedBlack, formula(FIELD)));
     let (jacobi, weighted) = ((Sweep::Jacobi, 1.0), (Sweep::Jacobi, 0.8));
-    let rows: [(&str, Drift, bool, (Sweep, f64), &str, &str); 12] = [
+    let rows: [Row; 12] = [
         ("harmonic, GS", none, false, gs, "5.38", "0.62"),
         ("harmonic, SOR", none, false, sor, "5.20", "0.49"),
         ("harmonic, Jacobi", none, false, jacobi, "-", "0.60"),

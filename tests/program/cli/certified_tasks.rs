@@ -222,6 +222,52 @@ place = {{ at = [0.35, -0.17] }}
     }
 }
 
+/// A bar that stands in for the tool's meshes ends at the tip, and goes down with it.
+#[test]
+fn bars_are_lowered_with_the_tool() {
+    let place = Place::new();
+    let scara = read(&shipped("robots/scara.urdf"));
+    let meshes = [("0.01\" length=\"0.22", "quill"), ("0.02\" length=\"0.01", "flange")];
+    let without = meshes.iter().fold(scara, |urdf, (size, name)| {
+        let tool = format!("<cylinder radius=\"{size}\"/>");
+        assert!(urdf.contains(&tool), "{tool}");
+        urdf.replace(&tool, &format!("<mesh filename=\"{name}.stl\"/>"))
+    });
+    place.write("arm.urdf", without);
+    for (height, code) in [("[0.0, 0.1]", 3), ("[-0.2, -0.1]", 0)] {
+        place.write(
+            "world.toml",
+            format!(
+                r#"[robot]
+joints = ["axis_1", "axis_2"]
+tip = "flange"
+bar = 0.03
+stroke = {{ joint = "axis_3", travel = 0.15 }}
+[start]
+joints = [0.0, 0.7]
+[[obstacle]]
+name = "wall"
+polygon = [[0.41, 0.21], [0.5, 0.21], [0.5, 0.26], [0.41, 0.26]]
+height = {height}
+[[object]]
+name = "part"
+circle = {{ center = [0.0, 0.0], radius = 0.002 }}
+at = [0.4, 0.22]
+height = [0.0, 0.001]
+lift = 0.15
+[[step]]
+pick = "part"
+"#
+            ),
+        );
+        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
+        assert_eq!(done.code, code, "{height}: {}", done.stderr);
+        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
+        let said = check_files(&urdf, &world, &certificate);
+        assert!(said.is_ok(), "{height}: {said:?}");
+    }
+}
+
 /// What is to go into what it rests on, deeper than it may press: convex, and of several parts.
 #[test]
 fn what_presses_into_its_supports_has_certificates() {
