@@ -28,8 +28,26 @@ const WIDE: f64 = 0.05;
 const LAST_LOOK: usize = 2;
 
 /// Answers `problem` with the options' planner. `progress` hears about attempts that failed.
+///
+/// What is out of the arm's reach is left out of the search; paths are certified among all.
 #[must_use]
 pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+    let scene = problem.scene();
+    let Some(near) = scene.within_reach() else { return answered(problem, options, progress) };
+    let near = MotionProblem::trusted(near, problem.start(), problem.goals().clone());
+    let mut answer = answered(&near, options, progress);
+    let among_all = |path: &CertifiedPath| certify(scene, path.path().clone(), scene.workspace().clearance).ok();
+    answer.witness = answer.witness.as_ref().and_then(among_all);
+    if let Verdict::Found(path) = &mut answer.verdict {
+        match among_all(path) {
+            Some(certified) => *path = certified,
+            None => return answered(problem, options, progress),
+        }
+    }
+    answer
+}
+
+fn answered(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
     match options.planner {
         Planner::Shortest { .. } => shortest::solve(problem, options, progress),
         Planner::First => first::solve(problem, options),

@@ -2,9 +2,9 @@
 
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
-use super::{Arm, Dynamics, Grip, Heights, Mover, Obstacle, Part, Payload, SceneError, Workspace};
+use super::{Arm, Dynamics, Grip, Heights, Joint, Mover, Obstacle, Part, Payload, SceneError, Workspace};
 use crate::geometry::{Convex, Separation, seams, separation};
-use crate::space::Configuration;
+use crate::space::{Configuration, JointRange};
 use nalgebra::{Isometry2, Translation2};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -47,7 +47,7 @@ pub struct Scene {
     allowed_contacts: Vec<usize>,
     /// Parts of link 2 that are the arm's own; those that follow are the payload's.
     own_parts: usize,
-    doubts: Doubts,
+    reading: Reading,
     pairs: Vec<Pair>,
     /// The same with what moves.
     moving: Vec<Pair>,
@@ -73,14 +73,27 @@ impl Meet {
     }
 }
 
-/// How it takes what is left open.
+/// How it takes what is left open, and what it leaves out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Doubts {
+struct Reading {
     /// Which heights can meet.
     meet: Meet,
     /// How many times deeper than it may a payload presses into its supports.
     deeper: f64,
+    /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
+    farthest: f64,
 }
+
+impl Reading {
+    /// What may meet does, and nothing is left out.
+    const ALL: Self = Self { meet: Meet::Perhaps, deeper: 1.0, farthest: f64::INFINITY };
+}
+
+/// More pairs out of reach are left out of a search: with fewer it is as fast.
+const MANY_OUT_OF_REACH: usize = 200;
+
+/// By which share rounding may make a distance too large or a reach too small, and much more.
+const ROUNDING: f64 = 1e-9;
 
 /// Whichever way corners are moved into a convex piece by what it may press in, no less stays off its supports than if it pressed in so many times deeper
 /// ([`Convex::inner_approximation`]).
@@ -134,7 +147,7 @@ impl Scene {
         payload: Option<Payload>,
         allowed_contacts: &[usize],
     ) -> Self {
-        Self::assembled(arm, workspace, payload, allowed_contacts, Doubts { meet: Meet::Perhaps, deeper: 1.0 })
+        Self::assembled(arm, workspace, payload, allowed_contacts, Reading::ALL)
     }
 
     fn assembled(
@@ -142,20 +155,27 @@ impl Scene {
         workspace: Workspace,
         payload: Option<Payload>,
         allowed_contacts: &[usize],
-        doubts: Doubts,
+        reading: Reading,
     ) -> Self {
         debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
         let own_parts = arm.links[1].parts.len();
         let mut differences = vec![Vec::new(); workspace.obstacles.len() + workspace.movers.len()];
         let carried =
-            payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, doubts.deeper, &mut differences));
+            payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, reading.deeper, &mut differences));
         arm.links[1].parts.extend(carried.iter().map(|(part, _)| part.clone()));
         let (mut pairs, mut moving) = (Vec::new(), Vec::new());
         let standing = workspace.obstacles.len();
+        let base = Convex::point(arm.base);
+        let is_left_out = |piece: &Convex| separation(&base, piece).distance > reading.farthest;
+        let left_out: Vec<Vec<bool>> = match reading.farthest {
+            f64::INFINITY => Vec::new(),
+            _ => workspace.obstacles.iter().map(|o| o.pieces.iter().map(is_left_out).collect()).collect(),
+        };
+        let is_kept = |pair: &Pair| !left_out.get(pair.obstacle).and_then(|all| all.get(pair.piece)).unwrap_or(&false);
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
                 let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
-                let as_high = |(_, o): &(usize, &Obstacle)| doubts.meet.holds(p.heights, o.heights);
+                let as_high = |(_, o): &(usize, &Obstacle)| reading.meet.holds(p.heights, o.heights);
                 for (obstacle, o) in workspace.all().enumerate().filter(as_high) {
                     let pieces = match meetable {
                         Some(meetable) => meetable[obstacle].clone(),
@@ -163,12 +183,12 @@ impl Scene {
                         None => 0..o.pieces.len(),
                     };
                     let among = if obstacle < standing { &mut pairs } else { &mut moving };
-                    among.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }));
+                    among.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }).filter(is_kept));
                 }
             }
         }
         let allowed_contacts = allowed_contacts.to_vec();
-        Self { arm, workspace, payload, allowed_contacts, own_parts, doubts, pairs, moving, differences }
+        Self { arm, workspace, payload, allowed_contacts, own_parts, reading, pairs, moving, differences }
     }
 
     /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within, and what is as
@@ -177,7 +197,7 @@ impl Scene {
     pub(crate) fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
         let heights = || parts().flat_map(|part| self.workspace.all().map(|obstacle| (part.heights, obstacle.heights)));
-        let is_exact = self.doubts.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
+        let is_exact = self.reading.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
         if is_exact && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
@@ -189,7 +209,7 @@ impl Scene {
         Cow::Owned(self.remade(
             shrink,
             |obstacle| obstacle.pieces.clone(),
-            Doubts { meet: Meet::Surely, ..self.doubts },
+            Reading { meet: Meet::Surely, ..self.reading },
         ))
     }
 
@@ -197,7 +217,7 @@ impl Scene {
     /// each obstacle one obstacle, and what is carried stays as it is.
     #[must_use]
     pub(crate) fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
-        self.remade(reshape, pieces, self.doubts)
+        self.remade(reshape, pieces, self.reading)
     }
 
     /// The same scene for evidence that a payload presses too deep into its supports, whichever way its corners are moved inwards by what it may
@@ -208,17 +228,35 @@ impl Scene {
             Some(payload) if !payload.supports.is_empty() => Cow::Owned(self.remade(
                 |_| (),
                 |obstacle| obstacle.pieces.clone(),
-                Doubts { deeper: CERTAINLY_DEEPER, ..self.doubts },
+                Reading { deeper: CERTAINLY_DEEPER, ..self.reading },
             )),
             _ => Cow::Borrowed(self),
         }
+    }
+
+    /// The same scene without the pairs with what stands farther from joint 1 than anything of the arm gets, clearance included; none where these are
+    /// few, or something is carried. Each part, obstacle and piece keeps its number.
+    #[must_use]
+    pub(crate) fn within_reach(&self) -> Option<Self> {
+        if self.payload.is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
+            return None;
+        }
+        let slide = |joint: &Joint| match (joint.joint_type.is_revolute(), joint.range) {
+            (true, _) => 0.0,
+            (false, JointRange::Interval { lower, upper }) => lower.abs().max(upper.abs()),
+            (false, JointRange::Circle) => f64::INFINITY,
+        };
+        let out = self.arm.reach() + self.arm.joints.iter().map(slide).sum::<f64>() + self.workspace.clearance;
+        let reading = Reading { farthest: out * (1.0 + ROUNDING), ..self.reading };
+        let near = self.remade(|_| (), |obstacle| obstacle.pieces.clone(), reading);
+        (near.pairs.len() + MANY_OUT_OF_REACH < self.pairs.len()).then_some(near)
     }
 
     fn remade(
         &self,
         reshape: impl Fn(&mut Part),
         pieces: impl FnMut(&Obstacle) -> Vec<Convex>,
-        doubts: Doubts,
+        reading: Reading,
     ) -> Self {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
@@ -227,7 +265,7 @@ impl Scene {
         for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
             obstacle.pieces = pieces;
         }
-        Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, doubts)
+        Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, reading)
     }
 
     /// The same scene with another distance to keep, metres.
@@ -237,9 +275,9 @@ impl Scene {
     pub fn with_clearance(mut self, clearance: f64) -> Result<Self, SceneError> {
         check_clearance(clearance)?;
         let (payload, allowed_contacts) = (self.payload.take(), std::mem::take(&mut self.allowed_contacts));
-        let doubts = self.doubts;
+        let reading = self.reading;
         let (arm, workspace) = self.into_parts();
-        Ok(Self::assembled(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts, doubts))
+        Ok(Self::assembled(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts, reading))
     }
 
     /// The same scene at a time: what moves stands where it is then, after all that stands.
@@ -252,7 +290,7 @@ impl Scene {
         let (payload, allowed_contacts) = (scene.payload.take(), std::mem::take(&mut scene.allowed_contacts));
         let (arm, mut workspace) = scene.into_parts();
         workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| mover.at(time)));
-        Self::assembled(arm, workspace, payload, &allowed_contacts, self.doubts)
+        Self::assembled(arm, workspace, payload, &allowed_contacts, self.reading)
     }
 
     /// The same scene on a clock that begins at this time.
@@ -272,7 +310,7 @@ impl Scene {
         let payload = self.payload.clone();
         let (arm, mut workspace) = self.clone().into_parts();
         workspace.obstacles.push(obstacle);
-        Self::assembled(arm, workspace, payload, &contacts, self.doubts)
+        Self::assembled(arm, workspace, payload, &contacts, self.reading)
     }
 
     /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.

@@ -208,3 +208,32 @@ fn a_robot_with_20_000_broken_joints_is_refused_with_the_first_of_them() {
     done.refused(1, &["no_l2", "more"]);
     assert!(done.stderr.len() < 40_000, "{} bytes", done.stderr.len());
 }
+
+/// Ten thousand obstacles out of reach: the optimum is that without them, to the same gap, and what is proven is, in the numbering of all.
+#[test]
+fn what_is_out_of_reach_changes_nothing() {
+    let place = Place::new();
+    let far: String = (0..10_100)
+        .map(|k| {
+            let [x, y] = [2.0 + 0.01 * f64::from(k % 100), 2.0 + 0.01 * f64::from(k / 100)];
+            let [right, top] = [x + 0.009, y + 0.009];
+            format!("[[obstacle]]\npolygon = [[{x}, {y}], [{right}, {y}], [{x}, {top}]]\n")
+        })
+        .collect();
+    for (robot, world, code) in [("planar_2r", "shelf", 0), ("planar_2r_continuous", "no_path", 3)] {
+        let robot = shipped(&format!("robots/{robot}.urdf"));
+        let own = std::fs::read_to_string(shipped(&format!("workspaces/{world}.toml"))).unwrap();
+        let (before, after) = own.split_at(own.find("[[obstacle]]").unwrap());
+        let plan = |name: &str, text: String| {
+            place.write(name, text);
+            let done = place.run(&[&robot, name], "--quiet --json --certificate c.json");
+            assert_eq!(done.code, code, "{world}: {}", done.stderr);
+            let held = cplan_check::check_files(robot.as_ref(), &place.path(name), &place.path("c.json"));
+            assert!(held.is_ok(), "{world}: {held:?}");
+            done.json()
+        };
+        let [alone, among] = [plan("own.toml", own.clone()), plan("all.toml", format!("{before}{far}{after}"))];
+        assert_eq!(alone["length"], among["length"], "{world}");
+        assert_eq!(alone["optimum"]["lower_bound"], among["optimum"]["lower_bound"], "{world}");
+    }
+}
