@@ -73,20 +73,29 @@ impl Meet {
     }
 }
 
+/// What of a payload's pieces stays off its supports.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Pressed {
+    /// All but what no corner moves farther for than it may press in.
+    Corners,
+    /// What is deeper in them than that: it stays off whichever way corners are moved.
+    Depth,
+}
+
 /// How it takes what is left open, and what it leaves out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Reading {
     /// Which heights can meet.
     meet: Meet,
-    /// How many times deeper than it may a payload presses into its supports.
-    deeper: f64,
+    /// How a payload presses into its supports.
+    pressed: Pressed,
     /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
     farthest: f64,
 }
 
 impl Reading {
     /// What may meet does, and nothing is left out.
-    const ALL: Self = Self { meet: Meet::Perhaps, deeper: 1.0, farthest: f64::INFINITY };
+    const ALL: Self = Self { meet: Meet::Perhaps, pressed: Pressed::Corners, farthest: f64::INFINITY };
 }
 
 /// More pairs out of reach are left out of a search: with fewer it is as fast.
@@ -95,9 +104,8 @@ const MANY_OUT_OF_REACH: usize = 200;
 /// By which share rounding may make a distance too large or a reach too small, and much more.
 const ROUNDING: f64 = 1e-9;
 
-/// Whichever way corners are moved into a convex piece by what it may press in, no less stays off its supports than if it pressed in so many times deeper
-/// ([`Convex::inner_approximation`]).
-const CERTAINLY_DEEPER: f64 = 1.5;
+/// By which share more than it may press in is taken off pieces for evidence, so that it has room for rounding.
+const DEEPER: f64 = 1e-6;
 
 /// What a payload's part can meet.
 #[derive(Clone, Copy, PartialEq)]
@@ -106,6 +114,8 @@ pub(crate) enum Meets {
     Others,
     /// The supports: the part is smaller by what it may press into them.
     Supports,
+    /// Nothing: there is no such part.
+    Nothing,
 }
 
 impl Scene {
@@ -161,7 +171,7 @@ impl Scene {
         let own_parts = arm.links[1].parts.len();
         let mut differences = vec![Vec::new(); workspace.obstacles.len() + workspace.movers.len()];
         let carried =
-            payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, reading.deeper, &mut differences));
+            payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, reading.pressed, &mut differences));
         arm.links[1].parts.extend(carried.iter().map(|(part, _)| part.clone()));
         let (mut pairs, mut moving) = (Vec::new(), Vec::new());
         let standing = workspace.obstacles.len();
@@ -228,7 +238,7 @@ impl Scene {
             Some(payload) if !payload.supports.is_empty() => Cow::Owned(self.remade(
                 |_| (),
                 |obstacle| obstacle.pieces.clone(),
-                Reading { deeper: CERTAINLY_DEEPER, ..self.reading },
+                Reading { pressed: Pressed::Depth, ..self.reading },
             )),
             _ => Cow::Borrowed(self),
         }
@@ -482,11 +492,11 @@ impl Payload {
         &self,
         arm: &Arm,
         workspace: &Workspace,
-        deeper: f64,
+        pressed: Pressed,
         differences: &mut [Vec<Convex>],
     ) -> Vec<(Part, Meetable)> {
         let mut parts = Vec::new();
-        for (shape, kind) in self.parts_pressed(arm, deeper) {
+        for (shape, kind) in self.parts_pressed(arm, pressed) {
             let (on_link, level) = match self.grip {
                 Grip::Rigid(in_link) => (shape.at(&in_link), None),
                 Grip::Level { angle, point } => {
@@ -525,24 +535,38 @@ impl Payload {
     /// Its pieces, and smaller ones for its supports, in its own frame. Pieces go on sharing their sides but for what may be
     /// pressed into the ends, so that nothing gets in between them.
     pub(crate) fn parts(&self, arm: &Arm) -> Vec<(Convex, Meets)> {
-        self.parts_pressed(arm, 1.0)
+        self.parts_pressed(arm, Pressed::Corners)
     }
 
-    /// The same where it presses in so many times deeper than it may; if that is more than once, each piece by itself.
-    fn parts_pressed(&self, arm: &Arm, deeper: f64) -> Vec<(Convex, Meets)> {
+    fn parts_pressed(&self, arm: &Arm, pressed: Pressed) -> Vec<(Convex, Meets)> {
         let mut parts: Vec<_> = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others)).collect();
-        if !self.supports.is_empty() {
-            let depth = deeper * Self::penetration_allowance(arm);
-            let seams = if deeper > 1.0 { vec![Vec::new(); self.pieces.len()] } else { seams(&self.pieces, depth) };
-            let pressed = self.pieces.iter().zip(seams);
-            parts.extend(pressed.map(|(piece, seam)| (piece.inner_approximation(depth, &seam), Meets::Supports)));
+        if self.supports.is_empty() {
+            return parts;
+        }
+        let allowance = Self::penetration_allowance(arm);
+        match pressed {
+            Pressed::Corners => {
+                let pieces = self.pieces.iter().zip(seams(&self.pieces, allowance));
+                parts
+                    .extend(pieces.map(|(piece, seam)| (piece.inner_approximation(allowance, &seam), Meets::Supports)));
+            }
+            Pressed::Depth => {
+                parts.extend(self.pieces.iter().map(|piece| match piece.eroded(allowance * (1.0 + DEEPER)) {
+                    Some(deep) => (deep, Meets::Supports),
+                    None => (piece.clone(), Meets::Nothing),
+                }))
+            }
         }
         parts
     }
 
     /// Whether its parts of that kind can meet an obstacle.
     pub(crate) fn meets(&self, kind: Meets, obstacle: usize) -> bool {
-        (kind != Meets::Others) == self.supports.contains(&obstacle)
+        match kind {
+            Meets::Others => !self.supports.contains(&obstacle),
+            Meets::Supports => self.supports.contains(&obstacle),
+            Meets::Nothing => false,
+        }
     }
 }
 
@@ -550,7 +574,7 @@ impl Meets {
     /// How much nearer than the clearance the part may come to what it meets.
     pub(crate) fn nearer(self, clearance: f64) -> f64 {
         match self {
-            Meets::Others => 0.0,
+            Meets::Others | Meets::Nothing => 0.0,
             Meets::Supports => clearance,
         }
     }

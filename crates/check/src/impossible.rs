@@ -19,6 +19,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
+/// Corners that turn inwards are moved by less than this share less than others: see [`Obstacle::pressed`].
+const LESS: u32 = 29;
+
 /// Ways to be somewhere in the course of free orders beyond these are not followed.
 const MOST_BRANCHES: usize = 1000;
 
@@ -126,7 +129,14 @@ impl<'a> Proof<'a> {
         if group.repeat == 1 || after.is_empty() {
             return Ok(after);
         }
-        // What rules something out the first time need not do so the last time.
+        // What rules something out the first time need not do so the last time, with new objects in the stead of some.
+        let mut before = before;
+        for Branch { replay, .. } in &mut before {
+            for number in group.renewed.iter().map(|object| replay.task.first + object) {
+                replay.standing[number] = Some(Cow::Borrowed(&replay.world.obstacles[number]));
+                replay.released.retain(|released| *released != number);
+            }
+        }
         Self { cases: &[], ..self }.once(group, before, last)
     }
 
@@ -459,7 +469,8 @@ impl<'a> Replay<'a> {
         (steps, repeated): (&'a [&'a Step], &'a [Range<usize>]),
     ) -> Self {
         let Among { standing, .. } = Among::all(world);
-        let pressed = Interval::exactly(arm.pressed().upper + guard());
+        let pressed = arm.pressed().upper;
+        let pressed = Interval::exactly(&pressed + (&pressed >> LESS) + guard());
         let (chain, released) = (Chain::from(arm), Vec::new());
         Self { arm, world, task, chain, standing, held: None, released, steps, repeated, pressed }
     }

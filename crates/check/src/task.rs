@@ -236,6 +236,15 @@ impl<'a> Replay<'a> {
 
     /// Does a step.
     fn step(&mut self, Matched { step, done, renewed }: &Matched, after: &[Matched]) -> Result<(), CheckError> {
+        // What is to be renewed lies there while the arm stands.
+        if !renewed.is_empty() {
+            let (motion, first) = (self.motion, self.knot);
+            let until = &motion.knots[..=done.knots[0]];
+            let piece = |knot: usize| piece(self.arm, &motion.interpolation, until, knot);
+            let stands = (first..done.knots[0].max(first + 1)).map(piece).collect::<Result<Vec<_>, _>>()?;
+            let at = [1, 2].map(|k| Interval::from(&motion.knots[first][k]));
+            self.free(&stands, &at, None, Tool::Raised)?;
+        }
         for object in renewed {
             let number = self.task.first + object;
             if self.held.as_ref().is_some_and(|held| held.object == *object) {

@@ -370,6 +370,38 @@ fn what_a_repeated_pick_places_may_rest_on_what_either_place_says() {
     says(judged(&clear(2), &certificate), 3, "can come off the part");
 }
 
+/// A block that is turned upright and put into the gap leaves the head no way; one that is taken anew lies flat.
+#[test]
+fn a_repetition_finds_a_new_object_as_it_lay_at_first() {
+    let world = |renew: &str| {
+        let steps = "[[step]]\npick = \"block\"\n[[step]]\nplace = { at = [0.5, 1], angle = 1.5707963 }\n[[step]]\nrepeat = 2\n\
+                     [[step.steps]]\npick = \"block\"\n[[step.steps]]\nplace = { at = [2, 1] }\n\
+                     [[step]]\nmove = { joints = [1, 1] }\n[[step]]\nmove = { joints = [3, 1] }\n";
+        world(", wrist = { velocity = 1 }", 0.5, renew, steps)
+    };
+    let boxes = (0..100).map(|k| {
+        let [low, high] = [0.02 * f64::from(k), 0.02 * f64::from(k + 1)];
+        let part = if high <= 0.79 {
+            0
+        } else if low >= 1.21 {
+            1
+        } else {
+            2
+        };
+        format!(r#"{{"lower": [1.99, {low}], "upper": [2.01, {high}], "shape": 0, "part": {part}}}"#)
+    });
+    let boxes = boxes.collect::<Vec<_>>().join(", ");
+    let certificate = format!(
+        r#"{{"format": "cplan certificate 1", "answer": "infeasible", "shapes": [{{"link": "head", "collision": 0}}], "parts": [
+        {{"obstacle": 0, "corners": [[1.9, -1], [2.1, -1], [2.1, 0.75], [1.9, 0.75]]}},
+        {{"obstacle": 1, "corners": [[1.9, 1.25], [2.1, 1.25], [2.1, 3], [1.9, 3]]}},
+        {{"obstacle": 2, "corners": [[1.9, 0.8], [2.1, 0.8], [2.1, 1.2], [1.9, 1.2]]}}],
+        "cases": [{{"step": 6, "from": [[0.999999, 1.000001], [0.999999, 1.000001]], "boxes": [{boxes}]}}]}}"#
+    );
+    says(judged(&world(""), &certificate), 0, "up to step 6");
+    says(judged(&world("renew = true"), &certificate), 3, "can come off the part");
+}
+
 /// The head may touch what it has let go of until the arm goes on from where it has picked something else.
 #[test]
 fn the_arm_may_stay_where_it_picks_last() {

@@ -354,6 +354,17 @@ fn a_new_object_is_not_the_one_that_was_let_go_of() {
     fails(judged(GANTRY, &world("renew = true\n"), knots, steps), "link \"head\"");
 }
 
+/// The bridge stands in what is put down on it, before there is a new one elsewhere.
+#[test]
+fn what_is_renewed_lies_where_it_was_put_until_the_arm_goes_on() {
+    let world = format!(
+        "{HEAD}{BLOCK}renew = true\n[task]\nrepeat = 2\n[[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = [3, 0.05] }}\n"
+    );
+    let knots = "[0, 0, 1], [1, 1, 1], [2, 3, 0.05], [3, 3, 0.05], [4, 1, 1], [5, 3, 0.05]";
+    let steps = r#"{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [1, 2]}, {"step": 1, "knots": [3, 4]}, {"step": 2, "knots": [4, 5]}"#;
+    fails(judged(GANTRY, &world, knots, steps), "steps[2], step 1: link \"bridge\", collision 0 is inside obstacle 0");
+}
+
 /// Read as a cubic, a motion that goes on at the end of a step does not stand there.
 #[test]
 fn the_arm_stands_where_a_step_ends() {

@@ -157,6 +157,10 @@ impl Walk<'_> {
             let item = &self.task.items[index];
             let is_new = steps(item).all(|step| !seen.contains(&step.number));
             seen.extend(steps(item).map(|step| step.number));
+            // What is turned again and again a checker does not follow.
+            if self.tells_turned && !is_new {
+                return None;
+            }
             match item {
                 Item::AnyOrder(pairs) if !is_once(pairs) => return None,
                 Item::AnyOrder(pairs) if is_new && index >= self.first => {
