@@ -53,6 +53,9 @@ const ABOUT_IK_SOLUTIONS: f64 = 1e-10;
 /// ... and less well those where something is let go of that was taken in one of these rectangles.
 const AFTER_ANOTHER: f64 = 1e-8;
 
+/// ... and where something is picked again that was turned then.
+const AFTER_TURNING: f64 = 1e-6;
+
 /// That the steps up to one cannot be done, case by case; none where the proof is of a kind that the checker does not know.
 pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let mut smaller = task.clone();
@@ -68,7 +71,12 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let mut all = Vec::new();
     for case in &cases {
         let RefutedCase { step, after, from, turned, scene, stuck, lowered } = case;
-        let share = if scene.payload().is_some() { ABOUT_IK_SOLUTIONS } else { AFTER_ANOTHER * taken };
+        let share = match (scene.payload(), turned.is_empty()) {
+            (Some(_), true) => ABOUT_IK_SOLUTIONS,
+            // Where it is picked depends on how it lies.
+            (Some(_), false) => AFTER_TURNING * taken,
+            (None, _) => AFTER_ANOTHER * taken,
+        };
         let told = told_of(case);
         let ranges = arm.topology().ranges.map(|range| range.domain());
         let about = |q: Configuration, share: f64| {
