@@ -459,16 +459,6 @@ impl Scene {
         Some(&pieces[(pair.part - self.own_parts) % pieces.len()])
     }
 
-    /// Whether a contact is one whichever way a payload's pieces are told apart. Where a corner is shared by several, less may be pressed in beside it than
-    /// the whole object may: there only what is deeper by all of that counts, since what an object stays off comes off each of its pieces by it.
-    #[must_use]
-    pub(crate) fn is_certain(&self, contact: &Contact) -> bool {
-        let is_pressed =
-            |payload: &Payload| payload.pieces.len() > 1 && payload.supports.contains(&contact.pair.obstacle);
-        let payload = self.payload.as_ref().filter(|_| self.is_payload(contact.pair));
-        !payload.is_some_and(is_pressed) || -contact.separation.distance > Payload::penetration_allowance(&self.arm)
-    }
-
     /// The piece of the obstacle that a pair is about, in its place, whatever is made of it for a payload.
     #[must_use]
     pub(crate) fn obstacle_piece(&self, pair: Pair) -> &Convex {

@@ -288,8 +288,7 @@ pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Resul
     let blockers = Blockers::AtEnd(distinct(hits.iter().map(|hit| hit.contact.pair.obstacle)));
     let certain = scene.inner();
     let beside = [[0.0, 0.0], [BESIDE, 0.0], [-BESIDE, 0.0], [0.0, BESIDE], [0.0, -BESIDE]];
-    let is_barred = |q: Configuration| certain.obstructions(q).iter().any(|hit| certain.is_certain(&hit.contact));
-    let is_proven = beside.iter().all(|&by| is_barred(q + Configuration::from(by)));
+    let is_proven = beside.iter().all(|&by| !certain.obstructions(q + Configuration::from(by)).is_empty());
     Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", words.join("; ")), is_proven) })
 }
 
