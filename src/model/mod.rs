@@ -26,6 +26,7 @@ mod mover;
 mod obstruction;
 mod outcome;
 mod payload;
+mod payload_parts;
 mod preference;
 mod problem;
 mod record;

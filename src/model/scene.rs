@@ -1,14 +1,13 @@
 //! The arm among its obstacles.
 
+use super::payload_parts::Pressed;
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
-use super::{Arm, Dynamics, Grip, Heights, Joint, Mover, Obstacle, Part, Payload, SceneError, Workspace};
-use crate::geometry::{Convex, Separation, seams, separation};
+use super::{Arm, Dynamics, Heights, Joint, Mover, Obstacle, Part, Payload, SceneError, Workspace};
+use crate::geometry::{Convex, Separation, separation};
 use crate::space::{Configuration, JointRange};
-use nalgebra::{Isometry2, Translation2};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use std::ops::Range;
 
 /// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -73,15 +72,6 @@ impl Meet {
     }
 }
 
-/// What of a payload's pieces stays off its supports.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Pressed {
-    /// All but what no corner moves farther for than it may press in.
-    Corners,
-    /// What is deeper in them than that: it stays off whichever way corners are moved.
-    Depth,
-}
-
 /// How it takes what is left open, and what it leaves out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Reading {
@@ -103,20 +93,6 @@ const MANY_OUT_OF_REACH: usize = 200;
 
 /// By which share rounding may make a distance too large or a reach too small, and much more.
 const ROUNDING: f64 = 1e-9;
-
-/// By which share more than it may press in is taken off pieces for evidence, so that it has room for rounding.
-const DEEPER: f64 = 1e-6;
-
-/// What a payload's part can meet.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Meets {
-    /// Everything but the payload's supports.
-    Others,
-    /// The supports: the part is smaller by what it may press into them.
-    Supports,
-    /// Nothing: there is no such part.
-    Nothing,
-}
 
 impl Scene {
     /// Puts the arm into the workspace.
@@ -478,104 +454,6 @@ impl Scene {
             format!("link \"{}\"", link.name)
         } else {
             format!("link \"{}\" (body \"{body}\")", link.name)
-        }
-    }
-}
-
-/// Which pieces of each obstacle, and of each mover after them, something can meet.
-type Meetable = Vec<Range<usize>>;
-
-impl Payload {
-    /// It as parts of link 2, each with what it can meet; what is made of the obstacles' pieces for it is added to
-    /// `differences`.
-    fn on_link(
-        &self,
-        arm: &Arm,
-        workspace: &Workspace,
-        pressed: Pressed,
-        differences: &mut [Vec<Convex>],
-    ) -> Vec<(Part, Meetable)> {
-        let mut parts = Vec::new();
-        for (shape, kind) in self.parts_pressed(arm, pressed) {
-            let (on_link, level) = match self.grip {
-                Grip::Rigid(in_link) => (shape.at(&in_link), None),
-                Grip::Level { angle, point } => {
-                    let about_tip = Isometry2::rotation(angle) * Translation2::from(-point.coords);
-                    (Convex::point(arm.tip), Some(shape.at(&about_tip)))
-                }
-            };
-            let mut meetable = Vec::new();
-            for (number, obstacle) in workspace.all().enumerate() {
-                let own = obstacle.pieces.len();
-                let meets = self.meets(kind, number);
-                let nearer = kind.nearer(workspace.clearance);
-                if !meets || (level.is_none() && nearer == 0.0) {
-                    meetable.push(0..if meets { own } else { 0 });
-                    continue;
-                }
-                // What moves has its pieces in its own frame, which does not turn where something level is carried.
-                let mover = number.checked_sub(workspace.obstacles.len()).map(|mover| &workspace.movers[mover]);
-                let turned = mover.map(|mover| Isometry2::rotation(-mover.course.stops()[0].angle));
-                let seen = |level: &Convex| turned.map_or_else(|| level.clone(), |turned| level.at(&turned));
-                let level = level.as_ref().map(seen);
-                let made = &mut differences[number];
-                let first = own + made.len();
-                made.extend(obstacle.pieces.iter().map(|piece| match &level {
-                    Some(level) => piece.receding(nearer).minkowski_difference(level),
-                    None => piece.receding(nearer),
-                }));
-                meetable.push(first..own + made.len());
-            }
-            let (heights, body) = (self.heights, self.object.clone());
-            parts.push((Part { shape: on_link, inner: None, number: 0, heights, body }, meetable));
-        }
-        parts
-    }
-
-    /// Its pieces, and smaller ones for its supports, in its own frame. Pieces go on sharing their sides but for what may be
-    /// pressed into the ends, so that nothing gets in between them.
-    pub(crate) fn parts(&self, arm: &Arm) -> Vec<(Convex, Meets)> {
-        self.parts_pressed(arm, Pressed::Corners)
-    }
-
-    fn parts_pressed(&self, arm: &Arm, pressed: Pressed) -> Vec<(Convex, Meets)> {
-        let mut parts: Vec<_> = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others)).collect();
-        if self.supports.is_empty() {
-            return parts;
-        }
-        let allowance = Self::penetration_allowance(arm);
-        match pressed {
-            Pressed::Corners => {
-                let pieces = self.pieces.iter().zip(seams(&self.pieces, allowance));
-                parts
-                    .extend(pieces.map(|(piece, seam)| (piece.inner_approximation(allowance, &seam), Meets::Supports)));
-            }
-            Pressed::Depth => {
-                parts.extend(self.pieces.iter().map(|piece| match piece.eroded(allowance * (1.0 + DEEPER)) {
-                    Some(deep) => (deep, Meets::Supports),
-                    None => (piece.clone(), Meets::Nothing),
-                }))
-            }
-        }
-        parts
-    }
-
-    /// Whether its parts of that kind can meet an obstacle.
-    pub(crate) fn meets(&self, kind: Meets, obstacle: usize) -> bool {
-        match kind {
-            Meets::Others => !self.supports.contains(&obstacle),
-            Meets::Supports => self.supports.contains(&obstacle),
-            Meets::Nothing => false,
-        }
-    }
-}
-
-impl Meets {
-    /// How much nearer than the clearance the part may come to what it meets.
-    pub(crate) fn nearer(self, clearance: f64) -> f64 {
-        match self {
-            Meets::Others | Meets::Nothing => 0.0,
-            Meets::Supports => clearance,
         }
     }
 }

@@ -1,0 +1,127 @@
+//! What is carried, as parts of link 2: whole, and for its supports smaller by what it may press into them.
+
+use super::{Arm, Grip, Part, Payload, Workspace};
+use crate::geometry::{Convex, seams};
+use nalgebra::{Isometry2, Translation2};
+use std::ops::Range;
+
+/// What of a payload's pieces stays off its supports.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Pressed {
+    /// All but what no corner moves farther for than it may press in.
+    Corners,
+    /// What is deeper in them than that: it stays off whichever way corners are moved.
+    Depth,
+}
+
+/// By which share more than it may press in is taken off pieces for evidence, so that it has room for rounding.
+const DEEPER: f64 = 1e-6;
+
+/// What a payload's part can meet.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Meets {
+    /// Everything but the payload's supports.
+    Others,
+    /// The supports: the part is smaller by what it may press into them.
+    Supports,
+    /// Nothing: there is no such part.
+    Nothing,
+}
+
+/// Which pieces of each obstacle, and of each mover after them, something can meet.
+pub(super) type Meetable = Vec<Range<usize>>;
+
+impl Payload {
+    /// It as parts of link 2, each with what it can meet; what is made of the obstacles' pieces for it is added to
+    /// `differences`.
+    pub(super) fn on_link(
+        &self,
+        arm: &Arm,
+        workspace: &Workspace,
+        pressed: Pressed,
+        differences: &mut [Vec<Convex>],
+    ) -> Vec<(Part, Meetable)> {
+        let mut parts = Vec::new();
+        for (shape, kind) in self.parts_pressed(arm, pressed) {
+            let (on_link, level) = match self.grip {
+                Grip::Rigid(in_link) => (shape.at(&in_link), None),
+                Grip::Level { angle, point } => {
+                    let about_tip = Isometry2::rotation(angle) * Translation2::from(-point.coords);
+                    (Convex::point(arm.tip), Some(shape.at(&about_tip)))
+                }
+            };
+            let mut meetable = Vec::new();
+            for (number, obstacle) in workspace.all().enumerate() {
+                let own = obstacle.pieces.len();
+                let meets = self.meets(kind, number);
+                let nearer = kind.nearer(workspace.clearance);
+                if !meets || (level.is_none() && nearer == 0.0) {
+                    meetable.push(0..if meets { own } else { 0 });
+                    continue;
+                }
+                // What moves has its pieces in its own frame, which does not turn where something level is carried.
+                let mover = number.checked_sub(workspace.obstacles.len()).map(|mover| &workspace.movers[mover]);
+                let turned = mover.map(|mover| Isometry2::rotation(-mover.course.stops()[0].angle));
+                let seen = |level: &Convex| turned.map_or_else(|| level.clone(), |turned| level.at(&turned));
+                let level = level.as_ref().map(seen);
+                let made = &mut differences[number];
+                let first = own + made.len();
+                made.extend(obstacle.pieces.iter().map(|piece| match &level {
+                    Some(level) => piece.receding(nearer).minkowski_difference(level),
+                    None => piece.receding(nearer),
+                }));
+                meetable.push(first..own + made.len());
+            }
+            let (heights, body) = (self.heights, self.object.clone());
+            parts.push((Part { shape: on_link, inner: None, number: 0, heights, body }, meetable));
+        }
+        parts
+    }
+
+    /// Its pieces, and smaller ones for its supports, in its own frame. Pieces go on sharing their sides but for what may be
+    /// pressed into the ends, so that nothing gets in between them.
+    pub(crate) fn parts(&self, arm: &Arm) -> Vec<(Convex, Meets)> {
+        self.parts_pressed(arm, Pressed::Corners)
+    }
+
+    fn parts_pressed(&self, arm: &Arm, pressed: Pressed) -> Vec<(Convex, Meets)> {
+        let mut parts: Vec<_> = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others)).collect();
+        if self.supports.is_empty() {
+            return parts;
+        }
+        let allowance = Self::penetration_allowance(arm);
+        match pressed {
+            Pressed::Corners => {
+                let pieces = self.pieces.iter().zip(seams(&self.pieces, allowance));
+                parts
+                    .extend(pieces.map(|(piece, seam)| (piece.inner_approximation(allowance, &seam), Meets::Supports)));
+            }
+            Pressed::Depth => {
+                parts.extend(self.pieces.iter().map(|piece| match piece.eroded(allowance * (1.0 + DEEPER)) {
+                    Some(deep) => (deep, Meets::Supports),
+                    None => (piece.clone(), Meets::Nothing),
+                }))
+            }
+        }
+        parts
+    }
+
+    /// Whether its parts of that kind can meet an obstacle.
+    pub(crate) fn meets(&self, kind: Meets, obstacle: usize) -> bool {
+        match kind {
+            Meets::Others => !self.supports.contains(&obstacle),
+            Meets::Supports => self.supports.contains(&obstacle),
+            Meets::Nothing => false,
+        }
+    }
+}
+
+impl Meets {
+    /// How much nearer than the clearance the part may come to what it meets.
+    pub(crate) fn nearer(self, clearance: f64) -> f64 {
+        match self {
+            Meets::Others | Meets::Nothing => 0.0,
+            Meets::Supports => clearance,
+        }
+    }
+}
