@@ -234,16 +234,19 @@ impl<'a> Replay<'a> {
         })
     }
 
+    /// The motion from a knot to another; at least where it stands at the first.
+    fn pieces(&self, knots: Range<usize>) -> Result<Vec<Piece>, CheckError> {
+        let until = &self.motion.knots[..=knots.end];
+        let piece = |knot: usize| piece(self.arm, &self.motion.interpolation, until, knot);
+        (knots.start..knots.end.max(knots.start + 1)).map(piece).collect()
+    }
+
     /// Does a step.
     fn step(&mut self, Matched { step, done, renewed }: &Matched, after: &[Matched]) -> Result<(), CheckError> {
         // What is to be renewed lies there while the arm stands.
         if !renewed.is_empty() {
-            let (motion, first) = (self.motion, self.knot);
-            let until = &motion.knots[..=done.knots[0]];
-            let piece = |knot: usize| piece(self.arm, &motion.interpolation, until, knot);
-            let stands = (first..done.knots[0].max(first + 1)).map(piece).collect::<Result<Vec<_>, _>>()?;
-            let at = [1, 2].map(|k| Interval::from(&motion.knots[first][k]));
-            self.free(&stands, &at, None, Tool::Raised)?;
+            let at = [1, 2].map(|k| Interval::from(&self.motion.knots[self.knot][k]));
+            self.free(&self.pieces(self.knot..done.knots[0])?, &at, None, Tool::Raised)?;
         }
         for object in renewed {
             let number = self.task.first + object;
@@ -260,13 +263,8 @@ impl<'a> Replay<'a> {
         // Where a step leaves the arm it stands until its next motion begins.
         let (first, last) = (std::mem::replace(&mut self.knot, done.knots[1]), done.knots[1]);
         let (motion, released) = (self.motion, self.released);
-        let pieces_of = |knots: Range<usize>| {
-            let until = &motion.knots[..=knots.end];
-            let piece = |knot: usize| piece(self.arm, &motion.interpolation, until, knot);
-            (knots.start..knots.end.max(knots.start + 1)).map(piece).collect::<Result<Vec<Piece>, _>>()
-        };
-        let (pieces, still) = (pieces_of(first..last)?, pieces_of(last..last)?);
-        let rest = after.is_empty().then(|| pieces_of(last..motion.knots.len() - 1)).transpose()?;
+        let (pieces, still) = (self.pieces(first..last)?, self.pieces(last..last)?);
+        let rest = after.is_empty().then(|| self.pieces(last..motion.knots.len() - 1)).transpose()?;
         let [from, to] = [first, last].map(|knot| [1, 2].map(|k| Interval::from(&motion.knots[knot][k])));
         let time = &still[0].time[0];
         let target = match &step.action {
