@@ -1,11 +1,10 @@
 //! Where the arm's shapes are, and how far they can move.
 
 use crate::decimal::Decimal;
-use crate::free::{rough, roughly};
-use crate::interval::{BITS, Interval, Point, both_turns, length, sum, times, turned};
+use crate::domain::{Range, Rectangle};
+use crate::interval::{BITS, Interval, Point, both_turns, length, rough, roughly, sum, times, turned};
 use crate::overlap::{Shape, overlap_by_more_than, seem_to_overlap};
 use crate::robot::{Arm, Body, Motion};
-use crate::sweep::{Range, Rectangle};
 use num_bigint::BigInt;
 use std::cell::RefCell;
 
@@ -179,7 +178,7 @@ impl Arm<'_> {
             let middle = Decimal::middle(low, high);
             [[low.clone(), middle.clone()], [middle, high.clone()]]
         };
-        let mut parts = vec![self.domain.whole()];
+        let mut parts = vec![self.domain.ranges.clone()];
         for _ in 0..MOST_CUTS {
             let mut smaller = Vec::new();
             for part in &parts {

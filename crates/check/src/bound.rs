@@ -8,12 +8,12 @@ use crate::arm::{self, Mover};
 use crate::certificate::{Bound, Certificate, Metric, Wall, rectangles};
 use crate::contacts::{Among, Contacts};
 use crate::decimal::Decimal;
+use crate::domain::{Axis, Rectangle, within};
 use crate::ends::{End, FEW_PARTS};
 use crate::error::{CheckError, Input};
 use crate::interval::{BITS, Interval, Point, minus, twice};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Body, Motion};
-use crate::sweep::{Axis, Rectangle, within};
 use crate::world::World;
 use num_bigint::{BigInt, Sign};
 use std::cell::Cell;
@@ -49,7 +49,10 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
             (goal.region(arm)?.places(arm, FEW_PARTS, is_stuck), format!(" the goal{}", goal.named(arm)))
         }
     };
-    holds(arm, bound, &start.configuration(arm)?, &goals)?;
+    bound.metric.is_a_norm()?;
+    let axes = arm.joints.each_ref().map(|joint| &joint.axis);
+    let plane = Plane::new(bound, axes, &start.configuration(arm)?, &goals)?;
+    plane.legs_are_long(&plane.corners(bound, axes)?)?;
     let among = Among::all(world);
     let contacts = Contacts::new(arm, &among, certificate, certificate.clearance(world)?).complete()?;
     contacts.hold(arm, stuck, &boxes)?;
@@ -149,18 +152,6 @@ struct Plane<'a> {
     goals: Vec<Place>,
 }
 
-/// That no way from the start to a goal which crosses none of the walls is as short as is claimed.
-///
-/// # Errors
-/// The leg along which a potential grows by more than its length.
-fn holds(arm: &Arm, bound: &Bound, start: &Rectangle, goals: &[Rectangle]) -> Result<(), CheckError> {
-    bound.metric.is_a_norm()?;
-    let axes = arm.joints.each_ref().map(|joint| &joint.axis);
-    let plane = Plane::new(bound, axes, start, goals)?;
-    let corners = plane.corners(bound, axes)?;
-    plane.legs_are_long(&corners)
-}
-
 impl<'a> Plane<'a> {
     fn new(bound: &'a Bound, axes: [&Axis; 2], start: &Rectangle, goals: &[Rectangle]) -> Result<Self, CheckError> {
         let metric = &bound.metric;
@@ -250,6 +241,9 @@ impl<'a> Plane<'a> {
     }
 
     /// That no potential grows along a leg by more than the leg is long, unless a wall bars it.
+    ///
+    /// # Errors
+    /// The leg along which one does.
     fn legs_are_long(&self, corners: &[Corner]) -> Result<(), CheckError> {
         let claimed: Vec<BigInt> = corners
             .iter()

@@ -1,13 +1,18 @@
 //! The certificate file.
 
+mod bound;
+mod boxes;
+mod motion;
 mod tasks;
 
+pub use bound::{Bound, Metric, Wall};
+pub use boxes::{PartName, ShapeName, StuckBox, rectangles};
+pub use motion::{Interpolation, Motion};
 pub use tasks::{Case, Done};
 
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::polygon::Corner;
-use crate::sweep::Rectangle;
 use crate::world::World;
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -111,128 +116,4 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
         return Err(CheckError::in_file(Input::Certificate, message));
     }
     Ok(certificate)
-}
-
-/// What is played.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Motion {
-    /// The ways in which it can be read: it is free in each.
-    pub interpolation: Vec<Interpolation>,
-    /// Time, both joints' values, and as far as an interpolation needs them their velocities and accelerations.
-    pub knots: Vec<Vec<Decimal>>,
-}
-
-/// How knots are joined.
-#[derive(Deserialize, Clone, Copy, PartialEq, PartialOrd)]
-#[serde(rename_all = "snake_case")]
-pub enum Interpolation {
-    /// Straight.
-    Linear,
-    /// By the cubic with the values and velocities of both.
-    Cubic,
-    /// By the polynomial of the fourth degree with value, velocity and acceleration of the first, value and velocity of the second.
-    Quartic,
-    /// By the polynomial of the fifth degree with the values, velocities and accelerations of both.
-    Quintic,
-}
-
-/// A shape of the URDF, by its number among those of its kind that the link has, or of what is carried.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ShapeName {
-    pub link: Option<String>,
-    pub collision: Option<usize>,
-    pub visual: Option<usize>,
-    pub bar: Option<usize>,
-    /// Corners of a convex part of what is carried, in its own frame; none of a disc.
-    pub carried: Option<Vec<Corner>>,
-}
-
-/// A convex part of an obstacle.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PartName {
-    /// The obstacle's number in the world file.
-    pub obstacle: usize,
-    /// Corners of the obstacle; none of a circle.
-    #[serde(default)]
-    pub corners: Vec<Corner>,
-}
-
-/// Configurations in all of which a shape and a part overlap.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StuckBox {
-    pub lower: [Decimal; 2],
-    pub upper: [Decimal; 2],
-    /// Into the shapes.
-    pub shape: usize,
-    /// Into the parts.
-    pub part: usize,
-}
-
-/// Boxes as they are.
-///
-/// # Errors
-/// One that is turned inside out.
-pub fn rectangles(boxes: &[StuckBox]) -> Result<Vec<Rectangle>, CheckError> {
-    let ranges = |stuck: &StuckBox| [0, 1].map(|k| [stuck.lower[k].clone(), stuck.upper[k].clone()]);
-    let boxes: Vec<Rectangle> = boxes.iter().map(ranges).collect();
-    match boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
-        Some(empty) => CheckError::fails(format!("box {empty}: an upper end is below the lower one")),
-        None => Ok(boxes),
-    }
-}
-
-/// That no motion is shorter than a length.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Bound {
-    /// Where to; by default to the goal.
-    pub to: Option<[Decimal; 2]>,
-    pub length: Decimal,
-    #[serde(default)]
-    pub metric: Metric,
-    pub walls: Vec<Wall>,
-    pub potentials: Vec<Potential>,
-}
-
-/// How lengths of displacements are measured.
-#[derive(Deserialize, Default)]
-#[serde(rename_all = "snake_case")]
-pub enum Metric {
-    /// The root of the sum of squares, ...
-    #[default]
-    Euclidean,
-    /// ... each entry times a factor before, ...
-    Weights([Decimal; 2]),
-    /// ... or the greater of the quotients by two speeds.
-    Speeds([Decimal; 2]),
-}
-
-/// A straight segment of configurations in all of which a shape and a part overlap.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Wall {
-    pub from: [Decimal; 2],
-    pub to: [Decimal; 2],
-    /// Into the shapes.
-    pub shape: usize,
-    /// Into the parts.
-    pub part: usize,
-}
-
-/// A length that no way from the start to an end of a wall falls short of.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Potential {
-    /// Into the walls.
-    pub wall: usize,
-    /// 0 where it begins, 1 where it ends.
-    pub end: usize,
-    /// Whole turns of each joint from where the wall is written to where it is meant.
-    #[serde(default)]
-    pub turns: [i64; 2],
-    pub value: Decimal,
 }

@@ -3,14 +3,18 @@
 use crate::arm::{Cell, Mover};
 use crate::certificate::{Certificate, PartName, ShapeName, StuckBox};
 use crate::decimal::Decimal;
+use crate::domain::{Range, Rectangle};
 use crate::error::{CheckError, Input};
-use crate::interval::{Interval, Point};
+use crate::interval::Interval;
 use crate::overlap::Shape;
-use crate::polygon::Corner;
 use crate::robot::{Arm, Body, Counted};
-use crate::sweep::{Range, Rectangle};
 use crate::world::{Obstacle, World};
+use carried::Hung;
 use std::borrow::Cow;
+
+mod carried;
+
+pub use carried::Carried;
 
 /// What stands where, and what the arm carries.
 pub struct Among<'a> {
@@ -35,38 +39,14 @@ impl<'a> Among<'a> {
     }
 }
 
-/// What hangs on the arm.
-pub struct Carried {
-    /// As it lies to the second link; or else, if a wrist keeps it level, to the tip.
-    pub hanging: Obstacle,
-    pub is_level: bool,
-    pub heights: Option<[Interval; 2]>,
-    /// What it may touch.
-    pub supports: Vec<usize>,
-    /// What of it stays off these, if it has any.
-    pub pressed: Option<Result<Obstacle, CheckError>>,
-}
-
-/// A convex part of what hangs that is named by its corners in its own frame, or by those that were these once, as it hangs.
-fn part(hanging: &Obstacle, corners: &[Corner]) -> Result<Shape, CheckError> {
-    let own = hanging.clone().moved([0, 0].map(Interval::whole), [0, 1].map(Interval::whole));
-    let Shape { points, radius } = own.part(corners)?;
-    Ok(Shape { points: points.iter().map(|p| hanging.placed(p)).collect(), radius })
-}
-
 /// A shape that evidence names.
-struct Named {
-    /// Of what is kept level it is the tip.
-    body: Body,
-    is_carried: bool,
-    /// What is kept level, as seen from the tip.
-    about_tip: Option<Shape>,
-    /// What of it stays off its supports.
-    pressed: Option<Result<Shape, CheckError>>,
+enum Named {
+    Own(Body),
+    Carried(Hung),
 }
 
 /// A part of an obstacle that evidence names, grown by the clearance.
-struct Part<'a> {
+pub struct Part<'a> {
     obstacle: usize,
     shape: Shape,
     /// Its radius without the clearance.
@@ -132,33 +112,21 @@ impl<'a> Contacts<'a> {
         let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {
             return fails(" names a shape or a part that is not there");
         };
-        let Named { body, is_carried, about_tip, pressed } = shape.as_ref().map_err(Clone::clone)?;
-        let part = part.as_ref().map_err(Clone::clone)?;
+        let (shape, part) = (shape.as_ref().map_err(Clone::clone)?, part.as_ref().map_err(Clone::clone)?);
+        let (Named::Own(body) | Named::Carried(Hung { body, .. })) = shape;
         if !body.is_at(part.heights) {
             return fails(": the shape passes over or under the obstacle");
         }
-        if !is_carried && body.link == 1 && self.among.allowed.contains(&part.obstacle) {
-            return fails(": the shape may meet the obstacle");
-        }
-        let (mut body, mut about_tip) = (Cow::Borrowed(body), about_tip.as_ref().map(Cow::Borrowed));
-        let mut part_shape = Cow::Borrowed(&part.shape);
-        let rests = |carried: &Carried| carried.supports.contains(&part.obstacle);
-        if self.among.carried.as_ref().is_some_and(rests)
-            && let Some(pressed) = pressed
-        {
-            let pressed = pressed.clone()?;
-            match &mut about_tip {
-                Some(shape) => *shape = Cow::Owned(pressed),
-                None => body.to_mut().shape = pressed,
+        match shape {
+            Named::Own(body) if body.link == 1 && self.among.allowed.contains(&part.obstacle) => {
+                fails(": the shape may meet the obstacle")
             }
-            part_shape.to_mut().radius = part.radius.clone();
+            Named::Own(body) => Ok((Cow::Borrowed(body), Cow::Borrowed(&part.shape))),
+            Named::Carried(hung) => {
+                let supports = self.among.carried.as_ref().map(|carried| &carried.supports);
+                hung.against(part, supports.is_some_and(|supports| supports.contains(&part.obstacle)))
+            }
         }
-        let Some(about_tip) = about_tip else { return Ok((body, part_shape)) };
-        let Shape { points, radius } = &*about_tip;
-        // It meets the part exactly where the tip is at a difference of a point of the part and one of it.
-        let from = |p: &Point| points.iter().map(|c| [&p[0] - &c[0], &p[1] - &c[1]]).collect::<Vec<Point>>();
-        let points = part_shape.points.iter().flat_map(from).collect();
-        Ok((body, Cow::Owned(Shape { points, radius: &part_shape.radius + radius })))
     }
 }
 
@@ -169,7 +137,7 @@ fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError
             Some((joint, by)) if arm.lowers(joint, shape)? => shape.within.lowered(by),
             _ => shape.within.clone(),
         };
-        Ok(Named { body, is_carried: false, about_tip: None, pressed: None })
+        Ok(Named::Own(body))
     };
     match (&name.link, name.collision, name.visual, name.bar, &name.carried) {
         (Some(link), Some(number), None, None, None) => own(arm.shape(link, "collision", number)),
@@ -177,14 +145,7 @@ fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError
         (Some(link), None, None, Some(0), None) => own(arm.shape(link, "bar", 0)),
         (None, None, None, None, Some(corners)) => {
             let Some(carried) = &among.carried else { return CheckError::fails("a shape is carried where nothing is") };
-            let (shape, heights) = (part(&carried.hanging, corners)?, carried.heights.clone());
-            let pressed = carried.pressed.as_ref();
-            let pressed = pressed.map(|own| own.as_ref().map_err(Clone::clone).and_then(|own| part(own, corners)));
-            let (body, about_tip) = match carried.is_level {
-                false => (Body { link: 1, shape, heights }, None),
-                true => (Body { heights, ..arm.tip.clone() }, Some(shape)),
-            };
-            Ok(Named { body, is_carried: true, about_tip, pressed })
+            carried.hung(arm, corners).map(Named::Carried)
         }
         _ => {
             Err(CheckError::in_file(Input::Certificate, "a shape has a link and one number, of a bar 0, or is carried"))

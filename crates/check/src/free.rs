@@ -2,7 +2,7 @@
 
 use crate::curve::{HALVINGS, Piece, Tube};
 use crate::decimal::Decimal;
-use crate::interval::{BITS, Interval, Point, both_turns, dot, length, minus, sum, times, turned};
+use crate::interval::{BITS, Interval, Point, both_turns, dot, length, minus, rough, roughly, sum, times, turned};
 use crate::overlap::Shape;
 use crate::robot::{Arm, Motion};
 use crate::world::{Course, Obstacle};
@@ -476,20 +476,7 @@ fn halved(piece: &Piece, halvings: u32) -> (Stretch, Stretch) {
     (Stretch::Part(first, halvings + 1), Stretch::Part(second, halvings + 1))
 }
 
-// What follows only guesses in floating point: a direction that may separate. Whether it does is decided above.
-
-/// Units of guesses.
-const ROUGH: u32 = 44;
-
-/// A number of units, about; not a number where it is too large.
-pub fn roughly(n: &BigInt) -> f64 {
-    i64::try_from(n >> (BITS - ROUGH)).map_or(f64::NAN, |n| n as f64 / (1u64 << ROUGH) as f64)
-}
-
-/// A point, about.
-pub fn rough(p: &Point) -> [f64; 2] {
-    p.each_ref().map(|c| roughly(&c.lower))
-}
+// What follows only guesses: a direction that may separate. Whether it does is decided above.
 
 /// The convex hull of points by their numbers, in order (Andrew 1979).
 fn ring(points: &[[f64; 2]]) -> Vec<usize> {

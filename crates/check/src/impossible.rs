@@ -3,13 +3,14 @@
 use crate::certificate::{Case, Certificate, StuckBox, rectangles};
 use crate::contacts::{Among, Carried, Contacts};
 use crate::decimal::Decimal;
+use crate::domain::{Rectangle, within};
 use crate::ends::{End, MOST_PARTS, Region};
 use crate::error::{CheckError, Input};
 use crate::free::{Chain, On, guard};
 use crate::interval::{Interval, Point, length, minus, sum, turned};
 use crate::polygon::Corner;
 use crate::robot::{Arm, Joint, Motion};
-use crate::sweep::{Reached, Rectangle, within};
+use crate::sweep::Reached;
 use crate::task::NEAR;
 use crate::world::task::{Action, Carrying, Group, Node, Step, Stroke, Task};
 use crate::world::{Goal, Obstacle, World};

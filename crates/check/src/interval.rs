@@ -285,6 +285,21 @@ pub fn length([x, y]: &Point) -> Interval {
     (&(&x * &x) + &(&y * &y)).sqrt()
 }
 
+// Guesses in floating point say where to look, and decide nothing.
+
+/// Units of guesses.
+const ROUGH: u32 = 44;
+
+/// A number of units, about; not a number where it is too large.
+pub fn roughly(n: &BigInt) -> f64 {
+    i64::try_from(n >> (BITS - ROUGH)).map_or(f64::NAN, |n| n as f64 / (1u64 << ROUGH) as f64)
+}
+
+/// A point, about.
+pub fn rough(p: &Point) -> [f64; 2] {
+    p.each_ref().map(|c| roughly(&c.lower))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

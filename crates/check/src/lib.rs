@@ -38,6 +38,7 @@ mod certificate;
 mod contacts;
 mod curve;
 mod decimal;
+mod domain;
 mod ends;
 mod error;
 mod files;

@@ -1,10 +1,10 @@
 //! The URDF: two joints that move, and shapes in the plane.
 
+use crate::domain::{Axis, Domain, Range};
 use crate::error::{CheckError, Input};
 use crate::files::Files;
 use crate::interval::{Interval, Point, minus};
 use crate::overlap::Shape;
-use crate::sweep::{Axis, Domain, Range};
 use crate::world::World;
 use num_bigint::Sign;
 use plane::Plane;
@@ -13,10 +13,14 @@ use roxmltree::{Document, Node};
 use solid::{Outline, Solid};
 use tree::{Read, Tree, child, moves};
 
+mod bar;
 mod collada;
 mod mesh;
+mod mimic;
+mod oblique;
 mod plane;
 mod pose;
+mod quaternion;
 mod shapes;
 mod solid;
 mod tool;

@@ -1,11 +1,11 @@
 //! The world file: obstacles, what is asked, and what goes over the URDF.
 
 use crate::decimal::Decimal;
+use crate::domain::Range;
 use crate::error::{CheckError, Input};
 use crate::files::Files;
 use crate::interval::{Interval, Point};
 use crate::polygon::Corner;
-use crate::sweep::Range;
 use num_bigint::BigInt;
 use std::collections::BTreeMap;
 use std::path::PathBuf;

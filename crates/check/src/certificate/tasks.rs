@@ -2,7 +2,7 @@
 
 use super::StuckBox;
 use crate::decimal::Decimal;
-use crate::sweep::Rectangle;
+use crate::domain::Rectangle;
 use serde::Deserialize;
 
 /// A step as it is done.

@@ -2,11 +2,13 @@
 
 use super::collada;
 use super::pose::Vector;
+use super::tree::{Read, Tree};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::files::Files;
 use crate::interval::Interval;
 use num_bigint::BigInt;
+use roxmltree::Node;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -18,11 +20,24 @@ const NORMAL: usize = 12;
 /// A corner, as STL has it: in single precision.
 type Single = [u32; 3];
 
+impl<'a> Tree<'a> {
+    /// The corners of a `<mesh>`, or why it is not read.
+    pub(super) fn mesh(&self, node: Node<'a, 'a>) -> Read<Read<Vec<Vector>>> {
+        let is_scaled = node.has_attribute("scale");
+        let scale = if is_scaled { self.vector(node, "scale")? } else { [1; 3].map(Interval::whole) };
+        let points = match vertices(self.files, self.text(node, "filename")?) {
+            Err(CheckError::Input { message, .. }) => return Ok(self.error(node, message)),
+            points => points?,
+        };
+        Ok(Ok(points.into_iter().map(|p| [0, 1, 2].map(|k| &p[k] * &scale[k])).collect()))
+    }
+}
+
 /// The corners of a mesh.
 ///
 /// # Errors
 /// A file that is not found or not read, or of another format.
-pub fn vertices(files: &Files, name: &str) -> Result<Vec<Vector>, CheckError> {
+fn vertices(files: &Files, name: &str) -> Result<Vec<Vector>, CheckError> {
     let wrong = |why: &str| CheckError::in_file(Input::Urdf, format!("mesh \"{name}\": {why}"));
     let read: fn(&[u8]) -> Result<Vec<Vector>, String> = match name.to_lowercase().rsplit_once('.') {
         Some((_, "stl")) => stl,

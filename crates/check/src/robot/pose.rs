@@ -1,7 +1,6 @@
 //! Rotations and translations.
 
-use crate::interval::{Interval, twice};
-use num_bigint::Sign;
+use crate::interval::Interval;
 
 pub type Vector = [Interval; 3];
 
@@ -47,28 +46,6 @@ impl Pose {
         };
         let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)));
         Self { rows, at: [0, 0, 0].map(Interval::whole) }
-    }
-
-    /// A turn by a quaternion, of whatever length: x, y, z and w. None if that is not known to be more than 0.
-    pub fn of_quaternion(q: &[Interval; 4]) -> Option<Self> {
-        let product = |i: usize, j: usize| &q[i] * &q[j];
-        let square = (0..4).fold(Interval::whole(0), |sum, k| &sum + &product(k, k));
-        if square.lower.sign() != Sign::Plus {
-            return None;
-        }
-        let entry = |i: usize, j: usize| {
-            let turn = match (3 + j - i) % 3 {
-                0 => {
-                    let [a, b] = [(i + 1) % 3, (i + 2) % 3];
-                    return &Interval::whole(1) - &twice(&(&product(a, a) + &product(b, b))).divided(&square);
-                }
-                1 => &product(i, j) - &product(3 - i - j, 3),
-                _ => &product(i, j) + &product(3 - i - j, 3),
-            };
-            twice(&turn).divided(&square)
-        };
-        let rows = [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)));
-        Some(Self { rows, at: [0, 0, 0].map(Interval::whole) })
     }
 
     pub fn direction(&self, v: &Vector) -> Vector {

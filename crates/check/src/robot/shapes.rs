@@ -5,9 +5,6 @@ use super::tree::{Read, child, children};
 use super::{Arm, Body};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
-use crate::interval::Interval;
-use crate::overlap::Shape;
-use num_bigint::Sign;
 use roxmltree::Node;
 use std::fmt;
 
@@ -89,26 +86,6 @@ impl<'a> Arm<'a> {
             }
         }
         Ok((found, unread))
-    }
-
-    /// All within a radius of the segment from a joint to the next, or to the tip.
-    fn bar(&self, last: usize, radius: &Decimal) -> Read<Counted> {
-        if radius.sign() != Sign::Plus {
-            return Err(CheckError::in_file(Input::World, "the radius of a bar is positive"));
-        }
-        let link = self.children[last];
-        let (next, end) = match last {
-            0 => (self.children[1], self.offset.clone()),
-            _ => (self.tip_link, self.tip.shape.points[0].clone()),
-        };
-        let radius = Interval::from(radius);
-        let [a, b] = [self.tree.pose(link)?, self.tree.pose(next)?].map(|pose| self.plane.height(&pose.at));
-        let least = Interval { lower: (&a.lower).min(&b.lower).clone(), upper: (&a.upper).min(&b.upper).clone() };
-        let most = Interval { lower: a.lower.max(b.lower), upper: a.upper.max(b.upper) };
-        let heights = Some([&least - &radius, &most + &radius]);
-        let body =
-            Body { link: last, shape: Shape { points: vec![[0, 0].map(Interval::whole), end], radius }, heights };
-        Ok(Counted { link: link.to_owned(), kind: "bar", number: 0, around: body.clone(), within: body })
     }
 
     /// A shape by its link, its kind and its number.

@@ -1,25 +1,15 @@
 //! Solids, and what they cover in the plane.
 
-use super::mesh;
+use super::oblique::oblique;
 use super::pose::{Pose, Vector};
 use super::tree::{Read, Tree};
 use super::{Arm, Body};
 use crate::decimal::Decimal;
-use crate::error::CheckError;
-use crate::interval::{BITS, Interval, Point, length, minus, sum};
+use crate::domain::Range;
+use crate::interval::{Interval, Point, length, minus, sum};
 use crate::overlap::{Shape, hull};
-use crate::sweep::Range;
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
-
-/// Steps along half of the ellipse that a cylinder's end is in the plane.
-const ELLIPSE_STEPS: i32 = 16;
-
-/// From this share of its radius on, an oblique cylinder's end is taken as a disc or, lying, a rectangle.
-const OBLIQUE: u32 = 200;
-
-/// A cylinder whose axis is out of the plane by less than this power of a half counts as lying.
-const LYING: u64 = 44;
 
 /// A solid about its origin; cylinders and capsules along z.
 pub enum Solid {
@@ -75,20 +65,7 @@ impl<'a> Tree<'a> {
                     if is_round { Solid::Capsule { radius: r, half } } else { Solid::Cylinder { radius: r, half } };
                 (vec![radius, length], solid)
             }
-            "mesh" => {
-                let scale = if node.has_attribute("scale") {
-                    self.numbers::<3>(node, "scale")?
-                } else {
-                    [1; 3].map(Decimal::whole)
-                };
-                let points = match mesh::vertices(self.files, self.text(node, "filename")?) {
-                    Err(CheckError::Input { message, .. }) => return Ok(Some(self.error(node, message))),
-                    points => points?,
-                };
-                let scale = scale.each_ref().map(Interval::from);
-                let scaled = |p: Vector| [0, 1, 2].map(|k| &p[k] * &scale[k]);
-                return Ok(Some(Ok(Solid::Hull(points.into_iter().map(scaled).collect()))));
-            }
+            "mesh" => return Ok(Some(self.mesh(node)?.map(Solid::Hull))),
             other => return self.error(node, format!("the checker does not know the shape {other} yet")),
         };
         if numbers.iter().any(|n| n.sign() == Sign::Minus) {
@@ -161,58 +138,7 @@ fn hull_of(points: impl Iterator<Item = Point>, outline: Outline) -> Shape {
     Shape { points, radius: room }
 }
 
-/// A core and a radius for the projection of a cylinder that does not stand: the hull of two ellipses, of half-axes `radius` across the
-/// projected axis and `radius * tilt` along it, at its ends. Points of the core are as far beyond the middle as they are before it.
-fn oblique(
-    along: &Point,
-    tilt: &Interval,
-    radius: &Interval,
-    half: &Interval,
-    outline: Outline,
-) -> (Vec<Point>, Interval) {
-    let end = along.each_ref().map(|c| c * half);
-    let length = length(along);
-    let (one, least) = (Interval::whole(1), Interval::whole(1).over(OBLIQUE));
-    // A turn by so much that its enclosure says nothing is such a case, too.
-    if length.lower.sign() != Sign::Plus || tilt.lower >= (&one - &least).lower {
-        return (vec![end], if outline == Outline::Around { radius.clone() } else { radius * tilt });
-    }
-    let onward = along.each_ref().map(|c| c.divided(&length));
-    let across = [-&(&onward[1] * radius), &onward[0] * radius];
-    let bulge = onward.map(|c| &(&c * radius) * tilt);
-    // Half an ellipse, in steps of half a side.
-    let step = Interval::pi().over(2 * ELLIPSE_STEPS as u32);
-    let rim = |k: i32| {
-        let [sine, cosine] = (&step * &Interval::whole(k)).sin_cos();
-        sum(&across.each_ref().map(|c| c * &cosine), &bulge.each_ref().map(|c| c * &sine))
-    };
-    let half_way: Vec<Point> = match outline {
-        Outline::Around if tilt.upper <= least.upper => [false, true]
-            .map(|turned| sum(&bulge, &across.each_ref().map(|c| if turned { -c } else { c.clone() })))
-            .to_vec(),
-        // The sides touch the ellipse halfway between corners.
-        Outline::Around => {
-            let grown = &step.sin_cos()[1];
-            (0..ELLIPSE_STEPS).map(|k| rim(2 * k + 1).map(|c| c.divided(grown))).collect()
-        }
-        Outline::Within if tilt.upper.bits() + LYING < u64::from(BITS) => [0, 2 * ELLIPSE_STEPS].map(rim).to_vec(),
-        Outline::Within => (0..=ELLIPSE_STEPS).map(|k| rim(2 * k)).collect(),
-    };
-    (half_way.iter().map(|by| sum(&end, by)).collect(), Interval::whole(0))
-}
-
 impl Body {
-    /// The same at all heights from where it is to where it is lowered by a length.
-    pub fn lowered(&self, by: &Decimal) -> Self {
-        let by = Interval::from(by);
-        let is_raised = by.lower.sign() == Sign::Minus;
-        let heights = self.heights.as_ref().map(|[low, high]| {
-            let [least, most] = [low - &by, high - &by];
-            if is_raised { [low.clone(), most] } else { [least, high.clone()] }
-        });
-        Self { link: self.link, shape: self.shape.clone(), heights }
-    }
-
     /// Its heights and others; none where one of them is everywhere.
     fn beside(&self, heights: Option<&Range>) -> Option<(&[Interval; 2], [Interval; 2])> {
         Some((self.heights.as_ref()?, heights?.each_ref().map(Interval::from)))

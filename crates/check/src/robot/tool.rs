@@ -2,13 +2,13 @@
 
 use super::pose::{cross, size};
 use super::shapes::Counted;
-use super::tree::{MOST_JOINTS, Read, Tree, child, moves};
-use super::{Arm, Joint, Motion};
+use super::tree::{Read, child, moves};
+use super::{Arm, Body, Joint, Motion};
 use crate::decimal::Decimal;
+use crate::domain::Axis;
 use crate::error::{CheckError, Input};
 use crate::interval::{BITS, Interval, Point, length, minus, sum};
 use crate::overlap::{Shape, overlap_by_more_than};
-use crate::sweep::Axis;
 use crate::world::task::Task;
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
@@ -62,37 +62,7 @@ impl Counted {
     }
 }
 
-impl<'a> Tree<'a> {
-    /// The joint that a joint mimics, through others; none of one that mimics none.
-    fn leader(&self, joint: Node<'a, 'a>) -> Read<Option<Node<'a, 'a>>> {
-        let mut leader = None;
-        let mut at = joint;
-        for _ in 0..MOST_JOINTS {
-            let Some(mimic) = child(at, "mimic") else { return Ok(leader) };
-            let Some(next) = self.named.get(self.text(mimic, "joint")?) else { return Ok(None) };
-            (leader, at) = (Some(*next), *next);
-        }
-        self.error(joint, "joints mimic one another")
-    }
-}
-
 impl<'a> Arm<'a> {
-    /// That no joint mimics one of these and moves what could collide, or the tip: none of that is where it is taken to be.
-    pub(super) fn move_alone(&self, joints: &[Node<'a, 'a>]) -> Read<()> {
-        for &link in &self.tree.order {
-            let has_shapes = ["collision", "visual"].iter().any(|kind| child(self.tree.links[link], kind).is_some());
-            let counts = has_shapes || link == self.tip_link;
-            for joint in if counts { self.tree.above(link)? } else { Vec::new() } {
-                if self.tree.leader(joint)?.is_some_and(|leader| joints.contains(&leader)) {
-                    return self
-                        .tree
-                        .error(joint, "it mimics a joint that moves, and carries what could collide, or the tip");
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// Sees to it that the joints of the tool are some, and that what the wrist turns is covered all round.
     ///
     /// # Errors
@@ -171,5 +141,18 @@ impl<'a> Arm<'a> {
         let out = &length(&self.offset) + &greatest(1, length(&self.tip.shape.points[0]));
         let near = greatest(0, Interval::whole(0));
         &(if near.lower > out.lower { near } else { out }) * &Interval::from(&Decimal::power_of_ten(PRESSED))
+    }
+}
+
+impl Body {
+    /// The same at all heights from where it is to where it is lowered by a length.
+    pub fn lowered(&self, by: &Decimal) -> Self {
+        let by = Interval::from(by);
+        let is_raised = by.lower.sign() == Sign::Minus;
+        let heights = self.heights.as_ref().map(|[low, high]| {
+            let [least, most] = [low - &by, high - &by];
+            if is_raised { [low.clone(), most] } else { [least, high.clone()] }
+        });
+        Self { link: self.link, shape: self.shape.clone(), heights }
     }
 }

@@ -2,10 +2,10 @@
 
 use super::pose::{Pose, Vector, dot};
 use crate::decimal::Decimal;
+use crate::domain::Range;
 use crate::error::{CheckError, Input};
 use crate::files::Files;
 use crate::interval::Interval;
-use crate::sweep::Range;
 use crate::world::World;
 use num_bigint::{BigInt, Sign};
 use roxmltree::{Document, Node};
@@ -152,11 +152,7 @@ impl<'a> Tree<'a> {
             if origin.has_attribute("rpy") {
                 return self.error(origin, "it has both rpy and quat_xyzw: keep one");
             }
-            let quaternion = self.numbers::<4>(origin, "quat_xyzw")?.each_ref().map(Interval::from);
-            let Some(turn) = Pose::of_quaternion(&quaternion) else {
-                return self.error(origin, "the quaternion is too short");
-            };
-            pose = turn;
+            pose = self.quaternion(origin)?;
         } else if origin.has_attribute("rpy") {
             let angles = self.vector(origin, "rpy")?;
             let axes = Pose::identity().rows;
@@ -212,28 +208,6 @@ impl<'a> Tree<'a> {
                 Ok(origin.after(&Pose { at: axis.map(|c| &c * &value), ..Pose::identity() }))
             }
             other => self.error(joint, format!("the checker does not know joints of type {other}")),
-        }
-    }
-
-    /// Where a joint stands: one of the two that move at 0, one that mimics another where that takes it.
-    fn value(&self, joint: Node<'a, 'a>, followed: usize) -> Read<Interval> {
-        let Some(mimic) = child(joint, "mimic") else {
-            return match self.values.get(self.text(joint, "name")?) {
-                Some(value) => Ok(value.clone()),
-                None if followed == 0 || !moves(&joint) => Ok(Interval::whole(0)),
-                None => self.error(joint, "another joint mimics this one, which moves"),
-            };
-        };
-        let number = |name: &str, else_: i32| match mimic.has_attribute(name) {
-            true => Ok(Interval::from(&self.number(mimic, name)?)),
-            false => Ok(Interval::whole(else_)),
-        };
-        match self.named.get(self.text(mimic, "joint")?) {
-            Some(leader) if followed < MOST_JOINTS => {
-                let by = &number("multiplier", 1)? * &self.value(*leader, followed + 1)?;
-                Ok(&by + &number("offset", 0)?)
-            }
-            _ => self.error(mimic, "the joint that it mimics is not there, or mimics this one"),
         }
     }
 

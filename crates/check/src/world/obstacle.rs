@@ -4,11 +4,11 @@ use super::cells::Cells;
 use super::course::Course;
 use super::point;
 use crate::decimal::Decimal;
+use crate::domain::Range;
 use crate::error::{CheckError, Input};
 use crate::interval::{BITS, Interval, Point, minus, sum, turned};
 use crate::overlap::{Shape, hull};
 use crate::polygon::{self, Corner, edges, surrounds};
-use crate::sweep::Range;
 use num_bigint::{BigInt, Sign};
 use std::rc::Rc;
 

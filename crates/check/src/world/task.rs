@@ -2,9 +2,9 @@
 
 use super::{Goal, Obstacle, Read, Reader, Value, World, point};
 use crate::decimal::Decimal;
+use crate::domain::Range;
 use crate::interval::{Interval, Point, both_turns, sum, turned};
 use crate::polygon::Corner;
-use crate::sweep::Range;
 use std::collections::BTreeMap;
 use toml::de::{DeTable, DeValue};
 

@@ -1,0 +1,71 @@
+//! How near motions begin and end to where they are to.
+
+use super::End;
+use crate::decimal::Decimal;
+use crate::domain::{Axis, Range};
+use crate::error::CheckError;
+use crate::free::{Chain, On};
+use crate::interval::{BITS, Interval, length, minus};
+use crate::robot::Arm;
+use crate::world::Goal;
+use num_bigint::BigInt;
+
+/// By how much a motion may miss its start or goal, radians or metres: `10^-5`.
+const MISSED: u32 = 5;
+
+impl End {
+    /// It in words, with how near to it a motion has its first or last knot.
+    ///
+    /// # Errors
+    /// If that is too far away.
+    pub fn reached(&self, arm: &Arm, knot: &[Decimal]) -> Result<String, CheckError> {
+        let named = self.named(arm);
+        let is_it = |k: usize, range: &Range| range.iter().all(|end| *end == knot[1 + k]);
+        match &self.at {
+            Goal::Joints(ranges) if (0..2).all(|k| is_it(k, &ranges[k])) => Ok(named),
+            at => Ok(named.trim_end_matches(',').to_owned() + &missed(self.what, &arm.away(knot, at))?),
+        }
+    }
+}
+
+/// By how much an end is missed, in words.
+///
+/// # Errors
+/// If it is too much.
+pub fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
+    let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= *off;
+    match (MISSED..50).rev().find(is_within) {
+        Some(digits) => Ok(format!(", within 1e-{digits},")),
+        None => CheckError::fails(format!("the motion misses the {what} by more than 1e-{MISSED}")),
+    }
+}
+
+impl Arm<'_> {
+    /// A bound on how far a knot is from where it is to be: joint by joint, or of the tip.
+    pub fn away(&self, knot: &[Decimal], goal: &Goal) -> BigInt {
+        let at = [&knot[1], &knot[2]];
+        match goal {
+            Goal::Joints(ranges) => (0..2).map(|k| self.off(k, at[k], &ranges[k])).max().expect("two joints"),
+            Goal::Tip(place) => {
+                let tip = &self.tip.shape.points[0];
+                let is = Chain::from(self).point_at(&On::Link(1), tip, &at.map(Interval::from));
+                length(&minus(&is, &place.each_ref().map(Interval::from))).upper
+            }
+        }
+    }
+
+    /// A bound on how far a value of a joint is from another, whole turns of a joint that turns without end not counted.
+    fn off(&self, joint: usize, is: &Decimal, should: &Range) -> BigInt {
+        let apart = &Interval::from(is) - &Interval::around(should);
+        if !matches!(self.joints[joint].axis, Axis::Circle) {
+            return apart.magnitude();
+        }
+        let turn = Interval::pi() + Interval::pi();
+        let turns = &apart.lower / &turn.lower;
+        let without = |more: i32| {
+            let turns = Interval::exactly((&turns + more) << BITS);
+            (&apart - &(&turn * &turns)).magnitude()
+        };
+        (-1..=1).map(without).min().expect("three")
+    }
+}

@@ -1,0 +1,85 @@
+//! All configurations with which motions may begin or end.
+
+use super::End;
+use crate::domain::{Range, Rectangle};
+use crate::error::{CheckError, Input};
+use crate::interval::{Interval, Point};
+use crate::robot::{Arm, Body};
+use crate::world::Goal;
+use std::rc::Rc;
+
+/// Parts of the domain in which the tip may be at a place, at the most, if it is to be shut off there, ...
+pub const MOST_PARTS: usize = 2000;
+
+/// ... and if it is only to be known where.
+pub const FEW_PARTS: usize = 500;
+
+impl End {
+    /// What encloses it, if it is one configuration.
+    ///
+    /// # Errors
+    /// Places of the tip, and values outside of the limits.
+    pub fn configuration(&self, arm: &Arm) -> Result<Rectangle, CheckError> {
+        match &self.at {
+            Goal::Joints(values) => arm.configuration(self.what, values),
+            Goal::Tip(_) => {
+                let message = format!(
+                    "the checker does not know proofs from a {} that is a place of the tip: give joint values",
+                    self.what
+                );
+                Err(CheckError::in_file(Input::World, message))
+            }
+        }
+    }
+
+    /// All configurations that are it.
+    ///
+    /// # Errors
+    /// Values outside of the limits.
+    pub fn region(&self, arm: &Arm) -> Result<Region, CheckError> {
+        match &self.at {
+            Goal::Joints(values) => Ok(Region::Configuration(arm.configuration(self.what, values)?)),
+            Goal::Tip(at) => Ok(Region::tip(arm, at.each_ref().map(Interval::from))),
+        }
+    }
+}
+
+/// The configurations that are to be reached.
+#[derive(Clone)]
+pub enum Region {
+    /// What encloses one.
+    Configuration(Rectangle),
+    /// All that put a point of the second link, such as the tip, at a place.
+    Tip { tip: Rc<Body>, place: Point },
+}
+
+impl Region {
+    /// All that put the tip at a place.
+    pub fn tip(arm: &Arm, place: Point) -> Self {
+        Self::Tip { tip: Rc::new(arm.tip.clone()), place }
+    }
+
+    /// What holds all of it but what is left out.
+    pub fn places(&self, arm: &Arm, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
+        match self {
+            Self::Configuration(goal) => [goal.clone()].into_iter().filter(|goal| !is_left_out(goal)).collect(),
+            Self::Tip { tip, place } => arm.places((tip, place), most, is_left_out),
+        }
+    }
+}
+
+impl Arm<'_> {
+    /// What encloses a configuration.
+    ///
+    /// # Errors
+    /// One that is outside of the limits.
+    pub fn configuration(&self, what: &str, values: &[Range; 2]) -> Result<Rectangle, CheckError> {
+        let wrapped = |k: usize| {
+            let name = &self.joints[k].name;
+            let outside = || format!("the {what}'s joint \"{name}\" is outside its limits, or at half a turn");
+            let within = self.domain.wrapped(k, &values[k]);
+            within.ok_or_else(|| CheckError::in_file(Input::World, outside()))
+        };
+        Ok([wrapped(0)?, wrapped(1)?])
+    }
+}
