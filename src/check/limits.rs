@@ -114,7 +114,8 @@ const FINE: f64 = 1e-4;
 
 /// Where the motion takes more torque than the joints' efforts, if motions of the scene's arm have to keep within them: of each joint the place
 /// where it is exceeded most. As accelerations are judged: where there are velocities, by what the format's consumer makes of the samples,
-/// beyond what rounding explains. Between the moments that are looked at a torque may be a ten-thousandth of the effort greater than there.
+/// beyond what rounding explains. Between the moments that are looked at a torque may be a ten-thousandth of the effort greater than there. Of a
+/// single sample it is what holds the arm there.
 #[must_use]
 pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
     let Some(dynamics) = scene.limiting_dynamics().filter(|_| recording.velocities().is_some()) else {
@@ -126,6 +127,15 @@ pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
         let joint = &arm.joints[k];
         Judge { joint, k, pieces: &pieces, precision: precision.of_joint(k), worst: Vec::new() }
     });
+    if let [q] = recording.positions() {
+        let holding = dynamics.at(arm, *q).holding();
+        for judge in &mut judges {
+            let (value, allowed) = (holding[judge.k], dynamics.effort[judge.k]);
+            if value.abs() > allowed * (1.0 + TOLERANCE) {
+                judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.sample(0));
+            }
+        }
+    }
     for (index, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from) {
         let explained =
             judges.each_ref().map(|judge| judge.explained(piece, &Sensitivity::of(piece, Derivative::Acceleration)));

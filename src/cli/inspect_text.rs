@@ -50,11 +50,12 @@ pub fn text(report: &Inspection) -> String {
     report.ignored.iter().for_each(|i| lines.add("ignored", i));
     report.warnings.iter().for_each(|w| lines.add("warning", w));
     for diagnostic in report.errors.iter().flat_map(|e| e.diagnostics()) {
-        lines.add("defect", &diagnostic.to_string());
+        diagnostic.to_string().lines().for_each(|line| lines.add("defect", line));
     }
     if let Some(help) = &report.help {
         lines.add("remedy", "with these entries in the world file the robot loads; the numbers are placeholders:");
-        lines.add("remedy", &format!("[robot]\n{help}"));
+        lines.add("remedy", "[robot]");
+        help.lines().for_each(|line| lines.add("remedy", line));
     }
     lines.into_text()
 }

@@ -6,7 +6,7 @@ use crate::check::certify;
 use crate::geometry::Point;
 use crate::interrupt::checkpoint;
 use crate::model::{Arm, MotionProblem, Scene, inverse};
-use crate::space::{Configuration, Path, Segment};
+use crate::space::{Configuration, GoalSet, Measure, Metric, Path, Segment};
 use petgraph::unionfind::UnionFind;
 use serde::{Serialize, Serializer};
 
@@ -52,7 +52,7 @@ impl Access {
 /// A solution of the inverse kinematics.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Solution {
-    /// Joint values within the limits, base to tip; where one does not matter, the one nearest to home.
+    /// Joint values within the limits, base to tip; where one does not matter, where a motion leads, or else nearest to home.
     #[serde(serialize_with = "pair")]
     pub joints: Configuration,
     /// Whether it can be reached.
@@ -120,15 +120,18 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     }
     let mut reach =
         Reach { home, cell, corner: first.map(|n| n * cell), size: count.map(|n| n as usize), places: Vec::new() };
-    let nearest = |solution: Segment| match solution.is_point() {
-        true => solution.ends()[0],
-        false => solution.nearest(crate::space::Measure::from(crate::space::Metric::Euclidean), home),
-    };
+    // Those that leave a joint free: of many configurations any will do.
+    let mut open = Vec::new();
     reach.places = (0..reach.size[0] * reach.size[1])
         .map(|place| {
             checkpoint();
-            let solutions = inverse(arm, reach.center(place), home).solutions(arm).into_iter().map(nearest);
-            let judged = |joints: Configuration| {
+            let solutions = inverse(arm, reach.center(place), home).solutions(arm).into_iter().enumerate();
+            let judged = |(number, solution): (usize, Segment)| {
+                let [joints, _] = solution.ends();
+                if !solution.is_point() {
+                    open.push((place, number, solution));
+                    return Solution { joints, access: Access::Blocked };
+                }
                 let access = if is_free(scene, joints) { Access::Unknown } else { Access::Blocked };
                 Solution { joints, access }
             };
@@ -136,6 +139,9 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
         })
         .collect();
     settle(scene, &mut reach);
+    for (place, number, solution) in open {
+        reach.places[place][number] = anywhere_on(scene, home, solution);
+    }
     Some(reach)
 }
 
@@ -189,7 +195,7 @@ fn settle(scene: &Scene, reach: &mut Reach) {
     let mut known: Vec<Option<Access>> = vec![None; free.len()];
     for node in 0..free.len() {
         checkpoint();
-        let access = *known[labels[node]].get_or_insert_with(|| asked(scene, reach.home, joints(labels[node])));
+        let access = *known[labels[node]].get_or_insert_with(|| asked(scene, reach.home, joints(labels[node])).0);
         known[node] = Some(access);
     }
     for (&(place, solution), access) in free.iter().zip(known) {
@@ -203,12 +209,22 @@ fn joins(scene: &Scene, from: Configuration, to: Configuration) -> bool {
     certify(scene, Path::new(vec![from, from + way]), scene.workspace().clearance).is_ok()
 }
 
-/// Whether a motion leads there from home.
-fn asked(scene: &Scene, home: Configuration, to: Configuration) -> Access {
-    let Ok(problem) = MotionProblem::new(scene.clone(), home, to) else { return Access::Unknown };
+/// Whether a motion leads there from home, and where it ends.
+fn asked(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
+    let Ok(problem) = MotionProblem::new(scene.clone(), home, to) else { return (Access::Unknown, None) };
     match decide(&problem, BOXES) {
-        Verdict::Found(_) => Access::Reachable,
-        Verdict::Infeasible(_) => Access::Unreachable,
-        Verdict::Unknown(_) => Access::Unknown,
+        Verdict::Found(path) => (Access::Reachable, Some(path.path().goal())),
+        Verdict::Infeasible(_) => (Access::Unreachable, None),
+        Verdict::Unknown(_) => (Access::Unknown, None),
     }
+}
+
+/// A solution that leaves a joint free: it is not free only if it is so nowhere, and is reached if any of it is.
+fn anywhere_on(scene: &Scene, home: Configuration, solution: Segment) -> Solution {
+    let nearest = || solution.nearest(Measure::from(Metric::Euclidean), home);
+    if scene.blocked_along(&solution).is_some() {
+        return Solution { joints: nearest(), access: Access::Blocked };
+    }
+    let (access, end) = asked(scene, home, solution);
+    Solution { joints: end.unwrap_or_else(nearest), access }
 }

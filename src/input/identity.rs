@@ -21,6 +21,9 @@ impl FileIdentity {
             let number = fs::metadata(&path).ok().and_then(|found| number(&found));
             return Some(Self { path, number });
         }
+        // What is written goes behind a link, also to a file that is not there yet.
+        let target = fs::read_link(path).map(|target| path.with_file_name(target));
+        let path = target.as_deref().unwrap_or(path);
         let folder = match path.parent() {
             Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
             Some(folder) => folder,

@@ -141,6 +141,19 @@ pub struct Task {
 }
 
 impl Task {
+    /// The arm, and the extent of an object in its hand, while the tool is lowered where that is picked or placed; none if it is not. Without
+    /// a stroke what is placed is looked at where it is going to lie: how it gets there from where it is carried nobody says.
+    pub(crate) fn lowered(&self, object: usize, is_placed: bool) -> Option<(Arm, Heights)> {
+        let object = &self.objects[object];
+        match &self.stroke {
+            Some(stroke) => {
+                let depth = Some(stroke.depth(object)).filter(|depth| *depth != 0.0)?;
+                Some((stroke.swept(&self.arm, depth), object.handled_heights()))
+            }
+            None => (is_placed && object.lift != 0.0).then(|| (self.arm.clone(), object.heights)),
+        }
+    }
+
     /// The number under which object `object` counts as an obstacle: objects follow the workspace's own obstacles.
     #[must_use]
     pub fn obstacle_number(&self, object: usize) -> usize {

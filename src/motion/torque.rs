@@ -208,6 +208,22 @@ impl<'a> TorqueLimit<'a> {
         (0..trajectory.time.len()).map(at).collect()
     }
 
+    /// Whether the efforts of an arm, if its motions have to keep within them, hold it with what it carries where it stands.
+    ///
+    /// # Errors
+    /// The joint whose effort does not.
+    pub(crate) fn held_at(scene: &'a Scene, q: Configuration) -> Result<(), TimingError> {
+        Self::of(scene).map_or(Ok(()), |own| own.holds(q))
+    }
+
+    fn holds(&self, at: Configuration) -> Result<(), TimingError> {
+        let holding = self.dynamics.at(self.arm, at).holding();
+        match (0..2).find(|&k| holding[k].abs() >= self.dynamics.effort[k]) {
+            Some(k) => Err(self.too_heavy(k, at, holding[k])),
+            None => Ok(()),
+        }
+    }
+
     /// Whether the arm can be held against gravity all along a path.
     ///
     /// # Errors
@@ -222,11 +238,7 @@ impl<'a> TorqueLimit<'a> {
             let share = (0..2).map(|k| off[k] / (STEP * effort[k])).fold(1.0, f64::max);
             let count = share.sqrt().ceil().min(MOST_PARTS);
             for i in 0..=count as u32 {
-                let at = from + offset * (2.0 * f64::from(i) / count);
-                let holding = self.dynamics.at(self.arm, at).holding();
-                if let Some(k) = (0..2).find(|&k| holding[k].abs() >= effort[k]) {
-                    return Err(self.too_heavy(k, at, holding[k]));
-                }
+                self.holds(from + offset * (2.0 * f64::from(i) / count))?;
             }
         }
         Ok(())

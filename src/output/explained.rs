@@ -108,7 +108,7 @@ fn found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Vec<Line> {
     {
         let between = scene.describe(nearest.contact.pair);
         let at = configuration(scene.arm(), nearest.at);
-        lines.push(("tightest", format!("{:.6} m between {between} at {at}", path.clearance())));
+        lines.push(("tightest", format!("at least {:.6} m, between {between} at {at}", path.clearance())));
     }
     lines
 }
@@ -128,8 +128,8 @@ fn infeasible(scene: &Scene, closed: &Closed) -> Vec<Line> {
                 n => format!("{n} boxes of collisions prove it"),
             },
         );
-        let also = if number == 0 { "" } else { "also enough by itself: " };
-        lines.push(("blocked by", format!("{also}{}; {boxes}", set.describe(scene))));
+        let also = if number == 0 { "" } else { ", enough by itself, too" };
+        lines.push(("blocked by", format!("{}{also}; {boxes}", set.describe(scene))));
         for blocker in &set.blockers {
             let what = blocker.element.describe(scene);
             let known =

@@ -187,6 +187,9 @@ impl Reader<'_> {
         if name.trim().is_empty() || name.contains(['\n', '\r']) {
             return Err(self.wrong(table.name.span(), "a parameter needs a name on one line", "name = \"base x\""));
         }
+        if table.sets.get_ref().all().is_empty() {
+            return Err(self.wrong(table.sets.span(), format!("{what} sets nothing"), "sets = \"world.clearance\""));
+        }
         if let Some(at) = table.degrees() {
             let sets = table.sets.get_ref();
             if let Some((address, ..)) = sets.all().into_iter().find(|(address, ..)| !is_angle(address)) {

@@ -533,13 +533,13 @@ impl<'a> Replay<'a> {
         Among { standing: self.standing.clone(), allowed, carried, lowered: None }
     }
 
-    /// What is where while the tool is lowered where a step ends, but for what is picked.
+    /// What is where while the tool is lowered where a step ends, but for what is picked; without a stroke, what is placed where it lies.
     fn lowered(&self, step: &Step, from: &Rectangle) -> Option<Among<'_>> {
-        let Stroke { joint, travel } = self.task.stroke.as_ref()?;
+        let stroke = self.task.stroke.as_ref();
         let object = match &step.action {
-            Action::Pick { object, .. } => *object,
+            Action::Pick { object, .. } if stroke.is_some() => *object,
             Action::Place { .. } => self.held.as_ref()?.object,
-            Action::Move(_) => return None,
+            Action::Pick { .. } | Action::Move(_) => return None,
         };
         let number = self.task.first + object;
         let mut among = self.among(None, from);
@@ -549,10 +549,11 @@ impl<'a> Replay<'a> {
         let lying = self.world.obstacles[number].heights.as_ref();
         if let (Some([least, most]), Some(lying)) = (among.carried.as_mut().and_then(|c| c.heights.as_mut()), lying) {
             let [low, high] = lying.each_ref().map(Interval::from);
-            *least = if low.upper < least.upper { low } else { least.clone() };
-            *most = if high.lower > most.lower { high } else { most.clone() };
+            *least = if stroke.is_none() || low.upper < least.upper { low } else { least.clone() };
+            *most = if stroke.is_none() || high.lower > most.lower { high } else { most.clone() };
         }
-        among.lowered = Some((joint, travel.as_ref().unwrap_or(&self.task.objects[object].lift).clone()));
+        let by = |travel: &Option<Decimal>| travel.as_ref().unwrap_or(&self.task.objects[object].lift).clone();
+        among.lowered = stroke.map(|Stroke { joint, travel }| (&**joint, by(travel)));
         Some(among)
     }
 

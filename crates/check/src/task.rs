@@ -190,11 +190,12 @@ struct Replay<'a> {
     off: BigInt,
 }
 
-/// Where shapes are looked at that a stroke of the tool lowers: as they are, or at all heights of it.
+/// Where shapes are looked at that a stroke of the tool lowers: as they are, or at all heights of it; or what is held where it is going to lie.
 #[derive(Clone, Copy, PartialEq)]
 enum Tool {
     Raised,
     Swept,
+    Lying,
 }
 
 impl<'a> Replay<'a> {
@@ -283,7 +284,8 @@ impl<'a> Replay<'a> {
             }
             Action::Place { at, angle, .. } => {
                 self.turn(done, &to)?;
-                self.free(&still, &to, None, Tool::Swept)?;
+                let tool = if self.task.stroke.is_some() { Tool::Swept } else { Tool::Lying };
+                self.free(&still, &to, None, tool)?;
                 self.release(at, angle.as_ref(), &to)?;
             }
             Action::Move(goal) => {
@@ -313,11 +315,17 @@ impl<'a> Replay<'a> {
             let carried = lying.each_ref().map(|height| height + &self.task.objects[held.object].lift);
             let [least, most] = match tool {
                 Tool::Raised => carried,
+                Tool::Lying => lying.clone(),
                 Tool::Swept => [lying[0].clone().min(carried[0].clone()), lying[1].clone().max(carried[1].clone())],
             };
             if most < *low || *high < least {
                 return None;
             }
+        }
+        // What moves is where it lies later on, or not.
+        let moves = |present: &Present| present.obstacle.course.is_some();
+        if tool == Tool::Lying && self.present[obstacle].as_ref().is_some_and(moves) {
+            return None;
         }
         (obstacle != own).then(|| !held.carrying.supports.contains(&obstacle))
     }
@@ -355,7 +363,7 @@ impl<'a> Replay<'a> {
     /// go of, and another obstacle.
     fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: Tool) -> Result<(), CheckError> {
         let stroke = match (tool, &self.task.stroke, &self.held) {
-            (Tool::Raised, ..) => None,
+            (Tool::Raised | Tool::Lying, ..) => None,
             (Tool::Swept, Some(Stroke { travel, .. }), Some(held)) => {
                 Some(travel.as_ref().unwrap_or(&self.task.objects[held.object].lift))
             }

@@ -433,6 +433,21 @@ fn a_stroke_takes_the_tool_through_all_heights() {
     is_wrong(with("stroke = { joint = \"y\" },", "[0.1, 0.2]"), "does not move the tool along the normal");
 }
 
+/// Whatever way it is lowered, nothing may be where it is going to lie; what is beside that may.
+#[test]
+fn without_a_stroke_what_is_placed_is_free_where_it_lies() {
+    let lying = |at: f64, height: &str| {
+        let block = BLOCK.replace("at =", "height = [-0.3, -0.25]\nlift = 0.15\nat =");
+        let other = block.replace("\"block\"", "\"other\"").replace("at = [1, 1]", &format!("at = [{at}, 1]"));
+        let other = other.replace("[-0.3, -0.25]", height);
+        judged(GANTRY, &format!("{HEAD}{block}{other}{STEPS}"), KNOTS, DONE)
+    };
+    fails(lying(3.0, "[-0.3, -0.25]"), "step 2: obstacle 1 is inside what is carried");
+    fails(lying(3.39, "[-0.3, -0.25]"), "step 2");
+    holds(lying(3.41, "[-0.3, -0.25]"));
+    holds(lying(3.0, "[-0.24, -0.16]"));
+}
+
 #[test]
 fn the_arm_stands_for_the_dwell() {
     let world = |dwell: &str| {

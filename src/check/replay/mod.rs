@@ -10,7 +10,7 @@ mod state;
 
 pub use fault::{Departure, Fault};
 
-use super::{CollisionCheck, Excess, TurnContact, WristTurn, check_collision, limits_kept, torques_kept};
+use super::{CollisionCheck, Excess, Limit, TurnContact, WristTurn, check_collision, limits_kept, torques_kept};
 use crate::geometry::{Interval, Point, Pose};
 use crate::model::{Action, Goal, RecordedStep, RecordedTurn, Scene, Step, Task};
 use crate::space::{Configuration, JointRange, Recording};
@@ -177,12 +177,12 @@ impl<'a> Iterator for Replay<'a> {
                     _ => None,
                 });
                 faults.extend(self.state.grasp(task, to, step, *grasp, following.unwrap_or_default()));
-                lowered = self.state.lowered(task);
+                lowered = self.state.lowered(task, false);
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
             }
             Action::Place { at, angle, .. } => {
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
-                lowered = self.state.lowered(task);
+                lowered = self.state.lowered(task, true);
                 faults.extend(self.state.release(task, to, *at, *angle));
             }
             Action::Move(goal) => {
@@ -225,6 +225,11 @@ impl<'a> Iterator for Replay<'a> {
             && let Some(standing) = standing()
         {
             let after = self.state.scene(task, released).since(times[1]);
+            if broken.iter().all(|excess| excess.limit != Limit::Torque) {
+                let mut held = torques_kept(&after, &standing);
+                held.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.end());
+                broken.extend(held);
+            }
             let found = super::check_collision(&after, &standing, task.workspace.clearance);
             if !matches!(found, CollisionCheck::Free { .. }) {
                 (scene, collision_check) = (after, shifted(found, *recorded.samples.end()));

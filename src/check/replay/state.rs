@@ -101,13 +101,12 @@ impl State {
         faults
     }
 
-    /// The scene with the tool, and what it holds, at all heights between which a stroke moves them; none without a stroke.
-    pub fn lowered(&self, task: &Task) -> Option<Scene> {
-        let (stroke, (object, payload)) = task.stroke.as_ref().zip(self.held.as_ref())?;
-        let object = &task.objects[*object];
+    /// The scene with the tool, and what it holds, while it is lowered: see [`Task::lowered`].
+    pub fn lowered(&self, task: &Task, is_placed: bool) -> Option<Scene> {
+        let (object, payload) = self.held.as_ref()?;
+        let (arm, heights) = task.lowered(*object, is_placed)?;
         let allowed_contacts: Vec<usize> = self.released.iter().map(|&object| task.obstacle_number(object)).collect();
-        let payload = Payload { heights: object.handled_heights(), ..payload.clone() };
-        let arm = stroke.swept(&task.arm, stroke.depth(object));
+        let payload = Payload { heights, ..payload.clone() };
         Some(Scene::handling_trusted(arm, task.obstacles(&self.poses), Some(payload), &allowed_contacts))
     }
 

@@ -69,15 +69,19 @@ fn judge_motion(
     if has_movers {
         notes.push("obstacles move on the recording's clock, from its first sample on".into());
     }
-    let untold = (has_movers && recording.times().is_none())
-        .then_some("obstacles move, and the file has no times: it cannot be told whether the motion meets them");
+    let untold = [
+        (has_movers && recording.times().is_none())
+            .then_some("obstacles move, and the file has no times: it cannot be told whether the motion meets them"),
+        (scene.limiting_dynamics().is_some() && recording.velocities().is_none())
+            .then_some("motions have to keep within efforts, and the file has no velocities: torques cannot be told"),
+    ];
     let collision_check = check_collision(scene, recording, scene.workspace().clearance);
     let mut broken = limits_kept(&scene.arm().joints, recording);
     broken.extend(torques_kept(scene, recording));
     let findings = MotionFindings::new(scene, recording, &collision_check, &broken, notes);
     let misses = ends_kept(scene.arm(), recording, start, goal);
     let false_claims = claims_kept(scene, recording, claims, &collision_check);
-    let findings = findings.but(Verdict::Undecided, untold.into_iter().collect());
+    let findings = findings.but(Verdict::Undecided, untold.into_iter().flatten().collect());
     Ok(findings.but(Verdict::Ends, misses).but(Verdict::Claims, false_claims))
 }
 

@@ -8,7 +8,7 @@ use crate::engine::settle::LARGE_PROOF;
 use crate::engine::{Answer, Options, Verdict, solve};
 use crate::geometry::Pose;
 use crate::model::{Grip, MotionProblem, Scene, Step, Task};
-use crate::motion::{Timed, single};
+use crate::motion::{Timed, TorqueLimit, single};
 use crate::search::{Connectivity, slab_connectivity};
 use crate::space::{Configuration, Path};
 use crate::text::counted;
@@ -218,7 +218,10 @@ impl Legs {
         let after = from.after(task, candidate, candidate.to);
         if after.is_done(task) {
             // No motion follows that would begin there.
-            unobstructed(&after.scene(task, from.released), candidate.to, "after it")?;
+            let left = after.scene(task, from.released);
+            unobstructed(&left, candidate.to, "after it")?;
+            let held = TorqueLimit::held_at(&left, candidate.to);
+            held.map_err(|error| Refusal::new(format!("after it {error}"), false))?;
         }
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
         let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);

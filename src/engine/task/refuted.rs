@@ -374,18 +374,15 @@ impl Walk<'_> {
 
     /// What is where while the tool is lowered where a step ends, but for what is picked, as far as a checker knows.
     fn lowered(&self, at: &At, step: &Step) -> Option<Scene> {
-        let (task, stroke) = (self.task, self.task.stroke.as_ref()?);
+        let task = self.task;
         let object = step.action.picked().or(at.state.held.as_ref().map(|held| held.object));
         let object = object.filter(|_| !matches!(step.action, Action::Move(_)))?;
-        let depth = Some(stroke.depth(&task.objects[object])).filter(|depth| *depth != 0.0)?;
+        let (arm, heights) = task.lowered(object, matches!(step.action, Action::Place { .. }))?;
         let scene = self.scene(at, step);
-        let payload = scene
-            .payload()
-            .cloned()
-            .map(|payload| Payload { heights: task.objects[object].handled_heights(), ..payload });
+        let payload = scene.payload().cloned().map(|payload| Payload { heights, ..payload });
         let mut workspace = scene.workspace().clone();
         workspace.obstacles[task.obstacle_number(object)] = task.objects[object].lying(None);
-        Some(Scene::handling_trusted(stroke.swept(&task.arm, depth), workspace, payload, &[]))
+        Some(Scene::handling_trusted(arm, workspace, payload, &[]))
     }
 }
 

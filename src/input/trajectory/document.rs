@@ -48,10 +48,10 @@ struct Point {
 
 /// A `builtin_interfaces/msg/Duration`, also as ROS 1 spells it, or plain seconds.
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "a time is {sec: 1, nanosec: 500000000}, both whole numbers, or seconds")]
 enum Stamp {
     Parts {
-        #[serde(alias = "secs")]
+        #[serde(alias = "secs", default)]
         sec: i64,
         #[serde(alias = "nsecs", default)]
         nanosec: u32,

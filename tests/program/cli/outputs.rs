@@ -37,6 +37,11 @@ fn outputs_are_written_behind_links() {
     }
     std::os::unix::fs::symlink("none/plan.json", place.path("dangling.json")).unwrap();
     place.run(&["arm.urdf", "world.json", "--output", "dangling.json"], "").refused(1, &["there is no folder none"]);
+    // Of two outputs one may be behind the other.
+    std::os::unix::fs::symlink("late.json", place.path("late.svg")).unwrap();
+    let both = ["arm.urdf", "world.json", "--output", "late.json", "--picture", "late.svg"];
+    place.run(&both, "").refused(1, &["late.json and late.svg are one file", "nothing was written"]);
+    assert!(!place.path("late.json").exists());
 }
 
 #[test]

@@ -120,3 +120,44 @@ fn what_is_wrong_with_the_home_is_said_of_the_home() {
     far.refused(1, &["--home"]);
     assert!(!far.stderr.contains("--start"), "{}", far.stderr);
 }
+
+/// With the tip at the first joint any value of that will do: the one that is nearest to home is barred by the pole, others are not.
+#[test]
+fn a_place_that_leaves_a_joint_free_is_reached_with_another_value_of_it() {
+    let place = Place::new();
+    let bar = |name: &str, length: f64| {
+        format!(
+            "<link name=\"{name}\"><collision><origin xyz=\"{} 0 0\"/><geometry><box size=\"{length} 0.1 0.1\"/></geometry>\
+             </collision></link>",
+            length / 2.0
+        )
+    };
+    let joint = |name: &str, parent: &str, child: &str, x: f64| {
+        format!(
+            "<joint name=\"{name}\" type=\"revolute\"><parent link=\"{parent}\"/><child link=\"{child}\"/><origin xyz=\"{x} 0 0\"/>\
+             <axis xyz=\"0 0 1\"/><limit lower=\"-3.2\" upper=\"3.2\" effort=\"50\" velocity=\"2\"/></joint>"
+        )
+    };
+    let links =
+        ["<link name=\"base\"/>".to_owned(), bar("upper", 1.0), bar("fore", 1.2), "<link name=\"tool\"/>".to_owned()];
+    let joints = [joint("shoulder", "base", "upper", 0.0), joint("elbow", "upper", "fore", 1.0)];
+    let tool =
+        "<joint name=\"t\" type=\"fixed\"><parent link=\"fore\"/><child link=\"tool\"/><origin xyz=\"1 0 0\"/></joint>";
+    place.write("arm.urdf", format!("<robot name=\"long\">{}{}{tool}</robot>", links.concat(), joints.concat()));
+    place.write(
+        "world.toml",
+        "robot.at = [0.05, 0.05]\nstart.joints = [0, 0]\nobstacle = [{ circle = { center = [-0.1, 0.05], radius = 0.02 } }]\n",
+    );
+    let done = reach(&place, &["arm.urdf".into(), "world.toml".into()], "--cell 0.1 --output r.csv");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let all = solutions(&place.read("r.csv"));
+    let folded: Vec<&Solution> = all.iter().filter(|s| s.tip.iter().all(|c| (c - 0.05).abs() < 1e-9)).collect();
+    assert!(!folded.is_empty());
+    for Solution { joints: [a, b], access, .. } in folded {
+        assert_eq!(access, "reachable", "{a} {b}");
+        // Where it says that the arm gets, it does; where nearest to home, it does not.
+        let goal = format!("--goal={a:?},{b:?}");
+        assert_eq!(place.run(&["arm.urdf", "world.toml", &goal], "--quiet").code, 0, "{goal}");
+        place.run(&["arm.urdf", "world.toml", &format!("--goal=0,{b:?}")], "").refused(1, &["goal"]);
+    }
+}

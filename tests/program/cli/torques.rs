@@ -133,3 +133,44 @@ fn what_is_missing_or_makes_no_sense_is_named() {
     place.write("own.toml", text.replace("effort = { shoulder = 36, elbow = 12 }", ""));
     place.run(&["weak.urdf", "own.toml"], "").refused(1, &["joint \"shoulder\" has no effort", "[robot] effort"]);
 }
+
+/// No motion follows that would tell.
+#[test]
+fn what_is_held_in_the_end_is_held_by_the_efforts() {
+    let place = Place::new();
+    let world = std::fs::read_to_string(shipped("workspaces/tasks/heavy_tower.toml")).unwrap();
+    let ends_holding = world.split("[[step]]\nplace").next().unwrap();
+    place.write("light.toml", ends_holding);
+    place.write("heavy.toml", ends_holding.replace("mass = 1.5", "mass = 30"));
+    let robot = shipped("robots/rrbot_vertical.urdf");
+    let light = place.run(&[&robot, "light.toml"], "--quiet --output held.json");
+    assert_eq!(light.code, 0, "{}", light.stderr);
+    let heavy = place.run(&[&robot, "heavy.toml"], "");
+    assert_eq!(heavy.code, 4, "{}", heavy.stdout);
+    assert!(heavy.stdout.contains("after it joint \"shoulder\" has an effort of 45 N m"), "{}", heavy.stdout);
+    // The same motion, said to be one with the heavier block.
+    for (world, code) in [("light.toml", 0), ("heavy.toml", 3)] {
+        let verified = place.run(&["verify", &robot, world, "held.json"], "");
+        assert_eq!(verified.code, code, "{world}: {}", verified.stdout);
+        assert_eq!(verified.stdout.contains("shoulder: torque"), code == 3, "{}", verified.stdout);
+    }
+}
+
+/// Without velocities nothing says how fast the arm is, so torques cannot be judged; of a single sample it is what holds the arm there.
+#[test]
+fn torques_of_what_has_no_velocities_are_not_said_to_be_kept() {
+    let place = Place::new();
+    let [urdf, world] = upright();
+    place.write("path.csv", "time,shoulder,elbow\n0,1.9,-0.4\n10,1.9,-0.39\n");
+    let verified = place.run(&["verify", &urdf, &world, "path.csv"], "--anywhere");
+    assert_eq!(verified.code, 4, "{}", verified.stdout);
+    assert!(verified.stdout.contains("no velocities: torques cannot be told"), "{}", verified.stdout);
+    place.write("one.csv", "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,1.9,-0.4,0,0\n");
+    let weaker =
+        std::fs::read_to_string(&world).unwrap().replace("shoulder = 36, elbow = 12", "shoulder = 3, elbow = 1");
+    place.write("weaker.toml", weaker);
+    for (world, code) in [(world.as_str(), 0), ("weaker.toml", 3)] {
+        let verified = place.run(&["verify", &urdf, world, "one.csv"], "--anywhere");
+        assert_eq!(verified.code, code, "{world}: {}", verified.stdout);
+    }
+}

@@ -5,7 +5,7 @@ use crate::decimal::Decimal;
 use crate::domain::Range;
 use crate::interval::{Interval, Point, both_turns, sum, turned};
 use crate::polygon::Corner;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use toml::de::{DeTable, DeValue};
 
 /// Places of the largest pallet.
@@ -158,17 +158,18 @@ impl Reader<'_> {
         let own = |key: &str| robot.and_then(|robot| robot.get(key));
         let is_level = own("payload").map_or(Ok(false), |value| self.is_level(value))?;
         let first = world.obstacles.len();
+        let mut taken: BTreeSet<String> = world.all().filter_map(|obstacle| obstacle.name.clone()).collect();
         let mut objects = Vec::new();
         // What they rest on may come after them in the file.
         let mut resting = Vec::new();
         for value in list("object")? {
             let of_family = self.object(value, is_level, &pallets, &mut objects)?;
             let family = objects.last().map(|object: &Object| object.family.clone());
+            let own: BTreeSet<String> = of_family.iter().filter_map(|one| one.name.clone()).chain(family).collect();
+            if own.len() < of_family.len() || own.iter().any(|name| !taken.insert(name.clone())) {
+                return self.error(value, "a second object, or an obstacle, of this name");
+            }
             for obstacle in of_family {
-                let is_named = |other: &Obstacle| other.name == obstacle.name || other.name == family;
-                if world.obstacles.iter().any(is_named) {
-                    return self.error(value, "a second object, or an obstacle, of this name");
-                }
                 resting.push(self.table(value)?.get("supports"));
                 world.obstacles.push(obstacle);
             }
