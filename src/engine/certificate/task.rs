@@ -4,10 +4,10 @@
 use super::contacts::Contacts;
 use super::{Evidence, Stuck, lines, stuck_about, tells_apart};
 use crate::check::StuckBox;
-use crate::engine::task::{RefutedCase, StepReport, refuted};
+use crate::engine::task::{RefutedCase, StepReport, Turned, refuted};
 use crate::engine::{Options, Verdict, solve};
 use crate::geometry::{Convex, Point, Vector};
-use crate::model::{MotionProblem, RecordedStep, Scene, Task};
+use crate::model::{Arm, Joint, MotionProblem, RecordedStep, Scene, Task};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
 use std::iter;
@@ -37,8 +37,14 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
     }
 }
 
-/// By which share objects are taken for smaller than they are, so that evidence has room for rounding of how they lie and hang.
+/// How much smaller objects are taken than they are, as a share of their depth, so that evidence has room for rounding of how they lie and hang.
 const SMALLER: f64 = 1e-6;
+
+/// Room for how objects lie and hang is this many times what is known of it at most: a checker encloses it step by step.
+const ENCLOSED: f64 = 4.0;
+
+/// Proofs of objects that are taken for smaller may begin elsewhere: they are looked for again with room for that at most so often.
+const MOST_LOOKS: usize = 3;
 
 /// IK solutions that a checker finds less well, by [`tells_apart`], have none: it looks at 2 000 parts.
 const NEARLY_STRETCHED: f64 = 0.005;
@@ -50,64 +56,145 @@ const MOST_TOLD: f64 = 0.25;
 /// checker finds them to a part in 10^12, ...
 const ABOUT_IK_SOLUTIONS: f64 = 1e-10;
 
-/// ... and less well those where something is let go of that was taken in one of these rectangles.
-const AFTER_ANOTHER: f64 = 1e-8;
-
-/// ... and where something is picked again that was turned then.
-const AFTER_TURNING: f64 = 1e-6;
+/// ... and so much less well those that depend on where the arm was in one of these rectangles.
+const AFTER_ANOTHER: f64 = 100.0;
 
 /// That the steps up to one cannot be done, case by case; none where the proof is of a kind that the checker does not know.
 pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
-    let mut smaller = task.clone();
-    smaller.objects.iter_mut().flat_map(|object| &mut object.pieces).for_each(|piece| *piece = shrunk(piece));
-    let (empty, arm) = (Scene::trusted(task.arm.clone(), task.workspace.clone()), &task.arm);
-    let told_of = |case: &RefutedCase| case.from.map_or(MOST_TOLD, |q| tells_apart(arm, q));
-    let are_told = |cases: &[RefutedCase]| cases.iter().all(|case| told_of(case) >= NEARLY_STRETCHED);
-    let cases = refuted(&smaller, last, &mut rule_out, &are_told)?;
-    // Where something is let go of is known as well as where it was taken.
-    let carrying = cases.iter().filter(|case| case.scene.payload().is_some());
-    let taken = MOST_TOLD / carrying.map(told_of).fold(MOST_TOLD, f64::min);
+    let arm = &task.arm;
+    let are_told = |cases: &[RefutedCase]| cases.iter().all(|case| told_of(arm, case) >= NEARLY_STRETCHED);
+    let mut room = 0.0;
+    for _ in 0..MOST_LOOKS {
+        let mut smaller = task.clone();
+        for piece in smaller.objects.iter_mut().flat_map(|object| &mut object.pieces) {
+            *piece = shrunk(piece, room)?;
+        }
+        let cases = refuted(&smaller, last, &mut rule_out, &are_told)?;
+        let known = Known::new(task, &cases);
+        let needed = ENCLOSED * cases.iter().map(|case| known.moves(case)).fold(0.0, f64::max);
+        if needed <= room || is_little(task, needed) {
+            return Some(written(task, &cases, &known));
+        }
+        room = 2.0 * needed;
+    }
+    None
+}
+
+/// What tells where an arm is before a case from beside it.
+fn told_of(arm: &Arm, case: &RefutedCase) -> f64 {
+    case.from.map_or(MOST_TOLD, |q| tells_apart(arm, q))
+}
+
+/// Whether objects that are [`SMALLER`] have that much room.
+fn is_little(task: &Task, room: f64) -> bool {
+    let pieces = || task.objects.iter().flat_map(|object| &object.pieces);
+    pieces().all(|piece| piece.depth() == 0.0 || room <= SMALLER * piece.depth())
+}
+
+/// How well a checker knows where the arm is before cases.
+struct Known<'a> {
+    task: &'a Task,
+    /// How much less well where something is let go of is known than what is taken where the joints move the tip across each other.
+    taken: f64,
+    /// The farthest from joint 1, or from where it is grasped, that anything of an object gets.
+    farthest: [f64; 2],
+}
+
+impl<'a> Known<'a> {
+    fn new(task: &'a Task, cases: &[RefutedCase]) -> Self {
+        let arm = &task.arm;
+        // Where something is let go of is known as well as where it was taken.
+        let carrying = cases.iter().filter(|case| case.scene.payload().is_some());
+        let taken = MOST_TOLD / carrying.map(|case| told_of(arm, case)).fold(MOST_TOLD, f64::min);
+        let pieces = task.objects.iter().flat_map(|object| &object.pieces);
+        let beyond = |piece: &Convex| piece.core().iter().map(|p| p.coords.norm()).fold(0.0, f64::max) + piece.radius();
+        let size = pieces.map(beyond).fold(0.0, f64::max);
+        Self { task, taken, farthest: [arm.reach() + 2.0 * size, 2.0 * size] }
+    }
+
+    /// Half the sides of a rectangle about a configuration, a share of the joints' ranges where the joints move the tip across each other.
+    fn sides(&self, q: Configuration, share: f64) -> [f64; 2] {
+        let told = tells_apart(&self.task.arm, q);
+        self.task.arm.topology().ranges.map(|range| {
+            let (lower, upper) = range.domain();
+            share * (MOST_TOLD / told) * (upper - lower)
+        })
+    }
+
+    /// Such a share where something is picked after others have been turned: that depends on how it lies.
+    fn picked(&self, object: usize, turned: &[Turned]) -> f64 {
+        let Some(last) = turned.iter().rposition(|turned| turned.object == object) else { return ABOUT_IK_SOLUTIONS };
+        self.less_well(self.let_go(&turned[..=last]), turned[last].carried[1])
+    }
+
+    /// Such a share where the last of these has been let go of.
+    fn let_go(&self, turned: &[Turned]) -> f64 {
+        let Some((last, before)) = turned.split_last() else { return ABOUT_IK_SOLUTIONS };
+        self.less_well(self.picked(last.object, before), last.carried[0])
+    }
+
+    /// Such a share where that depends on where the arm was at a configuration.
+    fn less_well(&self, share: f64, q: Configuration) -> f64 {
+        AFTER_ANOTHER * share * MOST_TOLD / tells_apart(&self.task.arm, q)
+    }
+
+    /// The sides where the arm is before a case.
+    fn before(&self, case: &RefutedCase) -> Option<[f64; 2]> {
+        let share = match case.held.filter(|_| case.scene.payload().is_some()) {
+            Some(object) => self.picked(object, &case.turned),
+            None => self.let_go(&case.turned).max(AFTER_ANOTHER * ABOUT_IK_SOLUTIONS * self.taken),
+        };
+        case.from.map(|q| self.sides(q, share))
+    }
+
+    /// The sides where the arm took and let go of all that has been turned.
+    fn turned(&self, case: &RefutedCase) -> Vec<[[f64; 2]; 2]> {
+        let ends = |(k, turned): (usize, &Turned)| {
+            let shares = [self.picked(turned.object, &case.turned[..k]), self.let_go(&case.turned[..=k])];
+            [0, 1].map(|end| self.sides(turned.carried[end], shares[end]))
+        };
+        case.turned.iter().enumerate().map(ends).collect()
+    }
+
+    /// How far what lies and hangs in a case may be from where it is taken to be, metres.
+    fn moves(&self, case: &RefutedCase) -> f64 {
+        let by = |sides: [f64; 2], far: f64| {
+            let moved = |(joint, side): (&Joint, f64)| if joint.joint_type.is_revolute() { side * far } else { side };
+            self.task.arm.joints.iter().zip(sides).map(moved).sum::<f64>()
+        };
+        let [from_joint, from_grasp] = self.farthest;
+        let hanging = self.before(case).filter(|_| case.scene.payload().is_some()).map_or(0.0, |s| by(s, from_joint));
+        // Where it is let go of is known: it is but turned about that.
+        let turned = self.turned(case).into_iter().flatten().map(|sides| by(sides, from_grasp)).sum::<f64>();
+        hanging + turned
+    }
+}
+
+/// Cases as they are written.
+fn written(task: &Task, cases: &[RefutedCase], known: &Known) -> Evidence {
+    let empty = Scene::trusted(task.arm.clone(), task.workspace.clone());
+    let about = |q: Configuration, sides: [f64; 2]| [0, 1].map(|k| [q[k] - sides[k], q[k] + sides[k]]);
     let mut contacts = Contacts::new(&empty);
     let mut all = Vec::new();
-    for case in &cases {
-        let RefutedCase { step, after, from, turned, scene, stuck, lowered } = case;
-        let share = match (scene.payload(), turned.is_empty()) {
-            (Some(_), true) => ABOUT_IK_SOLUTIONS,
-            // Where it is picked depends on how it lies.
-            (Some(_), false) => AFTER_TURNING * taken,
-            (None, _) => AFTER_ANOTHER * taken,
-        };
-        let told = told_of(case);
-        let ranges = arm.topology().ranges.map(|range| range.domain());
-        let about = |q: Configuration, share: f64| {
-            [0, 1].map(|k| {
-                let room = share * (ranges[k].1 - ranges[k].0);
-                [q[k] - room, q[k] + room]
-            })
-        };
-        let from = from.map(|q| about(q, share * MOST_TOLD / told));
-        // As these were when something was carried from and to them.
-        let shares = [ABOUT_IK_SOLUTIONS, AFTER_ANOTHER * taken];
-        let ends = |ends: &[Configuration; 2]| {
-            [0, 1].map(|k| about(ends[k], shares[k] * MOST_TOLD / tells_apart(arm, ends[k])))
-        };
-        let turned: Vec<_> = turned.iter().map(ends).collect();
-        let mut case = json!({ "step": step });
+    for case in cases {
+        let RefutedCase { step, after, from, turned, scene, stuck, lowered, .. } = case;
+        let mut written = json!({ "step": step });
         let lowered =
             lowered.iter().filter(|(_, stuck)| !stuck.is_empty()).map(|(scene, stuck)| ("lowered", scene, stuck));
         for (name, scene, stuck) in iter::once(("boxes", scene, stuck)).chain(lowered) {
             contacts = contacts.among(scene);
             let boxes: Vec<Stuck> = stuck.iter().map(|stuck| contacts.stuck(stuck)).collect();
-            case[name] = json!(boxes);
+            written[name] = json!(boxes);
         }
-        after.iter().for_each(|after| case["after"] = json!(after));
-        from.iter().for_each(|from| case["from"] = json!(from));
+        after.iter().for_each(|after| written["after"] = json!(after));
+        from.iter().zip(known.before(case)).for_each(|(q, sides)| written["from"] = json!(about(*q, sides)));
         if !turned.is_empty() {
-            case["turned"] = json!(turned);
+            let ends = |(turned, sides): (&Turned, [[f64; 2]; 2])| [0, 1].map(|k| about(turned.carried[k], sides[k]));
+            written["turned"] = json!(turned.iter().zip(known.turned(case)).map(ends).collect::<Vec<_>>());
         }
-        all.push(case);
+        all.push(written);
     }
-    Some(contacts.named().into_iter().chain([("cases", lines(&all))]).collect())
+    contacts.named().into_iter().chain([("cases", lines(&all))]).collect()
 }
 
 /// What rules out a motion: its ends are not free, or colliding configurations separate them.
@@ -126,10 +213,12 @@ fn rule_out(scene: &Scene, ends: [Configuration; 2]) -> Option<Vec<StuckBox>> {
     }
 }
 
-/// A little smaller, about its middle.
-fn shrunk(piece: &Convex) -> Convex {
+/// Smaller by a room on each side, if it is thick enough; what has no depth, and so no room, a little smaller about its middle.
+fn shrunk(piece: &Convex, room: f64) -> Option<Convex> {
+    if piece.depth() > 0.0 {
+        return piece.eroded(room.max(SMALLER * piece.depth()));
+    }
     let core = piece.core();
     let middle = core.iter().map(|p| p.coords).sum::<Vector>() / core.len() as f64;
-    let keeps = 1.0 - SMALLER;
-    piece.mapped(|p| Point::from(middle + (p.coords - middle) * keeps), piece.radius() * keeps)
+    Some(piece.mapped(|p| Point::from(middle + (p.coords - middle) * (1.0 - SMALLER)), 0.0))
 }

@@ -67,7 +67,7 @@ pub use joints::MessageError;
 pub(super) use joints::Messages;
 pub use least_time::rest_to_rest;
 pub use plan::plan;
-pub(super) use refuted::{RefutedCase, refuted};
+pub(super) use refuted::{RefutedCase, Turned, refuted};
 pub use replay::{MotionReplay, TaskReplay};
 pub use sequence::Sequence;
 pub use step_report::{ActionName, EventName, EventReport, StepReport, StrokeReport, TurnReport};

@@ -18,14 +18,24 @@ pub struct RefutedCase {
     pub after: Option<Vec<usize>>,
     /// None at the start.
     pub from: Option<Configuration>,
-    /// From where to where the arm has carried what it has let go of, turned as it happened to be; none where that is no matter.
-    pub turned: Vec<[Configuration; 2]>,
+    /// What the arm holds then.
+    pub held: Option<usize>,
+    /// What it has let go of, turned as it happened to be; none where that is no matter.
+    pub turned: Vec<Turned>,
     /// What is where.
     pub scene: Scene,
     /// Configurations that are not free.
     pub stuck: Vec<StuckBox>,
     /// What is where while the tool is lowered where the step ends, and configurations that are not free then.
     pub lowered: Option<(Scene, Vec<StuckBox>)>,
+}
+
+/// An object that lies turned as it happened to be when it was let go of.
+#[derive(Clone)]
+pub struct Turned {
+    pub object: usize,
+    /// From where to where the arm has carried it.
+    pub carried: [Configuration; 2],
 }
 
 impl RefutedCase {
@@ -104,8 +114,8 @@ struct At {
     has_just_picked: bool,
     /// In free order the pick of the pair that is done last, until another one is picked.
     last: Option<usize>,
-    /// From where to where the arm has carried what it has turned and let go of, as far as that is told.
-    turned: Vec<[Configuration; 2]>,
+    /// What it has turned and let go of, as far as that is told.
+    turned: Vec<Turned>,
 }
 
 impl From<State> for At {
@@ -205,8 +215,17 @@ impl Walk<'_> {
             let stuck = (self.rule_out)(&scene, [at.state.q; 2]).unwrap_or_default();
             let is_ruled_out = !stuck.is_empty();
             let from = Some(at.state.q);
-            let turned = at.turned.clone();
-            self.cases.push(RefutedCase { step: last + 1, after: None, from, turned, scene, stuck, lowered: None });
+            let (held, turned) = (None, at.turned.clone());
+            self.cases.push(RefutedCase {
+                step: last + 1,
+                after: None,
+                from,
+                held,
+                turned,
+                scene,
+                stuck,
+                lowered: None,
+            });
             is_ruled_out
         })
     }
@@ -227,8 +246,10 @@ impl Walk<'_> {
                 let from = (!at.is_start).then_some(at.state.q);
                 let (scene, lowered) = (self.scene(at, step), self.lowered(at, step).map(|scene| (scene, Vec::new())));
                 let (number, stuck) = (step.number, Vec::new());
-                let turned = at.turned.clone();
-                let mut case = RefutedCase { step: number, after: after.clone(), from, turned, scene, stuck, lowered };
+                let held = at.state.held.as_ref().map(|held| held.object);
+                let told = (after.clone(), at.turned.clone());
+                let mut case =
+                    RefutedCase { step: number, after: told.0, from, held, turned: told.1, scene, stuck, lowered };
                 let turns = leaves_turned(task, &at.state, step);
                 let is_told = turns && self.tells_turned && at.has_just_picked && half.is_none();
                 let tried = all.entry((step.number, after)).or_default();
@@ -237,10 +258,12 @@ impl Walk<'_> {
                         continue;
                     }
                     let after = at.state.after(task, way, way.to);
+                    let turned =
+                        held.filter(|_| is_told).map(|object| Turned { object, carried: [at.state.q, after.q] });
                     tried.next.push(At {
                         has_just_picked: step.action.picked().is_some(),
                         last: half.and_then(|pair| steps(&task.items[item]).nth(2 * pair)).map(|pick| pick.number),
-                        turned: at.turned.iter().copied().chain(is_told.then_some([at.state.q, after.q])).collect(),
+                        turned: at.turned.iter().cloned().chain(turned).collect(),
                         ..At::from(if turns && !is_told { unknown(after) } else { after })
                     });
                 }
@@ -276,7 +299,8 @@ impl Walk<'_> {
     /// Each once; none where they are too many.
     fn distinct(&self, mut states: Vec<At>) -> Option<Vec<At>> {
         let key = |at: &At| {
-            let turned: Vec<[u64; 2]> = at.turned.iter().flatten().map(|q| [q[0].to_bits(), q[1].to_bits()]).collect();
+            let ends = at.turned.iter().flat_map(|turned| turned.carried);
+            let turned: Vec<[u64; 2]> = ends.map(|q| [q[0].to_bits(), q[1].to_bits()]).collect();
             (at.state.key(self.task), at.last, turned)
         };
         states.sort_by_cached_key(key);
