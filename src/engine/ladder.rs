@@ -9,7 +9,7 @@ use crate::check::{CertifiedPath, Rejection, certify};
 use crate::interrupt::Instant;
 use crate::model::{MotionProblem, Scene};
 use crate::planner::{
-    FieldPlanner, Harmonic, Prm, Proposal, Query, Run, Trapezoid, Triangles, Visibility, Voronoi, Wavefront,
+    FieldPlanner, Harmonic, Note, Prm, Proposal, Query, Run, Trapezoid, Triangles, Visibility, Voronoi, Wavefront,
 };
 use crate::space::{Metric, Path, Segment};
 
@@ -106,6 +106,7 @@ where
     let mut history = Vec::new();
     let mut last: Option<(Run, P::Space)> = None;
     let mut known = None;
+    let mut finest = "its finest resolution";
     for level in 0..options.levels.max(1) {
         let clock = Instant::now();
         let Some(space) = build(level) else { break };
@@ -122,6 +123,8 @@ where
         };
         climb.stages.query += clock.elapsed();
         climb.level = level;
+        // On a finer grid a field takes more sweeps yet.
+        let takes_more = matches!((&run.outcome, &run.note), (Proposal::GaveUp(_), Some(Note::Unconverged { .. })));
         let failure = climb.judge(&ends, &run.outcome).map(|failure| format!("{}: {failure}", space.describe()));
         last = Some((run, space));
         let Some(failure) = failure else { break };
@@ -133,6 +136,10 @@ where
                 break;
             }
         }
+        if takes_more {
+            finest = "the resolution that its sweeps allow";
+            break;
+        }
     }
     let path = climb.path.take();
     if path.is_none() && known.is_none() {
@@ -141,7 +148,7 @@ where
     }
     let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
     let why = || history.last().cloned().unwrap_or_default();
-    let unknown = || format!("{method} found no certified path at its finest resolution ({})", why());
+    let unknown = || format!("{method} found no certified path at {finest} ({})", why());
     let (verdict, witness) = match (path, known) {
         (Some(path), _) => (Verdict::Found(path), None),
         (None, Some(Verdict::Infeasible(proof))) => (Verdict::Infeasible(proof), None),

@@ -161,10 +161,10 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     cases.cases.chunk_by(|a, b| a.world == b.world).map(|world| of(&world[0])).collect()
 }
 
-/// How a planner is run; bounds are measured by themselves, for all planners alike.
+/// How a planner is run. Bounds are measured by themselves, for all planners alike; what is asked to be within a gap has to know one.
 fn options(args: &CompareArgs, planner: Planner, levels: usize) -> Options {
-    let (drive, jerk) = (args.motion.drive(), args.motion.jerk());
-    Options { planner, levels, bounded: false, drive, jerk, ..Options::default() }
+    let (drive, jerk, bounded) = (args.motion.drive(), args.motion.jerk(), planner.gap().is_some());
+    Options { planner, levels, bounded, drive, jerk, ..Options::default() }
 }
 
 /// All that there is to write.

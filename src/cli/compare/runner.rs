@@ -84,7 +84,10 @@ impl Runner<'_> {
             });
             paths.push(found);
         }
-        let bounds = self.all(cases.cases.len(), |i| lower_bound(&cases.cases[i].problem(), paths[i].iter().flatten()));
+        let gaps = self.entries.iter().flatten().filter_map(|entry| entry.options.planner.gap());
+        let gap = gaps.map(|gap| gap / 2.0).fold(BOUND_GAP, f64::min);
+        let lower = |i: usize| lower_bound(&cases.cases[i].problem(), paths[i].iter().flatten(), gap);
+        let bounds = self.all(cases.cases.len(), lower);
         for (comparison, bound) in comparisons.iter_mut().zip(bounds) {
             comparison.bound = bound;
         }
@@ -172,10 +175,10 @@ fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>,
     }))
 }
 
-/// What no motion is shorter than; none without a path.
-fn lower_bound<'a>(problem: &MotionProblem, paths: impl Iterator<Item = &'a Path>) -> Option<f64> {
+/// What no motion is shorter than, within a gap if it can be; none without a path.
+fn lower_bound<'a>(problem: &MotionProblem, paths: impl Iterator<Item = &'a Path>, gap: f64) -> Option<f64> {
     let shortest = paths.min_by(|a, b| a.length().total_cmp(&b.length()))?;
-    Some(bound(problem, shortest, Metric::Euclidean, BOUND_GAP).lower)
+    Some(bound(problem, shortest, Metric::Euclidean, gap).lower)
 }
 
 /// The unit of lengths in joint space.

@@ -251,3 +251,11 @@ fn the_step_after_a_rigid_place_is_impossible() {
     tasks(5 << 32, &mut tally);
     assert!(tally.step_by_step > 0, "{tally:?}");
 }
+
+/// Where what lies untouched is picked does not depend on what was turned before.
+#[test]
+fn what_is_picked_after_others_were_turned_is_known_as_well() {
+    let mut tally = Tally::default();
+    tasks(90_194_313_353, &mut tally);
+    assert!(tally.impossible > tally.without, "{tally:?}");
+}

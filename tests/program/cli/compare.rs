@@ -320,3 +320,21 @@ fn the_shipped_suite_names_the_robot_of_each_workspace() {
     stated.sort();
     assert_eq!(named, stated);
 }
+
+#[test]
+fn a_planner_with_a_gap_is_run_until_it_is_within() {
+    let place = Place::new();
+    let robot = shipped("robots/planar_2r.urdf");
+    let world = shipped("workspaces/shelf.toml");
+    let rows = |with: &str| {
+        let args = ["compare", &robot, &world, "--planner", "visibility", "--with", with];
+        let json = place.run(&args, "--quiet --json").json();
+        let rows = json["planners"].as_array().unwrap();
+        let over = |row: &Value| row["over_optimum"].as_f64().unwrap() - 1.0;
+        [over(&rows[0]), over(&rows[1])]
+    };
+    let [plain, close] = rows("visibility --gap 1e-4");
+    assert!(plain > 1e-3 && close <= 1e-4, "{plain} {close}");
+    let [_, close] = rows("shortest --gap 1e-6");
+    assert!(close <= 1e-6, "{close}");
+}

@@ -197,3 +197,15 @@ fn compare_takes_rows_with_options() {
         assert!(text.contains(part), "{part:?} is not in: {text}");
     }
 }
+
+#[test]
+fn a_field_that_does_not_converge_is_not_looked_for_on_finer_grids() {
+    let place = Place::new();
+    let args = [&shipped("robots/planar_2r.urdf"), &*shipped("workspaces/shelf.toml"), "--direction", "0,-1"];
+    let odd = "--planner harmonic --field oriented --epsilon 3 --difference central --max-sweeps 400 --json";
+    let done = place.run(&args, odd);
+    let (json, cells) = (done.json(), 256 * 256);
+    assert!(done.code == 4 && json["size"]["cells"].as_u64().unwrap() <= cells, "{json}");
+    let reason = json["reason"].as_str().unwrap();
+    assert!(reason.contains("at the resolution that its sweeps allow (256 x 256 cells: "), "{reason}");
+}
