@@ -8,6 +8,7 @@ use crate::live::{Files, Host, Options, page_alone};
 use crate::motion::write_whole;
 use crate::serve;
 use clap::{Args, ValueHint};
+use std::io::ErrorKind;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -78,7 +79,11 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     let wanted = SocketAddr::new(args.bind, args.port);
     let bound = TcpListener::bind(wanted).and_then(|listener| Ok((listener.local_addr()?, listener)));
     let (address, listener) = bound.map_err(|error| {
-        Failure::Option(format!("cannot listen at {wanted}: {error}\n  cure: --port 0 takes any port that is free"))
+        let cure = match error.kind() {
+            ErrorKind::AddrNotAvailable => "--bind takes an address of this machine, or 0.0.0.0 for all that it has",
+            _ => "--port 0 takes any port that is free",
+        };
+        Failure::Option(format!("cannot listen at {wanted}: {error}\n  cure: {cure}"))
     })?;
     scene.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
     if !args.bind.is_loopback() {

@@ -225,8 +225,9 @@ impl Dynamics {
         [0, 1].map(|k| (inertia[1 - k][1 - k] * pull[k] + inertia[0][1] * pull[1 - k]) / determinant)
     }
 
-    /// A lower bound on the determinant of the inertia matrix.
-    fn least_determinant(&self, arm: &Arm) -> f64 {
+    /// A lower bound on the determinant of the inertia matrix, wherever the arm is.
+    #[must_use]
+    pub fn least_determinant(&self, arm: &Arm) -> f64 {
         use JointType::{Prismatic, Revolute};
         let [a, b] = &self.bodies;
         let about = |body: &Body| body.inertia + body.mass * body.center.coords.norm_squared();

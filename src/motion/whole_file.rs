@@ -15,7 +15,7 @@ pub enum WriteError {
         path: PathBuf,
     },
     /// Its folder does not exist.
-    #[error("cannot write {}: there is no folder {}", path.display(), folder.display())]
+    #[error("cannot write {}: there is no folder {}, make it first", path.display(), folder.display())]
     NoFolder {
         /// The file as given.
         path: PathBuf,
@@ -173,7 +173,10 @@ mod tests {
         let message = write_whole(&inner, b"x").unwrap_err().to_string();
         assert!(message.contains("inner.csv") && message.contains("not a file"), "{message}");
         let message = write_whole(&folder.path().join("absent/a.csv"), b"x").unwrap_err().to_string();
-        assert!(message.contains("a.csv: there is no folder") && message.ends_with("absent"), "{message}");
+        assert!(
+            message.contains("a.csv: there is no folder") && message.ends_with("absent, make it first"),
+            "{message}"
+        );
         assert_eq!(names(folder.path()), ["inner.csv"]);
         assert!(names(&inner).is_empty());
     }

@@ -335,9 +335,12 @@ impl Reader<'_> {
             Template::new(source, file, &settings[file as usize]).map_err(|(which, why)| {
                 let (parameter, number, address) = owners[file as usize][which];
                 let message = format!("{address}: {why} (in {name})");
-                let near = file.nearest(&text, address).filter(|near| near != address);
-                let help =
-                    near.map_or("name a number that the file has".into(), |near| format!("{near} is a number there"));
+                let near = file.nearest(&text, address);
+                let help = match near {
+                    Some(near) if near == *address => "leave it out here, or in the other \"sets\"".into(),
+                    Some(near) => format!("{near} is a number there"),
+                    None => "name a number that the file has".into(),
+                };
                 self.wrong(self.target(tables, parameter, number), message, &help)
             })
         };

@@ -30,6 +30,9 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
 }
 
 const CURE: &str = "a GeoJSON file holds a FeatureCollection, a Feature or a geometry";
+const LISTS: &str = "features, geometries and rings stand in lists, as positions do: [[0, 0], [1, 0], [1, 1], [0, 0]]";
+const NUMBERS: &str = "write both coordinates as numbers, without quotes";
+const HEIGHT: &str = "write heights as numbers, without quotes, or leave the height out";
 
 /// Greatest height, metres: no arm is anywhere near.
 const HIGHEST: f64 = 1e6;
@@ -40,20 +43,22 @@ struct Reader {
 }
 
 /// A value that is not what the format asks for, and the way to it.
-fn wrong(at: &str, message: &str) -> Error {
+fn wrong(at: &str, message: &str, cure: &str) -> Error {
     let at = at.trim_start_matches('.');
     let message = if at.is_empty() { message.to_owned() } else { format!("{at}: {message}") };
-    Error::new(None, message, CURE)
+    Error::new(None, message, cure)
 }
 
 fn list<'a>(value: Option<&'a Value>, at: &str) -> Result<&'a Vec<Value>, Error> {
-    value.and_then(Value::as_array).ok_or_else(|| wrong(at, "expected a list"))
+    value.and_then(Value::as_array).ok_or_else(|| wrong(at, "expected a list", LISTS))
 }
 
 impl Reader {
     fn object(&mut self, value: &Value, at: &str, origin: &Origin) -> Result<(), Error> {
-        let kind =
-            value.get("type").and_then(Value::as_str).ok_or_else(|| wrong(at, "expected an object with a type"))?;
+        let kind = value
+            .get("type")
+            .and_then(Value::as_str)
+            .ok_or_else(|| wrong(at, "expected an object with a type", CURE))?;
         let origin = &Origin { kind: kind.to_owned(), ..origin.clone() };
         let parts = |key: &str| Ok::<_, Error>((list(value.get(key), &format!("{at}.{key}"))?, format!("{at}.{key}")));
         match kind {
@@ -99,7 +104,7 @@ impl Reader {
                 let cure = "convert it first, e.g. with `topo2geo` or `ogr2ogr cell.geojson cell.topojson`";
                 Err(Error::new(None, "this is TopoJSON, not GeoJSON", cure))
             }
-            other => Err(wrong(at, &format!("\"{other}\" is no type of GeoJSON"))),
+            other => Err(wrong(at, &format!("\"{other}\" is no type of GeoJSON"), CURE)),
         }
     }
 
@@ -142,7 +147,7 @@ impl Reader {
                 match numbers.as_deref() {
                     // A third one is a height above the plane.
                     Some([Some(x), Some(y), ..]) => Ok::<Point, Error>(self.map.point([*x, *y])),
-                    _ => Err(wrong(&format!("{at}[{i}]"), "expected a position: [x, y]")),
+                    _ => Err(wrong(&format!("{at}[{i}]"), "expected a position: [x, y]", NUMBERS)),
                 }
             })
             .collect()
@@ -175,7 +180,8 @@ fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
                 }
                 _ => {
                     let at = format!("{at}.properties.height");
-                    return Err(wrong(&at, "expected a number, or the lower and the upper end: [0, 0.2]"));
+                    let message = "expected a number, or the lower and the upper end: [0, 0.2]";
+                    return Err(wrong(&at, message, HEIGHT));
                 }
             }
         }

@@ -12,8 +12,9 @@ use nalgebra::{Matrix3, Vector3};
 /// Acceleration of free fall in the root frame, whose z axis points up; m/s2.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// The least determinant of an inertia matrix, as a share of the product of its diagonal: below, a joint moves nothing.
-const MASSLESS: f64 = 1e-12;
+/// The least determinant of an inertia matrix, as a share of the product of its diagonal: below, a joint moves nothing. And the least effort, as a
+/// share of what moves the greatest inertia as fast as it may have to go: below, rounding is all that is left of it.
+const NEGLIGIBLE: f64 = 1e-12;
 
 impl Bodies<'_> {
     /// Masses and efforts of an arm.
@@ -29,12 +30,20 @@ impl Bodies<'_> {
         let inertia = dynamics.greatest_inertia(arm);
         let acceleration = dynamics.greatest_accelerations(arm);
         if inertia.iter().flatten().chain(&acceleration).all(|value| value.is_finite())
-            && (0..2).all(|k| effort[k] > MASSLESS * inertia[k][k] * acceleration[k])
+            && (0..2).all(|k| effort[k] > NEGLIGIBLE * inertia[k][k] * acceleration[k])
         {
             return Ok(dynamics);
         }
-        let message = "one of the two joints moves no inertia";
-        Err(self.document.source.diagnostic(message).help("give its link an <inertial> with <mass> and <inertia>"))
+        let is_moved = dynamics.least_determinant(arm) > NEGLIGIBLE * inertia[0][0] * inertia[1][1];
+        let (message, help) = if is_moved {
+            (
+                "the efforts of the joints are nothing beside what their velocities, masses and gravity ask for",
+                "look for a wrong unit: kg, m, N m (N of a joint that slides), rad/s (m/s), m/s2",
+            )
+        } else {
+            ("one of the two joints moves no inertia", "give its link an <inertial> with <mass> and <inertia>")
+        };
+        Err(self.document.source.diagnostic(message).help(help))
     }
 
     fn effort(&self, index: usize) -> Result<f64, Diagnostic> {
