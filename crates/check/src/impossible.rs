@@ -362,9 +362,11 @@ impl<'a> Proof<'a> {
             for branch in &branches {
                 let done = branch.done.as_deref().unwrap_or_default();
                 for pair in pairs.iter().filter(|pair| !done.contains(&pair[0].number)) {
-                    let Some(picked) = self.step(branch.clone(), pair[0])? else { continue };
-                    let Some(placed) = self.step(picked, pair[1])? else { continue };
-                    next.push(Branch { done: Some([done, &[pair[0].number]].concat()), ..placed });
+                    for picked in self.followed(branch.clone(), pair[0])? {
+                        let placed = self.followed(picked, pair[1])?.into_iter();
+                        let done = Some([done, &[pair[0].number]].concat());
+                        next.extend(placed.map(|placed| Branch { done: done.clone(), ..placed }));
+                    }
                 }
             }
             branches = merged(next);

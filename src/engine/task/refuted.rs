@@ -51,7 +51,7 @@ type RuleOut<'r> = &'r mut dyn FnMut(&Scene, [Configuration; 2]) -> Option<Vec<S
 type Accepts<'r> = &'r dyn Fn(&[RefutedCase]) -> bool;
 
 /// States beyond these are not looked at for one step.
-const MOST_STATES: usize = 64;
+const MOST_STATES: usize = 256;
 
 /// Grasps that are nearer to the origin of what is grasped, metres, are there: rounding.
 const AT_THE_TIP: f64 = 1e-12;
@@ -76,7 +76,8 @@ pub(in crate::engine) fn refuted(
     let last = task.items.iter().position(|item| steps(item).any(|step| step.number == last))?;
     // As a rule it is enough that the last cannot be done from anywhere.
     // How something lies that was turned is looked at only where nothing else helps: it doubles the cases.
-    let attempts = [Some((last, false)), (last > 0).then_some((0, false)), (last > 0).then_some((0, true))];
+    let is_long = last > 0 || matches!(task.items[0], Item::AnyOrder(_));
+    let attempts = [Some((last, false)), (last > 0).then_some((0, false)), is_long.then_some((0, true))];
     attempts.into_iter().flatten().find_map(|(first, tells_turned)| {
         let rule_out = &mut *rule_out;
         let mut walk = Walk { task, first, tells_turned, rule_out, accepts, cases: Vec::new(), hidden: Vec::new() };
@@ -251,7 +252,7 @@ impl Walk<'_> {
                 let mut case =
                     RefutedCase { step: number, after: told.0, from, held, turned: told.1, scene, stuck, lowered };
                 let turns = leaves_turned(task, &at.state, step);
-                let is_told = turns && self.tells_turned && at.has_just_picked && half.is_none();
+                let is_told = turns && self.tells_turned && at.has_just_picked;
                 let tried = all.entry((step.number, after)).or_default();
                 for way in &candidates.ways {
                     if is_new && self.first <= item && self.is_ruled_out(&mut case, at.state.q, way.to) {
