@@ -210,7 +210,7 @@ impl Walk<'_> {
         states.iter().all(|at| {
             // After a group in free order a checker may not know which of its objects was let go of last.
             let mut poses = at.state.poses.clone();
-            let others = self.hidden.iter().filter(|object| Some(**object) != at.state.released);
+            let others = self.hidden(at).iter().filter(|object| Some(**object) != at.state.released);
             others.for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
             let scene = State { poses, ..at.state.clone() }.scene(task, None);
             let stuck = (self.rule_out)(&scene, [at.state.q; 2]).unwrap_or_default();
@@ -385,6 +385,12 @@ impl Walk<'_> {
         self.distinct(ends.into_iter().map(after).collect())
     }
 
+    /// Objects that may be the last one that was let go of; none where the case tells how all of them were.
+    fn hidden(&self, at: &At) -> &[usize] {
+        let is_told = |object: &usize| at.turned.iter().any(|turned| turned.object == *object);
+        if self.hidden.iter().all(is_told) { &[] } else { &self.hidden }
+    }
+
     /// What is where while a step is done, as far as a checker knows.
     fn scene(&self, at: &At, step: &Step) -> Scene {
         let is_known = |grip: Grip| match grip {
@@ -393,7 +399,7 @@ impl Walk<'_> {
         };
         let held = at.state.held.clone().filter(|held| is_known(held.grip));
         let mut poses = at.state.poses.clone();
-        self.hidden.iter().for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
+        self.hidden(at).iter().for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
         State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked())
     }
 
