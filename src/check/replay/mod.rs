@@ -219,13 +219,19 @@ impl<'a> Iterator for Replay<'a> {
                 _ => {}
             }
         }
-        // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by.
-        if self.next == self.matched.len()
+        // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by. So does one after which objects are renewed,
+        // but what it has let go of before is still there.
+        let next = self.matched.get(self.next);
+        let allowed = match next {
+            None => Some(released),
+            Some(next) => (!next.renewed.is_empty()).then_some(None),
+        };
+        if let Some(allowed) = allowed
             && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = standing()
         {
-            let after = self.state.scene(task, released).since(times[1]);
-            if broken.iter().all(|excess| excess.limit != Limit::Torque) {
+            let after = self.state.scene(task, allowed).since(times[1]);
+            if next.is_none() && broken.iter().all(|excess| excess.limit != Limit::Torque) {
                 let mut held = torques_kept(&after, &standing);
                 held.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.end());
                 broken.extend(held);

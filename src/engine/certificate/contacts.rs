@@ -50,11 +50,11 @@ impl<'a> Contacts<'a> {
         (*shape, *part)
     }
 
-    /// A box as it is written.
-    pub fn stuck(&mut self, stuck: &StuckBox) -> Stuck {
+    /// A box as it is written: one that reaches across half a turn is two.
+    pub fn stuck(&mut self, stuck: &StuckBox) -> Vec<Stuck> {
         let (shape, part) = self.numbers(stuck.pair);
-        let [lower, upper] = reaching_out(self.scene, stuck);
-        Stuck { lower, upper, shape, part }
+        let parts = reaching_out(self.scene, stuck).into_iter();
+        parts.map(|[lower, upper]| Stuck { lower, upper, shape, part }).collect()
     }
 }
 

@@ -68,7 +68,7 @@ impl Plan {
             }
             (None, Some(proof)) => {
                 let stuck = [proof.stuck(), &ruled_out(problem).0].concat();
-                let boxes: Vec<Stuck> = stuck.iter().map(|stuck| contacts.stuck(stuck)).collect();
+                let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
                 ("infeasible", vec![("boxes", lines(&boxes))])
             }
             (None, None) => return Err(NoCertificate::Answer(self.status())),
@@ -148,7 +148,7 @@ fn least_length(plan: &MotionPlan, asked: &Overrides, contacts: &mut Contacts) -
     let (length, walls, potentials) = (least.length, lines(&walls), lines(&potentials));
     let members =
         format!(r#"{to}"length": {length}, "metric": {metric}, "walls": {walls}, "potentials": {potentials}"#);
-    let boxes: Vec<Stuck> = boxes.iter().map(|stuck| contacts.stuck(stuck)).collect();
+    let boxes: Vec<Stuck> = boxes.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
     let boxes = (!boxes.is_empty()).then(|| ("boxes", lines(&boxes)));
     Some(boxes.into_iter().chain([("bound", format!("{{ {members} }}"))]).collect())
 }
@@ -259,7 +259,7 @@ fn said(problem: &MotionProblem, asked: &Overrides) -> Said {
 const SAME: f64 = 1e-6;
 
 /// How much wider than what they are about boxes may be, as shares of the joints' ranges.
-const MARGINS: [f64; 6] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
+const MARGINS: [f64; 11] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7];
 
 /// How often a curve of IK solutions is halved.
 const MOST_HALVINGS: u32 = 12;
@@ -303,34 +303,47 @@ fn stuck_about(scene: &Scene, piece: &Segment) -> Option<StuckBox> {
     })
 }
 
-/// Room that doubles leave next to a limit, as a share of it. What is given in degrees, or in more digits than a double has, lies up to two
-/// units in the last place inside the double that stands for it.
+/// Room that doubles leave next to a limit, as a share of it or of the range, whichever is more. What is given in degrees, or in more digits than a
+/// double has, lies up to two units in the last place inside the double that stands for it; next to a limit of 0 control points of polynomials are
+/// differences of what lies within the range.
 const BESIDE_A_LIMIT: f64 = 4.0 * f64::EPSILON;
 
 /// A configuration as it is written: at a limit a hair inside.
 fn inward(topology: &Topology, q: Configuration) -> Configuration {
     Configuration::from_fn(|k, _| match topology.ranges[k] {
         JointRange::Interval { lower, upper } => {
-            let [lower, upper] = [lower + BESIDE_A_LIMIT * lower.abs(), upper - BESIDE_A_LIMIT * upper.abs()];
-            q[k].min(upper).max(lower)
+            let room = |limit: f64| BESIDE_A_LIMIT * limit.abs().max(upper - lower);
+            q[k].min(upper - room(upper)).max(lower + room(lower))
         }
         JointRange::Circle => q[k],
     })
 }
 
-/// The ends of a box. Where it ends with the domain it goes on a little: limits are decimals and half a turn is no number at
-/// all, next to which a double leaves a slit.
-fn reaching_out(scene: &Scene, stuck: &StuckBox) -> [[f64; 2]; 2] {
-    let mut ends = [stuck.cell.lower, stuck.cell.upper];
+/// The ends of a box; of one that reaches across half a turn of a circle those of its parts on either side. Where it ends with the domain it goes on
+/// a little: limits are decimals and half a turn is no number at all, next to which a double leaves a slit.
+fn reaching_out(scene: &Scene, stuck: &StuckBox) -> Vec<[[f64; 2]; 2]> {
+    let mut parts = vec![[stuck.cell.lower, stuck.cell.upper]];
     for (k, range) in scene.arm().topology().ranges.into_iter().enumerate() {
         let (lower, upper) = range.domain();
+        let turns: &[f64] = if range.is_circle() { &[-1.0, 0.0, 1.0] } else { &[0.0] };
+        let turned = |ends: [[f64; 2]; 2]| {
+            turns.iter().map(move |turn| {
+                ends.map(|mut end| {
+                    end[k] += turn * (upper - lower);
+                    end
+                })
+            })
+        };
+        parts = parts.into_iter().flat_map(turned).filter(|[from, to]| from[k] < upper && lower < to[k]).collect();
         let beyond = |end: f64| 2.0 * f64::EPSILON * end.abs().max(1.0);
-        if ends[0][k] <= lower {
-            ends[0][k] = lower - beyond(lower);
-        }
-        if ends[1][k] >= upper {
-            ends[1][k] = upper + beyond(upper);
+        for [from, to] in &mut parts {
+            if from[k] <= lower {
+                from[k] = lower - beyond(lower);
+            }
+            if to[k] >= upper {
+                to[k] = upper + beyond(upper);
+            }
         }
     }
-    ends
+    parts
 }

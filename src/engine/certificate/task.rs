@@ -183,7 +183,7 @@ fn written(task: &Task, cases: &[RefutedCase], known: &Known) -> Evidence {
             lowered.iter().filter(|(_, stuck)| !stuck.is_empty()).map(|(scene, stuck)| ("lowered", scene, stuck));
         for (name, scene, stuck) in iter::once(("boxes", scene, stuck)).chain(lowered) {
             contacts = contacts.among(scene);
-            let boxes: Vec<Stuck> = stuck.iter().map(|stuck| contacts.stuck(stuck)).collect();
+            let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
             written[name] = json!(boxes);
         }
         after.iter().for_each(|after| written["after"] = json!(after));

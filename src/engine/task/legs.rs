@@ -215,13 +215,16 @@ impl Legs {
 
     /// What is known of the way to a candidate's target, if it is not ruled out.
     fn way(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<WayKey, Refusal> {
-        let after = from.after(task, candidate, candidate.to);
-        if after.is_done(task) {
+        let left = from.left(task, candidate, candidate.to);
+        if left.is_done(task) {
             // No motion follows that would begin there.
-            let left = after.scene(task, from.released);
+            let left = left.scene(task, from.released);
             unobstructed(&left, candidate.to, "after it")?;
             let held = TorqueLimit::held_at(&left, candidate.to);
             held.map_err(|error| Refusal::new(format!("after it {error}"), false))?;
+        } else if left.is_unsettled(task) {
+            // The motion that follows begins among other objects.
+            unobstructed(&left.scene(task, None), candidate.to, "after it")?;
         }
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
         let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
@@ -248,8 +251,8 @@ impl Legs {
     ) -> Result<(WristTurn, f64), Refusal> {
         let unproven = |reason: &str| Refusal::new(reason, false);
         // The object is no obstacle to itself: it lies nowhere before it is let go of, or from when it is taken.
-        let after = from.after(task, candidate, candidate.to);
-        let with = if after.held.is_some() { &after } else { from };
+        let left = from.left(task, candidate, candidate.to);
+        let with = if left.held.is_some() { &left } else { from };
         let Some(held @ Held { grip: Grip::Level { point, .. }, .. }) = &with.held else {
             return Err(unproven("nothing is held that could be turned"));
         };

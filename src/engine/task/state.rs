@@ -232,8 +232,13 @@ impl State {
         place.is_some_and(|place| matches!(place.action, Action::Place { angle: Some(_), .. }))
     }
 
-    /// The state after a candidate's step, with the arm at `q`.
+    /// The state after a candidate's step, with the arm at `q`, and what is to be renewed before the next step renewed.
     pub fn after(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
+        self.left(task, candidate, q).settled(task)
+    }
+
+    /// The state in which a candidate's step leaves everything until the next one begins, with the arm at `q`.
+    pub fn left(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
         let mut poses = self.poses.clone();
         let mut after = Self { progress: candidate.progress, q, released: None, ..self.clone() };
         match candidate.event {
@@ -249,7 +254,12 @@ impl State {
             }
             None => {}
         }
-        Self { poses, ..after }.settled(task)
+        Self { poses, ..after }
+    }
+
+    /// Whether something is to be renewed before the next step: then no motion begins where the last one ended, with all where it left it.
+    pub fn is_unsettled(&self, task: &Task) -> bool {
+        matches!(task.items.get(self.progress.item), Some(Item::Renew(_)))
     }
 
     /// Supplies what is to be renewed before the next step.

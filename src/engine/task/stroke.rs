@@ -53,9 +53,9 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
 /// The scene with the arm, and what it holds, while the tool is lowered. A pick rises with its object, a place goes down
 /// with it: the other way the hand is empty, and meets no more.
 fn lowered(task: &Task, from: &State, candidate: &Candidate, arm: Arm, heights: Heights) -> Scene {
-    let after = from.after(task, candidate, candidate.to);
+    let left = from.left(task, candidate, candidate.to);
     // A wrist turns after a pick, and before a place.
-    let (with, turn) = if after.held.is_some() { (&after, 0) } else { (from, 1) };
+    let (with, turn) = if left.held.is_some() { (&left, 0) } else { (from, 1) };
     let payload = with.held.as_ref().map(|held| {
         let mut payload = held.payload(task);
         payload.heights = heights;

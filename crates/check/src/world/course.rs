@@ -84,9 +84,13 @@ fn apart(place: &Point, from: &Point, along: &Point, is_endless: bool) -> BigInt
     if !is_endless && share.lower >= square.upper {
         return length(&minus(&way, along)).lower;
     }
-    // No nearer than the whole line.
+    // No nearer than the whole line; what may stand still is no nearer than where it begins but for the way.
     let (across, size) = (dot(&way, &[-&along[1], along[0].clone()]).abs(), length(along));
-    if size.lower.sign() == Sign::Plus { across.divided(&size).lower } else { BigInt::ZERO }
+    match size.lower.sign() {
+        Sign::Plus => across.divided(&size).lower,
+        _ if is_endless => BigInt::ZERO,
+        _ => (&length(&way) - &size).lower,
+    }
 }
 
 impl Obstacle {

@@ -69,8 +69,8 @@ impl<'a> Here<'a, '_> {
 
     /// What is around the arm when it stands at the end of a candidate's step, on a clock that begins at a time.
     pub fn standing(&self, candidate: &Candidate, time: f64) -> Scene {
-        let after = self.state.after(self.task, candidate, candidate.to);
-        after.scene(self.task, self.state.released).since(time)
+        let left = self.state.left(self.task, candidate, candidate.to);
+        left.scene(self.task, self.state.released).since(time)
     }
 
     /// What can be done next.
