@@ -20,6 +20,9 @@ impl Variant {
     /// What is wrong with it, in one line.
     pub fn parse(text: &str) -> Result<Self, String> {
         let words: Vec<&str> = text.split_whitespace().collect();
+        if words.is_empty() {
+            return Err("it names no planner: the name comes first, as in \"shortest --gap 0.01\"".into());
+        }
         let PlannerWords { planner, options } = PlannerWords::try_parse_from(&words).map_err(|error| {
             let text = error.to_string();
             // The first line says what is wrong, the next one, where it is so, what would be right.

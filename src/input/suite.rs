@@ -18,8 +18,10 @@ pub struct Suite {
     pub name: String,
     /// At least one; names are all different.
     pub members: Vec<Member>,
-    /// Worlds that are left out because they have steps, not a goal.
+    /// Worlds that are left out because they have steps, not a goal, ...
     pub with_steps: Vec<PathBuf>,
+    /// ... or because something moves in them.
+    pub with_movers: Vec<PathBuf>,
     /// Problems that cannot be read.
     pub refused: Vec<Refused>,
 }
@@ -156,10 +158,11 @@ pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
 
 /// Reads all files; what is wrong with some of them is kept beside the others.
 fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Suite, InputError> {
-    let (mut members, mut with_steps): (Vec<Member>, _) = (Vec::new(), Vec::new());
+    let (mut members, mut with_steps, mut with_movers) = (Vec::<Member>::new(), Vec::new(), Vec::new());
     for Pair { name, robot, world } in pairs {
         match load_scene(&robot, &world) {
             Ok(scene) if scene.has_steps() => with_steps.push(world),
+            Ok(scene) if scene.require_standing("").is_err() => with_movers.push(world),
             Ok(scene) => {
                 let name = name.unwrap_or_else(|| stem(&world));
                 let name = distinct(&name, &stem(&robot), |name| members.iter().any(|member| member.name == name));
@@ -170,13 +173,23 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
     }
     if members.is_empty() {
         all_of(&refused)?;
-        let shown = with_steps.first().map_or_else(String::new, |path| path.display().to_string());
-        let diagnostic = Diagnostic::new(shown, "this world and all others of the suite have steps, not a goal");
-        return Err(diagnostic
-            .help("only `cplan ROBOT WORLD` plans steps; for comparisons put a [goal] in their place")
-            .into());
+        let shown = |paths: &[PathBuf]| paths.first().map_or_else(String::new, |path| path.display().to_string());
+        let (diagnostic, help) = match with_movers.is_empty() {
+            true => (
+                Diagnostic::new(shown(&with_steps), "this world and all others of the suite have steps, not a goal"),
+                "only `cplan ROBOT WORLD` plans steps; for comparisons put a [goal] in their place",
+            ),
+            false => (
+                Diagnostic::new(
+                    shown(&with_movers),
+                    "in this world something moves, and all others of the suite have steps, or something moves there, too",
+                ),
+                "planners are compared among what stands: remove the motions",
+            ),
+        };
+        return Err(diagnostic.help(help).into());
     }
-    Ok(Suite { name, members, with_steps, refused })
+    Ok(Suite { name, members, with_steps, with_movers, refused })
 }
 
 /// All that is wrong with these at once, if there are any.

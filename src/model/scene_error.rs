@@ -82,8 +82,8 @@ pub enum SceneError {
         /// The upper end, as it was given.
         upper: f64,
     },
-    /// The distance to keep is negative or not finite.
-    #[error("the clearance must be finite and not negative, is {clearance}")]
+    /// The distance to keep is negative, too large or not finite.
+    #[error("the clearance must be from 0 to {LARGEST:e} m, is {clearance:?}")]
     Clearance {
         /// The distance, as it was given.
         clearance: f64,

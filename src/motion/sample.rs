@@ -69,7 +69,7 @@ pub enum TimingError {
     /// The limits let the joints hardly move.
     #[error(
         "the motion would last {0:.3e} s, more than {LONGEST_MOTION:.0e} s; \
-         raise the limits of the joints"
+         raise the limits of the joints, and of the tip's speed if it has one"
     )]
     TooLong(f64),
     /// A joint cannot bring what the arm weighs.

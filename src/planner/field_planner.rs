@@ -147,9 +147,10 @@ fn what(stuck: &Stuck) -> &'static str {
 /// Why a climb is stuck, as far as that can be told.
 fn why(stuck: &Stuck, equation: &Equation, field: &Relaxed, on: Device) -> String {
     match stuck {
-        _ if !equation.is_monotone() => {
-            "the equation is not monotone; take upwind differences, or a smaller epsilon".into()
-        }
+        _ if !equation.is_monotone() => match equation {
+            Equation::AlteredPreference { .. } => "the equation is not monotone; take a smaller epsilon".into(),
+            _ => "the equation is not monotone; take upwind differences, or a smaller epsilon".into(),
+        },
         _ if !field.converged() => format!("it is not converged after {} sweeps", field.sweeps()),
         Stuck { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
         Stuck { value, .. } => format!("values around {value} differ by less than {} can tell", on.precision()),

@@ -118,7 +118,7 @@ impl Table {
 
     /// A table of GitHub's Markdown, aligned in the source too.
     pub fn to_markdown(&self) -> String {
-        let escaped = self.with_cells(|cell| plain_line(&cell.replace('|', "\\|")).into_owned());
+        let escaped = self.with_cells(|cell| plain_line(&cell.replace('|', "\\|").replace('<', "&lt;")).into_owned());
         // A rule needs three characters.
         let widths: Vec<usize> = escaped.widths(&[escaped.header()]).into_iter().map(|w| w.max(3)).collect();
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));

@@ -132,8 +132,8 @@ fn no_scene_is_made_of_a_workspace_that_cannot_be() {
         assert_eq!(refused, Err(SceneError::Preference { name: "wish".into() }), "{epsilon} {direction:?}");
     }
     let cases: &[(Change, &str)] = &[
-        (|w| w.clearance = -0.1, "the clearance must be finite and not negative, is -0.1"),
-        (|w| w.clearance = NAN, "the clearance must be finite and not negative, is NaN"),
+        (|w| w.clearance = -0.1, "the clearance must be from 0 to 1e15 m, is -0.1"),
+        (|w| w.clearance = NAN, "the clearance must be from 0 to 1e15 m, is NaN"),
         (|w| w.obstacles[0].heights = Heights { lower: 0.0, upper: NAN }, "\"post\": no heights from 0 to NaN"),
     ];
     for (change, message) in cases {

@@ -82,10 +82,12 @@ impl Cases {
     }
 
     fn of_suite(suite: Suite, args: &CompareArgs) -> Result<Self, Failure> {
-        let left_out = |path: &std::path::PathBuf| {
-            format!("{} is left out: it has steps, and only `cplan ROBOT WORLD` plans those", path.display())
+        let with_steps = suite.with_steps.iter().map(|path| (path, "it has steps"));
+        let with_movers = suite.with_movers.iter().map(|path| (path, "something moves in it"));
+        let left_out = |(path, why): (&std::path::PathBuf, &str)| {
+            format!("{} is left out: {why}, and only `cplan ROBOT WORLD` plans that", path.display())
         };
-        let left_out = suite.with_steps.iter().map(left_out).collect();
+        let left_out = with_steps.chain(with_movers).map(left_out).collect();
         let mut warnings: Vec<String> = Vec::new();
         for warning in suite.members.iter().flat_map(|member| &member.scene.robot.warnings) {
             if !warnings.contains(warning) {
@@ -141,6 +143,7 @@ fn one(scene: LoadedScene) -> Suite {
         name: name.clone(),
         members: vec![input::Member { name, scene }],
         with_steps: Vec::new(),
+        with_movers: Vec::new(),
         refused: Vec::new(),
     }
 }

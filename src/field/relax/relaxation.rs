@@ -55,7 +55,8 @@ pub enum Factor {
     /// The factor that is given.
     Given(f64),
     /// `4 / (2 + sqrt(4 - c^2))` with `c = cos(pi / m) + cos(pi / n)`, `m x n` the number of cells: the best one for
-    /// Laplace's equation in an empty rectangle (Young 1954).
+    /// Laplace's equation in an empty rectangle (Young 1954) of `m` by `n` steps from limit to limit. Between limits that lie one cell beyond the first
+    /// and the last one these are one more each: so it is a little less than the best one, which shows on few cells.
     Formula,
 }
 

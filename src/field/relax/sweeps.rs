@@ -207,6 +207,8 @@ pub(super) fn strengths(domain: &Domain, epsilon: &[f64]) -> Vec<f64> {
 pub(super) fn hint(equation: &Equation, factor: f64) -> String {
     if equation.is_monotone() {
         format!("the factor {factor:.4} is too great for this equation")
+    } else if matches!(equation, Equation::AlteredPreference { .. }) {
+        "the altered equation is monotone only for an |epsilon| of less than 2 a cell: take a smaller one".into()
     } else {
         "central differences are monotone only for an |epsilon| of less than 2 a cell: take upwind ones, or a smaller \
          epsilon"

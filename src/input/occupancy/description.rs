@@ -27,6 +27,7 @@ struct File {
 enum Negate {
     Word(bool),
     Number(i64),
+    Neither(serde::de::IgnoredAny),
 }
 
 /// How a picture becomes a map: valid.
@@ -46,6 +47,10 @@ impl Description {
         let file: File = serde_saphyr::from_str_with_options(&source.text, options).map_err(|error| {
             let (line, column) = error.location().map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
             let message = without_place(&error.without_snippet().to_string());
+            // What follows is advice for who calls the library.
+            let advice = [", set ", ", use ", "; use ", " (use "];
+            let message =
+                advice.iter().fold(&*message, |message, advice| message.split(advice).next().unwrap_or(message));
             source
                 .diagnostic_at_position(line, column, message)
                 .help("a map of ROS's map server needs image, resolution, origin, negate, occupied_thresh, free_thresh")
@@ -67,8 +72,8 @@ impl Description {
             Negate::Word(negate) => negate,
             Negate::Number(0) => false,
             Negate::Number(1) => true,
-            Negate::Number(other) => {
-                return Err(diagnostic(source, &file.negate, format!("negate: {other} is neither 0 nor 1"))
+            Negate::Number(_) | Negate::Neither(_) => {
+                return Err(diagnostic(source, &file.negate, "negate: it is neither 0 nor 1")
                     .help("0 if dark is occupied, 1 if light is"));
             }
         };

@@ -62,7 +62,10 @@ fn ended(at: usize, bytes: &[u8]) -> Result<(), Broken> {
         return Ok(());
     }
     let message = format!("goes on after the picture that its header announces, at byte {}", at + 1);
-    Err(Broken::new(message, "correct width, height and maxval in the header, or save it anew"))
+    Err(Broken::new(
+        message,
+        "correct width, height and maxval in the header, end its lines by one character, or save it anew",
+    ))
 }
 
 /// White space, comments and whole numbers.

@@ -1,7 +1,7 @@
 //! PNG pictures of any kind: grey, colour, palette; 1 to 16 bits; with or without opacity.
 
 use super::picture::{Broken, Judge, Picture, Shade, checked_size};
-use ::png::{BitDepth, Decoder, DecodingError, Transformations};
+use ::png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
 use std::io::Cursor;
 
 /// Reads a PNG.
@@ -13,6 +13,12 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     let header = decoder.read_header_info().map_err(broken)?;
     let (width, height) = (header.width as usize, header.height as usize);
     let count = checked_size(width, height)?;
+    if lacks_colors(bytes).map_err(broken)? {
+        return Err(Broken::new(
+            "is a broken PNG: a pixel has a colour that its palette lacks",
+            "save the picture anew",
+        ));
+    }
     let mut reader = decoder.read_info().map_err(broken)?;
     let size = reader.output_buffer_size().ok_or_else(|| broken(DecodingError::LimitsExceeded))?;
     let mut samples = vec![0; size];
@@ -33,4 +39,20 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
         return Err(Broken::new("is a broken PNG: pixels are missing", "save the picture anew"));
     }
     Ok(Picture { width, height, cells })
+}
+
+/// Whether a pixel has a colour that the palette lacks, if there is one: as a colour it would be black.
+fn lacks_colors(bytes: &[u8]) -> Result<bool, DecodingError> {
+    let mut reader = Decoder::new(Cursor::new(bytes)).read_info()?;
+    let info = reader.info();
+    if info.color_type != ColorType::Indexed {
+        return Ok(false);
+    }
+    let colors = info.palette.as_ref().map_or(0, |palette| palette.len() / 3);
+    let (width, bits) = (info.width as usize, info.bit_depth as usize);
+    let mut lines = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
+    let frame = reader.next_frame(&mut lines)?;
+    let number =
+        |line: &[u8], x: usize| usize::from(line[x * bits / 8] >> (8 - bits - x * bits % 8)) & ((1 << bits) - 1);
+    Ok(lines.chunks(frame.line_size).any(|line| (0..width).any(|x| number(line, x) >= colors)))
 }

@@ -27,6 +27,9 @@ const DETOUR: f64 = 16.0;
 /// many small things side by side.
 const FEW: usize = 4;
 
+/// Places along a piece of a way are not told apart more finely than doubles tell shares of it.
+const FINEST_SHARE: f64 = 1e-15;
+
 /// How far ways may lead through what is closed.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Allowed {
@@ -231,7 +234,8 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
     // Near there it is one hump.
     let mut from = k.checked_sub(1).map_or(0.0, |before| shares[before]);
     let mut to = shares.get(k + 1).copied().unwrap_or(1.0);
-    while (to - from) * length > finest {
+    let finest = (finest / length).max(FINEST_SHARE);
+    while to - from > finest {
         let [a, b] = [from + (to - from) / 3.0, to - (to - from) / 3.0];
         if beyond(pair, a) >= beyond(pair, b) { to = b } else { from = a }
     }

@@ -123,6 +123,12 @@ fn pngs_of_few_bits_and_palettes() {
     let colors = [0, 0, 0, 255, 255, 255, 128, 128, 128, 255, 255, 255];
     let palette = encoded(4, ColorType::Indexed, BitDepth::Eight, Some((&colors, &[255, 255, 255, 7])), &[0, 1, 2, 3]);
     assert_eq!(read(&palette).unwrap().cells, [Occupied, Free, Unknown, Unknown]);
+    // What a palette lacks is of no colour; bits that fill a row up are no pixels.
+    let two = Some((&colors[..6], &[255, 255][..]));
+    let lacking = encoded(2, ColorType::Indexed, BitDepth::Two, two, &[0b0010_0000]);
+    assert!(read(&lacking).unwrap_err().to_string().contains("a colour that its palette lacks"));
+    let filled = encoded(2, ColorType::Indexed, BitDepth::Two, two, &[0b0001_1111]);
+    assert_eq!(read(&filled).unwrap().cells, [Occupied, Free]);
 }
 
 #[test]

@@ -210,3 +210,19 @@ fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
         hold("");
     }
 }
+
+/// Next to a limit of 0 no share of it is any room.
+#[test]
+fn motions_at_a_limit_of_0_are_within_the_limits_as_they_are_written() {
+    let place = Place::new();
+    let urdf = shipped("robots/gantry.urdf");
+    for (from, to) in [("0.3,0.1", "0,0"), ("0,0", "1.2,0.7"), ("1.9,0", "0,1.4")] {
+        for options in ["--jerk 8,8", "--jerk 20,20 --optimize time", ""] {
+            place.write("world.toml", format!("[start]\njoints = [{from}]\n[goal]\njoints = [{to}]\n"));
+            let done = place.run(&[urdf.as_str(), "world.toml"], &format!("--quiet --certificate c.json {options}"));
+            assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+            let verdict = check(&read(&urdf), &place.read("world.toml"), &place.read("c.json"));
+            assert!(verdict.is_ok(), "{from} {to} {options}: {verdict:?}");
+        }
+    }
+}

@@ -116,3 +116,19 @@ fn certificates_among_random_movers_hold() {
     println!("{found} found, {waited} with waits");
     assert!(!usual() || (found > 8 && waited > 0), "{found} found, {waited} with waits");
 }
+
+/// What stands still on a part of its way goes no way there, and so in no direction.
+#[test]
+fn what_waits_out_of_reach_is_never_within_reach() {
+    let place = Place::new();
+    let urdf = shipped("robots/planar_2r.urdf");
+    let world = "[start]\njoints = [0.4, 1.0]\n[[object]]\nname = \"p\"\ncircle = { center = [0, 0], radius = 0.05 }\nat = [2.5, 0.0]\n\
+                 motion = { stops = [{ time = 1.0, at = [2.5, 0.1] }, { time = 2.0, at = [2.8, 1.0] }] }\n\
+                 [[step]]\npick = \"p\"\n[[step]]\nplace = { at = [0.3, 1.35] }\n";
+    place.write("w.toml", world);
+    let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    let urdf = std::fs::read_to_string(&urdf).unwrap();
+    let said = check(&urdf, world, &place.read("c.json")).unwrap();
+    assert!(said.contains("never within reach"), "{said}");
+}

@@ -330,6 +330,59 @@ fn a_new_object_is_an_obstacle() {
     assert_eq!(done.code, 0, "{}", done.stderr);
 }
 
+/// What has just been let go of may be touched until the next step has ended. Then the arm stands free of it, also if there is a new one from
+/// there on.
+#[test]
+fn what_is_renewed_is_there_until_the_arm_goes_on() {
+    let world = |high: f64, x: f64| {
+        format!(
+            "[start]\njoints = [0.9, 0.9]\n[[object]]\nname = \"p\"\ncircle = {{ center = [0, 0], radius = 0.02 }}\nat = [0.3, 0.3]\n\
+             height = [0, {high}]\nrenew = true\n[[step]]\nrepeat = 2\n[[step.steps]]\npick = \"p\"\n[[step.steps]]\n\
+             place = {{ at = [1.5, 0.8] }}\n[[step.steps]]\nmove = {{ joints = [{x}, 0.81] }}\ndwell = 1\n"
+        )
+    };
+    let place = Place::new();
+    let urdf = shipped("robots/gantry.urdf");
+    // Onto it, beside it, and high above it.
+    let asked = [(0.1, 1.5, 3), (0.1, 1.3, 0), (0.01, 1.5, 0)];
+    for (number, (high, x, code)) in asked.into_iter().enumerate() {
+        place.write("w.toml", world(high, x));
+        let options = format!("--quiet --certificate c{number}.json --output plan{number}.json");
+        let done = place.run(&[&urdf, "w.toml"], &options);
+        assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
+        if code == 0 {
+            let said = check(&read(&urdf), &world(high, x), &place.read(&format!("c{number}.json"))).unwrap();
+            assert!(said.contains("does all 6 steps"), "{said}");
+        }
+    }
+    // The motion high above it is none onto it.
+    let verified =
+        |number: usize| place.run(&["verify", &urdf, "w.toml", &format!("plan{number}.json")], "--quiet").code;
+    assert_eq!(verified(2), 0);
+    place.write("w.toml", world(0.1, 1.5));
+    assert_eq!(verified(2), 3);
+}
+
+/// An IK solution at half a turn of a joint that goes round is in the way on both sides of it.
+#[test]
+fn boxes_reach_across_half_a_turn() {
+    let place = Place::new();
+    let urdf = shipped("robots/planar_2r_continuous.urdf");
+    let block =
+        |x: f64, y: f64, radius: f64| format!("[[obstacle]]\ncircle = {{ center = [{x}, {y}], radius = {radius} }}\n");
+    let pick = "[[object]]\nname = \"p\"\ncircle = { center = [0, 0], radius = 0.02 }\nat = [-1.48, -0.64]\n[[step]]\npick = \"p\"\n";
+    let task = ["[start]\njoints = [1.0, 0.5]\n", &block(-0.5, 0.1, 0.08), &block(-0.5, -0.6, 0.3), pick].concat();
+    let motion =
+        "[robot]\nlimits = { elbow = [-6.3, 6.3] }\n[start]\njoints = [2.4, 0.8]\n[goal]\ntip = [-1.48, -0.64]\n";
+    for (world, code) in [(task, 3), (motion.to_owned() + &block(-1.0, 0.15, 0.11), 0)] {
+        place.write("w.toml", &world);
+        let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json");
+        assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
+        let said = check(&read(&urdf), &world, &place.read("c.json")).unwrap();
+        assert!(said.starts_with("no motion") || said.contains("is shorter than"), "{said}");
+    }
+}
+
 #[test]
 fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
     let place = Place::new();

@@ -285,3 +285,15 @@ fn recheck_accepts_true_proofs_and_no_others() {
     judge(&closed, "absent.json").refused(1, &["absent.json"]);
     place.run(&["recheck", &urdf, &closed], "").refused(2, &["--proof"]);
 }
+
+/// What doubles do not tell apart is not looked at more closely.
+#[test]
+fn gaps_below_the_rounding_of_doubles_end() {
+    let place = Place::new();
+    let robot = shipped("robots/planar_2r.urdf");
+    let shelf = shipped("workspaces/shelf.toml");
+    for options in ["--gap 1e-14", "--planner visibility --gap 1e-300", "--metric weighted --weights 1e-12,1e-12"] {
+        let done = place.run(&[&robot, &shelf], &format!("{options} --quiet --json"));
+        assert_eq!((done.code, &done.json()["status"]), (0, &serde_json::json!("found")), "{options}");
+    }
+}

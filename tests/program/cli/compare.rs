@@ -167,6 +167,15 @@ fn worlds_with_steps_are_left_out_and_said_to_be() {
     assert!(done.stderr.contains("note: worlds/task.toml is left out: it has steps"), "{}", done.stderr);
     let json = done.json();
     assert_eq!((json["problems"].as_array().unwrap().len(), json["left_out"].as_array().unwrap().len()), (1, 1));
+    let moving = "[[obstacle]]\ncircle = { center = [5, 0], radius = 0.1 }\nmotion = { velocity = [1, 0] }\n";
+    place.write("worlds/moving.toml", format!("{FREE}{moving}"));
+    let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json");
+    assert!(
+        done.code == 0 && done.stderr.contains("moving.toml is left out: something moves in it"),
+        "{}",
+        done.stderr
+    );
+    std::fs::remove_file(place.path("worlds/moving.toml")).unwrap();
     std::fs::remove_file(place.path("worlds/free.toml")).unwrap();
     place
         .run(&["compare", &robot, "--suite", "worlds"], "")

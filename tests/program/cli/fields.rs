@@ -189,7 +189,7 @@ fn compare_takes_rows_with_options() {
         ("trapezoid --space sampled", "--space needs --planner wavefront or harmonic"),
         ("magic", "invalid value 'magic' for '<PLANNER>' [possible values: shortest, "),
         ("harmonic --frobnicate", "unexpected argument '--frobnicate'"),
-        ("", "not provided"),
+        ("", "names no planner"),
     ] {
         let done = place.command().args(["compare", "no.urdf", "no.toml", "--with", with]).output().unwrap();
         let text = String::from_utf8(done.stderr).unwrap();

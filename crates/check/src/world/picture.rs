@@ -1,6 +1,6 @@
 //! Pictures in shades: PGM and PNG.
 
-use png::{BitDepth, Decoder, DecodingError, Transformations};
+use png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
 use std::io::Cursor;
 
 /// Pixels of the largest picture.
@@ -37,6 +37,9 @@ fn in_png(bytes: &[u8]) -> Result<Picture, String> {
     let header = decoder.read_header_info().map_err(wrong)?;
     let size = [header.width as usize, header.height as usize];
     let count = pixels(size)?;
+    if !is_in_palette(bytes).map_err(wrong)? {
+        return Err("a pixel has a colour that its palette lacks".into());
+    }
     let mut reader = decoder.read_info().map_err(wrong)?;
     let mut samples = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
     let frame = reader.next_frame(&mut samples).map_err(wrong)?;
@@ -55,6 +58,25 @@ fn in_png(bytes: &[u8]) -> Result<Picture, String> {
         true => Ok(Picture { size, white: colors as u32 * most, shades }),
         false => Err("pixels are missing".into()),
     }
+}
+
+/// Whether all colours of a PNG are in its palette, if it has one.
+fn is_in_palette(bytes: &[u8]) -> Result<bool, DecodingError> {
+    let mut reader = Decoder::new(Cursor::new(bytes)).read_info()?;
+    let (color, depth, width) =
+        (reader.info().color_type, reader.info().bit_depth as usize, reader.info().width as usize);
+    let colors = reader.info().palette.as_ref().map_or(0, |palette| palette.len() / 3);
+    if color != ColorType::Indexed {
+        return Ok(true);
+    }
+    let mut rows = vec![0; reader.output_buffer_size().ok_or(DecodingError::LimitsExceeded)?];
+    let length = reader.next_frame(&mut rows)?.line_size;
+    let each = 8 / depth;
+    let is_known = |row: &[u8]| {
+        let parts = row.iter().flat_map(|byte| (0..each).map(move |k| *byte >> (depth * (each - 1 - k))));
+        parts.take(width).all(|part| usize::from(part) % (1 << depth) < colors)
+    };
+    Ok(rows.chunks(length).all(is_known))
 }
 
 /// A PGM, as text or bytes, after its first two bytes.

@@ -378,7 +378,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             false => [self.length_or_0(node, "rx", page[0])?, self.length_or_0(node, "ry", page[1])?],
         };
         if rx <= 0.0 || ry <= 0.0 {
-            self.sheet.leave_out(&format!("<{}> without extent", origin.kind), origin);
+            self.sheet.leave_out(&format!("{} without extent", origin.kind), origin);
             return Ok(());
         }
         if rx == ry {
