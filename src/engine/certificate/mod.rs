@@ -30,8 +30,8 @@ pub enum NoCertificate {
     Answer(Status),
     /// A proof that a task cannot be done, of a kind that the checker does not know.
     #[error(
-        "the proof that the task cannot be done is of a kind that has no certificate: it is about a later time that a step is done, or about \
-             how an object lies that the arm has turned on the way over several steps"
+        "the proof that the task cannot be done is of a kind that has no certificate: it is about a later time that a step is done, about how an \
+         object lies that the arm has turned on a way of several steps, or about where the arm is all but stretched"
     )]
     Task,
     /// A motion without times in a world in which something moves.
