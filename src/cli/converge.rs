@@ -35,7 +35,7 @@ pub struct ConvergeArgs {
     pub files: Files,
     #[command(flatten)]
     pub query: QueryArgs,
-    /// Grid cells along each axis. Sweeps grow with its square, but for SOR's.
+    /// Grid cells along each axis, 8 to 256. Sweeps grow with its square, but for SOR's: 256 take minutes.
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=256))]
     pub cells: u32,
     /// Strength of the drift, per grid cell, of the oriented equations.

@@ -61,7 +61,7 @@ pub(super) struct ObjectTable {
     /// Obstacles and objects that it may touch where it is picked and placed.
     #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
-    /// Whether each repetition of the steps that pick it finds a new one where it lay at first.
+    /// Whether each repetition of the steps that pick it finds a new one where it lay at first; the old one is gone when the arm goes on.
     #[serde(default)]
     renew: bool,
     /// How it moves from `at` on, until it is picked; by default it lies still.

@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// A region that field planners prefer or avoid: where the tip is, or a region in joint space.
+/// A region that field planners prefer or avoid: where the tip is, or a region in joint space. Where several overlap the last one counts.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "preference", extend("oneOf" = [{ "required": ["configurations"] }, { "required": ["polygon"] }]))]
