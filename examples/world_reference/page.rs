@@ -104,6 +104,7 @@ fn list(value: &Value, number: Number) -> String {
     match (number, least, most) {
         (Number::One, Some(2), Some(2)) => format!("two {items}"),
         (Number::Many, Some(2), Some(2)) => format!("pairs of {items}"),
+        (Number::One, Some(3), Some(3)) => format!("three {items}"),
         (Number::One, Some(least), _) if least > 1 => format!("a list of {items}, {least} or more"),
         (Number::One, ..) => format!("a list of {items}"),
         (Number::Many, ..) => format!("lists of {items}"),

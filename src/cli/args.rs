@@ -225,7 +225,7 @@ Examples:
 
 Exit codes: 0 the options are printed, 2 wrong command line.")]
 pub struct PlannersArgs {
-    /// Planner to tell of; shortest, if none is named.
+    /// Planner that searches; which options are for which planner stands with each.
     #[arg(long, value_name = "NAME", default_value_t = Method::Shortest)]
     pub planner: Method,
     #[command(flatten)]

@@ -49,6 +49,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 use error_json::ErrorJson;
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Exit code: a path was found, and it is certified; or the job is done.
@@ -76,10 +77,21 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
 #[must_use]
 pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     let in_json = arguments.iter().any(|argument| argument == "--json");
+    let word = |first: &PathBuf| first.extension().is_none() && !first.to_string_lossy().starts_with('-');
+    let first = arguments.get(1).map(PathBuf::from).filter(word);
     let mut cli =
         match Cli::grammar().try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
             Ok(cli) => cli,
-            Err(error) => return unread(&error, in_json),
+            // The third of several words would be the command, were the first two files.
+            Err(error) => {
+                // The third of several words would be the command, were the first two files.
+                let is_conflict = error.kind() == ErrorKind::ArgumentConflict;
+                let unknown = first.filter(|first| is_conflict && !first.exists()).map(|first| {
+                    let message = format!("there is no command or file {first:?}; cplan --help lists the commands");
+                    Cli::command().error(ErrorKind::InvalidSubcommand, message)
+                });
+                return unread(&unknown.unwrap_or(error), in_json);
+            }
         };
     let done = match (&mut cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args, meter),

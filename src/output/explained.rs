@@ -9,6 +9,7 @@ use crate::engine::explain::{
 };
 use crate::engine::{Verdict, percent};
 use crate::model::{Outcome, Scene};
+use crate::text::at_least;
 
 /// The verdict first, then why.
 #[must_use]
@@ -108,7 +109,7 @@ fn found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Vec<Line> {
     {
         let between = scene.describe(nearest.contact.pair);
         let at = configuration(scene.arm(), nearest.at);
-        lines.push(("tightest", format!("at least {:.6} m, between {between} at {at}", path.clearance())));
+        lines.push(("tightest", format!("at least {} m, between {between} at {at}", at_least(path.clearance(), 6))));
     }
     lines
 }

@@ -7,7 +7,7 @@ use crate::engine::{Bound, MotionPlan, Plan, Timing, Verdict, Wait, percent};
 use crate::model::{Arm, Scene};
 use crate::motion::Fastest;
 use crate::space::{Configuration, Metric};
-use crate::text::counted;
+use crate::text::{at_least, counted};
 
 /// What the planner found and did; start and goals.
 pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
@@ -31,9 +31,11 @@ fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
     match &answer.verdict {
         Verdict::Found(certified) => {
             let path = certified.path();
-            let segments = path.segments().count();
             let kind = if answer.method.has_own_path() { format!(", {} path", answer.path) } else { String::new() };
-            let found = format!("found and certified: {segments} straight pieces, length {:.4}{kind}", path.length());
+            let found = {
+                let pieces = counted(path.segments().count(), "straight piece");
+                format!("found and certified: {pieces}, length {:.4}{kind}", path.length())
+            };
             lines.push(("result", found));
             if problem.goals().pieces().iter().any(|goals| !goals.is_point()) {
                 lines.push(("reached", configuration(whole.arm(), path.goal())));
@@ -83,8 +85,8 @@ pub(super) fn blocked_by(plan: &MotionPlan) -> Option<Line> {
 fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
     match curve.nearest() {
         Some(nearest) => format!(
-            "{:.6} m proven; closest: {} at {}",
-            curve.clearance(),
+            "{} m proven; closest: {} at {}",
+            at_least(curve.clearance(), 6),
             scene.describe(nearest.contact.pair),
             configuration(scene.arm(), nearest.at)
         ),
@@ -95,7 +97,8 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
 /// How the motion gets by what moves.
 pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
     let Timing { obstacles, ways, waits, clearance, free_until } = timing;
-    let kept = clearance.map_or_else(|| "none of them can meet the arm".into(), |kept| format!("{kept:.6} m proven"));
+    let kept = clearance
+        .map_or_else(|| "none of them can meet the arm".into(), |kept| format!("{} m proven", at_least(kept, 6)));
     let stays = free_until.map_or_else(|| "for ever".into(), |until| format!("until {until:.3} s"));
     let tried = counted(*ways, "way");
     let mut lines = vec![(
@@ -127,7 +130,7 @@ fn corners(curve: &CertifiedCurve) -> String {
 fn least_time(fastest: &Fastest) -> String {
     let Fastest { lower_bound, gap, .. } = *fastest;
     let longer = gap.map_or_else(String::new, |gap| format!(", so at most {} longer than the fastest", percent(gap)));
-    format!("proven: no motion takes less than {lower_bound:.3} s{longer}")
+    format!("proven: no motion takes less than {} s{longer}", at_least(lower_bound, 3))
 }
 
 /// How near the path is to the optimum.
@@ -138,5 +141,6 @@ fn optimum(bound: &Bound) -> String {
         Metric::Weighted { weights: [a, b] } => format!("weighted length {upper:.4} (weights {a}, {b})"),
         Metric::Time { .. } => format!("{upper:.4} s at top speed"),
     };
-    format!("{measure}; proven: none below {lower:.4}, so at most {} longer than the shortest", percent(bound.gap()))
+    let (lower, gap) = (at_least(lower, 4), percent(bound.gap()));
+    format!("{measure}; proven: none below {lower}, so at most {gap} longer than the shortest")
 }

@@ -6,7 +6,7 @@ use super::summary::{Line, Told, configuration, field, non_empty, torque};
 use crate::engine::task::{Leg, TaskAnswer};
 use crate::engine::{Plan, Report, TaskPlan, percent};
 use crate::model::{Arm, Task};
-use crate::text::counted;
+use crate::text::{at_least, counted};
 
 /// What came of the steps; start and steps.
 pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
@@ -69,7 +69,8 @@ fn outcome(arm: &Arm, answer: &TaskAnswer, report: &Report) -> Vec<Line> {
     let still = if still > 0.0 { format!(", {still:.3} s of it standing still") } else { String::new() };
     let proven = match figures.and_then(|figures| figures.lower_bound.zip(figures.gap)) {
         Some((lower, gap)) => format!(
-            "proven: no sequence of motions takes less than {lower:.3} s, so at most {} longer than the fastest",
+            "proven: no sequence of motions takes less than {} s, so at most {} longer than the fastest",
+            at_least(lower, 3),
             percent(gap)
         ),
         None => "nothing is proven of the fastest".into(),
@@ -103,5 +104,6 @@ fn clearance(answer: &TaskAnswer, report: &Report) -> Option<Line> {
         (_, Some(nearest)) => least.scene.describe(nearest.contact.pair),
         (_, None) => return Some(("clearance", "nothing can be hit".into())),
     };
-    Some(("clearance", format!("{:.6} m proven; closest: {closest} in step {step}{file}{cycle}", least.clearance())))
+    let kept = at_least(least.clearance(), 6);
+    Some(("clearance", format!("{kept} m proven; closest: {closest} in step {step}{file}{cycle}")))
 }

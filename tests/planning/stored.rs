@@ -144,7 +144,7 @@ fn what_no_constructor_makes_is_no_problem() {
         ("/problem/asked/motion/start/0".to_owned(), Value::Null, "null"),
         ("/problem/asked/motion/start".to_owned(), json!(["NaN", 0.0]), "invalid type"),
         ("/problem/asked/motion/goals".to_owned(), json!([]), "no goal"),
-        (format!("{scene}/workspace/clearance"), json!(-1.0), "clearance must be finite"),
+        (format!("{scene}/workspace/clearance"), json!(-1.0), "clearance must be from 0 to"),
         (format!("{scene}/workspace/obstacles/0/heights/lower"), json!("NaN"), "\"inf\""),
         (format!("{scene}/workspace/obstacles/0/heights"), json!({"lower": 1.0, "upper": 0.0}), "no heights"),
         (format!("{scene}/workspace/obstacles/0/pieces/0/radius"), json!(-0.1), "radius"),

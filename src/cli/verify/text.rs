@@ -7,7 +7,7 @@ use crate::engine::findings::{
 use crate::model::Arm;
 use crate::output::{Line, StepLine, configuration, laid_out, step_lines};
 use crate::space::Recording;
-use crate::text::counted;
+use crate::text::{at_least, counted};
 
 /// The findings for people.
 pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFindings) -> String {
@@ -51,10 +51,11 @@ fn way(arm: &Arm, way: &WayFinding, verdict: Verdict) -> Vec<Line> {
     let mut lines = Vec::new();
     match (way.clearance, &way.nearest) {
         (Some(proven), Some(nearest)) => {
-            let seen = format!("{proven:.6} m proven; least seen {:.6} m: {}", -nearest.depth, place(nearest));
+            let seen =
+                format!("{} m proven; least seen {:.6} m: {}", at_least(proven, 6), -nearest.depth, place(nearest));
             lines.push(("clearance", seen));
         }
-        (Some(clearance), None) => lines.push(("clearance", format!("{clearance:.6} m proven"))),
+        (Some(clearance), None) => lines.push(("clearance", format!("{} m proven", at_least(clearance, 6)))),
         (None, None) if verdict != Verdict::Collision && way.undecided.is_none() => {
             lines.push(("clearance", "nothing can be hit".into()));
         }

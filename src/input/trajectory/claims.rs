@@ -123,12 +123,23 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     };
     let unjudged = members.keys().filter(|name| !JUDGED.contains(&name.as_str()) && !READ.contains(&name.as_str()));
     let mut unjudged: Vec<String> = unjudged.cloned().collect();
+    let samples = members.get("trajectory").filter(|trajectory| !trajectory.is_null());
+    if samples.is_some_and(|samples| samples.get("torque").is_some_and(|torque| !torque.is_null())) {
+        unjudged.push("trajectory.torque".into());
+    }
+    if samples.is_none() && document.duration.is_some() {
+        unjudged.push("duration".into());
+    }
     for (name, inner) in [("optimum", "optimum.lower_bound"), ("steps", "steps[..].closest, steps[..].stroke")] {
         if members.contains_key(name) {
             unjudged.push(inner.into());
         }
     }
     let width = document.joints.as_ref().map_or(2, Vec::len);
+    if let Some(units) = document.units.as_ref().filter(|units| units.len() != width) {
+        let diagnostic = source.diagnostic(format!("units are {units:?}, but {width} joints are named"));
+        return Err(diagnostic.help("give every joint one unit, \"rad\" or \"m\"").into());
+    }
     let paths = document.path.iter().chain(document.steps.iter().flatten().filter_map(|step| step.path.as_ref()));
     if let Some(row) = paths.flatten().find(|row| row.len() != width || row.iter().any(|value| value.abs() > LARGEST)) {
         let diagnostic = source.diagnostic(format!("a waypoint of a path is {row:?}, but {width} joints are named"));

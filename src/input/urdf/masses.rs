@@ -6,6 +6,7 @@ use super::plane::project;
 use super::tree::isometry;
 use crate::geometry::Vector;
 use crate::input::error::Diagnostic;
+use crate::input::world::World;
 use crate::model::{Arm, Body, Dynamics};
 use nalgebra::{Matrix3, Vector3};
 
@@ -16,15 +17,36 @@ const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 /// share of what moves the greatest inertia as fast as it may have to go: below, rounding is all that is left of it.
 const NEGLIGIBLE: f64 = 1e-12;
 
+/// Whether what the world says of efforts and gravity can be, also where nothing depends on it.
+///
+/// # Errors
+/// The first that cannot.
+pub(super) fn check(world: &World) -> Result<(), Diagnostic> {
+    let bad = world.robot.effort.iter().find(|(_, effort)| !(effort.get_ref().is_finite() && *effort.get_ref() > 0.0));
+    if let Some((joint, effort)) = bad {
+        let message = format!("[robot] effort of \"{joint}\" must be positive, is {}", effort.get_ref());
+        return Err(world.source.diagnostic_at(effort.span(), message).help("N m, or N of a joint that slides"));
+    }
+    let Some(given) = &world.robot.gravity else { return Ok(()) };
+    let numbers: Vec<f64> = given.get_ref().iter().map(|number| *number.get_ref()).collect();
+    if numbers.len() == 3 && numbers.iter().all(|number| number.is_finite()) {
+        return Ok(());
+    }
+    let message = format!("[robot] gravity: expected three finite numbers, found {numbers:?}");
+    let help = "gravity = [0, 0, -9.81], m/s2 in the robot's root frame";
+    Err(world.source.diagnostic_at(given.span(), message).help(help))
+}
+
 impl Bodies<'_> {
     /// Masses and efforts of an arm.
     ///
     /// # Errors
     /// Links without mass, joints without effort, numbers that no body has.
     pub fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
+        check(self.world)?;
         let effort = [self.effort(0)?, self.effort(1)?];
         let bodies = [self.body(0)?, self.body(1)?];
-        let gravity = self.gravity()?;
+        let gravity = self.gravity();
         let gravity = Vector::new(gravity.dot(&self.plane.u), gravity.dot(&self.plane.v));
         let dynamics = Dynamics { bodies, gravity, effort, assumed, limits: false };
         let inertia = dynamics.greatest_inertia(arm);
@@ -49,18 +71,8 @@ impl Bodies<'_> {
     fn effort(&self, index: usize) -> Result<f64, Diagnostic> {
         let joint = &self.document.robot.joints[self.chain.joints[index]];
         let place = &self.document.joints[self.chain.joints[index]];
-        let given = find(&self.world.robot.effort, &joint.name);
-        if let Some(given) = given {
-            let effort = *given.get_ref();
-            if effort.is_finite() && effort > 0.0 {
-                return Ok(effort);
-            }
-            let message = format!("[robot] effort of \"{}\" must be positive, is {effort}", joint.name);
-            return Err(self
-                .world
-                .source
-                .diagnostic_at(given.span(), message)
-                .help("N m, or N of a joint that slides"));
+        if let Some(given) = find(&self.world.robot.effort, &joint.name) {
+            return Ok(*given.get_ref());
         }
         if joint.limit.effort.is_finite() && joint.limit.effort > 0.0 && place.limit.is_some() {
             return Ok(joint.limit.effort);
@@ -104,16 +116,9 @@ impl Bodies<'_> {
         Err(self.document.source.diagnostic(message).help(help))
     }
 
-    fn gravity(&self) -> Result<Vector3<f64>, Diagnostic> {
-        let Some(given) = &self.world.robot.gravity else { return Ok(GRAVITY.into()) };
-        let numbers: Vec<f64> = given.get_ref().iter().map(|number| *number.get_ref()).collect();
-        match numbers[..] {
-            [x, y, z] if numbers.iter().all(|number| number.is_finite()) => Ok(Vector3::new(x, y, z)),
-            _ => {
-                let message = format!("[robot] gravity: expected three finite numbers, found {numbers:?}");
-                let help = "gravity = [0, 0, -9.81], m/s2 in the robot's root frame";
-                Err(self.world.source.diagnostic_at(given.span(), message).help(help))
-            }
-        }
+    fn gravity(&self) -> Vector3<f64> {
+        let given = self.world.robot.gravity.as_ref();
+        let numbers = given.map(|given| given.get_ref().iter().map(|number| *number.get_ref()));
+        numbers.map_or(GRAVITY.into(), Vector3::from_iterator)
     }
 }

@@ -49,6 +49,7 @@ pub(super) fn load(source: Source, world: &World) -> Result<(Arm, RobotReport), 
     let tree = Tree::build(&document)?;
     let chain = chain::choose(&document, &tree, world)?;
     let reduction = Reduction::new(&document, &tree, world, &chain);
+    masses::check(world)?;
     let plane = reduction.plane()?;
     let bounds = reduction.bounds()?;
     let outlines = reduction.outlines(&plane)?;

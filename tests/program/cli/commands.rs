@@ -297,3 +297,11 @@ fn gaps_below_the_rounding_of_doubles_end() {
         assert_eq!((done.code, &done.json()["status"]), (0, &serde_json::json!("found")), "{options}");
     }
 }
+
+/// Of more than two words the first, misspelled, is no file.
+#[test]
+fn a_command_that_is_none_is_told() {
+    let place = Place::new();
+    let done = place.run(&["verfy", "no.urdf", "no.toml", "plan.csv"], "");
+    done.refused(2, &["there is no command or file \"verfy\""]);
+}

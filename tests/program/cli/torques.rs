@@ -116,6 +116,12 @@ fn what_is_missing_or_makes_no_sense_is_named() {
         place.write("wrong.toml", text.replace(from, to));
         place.run(&[urdf.as_str(), "wrong.toml"], "").refused(1, &[part]);
     }
+    // Also where nothing depends on it.
+    for wrong in ["shoulder = 0", "shoulder = nan", "gravity"] {
+        let silent = text.replace("dynamics = true\n", if wrong == "gravity" { "gravity = [0, 1]\n" } else { "" });
+        place.write("wrong.toml", silent.replace("shoulder = 36", if wrong == "gravity" { "shoulder = 36" } else { wrong }));
+        place.run(&[urdf.as_str(), "wrong.toml"], "").refused(1, &["[robot]", "wrong.toml", "cure"]);
+    }
     let robot = std::fs::read_to_string(&urdf).unwrap();
     let robots = [
         ("<mass value=\"4\"/>", "<mass value=\"-4\"/>", "has a mass of -4 kg"),

@@ -73,6 +73,23 @@ fn results_as_they_are_have_no_false_claims() {
 }
 
 #[test]
+fn what_is_said_of_a_motion_that_is_not_there_is_named() {
+    let case = Case::new("planar_2r", "shelf");
+    let mut result = case.result.clone();
+    result["trajectory"] = Value::Null;
+    let (code, found) = case.judged(&result, &[]);
+    assert_eq!((code, found["not_judged"].to_string().contains("\"duration\"")), (0, true), "{found:#}");
+    let upright = Case::new("rrbot_vertical", "upright");
+    let mut result = upright.result.clone();
+    result["trajectory"]["torque"] = json!([[0, 0]]);
+    let (code, found) = upright.judged(&result, &[]);
+    assert_eq!((code, found["not_judged"].to_string().contains("trajectory.torque")), (0, true), "{found:#}");
+    result["units"] = json!(["rad"]);
+    let (code, said) = upright.judged(&result, &[]);
+    assert!(code == 1 && said.to_string().contains("2 joints are named"), "{said:#}");
+}
+
+#[test]
 fn a_colliding_path_beside_a_good_trajectory_is_found() {
     let case = Case::new("planar_2r", "shelf");
     let ends = [0, case.result["path"].as_array().unwrap().len() - 1].map(|k| case.result["path"][k].clone());
