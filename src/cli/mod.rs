@@ -49,7 +49,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 use error_json::ErrorJson;
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Exit code: a path was found, and it is certified; or the job is done.
@@ -77,20 +77,13 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
 #[must_use]
 pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     let in_json = arguments.iter().any(|argument| argument == "--json");
-    let word = |first: &PathBuf| first.extension().is_none() && !first.to_string_lossy().starts_with('-');
-    let first = arguments.get(1).map(PathBuf::from).filter(word);
+    let first = arguments.get(1).cloned();
     let mut cli =
         match Cli::grammar().try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
             Ok(cli) => cli,
-            // The third of several words would be the command, were the first two files.
             Err(error) => {
-                // The third of several words would be the command, were the first two files.
-                let is_conflict = error.kind() == ErrorKind::ArgumentConflict;
-                let unknown = first.filter(|first| is_conflict && !first.exists()).map(|first| {
-                    let message = format!("there is no command or file {first:?}; cplan --help lists the commands");
-                    Cli::command().error(ErrorKind::InvalidSubcommand, message)
-                });
-                return unread(&unknown.unwrap_or(error), in_json);
+                let misspelled = first.filter(|_| error.kind() == ErrorKind::ArgumentConflict).and_then(misspelled);
+                return unread(&misspelled.unwrap_or(error), in_json);
             }
         };
     let done = match (&mut cli.command, &cli.files) {
@@ -137,6 +130,15 @@ fn planners() -> Result<u8, Failure> {
     let help = grammar.find_subcommand_mut("planners").map(|command| command.render_long_help().to_string());
     sinks::print(&help.unwrap_or_default())?;
     Ok(DONE)
+}
+
+/// That a first word is neither a command nor a file. Of more words than two the third would be the command then, in conflict with two files.
+fn misspelled(first: OsString) -> Option<clap::Error> {
+    let word = first.to_string_lossy();
+    let is_meant = Path::new(&first).extension().is_none() && !word.starts_with('-');
+    let is_known = Cli::command().find_subcommand(&*word).is_some() || Path::new(&first).exists();
+    let message = || format!("there is no command or file {word:?}; cplan --help lists the commands");
+    (is_meant && !is_known).then(|| Cli::command().error(ErrorKind::InvalidSubcommand, message()))
 }
 
 /// Says what is wrong with the command line, or shows what it asks to be shown: a help or the version.

@@ -28,10 +28,10 @@ impl Bound {
     }
 }
 
-/// A share in words, rounded up: `0.04 %`, `8.5e-3 %`.
+/// A share in words, rounded up: `0.04 %`, `8.5e-3 %`. That a quotient was rounded makes it no more.
 #[must_use]
 pub fn percent(share: f64) -> String {
-    let percent = 100.0 * share;
+    let percent = 100.0 * (share - 2.0 * f64::EPSILON).max(0.0);
     if percent == 0.0 || percent >= 0.01 {
         return format!("{} %", at_most(percent, 2));
     }

@@ -119,7 +119,10 @@ fn what_is_missing_or_makes_no_sense_is_named() {
     // Also where nothing depends on it.
     for wrong in ["shoulder = 0", "shoulder = nan", "gravity"] {
         let silent = text.replace("dynamics = true\n", if wrong == "gravity" { "gravity = [0, 1]\n" } else { "" });
-        place.write("wrong.toml", silent.replace("shoulder = 36", if wrong == "gravity" { "shoulder = 36" } else { wrong }));
+        place.write(
+            "wrong.toml",
+            silent.replace("shoulder = 36", if wrong == "gravity" { "shoulder = 36" } else { wrong }),
+        );
         place.run(&[urdf.as_str(), "wrong.toml"], "").refused(1, &["[robot]", "wrong.toml", "cure"]);
     }
     let robot = std::fs::read_to_string(&urdf).unwrap();
