@@ -78,7 +78,7 @@ pub(super) fn blocked_by(plan: &MotionPlan) -> Option<Line> {
     let is_small = scene.pairs().len() <= FEW_PAIRS;
     let set = is_small.then(|| blocking_set(&Question::from(&plan.problem), Some(proof.clone()), [BOXES; 2]));
     let told = set.filter(BlockingSet::is_irreducible).map(|set| set.describe(scene));
-    Some(("blocked by", told.unwrap_or_else(|| "`cplan explain` tells".into())))
+    Some(("blocked by", told.unwrap_or_else(|| "what `cplan explain` tells".into())))
 }
 
 /// What the motion keeps, and where it comes nearest.
