@@ -7,7 +7,6 @@ use crate::model::MotionProblem;
 use crate::planner::{Planner as _, Proposal, Query, Visibility};
 use crate::search::{Motions, claimed_length, least_length};
 use crate::space::{Metric, Path};
-use crate::text::at_most;
 
 /// A path's length and a proven lower bound on that of every other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,20 +25,6 @@ impl Bound {
     pub fn gap(&self) -> f64 {
         if self.upper <= self.lower { 0.0 } else { self.upper / self.lower - 1.0 }
     }
-}
-
-/// A share in words, rounded up: `0.04 %`, `8.5e-3 %`. That a quotient was rounded makes it no more.
-#[must_use]
-pub fn percent(share: f64) -> String {
-    let percent = 100.0 * (share - 2.0 * f64::EPSILON).max(0.0);
-    if percent == 0.0 || percent >= 0.01 {
-        return format!("{} %", at_most(percent, 2));
-    }
-    let text = format!("{percent:.1e}");
-    let is_less = text.parse::<f64>().is_ok_and(|shown| shown < percent);
-    // One unit more of the last digit shown.
-    let more = percent + 0.1 * 10_f64.powf(percent.log10().floor());
-    if is_less { format!("{more:.1e} %") } else { text + " %" }
 }
 
 /// A bound for `path`; see [`least_length`], and of gantries [`inner_regions`]. It is made better until the gap is known to be

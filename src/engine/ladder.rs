@@ -1,7 +1,7 @@
 //! The ladder of refinement.
 
 use super::admission::{Admit, Ends};
-use super::bound::{Bound, bound, percent};
+use super::bound::{Bound, bound};
 use super::rungs::{Described, cells, field_cells, polygons, zoned_cells};
 use super::settle::decide;
 use super::{Answer, Options, Planner, Space, Stages, Verdict, first, shortest, subdivision};
@@ -12,6 +12,7 @@ use crate::planner::{
     FieldPlanner, Harmonic, Note, Prm, Proposal, Query, Run, Trapezoid, Triangles, Visibility, Voronoi, Wavefront,
 };
 use crate::space::{Metric, Path, Segment};
+use crate::text::percent;
 
 /// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
 /// beside a finer attempt where it is not.

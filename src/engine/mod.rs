@@ -69,7 +69,7 @@ mod subdivision;
 pub mod task;
 mod thinned;
 
-pub use bound::{Bound, bound, checked_bound, percent};
+pub use bound::{Bound, bound, checked_bound};
 pub use cell_counts::CellCounts;
 pub use certificate::{NoCertificate, certificate_of_recording};
 pub use field_problem::FieldProblem;

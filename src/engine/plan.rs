@@ -6,10 +6,11 @@ use super::options::Options;
 use super::problem::{Asked, Problem};
 use super::result::Report;
 use super::task::{FailedStep, MessageError, TaskAnswer, TaskReplay, plan as plan_task};
-use super::{Answer, GridSpace, Kind, Replay, percent, solve};
+use super::{Answer, GridSpace, Kind, Replay, solve};
 use crate::check::CheckedProof;
 use crate::model::{Arm, MotionProblem, Outcome, RobotJoints, Status, Task};
 use crate::motion::{SearchUsed, TimingError, Trajectory};
+use crate::text::percent;
 use std::borrow::Cow;
 use thiserror::Error;
 

@@ -6,14 +6,14 @@
 
 use super::admission::Ends;
 use super::ladder::FIRST_BOXES;
-use super::{Answer, Options, Planner, Space, Verdict, percent, solve};
+use super::{Answer, Options, Planner, Space, Verdict, solve};
 use crate::cspace::ZonedGrid;
 use crate::field::{Device, Measure, Stopping, relax_watched};
 use crate::model::MotionProblem;
 use crate::planner::{FieldChoice, PathKind, Proposal, Size, Trace, field_domain};
 use crate::search::{Occupancy, slab_boxes};
 use crate::space::{Configuration, Path};
-use crate::text::counted;
+use crate::text::{counted, percent};
 
 /// How a planner came to its answer.
 #[derive(Debug, Clone, PartialEq)]

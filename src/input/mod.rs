@@ -76,7 +76,7 @@ pub use schema::world_schema;
 #[cfg(feature = "study")]
 pub(crate) use schema::{AngleOrLength, toml_schema};
 pub use source::{Position, Source};
-pub use suite::{Asked, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
+pub use suite::{Asked, LeftOut, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording, read_recording};
 pub use values::{JointValues, Overrides, TipPoint};

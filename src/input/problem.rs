@@ -112,6 +112,11 @@ impl LoadedScene {
         Ok(())
     }
 
+    /// Whether an obstacle has a motion.
+    pub(super) fn has_movers(&self) -> bool {
+        !self.scene.workspace().movers.is_empty()
+    }
+
     /// Refuses what moves, for all that knows no time: `what` says so.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 use super::error::{Diagnostic, InputError};
 use super::identity::note_read;
 use serde::{Deserialize, Serialize};
+use serde_saphyr::{MessageFormatter, UserMessageFormatter};
 use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
@@ -187,6 +188,12 @@ impl Source {
             excerpt: Some(self.excerpt(position, range).into()),
             ..Diagnostic::new(self.name(), message)
         }
+    }
+
+    /// What is wrong with it as YAML, where that is, in words that give no advice to who calls the parser.
+    pub fn yaml_diagnostic(&self, error: &serde_saphyr::Error) -> Diagnostic {
+        let (line, column) = error.location().map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
+        self.diagnostic_at_position(line, column, UserMessageFormatter.format_message(error))
     }
 
     /// A diagnostic at a line and column, both counted from 1, as parsers name places; 0 is unknown.

@@ -18,12 +18,19 @@ pub struct Suite {
     pub name: String,
     /// At least one; names are all different.
     pub members: Vec<Member>,
-    /// Worlds that are left out because they have steps, not a goal, ...
-    pub with_steps: Vec<PathBuf>,
-    /// ... or because something moves in them.
-    pub with_movers: Vec<PathBuf>,
+    /// Worlds that are nothing to compare planners on.
+    pub left_out: Vec<LeftOut>,
     /// Problems that cannot be read.
     pub refused: Vec<Refused>,
+}
+
+/// A world that is nothing to compare planners on.
+#[derive(Debug, Clone)]
+pub struct LeftOut {
+    /// Its file.
+    pub world: PathBuf,
+    /// What is in it, as a sentence about "it".
+    pub why: &'static str,
 }
 
 /// A problem that cannot be read, or whose start or goal cannot be.
@@ -158,11 +165,11 @@ pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
 
 /// Reads all files; what is wrong with some of them is kept beside the others.
 fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Suite, InputError> {
-    let (mut members, mut with_steps, mut with_movers) = (Vec::<Member>::new(), Vec::new(), Vec::new());
+    let (mut members, mut left_out) = (Vec::<Member>::new(), Vec::new());
     for Pair { name, robot, world } in pairs {
         match load_scene(&robot, &world) {
-            Ok(scene) if scene.has_steps() => with_steps.push(world),
-            Ok(scene) if scene.require_standing("").is_err() => with_movers.push(world),
+            Ok(scene) if scene.has_steps() => left_out.push(LeftOut { world, why: "it has steps, not a goal" }),
+            Ok(scene) if scene.has_movers() => left_out.push(LeftOut { world, why: "something moves in it" }),
             Ok(scene) => {
                 let name = name.unwrap_or_else(|| stem(&world));
                 let name = distinct(&name, &stem(&robot), |name| members.iter().any(|member| member.name == name));
@@ -173,23 +180,14 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
     }
     if members.is_empty() {
         all_of(&refused)?;
-        let shown = |paths: &[PathBuf]| paths.first().map_or_else(String::new, |path| path.display().to_string());
-        let (diagnostic, help) = match with_movers.is_empty() {
-            true => (
-                Diagnostic::new(shown(&with_steps), "this world and all others of the suite have steps, not a goal"),
-                "only `cplan ROBOT WORLD` plans steps; for comparisons put a [goal] in their place",
-            ),
-            false => (
-                Diagnostic::new(
-                    shown(&with_movers),
-                    "in this world something moves, and all others of the suite have steps, or something moves there, too",
-                ),
-                "planners are compared among what stands: remove the motions",
-            ),
-        };
-        return Err(diagnostic.help(help).into());
     }
-    Ok(Suite { name, members, with_steps, with_movers, refused })
+    if let (true, Some(LeftOut { world, why })) = (members.is_empty(), left_out.first()) {
+        let message = format!("no world of the suite is left to compare on: this one is left out since {why}");
+        return Err(Diagnostic::new(world.display().to_string(), message)
+            .help("planners are compared on what stands and has a [goal]: put one in the place of steps, and remove motions")
+            .into());
+    }
+    Ok(Suite { name, members, left_out, refused })
 }
 
 /// All that is wrong with these at once, if there are any.

@@ -3,13 +3,13 @@
 use super::picture::{contours, title_of};
 use super::summary::{Line, configuration, laid_out, segment};
 use crate::draw::{Picture, Stuck, View};
+use crate::engine::Verdict;
 use crate::engine::explain::{
     Among, BlockedEnd, BlockingSet, Bottleneck, Change, Closed, Cure, Element, End, Explanation, OutOfReach, Shaped,
     Target,
 };
-use crate::engine::{Verdict, percent};
 use crate::model::{Outcome, Scene};
-use crate::text::at_least;
+use crate::text::{at_least, percent};
 
 /// The verdict first, then why.
 #[must_use]

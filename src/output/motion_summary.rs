@@ -3,11 +3,11 @@
 use super::summary::{Line, Told, configuration, field, non_empty, segment, torque};
 use crate::check::CertifiedCurve;
 use crate::engine::explain::{BlockingSet, Question, blocking_set};
-use crate::engine::{Bound, MotionPlan, Plan, Timing, Verdict, Wait, percent};
+use crate::engine::{Bound, MotionPlan, Plan, Timing, Verdict, Wait};
 use crate::model::{Arm, Scene};
 use crate::motion::Fastest;
 use crate::space::{Configuration, Metric};
-use crate::text::{at_least, counted};
+use crate::text::{at_least, counted, percent};
 
 /// What the planner found and did; start and goals.
 pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {

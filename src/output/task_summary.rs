@@ -4,9 +4,9 @@ use super::motion_summary::among_movers;
 use super::step_lines::{StepLine, step_lines};
 use super::summary::{Line, Told, configuration, field, non_empty, torque};
 use crate::engine::task::{Leg, TaskAnswer};
-use crate::engine::{Plan, Report, TaskPlan, percent};
+use crate::engine::{Plan, Report, TaskPlan};
 use crate::model::{Arm, Task};
-use crate::text::{at_least, counted};
+use crate::text::{at_least, counted, percent};
 
 /// What came of the steps; start and steps.
 pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {

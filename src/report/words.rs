@@ -5,10 +5,9 @@ use super::row::Family;
 use super::sign::sign_test;
 use super::spread::Spread;
 use super::study::Study;
-use crate::engine::percent;
 use crate::model::Status;
 use crate::planner::PathKind;
-use crate::text::counted;
+use crate::text::{counted, percent};
 
 /// A side is said to be better if a fair coin would favour it as clearly as this seldom.
 const SIGNIFICANT: f64 = 0.05;

@@ -7,9 +7,21 @@ pub fn at_least(value: f64, decimals: usize) -> String {
 }
 
 /// The same, no less than this one.
-#[must_use]
-pub fn at_most(value: f64, decimals: usize) -> String {
+fn at_most(value: f64, decimals: usize) -> String {
     shown(value, decimals, |shown| shown >= value, 1.0)
+}
+
+/// A share in words, rounded up: `0.04 %`, `8.5e-3 %`. That a quotient was rounded makes it no more.
+#[must_use]
+pub fn percent(share: f64) -> String {
+    let percent = 100.0 * (share - 2.0 * f64::EPSILON).max(0.0);
+    if percent == 0.0 || percent >= 0.01 {
+        return format!("{} %", at_most(percent, 2));
+    }
+    // Two digits that count.
+    let decimals = 1 - percent.log10().floor() as i32;
+    let shown = at_most(percent, decimals.unsigned_abs() as usize);
+    shown.parse().map_or(shown.clone(), |shown: f64| format!("{shown:.1e}")) + " %"
 }
 
 /// The nearest, or the next one in a direction.
@@ -35,8 +47,23 @@ mod tests {
         assert_eq!([at_most(0.0301, 2), at_least(f64::INFINITY, 3)], ["0.04", "inf"]);
     }
 
+    #[test]
+    fn shares_are_rounded_up_to_two_digits() {
+        let shown = [0.0, 1e-16, 0.0004, 0.00040001, 8.41e-5, 9.96e-5, 1.0e-9, 1.01e-9, 0.25].map(percent);
+        let asked = ["0.00 %", "0.00 %", "0.04 %", "0.05 %", "8.5e-3 %", "1.0e-2 %", "1.0e-7 %", "1.1e-7 %", "25.00 %"];
+        assert_eq!(shown, asked);
+    }
+
     proptest! {
         #![proptest_config(crate::random::cases(500))]
+
+        #[test]
+        fn shares_are_no_less(exponent in -14.0..0.5_f64) {
+            let share = 10_f64.powf(exponent);
+            let shown: f64 = percent(share).trim_end_matches(" %").parse().unwrap();
+            let unit = if share < 1e-4 { share } else { 1e-4 };
+            prop_assert!((-1e-15..=1.001 * unit).contains(&(shown / 100.0 - share)), "{share} {shown}");
+        }
 
         #[test]
         fn they_enclose_by_a_unit_at_most(value in -1e3..1e3_f64, decimals in 0..7_usize) {

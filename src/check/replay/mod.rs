@@ -222,16 +222,13 @@ impl<'a> Iterator for Replay<'a> {
         // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by. So does one after which objects are renewed,
         // but what it has let go of before is still there.
         let next = self.matched.get(self.next);
-        let allowed = match next {
-            None => Some(released),
-            Some(next) => (!next.renewed.is_empty()).then_some(None),
-        };
-        if let Some(allowed) = allowed
+        let (is_last, is_renewed) = (next.is_none(), next.is_some_and(|next| !next.renewed.is_empty()));
+        if (is_last || is_renewed)
             && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = standing()
         {
-            let after = self.state.scene(task, allowed).since(times[1]);
-            if next.is_none() && broken.iter().all(|excess| excess.limit != Limit::Torque) {
+            let after = self.state.scene(task, released.filter(|_| is_last)).since(times[1]);
+            if is_last && broken.iter().all(|excess| excess.limit != Limit::Torque) {
                 let mut held = torques_kept(&after, &standing);
                 held.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.end());
                 broken.extend(held);

@@ -3,7 +3,7 @@
 use super::args::CompareArgs;
 use super::pairs::free_pairs;
 use crate::cli::failure::Failure;
-use crate::input::{self, DiagnosticKind, LoadedScene, Overrides, Refused, Suite};
+use crate::input::{self, DiagnosticKind, LeftOut, LoadedScene, Overrides, Refused, Suite};
 use crate::model::MotionProblem;
 use crate::output::title_of;
 use crate::report::{Refusal, Sampling};
@@ -82,12 +82,10 @@ impl Cases {
     }
 
     fn of_suite(suite: Suite, args: &CompareArgs) -> Result<Self, Failure> {
-        let with_steps = suite.with_steps.iter().map(|path| (path, "it has steps"));
-        let with_movers = suite.with_movers.iter().map(|path| (path, "something moves in it"));
-        let left_out = |(path, why): (&std::path::PathBuf, &str)| {
-            format!("{} is left out: {why}, and only `cplan ROBOT WORLD` plans that", path.display())
+        let left_out = |LeftOut { world, why }: &LeftOut| {
+            format!("{} is left out: {why}, and only `cplan ROBOT WORLD` plans that", world.display())
         };
-        let left_out = with_steps.chain(with_movers).map(left_out).collect();
+        let left_out = suite.left_out.iter().map(left_out).collect();
         let mut warnings: Vec<String> = Vec::new();
         for warning in suite.members.iter().flat_map(|member| &member.scene.robot.warnings) {
             if !warnings.contains(warning) {
@@ -142,8 +140,7 @@ fn one(scene: LoadedScene) -> Suite {
     Suite {
         name: name.clone(),
         members: vec![input::Member { name, scene }],
-        with_steps: Vec::new(),
-        with_movers: Vec::new(),
+        left_out: Vec::new(),
         refused: Vec::new(),
     }
 }

@@ -94,8 +94,9 @@ fn is_little(task: &Task, room: f64) -> bool {
 /// How well a checker knows where the arm is before cases.
 struct Known<'a> {
     task: &'a Task,
-    /// How much less well where something is let go of is known than what is taken where the joints move the tip across each other.
-    taken: f64,
+    /// A share of the joints' ranges, for [`Known::sides`], where something has been let go of that is not told to be turned: from the least well known place where
+    /// something was taken.
+    untold: f64,
     /// The farthest from joint 1, or from where it is grasped, that anything of an object gets.
     farthest: [f64; 2],
 }
@@ -103,13 +104,13 @@ struct Known<'a> {
 impl<'a> Known<'a> {
     fn new(task: &'a Task, cases: &[RefutedCase]) -> Self {
         let arm = &task.arm;
-        // Where something is let go of is known as well as where it was taken.
         let carrying = cases.iter().filter(|case| case.scene.payload().is_some());
-        let taken = MOST_TOLD / carrying.map(|case| told_of(arm, case)).fold(MOST_TOLD, f64::min);
+        let untold = AFTER_ANOTHER * ABOUT_IK_SOLUTIONS * MOST_TOLD
+            / carrying.map(|case| told_of(arm, case)).fold(MOST_TOLD, f64::min);
         let pieces = task.objects.iter().flat_map(|object| &object.pieces);
         let beyond = |piece: &Convex| piece.core().iter().map(|p| p.coords.norm()).fold(0.0, f64::max) + piece.radius();
         let size = pieces.map(beyond).fold(0.0, f64::max);
-        Self { task, taken, farthest: [arm.reach() + 2.0 * size, 2.0 * size] }
+        Self { task, untold, farthest: [arm.reach() + 2.0 * size, 2.0 * size] }
     }
 
     /// Half the sides of a rectangle about a configuration, a share of the joints' ranges where the joints move the tip across each other.
@@ -142,7 +143,7 @@ impl<'a> Known<'a> {
     fn before(&self, case: &RefutedCase) -> Option<[f64; 2]> {
         let share = match case.held.filter(|_| case.scene.payload().is_some()) {
             Some(object) => self.picked(object, &case.turned),
-            None => self.let_go(&case.turned).max(AFTER_ANOTHER * ABOUT_IK_SOLUTIONS * self.taken),
+            None => self.let_go(&case.turned).max(self.untold),
         };
         case.from.map(|q| self.sides(q, share))
     }
@@ -178,21 +179,21 @@ fn written(task: &Task, cases: &[RefutedCase], known: &Known) -> Evidence {
     let mut all = Vec::new();
     for case in cases {
         let RefutedCase { step, after, from, turned, scene, stuck, lowered, .. } = case;
-        let mut written = json!({ "step": step });
+        let mut entry = json!({ "step": step });
         let lowered =
             lowered.iter().filter(|(_, stuck)| !stuck.is_empty()).map(|(scene, stuck)| ("lowered", scene, stuck));
         for (name, scene, stuck) in iter::once(("boxes", scene, stuck)).chain(lowered) {
             contacts = contacts.among(scene);
             let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
-            written[name] = json!(boxes);
+            entry[name] = json!(boxes);
         }
-        after.iter().for_each(|after| written["after"] = json!(after));
-        from.iter().zip(known.before(case)).for_each(|(q, sides)| written["from"] = json!(about(*q, sides)));
+        after.iter().for_each(|after| entry["after"] = json!(after));
+        from.iter().zip(known.before(case)).for_each(|(q, sides)| entry["from"] = json!(about(*q, sides)));
         if !turned.is_empty() {
             let ends = |(turned, sides): (&Turned, [[f64; 2]; 2])| [0, 1].map(|k| about(turned.carried[k], sides[k]));
-            written["turned"] = json!(turned.iter().zip(known.turned(case)).map(ends).collect::<Vec<_>>());
+            entry["turned"] = json!(turned.iter().zip(known.turned(case)).map(ends).collect::<Vec<_>>());
         }
-        all.push(written);
+        all.push(entry);
     }
     contacts.named().into_iter().chain([("cases", lines(&all))]).collect()
 }

@@ -77,8 +77,10 @@ pub(in crate::engine) fn refuted(
     // As a rule it is enough that the last cannot be done from anywhere.
     // How something lies that was turned is looked at only where nothing else helps: it doubles the cases.
     let is_long = last > 0 || matches!(task.items[0], Item::AnyOrder(_));
-    let attempts = [Some((last, false)), (last > 0).then_some((0, false)), is_long.then_some((0, true))];
-    attempts.into_iter().flatten().find_map(|(first, tells_turned)| {
+    let mut attempts = vec![(last, false), (0, false)];
+    attempts.dedup();
+    attempts.extend(is_long.then_some((0, true)));
+    attempts.into_iter().find_map(|(first, tells_turned)| {
         let rule_out = &mut *rule_out;
         let mut walk = Walk { task, first, tells_turned, rule_out, accepts, cases: Vec::new(), hidden: Vec::new() };
         let left = walk.until(last, vec![At { is_start: true, ..At::from(State::at_start(task)) }])?;
@@ -210,7 +212,7 @@ impl Walk<'_> {
         states.iter().all(|at| {
             // After a group in free order a checker may not know which of its objects was let go of last.
             let mut poses = at.state.poses.clone();
-            let others = self.hidden(at).iter().filter(|object| Some(**object) != at.state.released);
+            let others = self.hidden_after(at).iter().filter(|object| Some(**object) != at.state.released);
             others.for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
             let scene = State { poses, ..at.state.clone() }.scene(task, None);
             let stuck = (self.rule_out)(&scene, [at.state.q; 2]).unwrap_or_default();
@@ -248,12 +250,11 @@ impl Walk<'_> {
                 let (scene, lowered) = (self.scene(at, step), self.lowered(at, step).map(|scene| (scene, Vec::new())));
                 let (number, stuck) = (step.number, Vec::new());
                 let held = at.state.held.as_ref().map(|held| held.object);
-                let told = (after.clone(), at.turned.clone());
-                let mut case =
-                    RefutedCase { step: number, after: told.0, from, held, turned: told.1, scene, stuck, lowered };
+                let tried = all.entry((number, after.clone())).or_default();
+                let turned = at.turned.clone();
+                let mut case = RefutedCase { step: number, after, from, held, turned, scene, stuck, lowered };
                 let turns = leaves_turned(task, &at.state, step);
                 let is_told = turns && self.tells_turned && at.has_just_picked;
-                let tried = all.entry((step.number, after)).or_default();
                 for way in &candidates.ways {
                     if is_new && self.first <= item && self.is_ruled_out(&mut case, at.state.q, way.to) {
                         continue;
@@ -386,7 +387,7 @@ impl Walk<'_> {
     }
 
     /// Objects that may be the last one that was let go of; none where the case tells how all of them were.
-    fn hidden(&self, at: &At) -> &[usize] {
+    fn hidden_after(&self, at: &At) -> &[usize] {
         let is_told = |object: &usize| at.turned.iter().any(|turned| turned.object == *object);
         if self.hidden.iter().all(is_told) { &[] } else { &self.hidden }
     }
@@ -399,7 +400,7 @@ impl Walk<'_> {
         };
         let held = at.state.held.clone().filter(|held| is_known(held.grip));
         let mut poses = at.state.poses.clone();
-        self.hidden(at).iter().for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
+        self.hidden_after(at).iter().for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
         State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked())
     }
 

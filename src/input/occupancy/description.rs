@@ -2,7 +2,7 @@
 
 use super::Occupancy;
 use super::picture::Shade;
-use crate::input::error::{Diagnostic, without_place};
+use crate::input::error::Diagnostic;
 use crate::input::source::Source;
 use crate::input::world::LARGEST;
 use serde::Deserialize;
@@ -42,17 +42,9 @@ pub(super) struct Description {
 
 impl Description {
     pub fn read(source: &Source) -> Result<Self, Diagnostic> {
-        let mut options = serde_saphyr::Options::default();
-        options.with_snippet = false;
-        let file: File = serde_saphyr::from_str_with_options(&source.text, options).map_err(|error| {
-            let (line, column) = error.location().map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
-            let message = without_place(&error.without_snippet().to_string());
-            // What follows is advice for who calls the library.
-            let advice = [", set ", ", use ", "; use ", " (use "];
-            let message =
-                advice.iter().fold(&*message, |message, advice| message.split(advice).next().unwrap_or(message));
+        let file: File = serde_saphyr::from_str(&source.text).map_err(|error| {
             source
-                .diagnostic_at_position(line, column, message)
+                .yaml_diagnostic(&error)
                 .help("a map of ROS's map server needs image, resolution, origin, negate, occupied_thresh, free_thresh")
         })?;
         let resolution = file.resolution.value;

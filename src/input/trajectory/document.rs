@@ -87,7 +87,6 @@ pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
 /// Reads a JointTrajectory as ROS 2 prints it.
 pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
     let mut options = serde_saphyr::Options::default();
-    options.with_snippet = false;
     // The file is in memory already, and its size is bounded: so are the events and nodes that it can make.
     if let Some(budget) = &mut options.budget {
         budget.max_events = source.text.len().max(budget.max_events);
@@ -98,10 +97,8 @@ pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
     let text = source.text.trim_end();
     let text = text.strip_suffix("\n---").unwrap_or(text);
     let document: Document = serde_saphyr::from_str_with_options(text, options).map_err(|error| {
-        let place = error.location();
-        let (line, column) = place.map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
         let help = "one trajectory_msgs/msg/JointTrajectory is expected, with joint_names and points";
-        source.diagnostic_at_position(line, column, without_place(&error.without_snippet().to_string())).help(help)
+        source.yaml_diagnostic(&error).help(help)
     })?;
     Ok(samples(source, document)?)
 }

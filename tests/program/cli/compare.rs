@@ -179,7 +179,7 @@ fn worlds_with_steps_are_left_out_and_said_to_be() {
     std::fs::remove_file(place.path("worlds/free.toml")).unwrap();
     place
         .run(&["compare", &robot, "--suite", "worlds"], "")
-        .refused(1, &["task.toml", "have steps, not a goal", "cure:"]);
+        .refused(1, &["task.toml", "it has steps, not a goal", "cure:"]);
     place
         .run(&["compare", &robot, "worlds/task.toml"], "--queries 3")
         .refused(1, &["task.toml", "has steps, not a goal"]);
