@@ -259,3 +259,11 @@ fn what_is_picked_after_others_were_turned_is_known_as_well() {
     tasks(90_194_313_353, &mut tally);
     assert!(tally.impossible > tally.without, "{tally:?}");
 }
+
+/// How what an arm turned lies is followed through groups in free order.
+#[test]
+fn what_is_turned_in_free_order_is_known() {
+    let mut tally = Tally::default();
+    tasks(94_489_280_646, &mut tally);
+    assert!(tally.impossible > 0 && tally.without == 0, "{tally:?}");
+}

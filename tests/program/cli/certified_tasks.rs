@@ -331,36 +331,39 @@ fn a_new_object_is_an_obstacle() {
 }
 
 /// What has just been let go of may be touched until the next step has ended. Then the arm stands free of it, also if there is a new one from
-/// there on.
+/// there on, and also where something else moves.
 #[test]
 fn what_is_renewed_is_there_until_the_arm_goes_on() {
-    let world = |high: f64, x: f64| {
-        format!(
-            "[start]\njoints = [0.9, 0.9]\n[[object]]\nname = \"p\"\ncircle = {{ center = [0, 0], radius = 0.02 }}\nat = [0.3, 0.3]\n\
-             height = [0, {high}]\nrenew = true\n[[step]]\nrepeat = 2\n[[step.steps]]\npick = \"p\"\n[[step.steps]]\n\
-             place = {{ at = [1.5, 0.8] }}\n[[step.steps]]\nmove = {{ joints = [{x}, 0.81] }}\ndwell = 1\n"
-        )
-    };
     let place = Place::new();
     let urdf = shipped("robots/gantry.urdf");
-    // Onto it, beside it, and high above it.
-    let asked = [(0.1, 1.5, 3), (0.1, 1.3, 0), (0.01, 1.5, 0)];
-    for (number, (high, x, code)) in asked.into_iter().enumerate() {
-        place.write("w.toml", world(high, x));
-        let options = format!("--quiet --certificate c{number}.json --output plan{number}.json");
-        let done = place.run(&[&urdf, "w.toml"], &options);
-        assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
-        if code == 0 {
-            let said = check(&read(&urdf), &world(high, x), &place.read(&format!("c{number}.json"))).unwrap();
-            assert!(said.contains("does all 6 steps"), "{said}");
+    let moving = "[[obstacle]]\ncircle = { center = [5, 5], radius = 0.1 }\nmotion = { velocity = [1, 0] }\n";
+    for among in ["", moving] {
+        let world = |high: f64, x: f64| {
+            format!(
+                "{among}[start]\njoints = [0.9, 0.9]\n[[object]]\nname = \"p\"\ncircle = {{ center = [0, 0], radius = 0.02 }}\n\
+                 at = [0.3, 0.3]\nheight = [0, {high}]\nrenew = true\n[[step]]\nrepeat = 2\n[[step.steps]]\npick = \"p\"\n\
+                 [[step.steps]]\nplace = {{ at = [1.5, 0.8] }}\n[[step.steps]]\nmove = {{ joints = [{x}, 0.81] }}\ndwell = 1\n"
+            )
+        };
+        // Onto it, beside it, and high above it.
+        let asked = [(0.1, 1.5, 3), (0.1, 1.3, 0), (0.01, 1.5, 0)];
+        for (number, (high, x, code)) in asked.into_iter().enumerate() {
+            place.write("w.toml", world(high, x));
+            let options = format!("--quiet --certificate c{number}.json --output plan{number}.json");
+            let done = place.run(&[&urdf, "w.toml"], &options);
+            assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
+            if code == 0 {
+                let said = check(&read(&urdf), &world(high, x), &place.read(&format!("c{number}.json"))).unwrap();
+                assert!(said.contains("does all 6 steps"), "{said}");
+            }
         }
+        // The motion high above it is none onto it.
+        let verified =
+            |number: usize| place.run(&["verify", &urdf, "w.toml", &format!("plan{number}.json")], "--quiet").code;
+        assert_eq!(verified(2), 0);
+        place.write("w.toml", world(0.1, 1.5));
+        assert_eq!(verified(2), 3);
     }
-    // The motion high above it is none onto it.
-    let verified =
-        |number: usize| place.run(&["verify", &urdf, "w.toml", &format!("plan{number}.json")], "--quiet").code;
-    assert_eq!(verified(2), 0);
-    place.write("w.toml", world(0.1, 1.5));
-    assert_eq!(verified(2), 3);
 }
 
 /// An IK solution at half a turn of a joint that goes round is in the way on both sides of it.

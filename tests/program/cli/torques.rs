@@ -165,6 +165,19 @@ fn what_is_held_in_the_end_is_held_by_the_efforts() {
     }
 }
 
+/// Efforts in another unit by far, in the world or the robot's file.
+#[test]
+fn efforts_next_to_nothing_are_told_from_links_without_mass() {
+    let place = Place::new();
+    let [urdf, world] = upright();
+    let text = std::fs::read_to_string(&world).unwrap();
+    let weak = text.replace("shoulder = 36", "shoulder = 1e-14");
+    assert_ne!(weak, text);
+    place.write("weak.toml", weak);
+    let parts = ["efforts of the joints are nothing beside", "cure: look for a wrong unit"];
+    place.run(&[&urdf, "weak.toml"], "").refused(1, &parts);
+}
+
 /// Without velocities nothing says how fast the arm is, so torques cannot be judged; of a single sample it is what holds the arm there.
 #[test]
 fn torques_of_what_has_no_velocities_are_not_said_to_be_kept() {

@@ -46,6 +46,18 @@ fn every_answer_says_what_browsers_may_do_with_it() {
     }
 }
 
+/// An address of documentation (RFC 5737) is no machine's own.
+#[test]
+fn an_address_that_is_not_of_this_machine_is_refused_with_its_cure() {
+    let mut serve = Command::new(env!("CARGO_BIN_EXE_cplan"));
+    let done = serve.args(["serve", "--port", "0", "--bind", "203.0.113.9"]).output().unwrap();
+    let said = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(1), "{said}");
+    for part in ["cannot listen at 203.0.113.9:0", "cure: --bind takes an address of this machine"] {
+        assert!(said.contains(part), "{said}");
+    }
+}
+
 #[test]
 fn other_names_and_other_pages_are_refused() {
     let server = Server::start(&[]);

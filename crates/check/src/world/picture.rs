@@ -138,3 +138,28 @@ fn number(rest: &mut &[u8]) -> Result<usize, String> {
     let text = std::str::from_utf8(digits).unwrap_or_default();
     text.parse().map_err(|_| format!("\"{text}\" is no number, or it ends early"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use png::Encoder;
+
+    /// Two pixels a row, of two bits; what fills a row up is none.
+    fn indexed(rows: &[u8]) -> Result<Picture, String> {
+        let mut bytes = Vec::new();
+        let mut encoder = Encoder::new(&mut bytes, 2, rows.len() as u32);
+        encoder.set_color(ColorType::Indexed);
+        encoder.set_depth(BitDepth::Two);
+        encoder.set_palette(vec![0, 0, 0, 10, 20, 30, 255, 255, 255]);
+        encoder.write_header().unwrap().write_image_data(rows).unwrap();
+        read(&bytes)
+    }
+
+    #[test]
+    fn what_a_palette_lacks_is_of_no_shade() {
+        let Picture { size, white, shades } = indexed(&[0b0110_1111, 0b1000_1100]).unwrap();
+        assert_eq!((size, white), ([2, 2], 765));
+        assert_eq!(shades, [60, 765, 765, 0].map(Some));
+        assert!(indexed(&[0b0110_0000, 0b1011_0000]).is_err_and(|why| why.contains("its palette lacks")));
+    }
+}

@@ -64,3 +64,16 @@ fn what_is_wrong_is_named_with_its_place() {
         assert_eq!(error.line, line, "{text}");
     }
 }
+
+#[test]
+fn cures_are_for_what_is_wrong() {
+    let cases = [
+        (r#"{"type": "Polygon", "coordinates": {}}"#, "stand in lists"),
+        (r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, "x"]]]}"#, "both coordinates as numbers, without quotes"),
+        (r#"{"type": "Feature", "properties": {"height": "x"}}"#, "heights as numbers, without quotes"),
+    ];
+    for (text, cure) in cases {
+        let error = read(text.as_bytes(), Format::GeoJson, &Settings::default()).unwrap_err();
+        assert!(error.cure.contains(cure), "{text}: {error:?}");
+    }
+}
