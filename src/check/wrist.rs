@@ -85,11 +85,8 @@ struct Turning {
 impl Turning {
     fn new(arm: &Arm, workspace: &Workspace, payload: &Payload, point: Point, q: Configuration) -> Self {
         let about = Translation2::from(-point.coords);
-        let parts: Vec<_> = payload
-            .parts(arm)
-            .into_iter()
-            .map(|(shape, kind)| (Features::new(&shape.at(&about.into())), kind))
-            .collect();
+        let parts: Vec<_> =
+            payload.parts(arm).map(|(shape, kind)| (Features::new(&shape.at(&about.into())), kind)).collect();
         let mut pairs = Vec::new();
         for (number, obstacle) in workspace.obstacles.iter().enumerate() {
             if !payload.heights.meet(obstacle.heights) {

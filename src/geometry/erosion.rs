@@ -1,13 +1,6 @@
 //! Shapes shrunk on every side.
 
-use super::{Convex, Point, cross, hull, inset};
-
-/// Depths at which [`Convex::inner_approximation`] looks for a corner's stand-in, each [`SHALLOWER`] times the one before. The
-/// last is reached for corners of half a degree.
-const DEPTHS: usize = 16;
-
-/// A little less than the sine of half a right angle: boxes find theirs at the second depth.
-const SHALLOWER: f64 = 0.7;
+use super::{Convex, Point, cross, inset};
 
 impl Convex {
     /// The points of this shape that lie at least `distance` deep in it: those about which a disc of that radius fits.
@@ -19,43 +12,6 @@ impl Convex {
             return Some(self.grown(-distance));
         }
         inset(self.core(), distance - self.radius()).map(|core| Self::trusted(core, 0.0))
-    }
-
-    /// A convex part of this shape that has a point within `distance` of each of its points. So in every direction it reaches
-    /// as far as this shape but for `distance`, and what does not meet it overlaps this shape by a *penetration depth* of at
-    /// most `distance`, at corners too: of [`Convex::eroded`] that holds for sides alone, as a sharp corner moves much farther
-    /// than the sides that make it.
-    ///
-    /// Sides lie at least 0.7 times as deep in this shape as they can where every corner has a stand-in so near: beside a corner
-    /// of angle `a`, `distance * sin(a / 2)`. It has the points `with`, which are to be some of this shape. Rounded outlines shrink
-    /// by their radius first, exactly. Up to rounding; `O(n^2)`.
-    #[must_use]
-    pub(crate) fn inner_approximation(&self, distance: f64, with: &[Point]) -> Self {
-        if distance <= self.radius() {
-            return self.grown(-distance);
-        }
-        let by = distance - self.radius();
-        let mut left = self.core().to_vec();
-        let mut corners = with.to_vec();
-        let mut depth = by;
-        for _ in 0..DEPTHS {
-            let eroded = inset(self.core(), depth).unwrap_or_default();
-            let off = |p: &Point, from: &Point| (p - from).norm();
-            left.retain(|corner| {
-                let nearest = eroded.iter().min_by(|p, q| off(p, corner).total_cmp(&off(q, corner)));
-                let found = nearest.filter(|p| off(p, corner) <= by);
-                corners.extend(found);
-                found.is_none()
-            });
-            depth *= SHALLOWER;
-        }
-        // Of needles, and of what is too thin for any depth.
-        let middle = mean(self.core());
-        corners.extend(left.into_iter().map(|corner| {
-            let way = middle - corner;
-            if way.norm() <= by { middle } else { corner + way * (by / way.norm()) }
-        }));
-        Self::trusted(hull(&corners), 0.0)
     }
 
     /// A lower bound of the greatest distance by which this shape can be eroded: how deep the mean of the corners lies.
@@ -119,26 +75,6 @@ mod tests {
     proptest! {
         #![proptest_config(crate::random::cases(2000))]
 
-        /// The other shape is pushed out of the inner one the shortest way, until they touch.
-        #[test]
-        fn what_does_not_meet_the_inner_shape_is_no_deeper_in_the_outer_one(
-            shape in shapes(), other in shapes(), by in prop_oneof![0.0..0.01f64, 0.0..0.5f64],
-        ) {
-            let inner = shape.inner_approximation(by, &[]);
-            let apart = separation(&inner, &other);
-            let push = if apart.distance < 0.0 { apart.direction * -apart.distance } else { Vector::zeros() };
-            let pushed = other.at(&nalgebra::Isometry2::new(push, 0.0));
-            prop_assert!(separation(&inner, &pushed).distance > -1e-12);
-            prop_assert!(separation(&shape, &pushed).distance > -by - 1e-12, "{}", separation(&shape, &pushed).distance);
-            for point in inner.core() {
-                prop_assert!(separation(&shape, &Convex::point(*point)).distance <= 1e-12, "{point} is outside");
-            }
-        }
-    }
-
-    proptest! {
-        #![proptest_config(crate::random::cases(2000))]
-
         /// What recedes is farther away by that, and not a whit of its corners is rounded; grown again it is what it was.
         #[test]
         fn what_recedes_is_farther_away(shape in shapes(), other in shapes(), by in 0.0..0.5f64) {
@@ -150,29 +86,6 @@ mod tests {
             let again = shape.receding(by).eroded(shape.radius() - by).expect("all of it");
             prop_assert!(again.core() == shape.core() && again.radius() < 1e-15);
         }
-    }
-
-    #[test]
-    fn sides_of_the_inner_shape_lie_deep_in_the_outer_one() {
-        let corner = |x: f64, y: f64| Point::new(x, y);
-        let deep = |corners: Vec<Point>, by: f64| {
-            let shape = Convex::trusted(corners, 0.0);
-            let side = Convex::segment(shape.core()[0], shape.core()[1]).unwrap();
-            separation(&shape.inner_approximation(by, &[]), &side).distance / by
-        };
-        let bar = vec![corner(0., 0.), corner(1., 0.), corner(1., 0.1), corner(0., 0.1)];
-        assert!((deep(bar, 0.001) - 0.7).abs() < 1e-9);
-        let hexagon = (0..6)
-            .map(|k| corner((f64::from(k) * 60f64.to_radians()).cos(), (f64::from(k) * 60f64.to_radians()).sin()));
-        assert!(deep(hexagon.collect(), 0.001) > 0.69);
-        // The least depth of all: half a degree, below which corners move towards the middle.
-        let needle = vec![corner(0., 0.), corner(1., 0.), corner(1., 0.008)];
-        assert!(deep(needle, 0.001) > 0.0);
-        let disc = Convex::point(Point::origin()).grown(0.3);
-        assert_eq!(
-            (disc.inner_approximation(0.1, &[]).radius(), disc.inner_approximation(0.4, &[])),
-            (0.3 - 0.1, Convex::point(Point::origin()))
-        );
     }
 
     #[test]

@@ -20,6 +20,7 @@
 mod box_tree;
 mod convex;
 mod decompose;
+mod drawn_in;
 mod erosion;
 mod galloping;
 mod hull;
@@ -34,8 +35,9 @@ pub(crate) mod planar;
 mod pole;
 mod polygon;
 mod predicates;
+
 mod rings;
-mod seams;
+
 mod separation;
 mod sliding;
 mod turning;
@@ -44,6 +46,7 @@ pub use box_tree::{Bounds, BoxTree};
 pub(crate) use convex::reach;
 pub use convex::{Convex, ConvexError};
 pub use decompose::{MOST_CORNERS, decompose};
+pub(crate) use drawn_in::drawn_in;
 pub(crate) use galloping::farthest;
 pub use hull::hull;
 pub(crate) use inset::{common, inset};
@@ -59,8 +62,9 @@ pub use penetration::{
 pub use pole::pole_of_inaccessibility;
 pub use polygon::{PolygonError, SimplePolygon};
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
+
 pub use rings::{Polygon, RingError, RingSide};
-pub(crate) use seams::seams;
+
 pub use separation::{Separation, separation};
 pub(crate) use separation::{gap_along, separation_at};
 pub use sliding::sliding;

@@ -61,8 +61,8 @@ pub struct Payload {
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
 impl Payload {
-    /// Greatest *penetration depth* of a payload in its supports, metres. With sides it is less, by the sine of half the angle
-    /// beside them and up to 0.7 of that: no shape that turns with the payload allows as much with sides as with corners.
+    /// Greatest *penetration depth* of a payload in its supports, metres: by so much each corner of it is moved inwards, halfway between the
+    /// sides there, and what is left stays off them. So sides press in by that times the sine of half the angle at their ends.
     #[must_use]
     pub fn penetration_allowance(arm: &Arm) -> f64 {
         PENETRATION_ALLOWANCE * arm.reach()

@@ -1,14 +1,14 @@
 //! What is carried, as parts of link 2: whole, and for its supports smaller by what it may press into them.
 
 use super::{Arm, Grip, Part, Payload, Workspace};
-use crate::geometry::{Convex, seams};
+use crate::geometry::{Convex, drawn_in};
 use nalgebra::{Isometry2, Translation2};
 use std::ops::Range;
 
 /// What of a payload's pieces stays off its supports.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Pressed {
-    /// All but what no corner moves farther for than it may press in.
+    /// What is left if no corner moves farther than it may press in.
     Corners,
     /// What is deeper in them than that: it stays off whichever way corners are moved.
     Depth,
@@ -17,6 +17,9 @@ pub(super) enum Pressed {
 /// By which share more than it may press in is taken off pieces for evidence, so that it has room for rounding.
 const DEEPER: f64 = 1e-6;
 
+/// By which share less than they may corners are moved, so that a checker that moves them farther has room.
+const LESS: f64 = 1e-3;
+
 /// What a payload's part can meet.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Meets {
@@ -24,15 +27,13 @@ pub(crate) enum Meets {
     Others,
     /// The supports: the part is smaller by what it may press into them.
     Supports,
-    /// Nothing: there is no such part.
-    Nothing,
 }
 
 /// Which pieces of each obstacle, and of each mover after them, something can meet.
 pub(super) type Meetable = Vec<Range<usize>>;
 
 impl Payload {
-    /// It as parts of link 2, each with what it can meet; what is made of the obstacles' pieces for it is added to
+    /// It as parts of link 2, each with what it can meet, numbered by the pieces that they are of; what is made of the obstacles' pieces for it is added to
     /// `differences`.
     pub(super) fn on_link(
         &self,
@@ -42,7 +43,7 @@ impl Payload {
         differences: &mut [Vec<Convex>],
     ) -> Vec<(Part, Meetable)> {
         let mut parts = Vec::new();
-        for (shape, kind) in self.parts_pressed(arm, pressed) {
+        for (piece, shape, kind) in self.parts_pressed(arm, pressed) {
             let (on_link, level) = match self.grip {
                 Grip::Rigid(in_link) => (shape.at(&in_link), None),
                 Grip::Level { angle, point } => {
@@ -73,34 +74,34 @@ impl Payload {
                 meetable.push(first..own + made.len());
             }
             let (heights, body) = (self.heights, self.object.clone());
-            parts.push((Part { shape: on_link, inner: None, number: 0, heights, body }, meetable));
+            parts.push((Part { shape: on_link, inner: None, number: piece, heights, body }, meetable));
         }
         parts
     }
 
-    /// Its pieces, and smaller ones for its supports, in its own frame. Pieces go on sharing their sides but for what may be
-    /// pressed into the ends, so that nothing gets in between them.
-    pub(crate) fn parts(&self, arm: &Arm) -> Vec<(Convex, Meets)> {
-        self.parts_pressed(arm, Pressed::Corners)
+    /// Its pieces, and smaller ones for its supports, in its own frame.
+    pub(crate) fn parts(&self, arm: &Arm) -> impl Iterator<Item = (Convex, Meets)> {
+        self.parts_pressed(arm, Pressed::Corners).into_iter().map(|(_, shape, kind)| (shape, kind))
     }
 
-    fn parts_pressed(&self, arm: &Arm, pressed: Pressed) -> Vec<(Convex, Meets)> {
-        let mut parts: Vec<_> = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others)).collect();
+    /// The same, after the number of the piece that each is of.
+    fn parts_pressed(&self, arm: &Arm, pressed: Pressed) -> Vec<(usize, Convex, Meets)> {
+        let mut parts: Vec<_> =
+            self.pieces.iter().enumerate().map(|(number, piece)| (number, piece.clone(), Meets::Others)).collect();
         if self.supports.is_empty() {
             return parts;
         }
         let allowance = Self::penetration_allowance(arm);
         match pressed {
             Pressed::Corners => {
-                let pieces = self.pieces.iter().zip(seams(&self.pieces, allowance));
-                parts
-                    .extend(pieces.map(|(piece, seam)| (piece.inner_approximation(allowance, &seam), Meets::Supports)));
+                let left = drawn_in(&self.pieces, allowance * (1.0 - LESS)).into_iter().enumerate();
+                parts.extend(
+                    left.flat_map(|(number, left)| left.into_iter().map(move |l| (number, l, Meets::Supports))),
+                );
             }
             Pressed::Depth => {
-                parts.extend(self.pieces.iter().map(|piece| match piece.eroded(allowance * (1.0 + DEEPER)) {
-                    Some(deep) => (deep, Meets::Supports),
-                    None => (piece.clone(), Meets::Nothing),
-                }))
+                let deep = self.pieces.iter().map(|piece| piece.eroded(allowance * (1.0 + DEEPER)));
+                parts.extend(deep.enumerate().filter_map(|(number, deep)| Some((number, deep?, Meets::Supports))));
             }
         }
         parts
@@ -111,7 +112,6 @@ impl Payload {
         match kind {
             Meets::Others => !self.supports.contains(&obstacle),
             Meets::Supports => self.supports.contains(&obstacle),
-            Meets::Nothing => false,
         }
     }
 }
@@ -120,7 +120,7 @@ impl Meets {
     /// How much nearer than the clearance the part may come to what it meets.
     pub(crate) fn nearer(self, clearance: f64) -> f64 {
         match self {
-            Meets::Others | Meets::Nothing => 0.0,
+            Meets::Others => 0.0,
             Meets::Supports => clearance,
         }
     }

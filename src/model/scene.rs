@@ -430,9 +430,8 @@ impl Scene {
     /// Which of the payload's pieces a pair is about, be it by what is made of that for supports; none if it is about the arm itself.
     #[must_use]
     pub(crate) fn payload_piece(&self, pair: Pair) -> Option<&Convex> {
-        let pieces = &self.payload.as_ref().filter(|_| self.is_payload(pair))?.pieces;
-        // What is made of them comes after them.
-        Some(&pieces[(pair.part - self.own_parts) % pieces.len()])
+        let payload = self.payload.as_ref().filter(|_| self.is_payload(pair))?;
+        payload.pieces.get(self.arm.links[1].parts[pair.part].number)
     }
 
     /// The piece of the obstacle that a pair is about, in its place, whatever is made of it for a payload.

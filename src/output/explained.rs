@@ -9,7 +9,7 @@ use crate::engine::explain::{
     Target,
 };
 use crate::model::{Outcome, Scene};
-use crate::text::{at_least, percent};
+use crate::text::{at_least, at_most, percent};
 
 /// The verdict first, then why.
 #[must_use]
@@ -197,10 +197,8 @@ fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
     let others = if others.is_empty() { "nothing else".into() } else { format!("{} alone", others.join(", ")) };
     let nothing_else = if *among == Among::Set { format!(", with {others} in the way") } else { String::new() };
     let digits = if unit == "m" && by.opens < 0.01 { 6 } else { 4 };
-    let (open, shut) = (by.opens, by.closed);
-    format!(
-        "{how} {open:.digits$} {unit} opens a way (certified), by {shut:.digits$} {unit} does not (proven){nothing_else}"
-    )
+    let (open, shut) = (at_most(by.opens, digits), at_least(by.closed, digits));
+    format!("{how} {open} {unit} opens a way (certified), by {shut} {unit} does not (proven){nothing_else}")
 }
 
 /// A bottleneck in words.

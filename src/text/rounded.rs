@@ -7,7 +7,8 @@ pub fn at_least(value: f64, decimals: usize) -> String {
 }
 
 /// The same, no less than this one.
-fn at_most(value: f64, decimals: usize) -> String {
+#[must_use]
+pub fn at_most(value: f64, decimals: usize) -> String {
     shown(value, decimals, |shown| shown >= value, 1.0)
 }
 

@@ -16,8 +16,8 @@
 //! - A level one only translates with the tip, so the part is the tip, a point, and what it can meet are the Minkowski
 //!   differences of the obstacles' pieces and the payload's. So planners, C-obstacles, certificates and proofs need no
 //!   third link.
-//! - What a payload rests on it meets with its outline made smaller by what it may press in, which no corner moves
-//!   farther than (`inner_approximation`); to keep no clearance there, supports are farther away by it in
+//! - What a payload rests on it meets with each corner of its outline moved inwards by what it may press in
+//!   (`drawn_in`); to keep no clearance there, supports are farther away by it in
 //!   every distance (`Convex::receding`).
 //! - Motions are shared (`legs`) among worlds that differ only in objects which the heights keep from being hit.
 //!

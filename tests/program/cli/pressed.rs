@@ -1,7 +1,7 @@
 //! How deep what is placed presses into what it rests on.
 
 use super::{Place, shipped};
-use std::f64::consts::SQRT_2;
+use std::f64::consts::FRAC_1_SQRT_2;
 
 /// A level object whose tip points at a table's edge at y = 1.2.
 fn cell(polygon: &str, table: &str, [tip, deep, clearance]: [f64; 3]) -> String {
@@ -107,13 +107,11 @@ fn a_recording_that_presses_a_corner_into_a_support_is_refuted() {
 const PENETRATION_ALLOWANCE: f64 = 1.8e-4;
 
 /// An object that ends in a tip on its axis: its outline and how it is held, how far from its origin the tip is, and the share of [`PENETRATION_ALLOWANCE`] by
-/// which the tip is given way. Sides are moved inwards by `d`, the greatest of 1, 0.7, 0.7 * 0.7, ... of it with which no corner
-/// moves farther than it: one of angle `a` moves by `d / sin(a / 2)`.
+/// which the tip is given way: corners are moved inwards by all of it, and sides by the sine of half the angle beside them.
 const TIPPED: [([&str; 2], f64, f64); 5] = [
-    (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [-0.05, 0.1]]", "level"], 0.1, 0.7),
-    (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [0, 0.15], [-0.05, 0.1]]", "level"], 0.15, 0.7 * SQRT_2),
-    // Half of its angle has the tangent 0.1.
-    (["polygon = [[-0.02, -0.02], [0.02, -0.02], [0.0, 0.18]]", "level"], 0.18, 0.082_354_3 * 10.049_875_621_120_89),
+    (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [-0.05, 0.1]]", "level"], 0.1, FRAC_1_SQRT_2),
+    (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [0, 0.15], [-0.05, 0.1]]", "level"], 0.15, 1.0),
+    (["polygon = [[-0.02, -0.02], [0.02, -0.02], [0.0, 0.18]]", "level"], 0.18, 1.0),
     (["circle = { center = [0.0, 0.06], radius = 0.05 }", "level"], 0.11, 1.0),
     // Turned as it may be, it ends where it does.
     (["circle = { center = [0.0, 0.0], radius = 0.11 }", "rigid"], 0.11, 1.0),
