@@ -14,24 +14,51 @@ const STRAIGHT: f64 = 1e-3;
 /// boxes tells apart.
 #[must_use]
 pub(crate) fn drawn_in(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
+    let all = corner_to_corner(pieces);
     let is_sharp = |piece: &&Convex| piece.radius() == 0.0;
-    let corners: Vec<Point> = pieces.iter().filter(is_sharp).flat_map(Convex::core).copied().collect();
-    let rings: Vec<Vec<Point>> = pieces
-        .iter()
-        .map(|piece| if is_sharp(&piece) { with_corners(piece.core(), &corners) } else { piece.core().to_vec() })
-        .collect();
-    let sharp = rings.iter().zip(pieces).filter(|(_, piece)| is_sharp(piece)).map(|(ring, _)| ring);
-    let together = around(sharp);
-    let left = |(ring, piece): (&Vec<Point>, &Convex)| {
+    let together = around(all.iter().flatten().filter(is_sharp));
+    let left = |piece: &Convex| {
         if is_sharp(&piece) {
-            return within(piece.core(), ring, &together, distance);
+            return within(piece.core(), &together, distance);
         }
         let rest = (distance - piece.radius()).max(0.0);
         let radius = (piece.radius() - distance).max(0.0);
-        let core = within(piece.core(), ring, &around([ring].into_iter()), rest);
-        core.iter().map(|core| core.grown(radius)).collect()
+        within(piece.core(), &around([piece]), rest).iter().map(|core| core.grown(radius)).collect()
     };
-    rings.iter().zip(pieces).map(left).collect()
+    all.iter().map(|parts| parts.iter().flat_map(left).collect()).collect()
+}
+
+/// Each piece cut so that where pieces adjoin no corner of one is between those of a side of another. No new corners.
+#[must_use]
+pub(crate) fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
+    let is_sharp = |piece: &&Convex| piece.radius() == 0.0 && piece.core().len() > 2;
+    let corners: Vec<Point> = pieces.iter().filter(is_sharp).flat_map(Convex::core).copied().collect();
+    let parts = |piece: &Convex| {
+        if !is_sharp(&piece) {
+            return vec![piece.clone()];
+        }
+        cut(with_corners(piece.core(), &corners)).into_iter().map(|core| Convex::trusted(core, 0.0)).collect()
+    };
+    pieces.iter().map(parts).collect()
+}
+
+/// A convex ring as rings without corners on their sides.
+fn cut(ring: Vec<Point>) -> Vec<Vec<Point>> {
+    let turn = |a: usize, b: usize, c: usize| orientation(ring[a], ring[b], ring[c]);
+    let count = ring.len();
+    let straight = (0..count).find(|&k| turn((k + count - 1) % count, k, (k + 1) % count) == Orientation::Collinear);
+    let Some(straight) = straight else { return vec![ring] };
+    let off: Vec<usize> = (2..count - 1)
+        .map(|by| (straight + by) % count)
+        .filter(|&k| turn(straight, (straight + 1) % count, k) != Orientation::Collinear)
+        .collect();
+    // A ring without area has none.
+    let Some(&across) = off.get(off.len() / 2) else { return vec![ring] };
+    let from = |first: usize, last: usize| {
+        let long = (last + count - first) % count;
+        (0..=long).map(|by| ring[(first + by) % count]).collect()
+    };
+    [from(straight, across), from(across, straight)].into_iter().flat_map(cut).collect()
 }
 
 /// Of each corner how pieces lie about it: a point on the one side, and on the other counter-clockwise of it.
@@ -42,9 +69,9 @@ fn key(p: Point) -> [u64; 2] {
     [p.x, p.y].map(|v| (v + 0.0).to_bits())
 }
 
-fn around<'a>(rings: impl Iterator<Item = &'a Vec<Point>>) -> Sectors {
+fn around<'a>(pieces: impl IntoIterator<Item = &'a Convex>) -> Sectors {
     let mut sectors = Sectors::new();
-    for ring in rings {
+    for ring in pieces.into_iter().map(Convex::core) {
         for k in 0..ring.len() {
             sectors.entry(key(ring[k])).or_default().push(sides(ring, k));
         }
@@ -59,9 +86,6 @@ fn sides(ring: &[Point], k: usize) -> [Point; 2] {
 
 /// A ring with the corners of others that lie on its sides.
 fn with_corners(core: &[Point], corners: &[Point]) -> Vec<Point> {
-    if core.len() < 3 {
-        return core.to_vec();
-    }
     let side = |k: usize| {
         let [from, to] = [core[k], core[(k + 1) % core.len()]];
         let is_between = |p: &&Point| **p != from && **p != to && point_on_segment(**p, from, to);
@@ -73,11 +97,10 @@ fn with_corners(core: &[Point], corners: &[Point]) -> Vec<Point> {
     (0..core.len()).flat_map(side).collect()
 }
 
-/// What is left of a piece, whose ring this is.
-fn within(core: &[Point], ring: &[Point], sectors: &Sectors, distance: f64) -> Vec<Convex> {
-    let whole = || vec![Convex::trusted(core.to_vec(), 0.0)];
-    if core.len() < 3 || distance <= 0.0 {
-        return whole();
+/// What is left of a piece with these corners.
+fn within(ring: &[Point], sectors: &Sectors, distance: f64) -> Vec<Convex> {
+    if ring.len() < 3 || distance == 0.0 {
+        return vec![Convex::trusted(ring.to_vec(), 0.0)];
     }
     let moved: Vec<Point> =
         (0..ring.len()).map(|k| moved(ring[k], sides(ring, k), &sectors[&key(ring[k])], distance)).collect();
@@ -86,10 +109,9 @@ fn within(core: &[Point], ring: &[Point], sectors: &Sectors, distance: f64) -> V
         Ok(left) if (0..ring.len()).all(is_along) => left.convex_pieces(),
         // Too fine: what corners do not leave it.
         _ => {
-            let is_in = |p: &Point| {
-                (0..core.len()).all(|k| orientation(core[k], core[(k + 1) % core.len()], *p) != Orientation::Clockwise)
-            };
-            let stays: Vec<Point> = moved.iter().zip(ring).map(|(p, own)| if is_in(p) { *p } else { *own }).collect();
+            let is_left = |p: Point, k: usize| orientation(ring[k], sides(ring, k)[0], p) != Orientation::Clockwise;
+            let is_in = |p: Point| (0..ring.len()).all(|k| is_left(p, k));
+            let stays: Vec<Point> = moved.iter().zip(ring).map(|(p, own)| if is_in(*p) { *p } else { *own }).collect();
             vec![Convex::trusted(hull(&stays), 0.0)]
         }
     }
@@ -156,6 +178,20 @@ mod tests {
             for point in all {
                 assert_eq!(covers(&left, point.into()), is_covered, "{point:?} {left:?}");
             }
+        }
+    }
+
+    #[test]
+    fn pieces_are_cut_from_corner_to_corner() {
+        let pieces = [rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.]), rectangle([3., 1.], [4., 2.])];
+        let parts = corner_to_corner(&pieces);
+        assert_eq!(parts[1..], [vec![pieces[1].clone()], vec![pieces[2].clone()]]);
+        let area: f64 = parts[0].iter().map(Convex::area).sum();
+        assert_eq!((parts[0].len(), area), (4, 4.0));
+        let own: Vec<Point> = pieces.iter().flat_map(Convex::core).copied().collect();
+        for part in parts.iter().flatten() {
+            assert_eq!(with_corners(part.core(), &own), part.core(), "{parts:?}");
+            assert!(Convex::new(part.core().to_vec(), 0.0).is_ok(), "{part:?}");
         }
     }
 

@@ -46,7 +46,7 @@ pub use box_tree::{Bounds, BoxTree};
 pub(crate) use convex::reach;
 pub use convex::{Convex, ConvexError};
 pub use decompose::{MOST_CORNERS, decompose};
-pub(crate) use drawn_in::drawn_in;
+pub(crate) use drawn_in::{corner_to_corner, drawn_in};
 pub(crate) use galloping::farthest;
 pub use hull::hull;
 pub(crate) use inset::{common, inset};

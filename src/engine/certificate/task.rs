@@ -6,7 +6,7 @@ use super::{Evidence, Stuck, lines, stuck_about, tells_apart};
 use crate::check::StuckBox;
 use crate::engine::task::{RefutedCase, StepReport, Turned, refuted};
 use crate::engine::{Options, Verdict, solve};
-use crate::geometry::{Convex, Point, Vector};
+use crate::geometry::{Convex, Point, Vector, corner_to_corner};
 use crate::model::{Arm, Joint, MotionProblem, RecordedStep, Scene, Task};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
@@ -66,8 +66,10 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let mut room = 0.0;
     for _ in 0..MOST_LOOKS {
         let mut smaller = task.clone();
-        for piece in smaller.objects.iter_mut().flat_map(|object| &mut object.pieces) {
-            *piece = shrunk(piece, room)?;
+        for object in &mut smaller.objects {
+            // A checker moves the corners of what rests on something, and what they have between them has to be left.
+            let pieces = corner_to_corner(&object.pieces);
+            object.pieces = pieces.iter().flatten().map(|piece| shrunk(piece, room)).collect::<Option<_>>()?;
         }
         let cases = refuted(&smaller, last, &mut rule_out, &are_told)?;
         let known = Known::new(task, &cases);

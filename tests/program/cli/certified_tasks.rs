@@ -296,6 +296,48 @@ fn what_presses_into_its_supports_has_certificates() {
     assert!(code == 0 && said.is_some_and(|said| said.contains("does all")), "{code} {stderr}");
 }
 
+/// Rings about pegs, sides of whose holes go on as sides of their convex pieces.
+#[test]
+fn rings_on_pegs_have_certificates() {
+    let square = |x: f64, y: f64, half: f64| {
+        format!(
+            "[[{}, {}], [{}, {}], [{}, {}], [{}, {}]]",
+            x - half,
+            y - half,
+            x + half,
+            y - half,
+            x + half,
+            y + half,
+            x - half,
+            y + half
+        )
+    };
+    let stepped = format!(
+        "[[[-0.1, -0.1], [0.1, -0.1], [0.1, 0.04], [0.13, 0.04], [0.13, 0.1], [-0.1, 0.1]], {}]",
+        square(0.0, 0.0, 0.04)
+    );
+    let wedged = "[[[-0.1, -0.1], [0.1, -0.1], [0.1, -0.0346], [0.15000000000000002, -0.0346], [0.15000000000000002, 0.0278], [0.13, 0.0278], [0.13, 0.1], [0.0447, 0.1], [0.0447, 0.13], [-0.0438, 0.13], [-0.0438, 0.07], [-0.1, 0.07]], [[-0.0438, -0.0346], [0.0447, -0.0346], [-0.0438, 0.0278]]]";
+    let wedge = "[[0.9559263156877668, 0.7651263156877668], [1.045563099894364, 0.7651263156877668], [0.9559263156877668, 0.8283278448910624]]";
+    // The allowance is 1.6e-4 m, with sides beside right angles 0.7 of that.
+    let on_a_peg = |grown: f64| (stepped.clone(), square(1.0, 0.8, 0.04 + grown));
+    for ((ring, peg), code) in
+        [(on_a_peg(1e-6), 0), (on_a_peg(1.1e-4), 0), (on_a_peg(2e-4), 3), ((wedged.to_owned(), wedge.to_owned()), 3)]
+    {
+        let world = format!(
+            "[start]\njoints = [0.5, 0.4]\n[[obstacle]]\nname = \"peg\"\npolygon = {peg}\nheight = [0, 0.01]\n\
+             [[object]]\nname = \"ring\"\npolygon = {ring}\nat = [1.0, 0.8]\nheight = [0, 0.01]\nsupports = [\"peg\"]\n\
+             [[step]]\npick = \"ring\"\n[[step]]\nplace = {{ at = [1.0, 0.8] }}\n"
+        );
+        let place = Place::new();
+        place.write("w.toml", &world);
+        let urdf = shipped("robots/gantry.urdf");
+        let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json");
+        assert_eq!(done.code, code, "{peg}: {}", done.stderr);
+        let said = check(&read(&urdf), &world, &place.read("c.json")).unwrap();
+        assert!(said.contains(if code == 0 { "does all 2 steps" } else { "does the steps up to step 2" }), "{said}");
+    }
+}
+
 /// What has just been let go of may be touched, and a new one in its stead may not: the arm goes round it.
 #[test]
 fn a_new_object_is_an_obstacle() {
