@@ -209,10 +209,10 @@ fn stuck(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let point = bottleneck.point;
     let between: Vec<String> = bottleneck.hits.iter().map(|hit| scene.describe(hit.contact.pair)).collect();
     let between = between.join("; ");
-    let by = &bottleneck.by;
+    let (open, shut) = (at_most(bottleneck.by.opens, 4), at_least(bottleneck.by.closed, 4));
     format!(
-        "at {at}, near ({:.4}, {:.4}) m: too narrow by {lacking:.4} m ({between}); a way opens when everything gives way by {:.4} m, not yet by \
-         {:.4} m",
-        point.x, point.y, by.opens, by.closed
+        "at {at}, near ({:.4}, {:.4}) m: too narrow by {lacking:.4} m ({between}); a way opens when everything gives way by {open} m, not yet by \
+         {shut} m",
+        point.x, point.y
     )
 }
