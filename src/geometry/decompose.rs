@@ -15,22 +15,23 @@ pub const MOST_CORNERS: usize = 64;
 /// A triangulation by a sweep, then removal of every diagonal that no reflex corner needs (S. Hertel, K. Mehlhorn, *Fast
 /// Triangulation of Simple Polygons*, 1983): at most four times as many as the least possible number. Pieces with too many
 /// corners are cut once more (`cut_up`). All corners are corners of the polygon, so with the exact predicates the
-/// union is the polygon itself, without rounding. Straight corners of a piece are dropped. `O(n log n)`.
+/// union is the polygon itself, without rounding. Straight corners, of the polygon and of pieces, are dropped. `O(n log n)`.
 #[must_use]
 pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
-    let corners = polygon.corners();
-    let pieces = if polygon.is_convex() {
-        vec![corners.to_vec()]
-    } else {
-        let boundary = Boundary::new(&[corners]);
-        convex_faces(&boundary.vertices, triangulate(&boundary))
+    let strict = |ring: &[Point]| -> Vec<Point> {
+        (0..ring.len()).filter(|&i| turn(ring, i) != Orientation::Collinear).map(|i| ring[i]).collect()
     };
-    let strict = |ring: Vec<Point>| -> Vec<Point> {
-        (0..ring.len()).filter(|&i| turn(&ring, i) != Orientation::Collinear).map(|i| ring[i]).collect()
+    // No diagonal is to end at a straight corner.
+    let corners = strict(polygon.corners());
+    let pieces = if polygon.is_convex() {
+        vec![corners]
+    } else {
+        let boundary = Boundary::new(&[&corners]);
+        convex_faces(&boundary.vertices, triangulate(&boundary))
     };
     let mut convex = Vec::with_capacity(pieces.len());
     for piece in pieces {
-        cut_up(strict(piece), 0.0, &mut convex);
+        cut_up(strict(&piece), 0.0, &mut convex);
     }
     convex
 }
