@@ -35,9 +35,7 @@ pub(crate) mod planar;
 mod pole;
 mod polygon;
 mod predicates;
-
 mod rings;
-
 mod separation;
 mod sliding;
 mod turning;
@@ -46,7 +44,7 @@ pub use box_tree::{Bounds, BoxTree};
 pub(crate) use convex::reach;
 pub use convex::{Convex, ConvexError};
 pub use decompose::{MOST_CORNERS, decompose};
-pub(crate) use drawn_in::{corner_to_corner, drawn_in};
+pub(crate) use drawn_in::{can_be_drawn_in, drawn_in, narrowed};
 pub(crate) use galloping::farthest;
 pub use hull::hull;
 pub(crate) use inset::{common, inset};
@@ -62,9 +60,7 @@ pub use penetration::{
 pub use pole::pole_of_inaccessibility;
 pub use polygon::{PolygonError, SimplePolygon};
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
-
 pub use rings::{Polygon, RingError, RingSide};
-
 pub use separation::{Separation, separation};
 pub(crate) use separation::{gap_along, separation_at};
 pub use sliding::sliding;

@@ -5,20 +5,12 @@ use crate::geometry::{Convex, drawn_in};
 use nalgebra::{Isometry2, Translation2};
 use std::ops::Range;
 
-/// What of a payload's pieces stays off its supports.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Pressed {
-    /// What is left if no corner moves farther than it may press in.
-    Corners,
-    /// What is deeper in them than that: it stays off whichever way corners are moved.
-    Depth,
-}
+/// Which share of what a payload may press into its supports its corners are moved by: a little less, so that a checker that moves them farther
+/// has room.
+pub(super) const AT_MOST: f64 = 1.0 - 1e-3;
 
-/// By which share more than it may press in is taken off pieces for evidence, so that it has room for rounding.
-const DEEPER: f64 = 1e-6;
-
-/// By which share less than they may corners are moved, so that a checker that moves them farther has room.
-const LESS: f64 = 1e-3;
+/// The same for evidence that it presses deeper.
+pub(super) const SURELY: f64 = 1.0 + 1e-6;
 
 /// What a payload's part can meet.
 #[derive(Clone, Copy, PartialEq)]
@@ -39,7 +31,7 @@ impl Payload {
         &self,
         arm: &Arm,
         workspace: &Workspace,
-        pressed: Pressed,
+        pressed: f64,
         differences: &mut [Vec<Convex>],
     ) -> Vec<(Part, Meetable)> {
         let mut parts = Vec::new();
@@ -81,29 +73,20 @@ impl Payload {
 
     /// Its pieces, and smaller ones for its supports, in its own frame.
     pub(crate) fn parts(&self, arm: &Arm) -> impl Iterator<Item = (Convex, Meets)> {
-        self.parts_pressed(arm, Pressed::Corners).into_iter().map(|(_, shape, kind)| (shape, kind))
+        self.parts_pressed(arm, AT_MOST).into_iter().map(|(_, shape, kind)| (shape, kind))
     }
 
     /// The same, after the number of the piece that each is of.
-    fn parts_pressed(&self, arm: &Arm, pressed: Pressed) -> Vec<(usize, Convex, Meets)> {
+    fn parts_pressed(&self, arm: &Arm, pressed: f64) -> Vec<(usize, Convex, Meets)> {
         let mut parts: Vec<_> =
             self.pieces.iter().enumerate().map(|(number, piece)| (number, piece.clone(), Meets::Others)).collect();
         if self.supports.is_empty() {
             return parts;
         }
-        let allowance = Self::penetration_allowance(arm);
-        match pressed {
-            Pressed::Corners => {
-                let left = drawn_in(&self.pieces, allowance * (1.0 - LESS)).into_iter().enumerate();
-                parts.extend(
-                    left.flat_map(|(number, left)| left.into_iter().map(move |l| (number, l, Meets::Supports))),
-                );
-            }
-            Pressed::Depth => {
-                let deep = self.pieces.iter().map(|piece| piece.eroded(allowance * (1.0 + DEEPER)));
-                parts.extend(deep.enumerate().filter_map(|(number, deep)| Some((number, deep?, Meets::Supports))));
-            }
-        }
+        let left = drawn_in(&self.pieces, pressed * Self::penetration_allowance(arm)).into_iter().enumerate();
+        parts.extend(
+            left.flat_map(|(number, left)| left.into_iter().map(move |shape| (number, shape, Meets::Supports))),
+        );
         parts
     }
 

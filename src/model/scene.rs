@@ -1,6 +1,6 @@
 //! The arm among its obstacles.
 
-use super::payload_parts::Pressed;
+use super::payload_parts::{AT_MOST, SURELY};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{Arm, Dynamics, Heights, Joint, Mover, Obstacle, Part, Payload, SceneError, Workspace};
@@ -77,15 +77,15 @@ impl Meet {
 struct Reading {
     /// Which heights can meet.
     meet: Meet,
-    /// How a payload presses into its supports.
-    pressed: Pressed,
+    /// By which share of what a payload may press into its supports its corners are moved.
+    pressed: f64,
     /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
     farthest: f64,
 }
 
 impl Reading {
     /// What may meet does, and nothing is left out.
-    const ALL: Self = Self { meet: Meet::Perhaps, pressed: Pressed::Corners, farthest: f64::INFINITY };
+    const ALL: Self = Self { meet: Meet::Perhaps, pressed: AT_MOST, farthest: f64::INFINITY };
 }
 
 /// More pairs out of reach are left out of a search: with fewer it is as fast.
@@ -206,15 +206,14 @@ impl Scene {
         self.remade(reshape, pieces, self.reading)
     }
 
-    /// The same scene for evidence that a payload presses too deep into its supports, whichever way its corners are moved inwards by what it may
-    /// press in.
+    /// The same scene for evidence that a payload presses too deep into its supports.
     #[must_use]
     pub(crate) fn certainly_pressed(&self) -> Cow<'_, Self> {
         match &self.payload {
             Some(payload) if !payload.supports.is_empty() => Cow::Owned(self.remade(
                 |_| (),
                 |obstacle| obstacle.pieces.clone(),
-                Reading { pressed: Pressed::Depth, ..self.reading },
+                Reading { pressed: SURELY, ..self.reading },
             )),
             _ => Cow::Borrowed(self),
         }

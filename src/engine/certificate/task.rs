@@ -6,8 +6,8 @@ use super::{Evidence, Stuck, lines, stuck_about, tells_apart};
 use crate::check::StuckBox;
 use crate::engine::task::{RefutedCase, StepReport, Turned, refuted};
 use crate::engine::{Options, Verdict, solve};
-use crate::geometry::{Convex, Point, Vector, corner_to_corner};
-use crate::model::{Arm, Joint, MotionProblem, RecordedStep, Scene, Task};
+use crate::geometry::{Convex, can_be_drawn_in, narrowed};
+use crate::model::{Action, Arm, Joint, MotionProblem, Object, Payload, RecordedStep, Scene, Step, Task};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
 use std::iter;
@@ -63,13 +63,14 @@ const AFTER_ANOTHER: f64 = 100.0;
 pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let arm = &task.arm;
     let are_told = |cases: &[RefutedCase]| cases.iter().all(|case| told_of(arm, case) >= NEARLY_STRETCHED);
-    let mut room = 0.0;
+    let mut room = 0.0_f64;
+    if is_too_fine(task) {
+        return None;
+    }
     for _ in 0..MOST_LOOKS {
         let mut smaller = task.clone();
         for object in &mut smaller.objects {
-            // A checker moves the corners of what rests on something, and what they have between them has to be left.
-            let pieces = corner_to_corner(&object.pieces);
-            object.pieces = pieces.iter().flatten().map(|piece| shrunk(piece, room)).collect::<Option<_>>()?;
+            object.pieces = narrowed(&object.pieces, room.max(SMALLER * depth(object)))?;
         }
         let cases = refuted(&smaller, last, &mut rule_out, &are_told)?;
         let known = Known::new(task, &cases);
@@ -89,8 +90,19 @@ fn told_of(arm: &Arm, case: &RefutedCase) -> f64 {
 
 /// Whether objects that are [`SMALLER`] have that much room.
 fn is_little(task: &Task, room: f64) -> bool {
-    let pieces = || task.objects.iter().flat_map(|object| &object.pieces);
-    pieces().all(|piece| piece.depth() == 0.0 || room <= SMALLER * piece.depth())
+    task.objects.iter().all(|object| room <= SMALLER * depth(object))
+}
+
+/// How deep anything of an object lies in it at least.
+fn depth(object: &Object) -> f64 {
+    object.pieces.iter().map(Convex::depth).fold(0.0, f64::max)
+}
+
+/// Whether something that rests is too fine for a checker to move its corners inwards.
+fn is_too_fine(task: &Task) -> bool {
+    let allowance = Payload::penetration_allowance(&task.arm);
+    let rests = |step: &Step| matches!(&step.action, Action::Pick { supports, .. } | Action::Place { supports, .. } if !supports.is_empty());
+    task.steps().any(rests) && task.objects.iter().any(|object| !can_be_drawn_in(&object.pieces, allowance))
 }
 
 /// How well a checker knows where the arm is before cases.
@@ -202,7 +214,6 @@ fn written(task: &Task, cases: &[RefutedCase], known: &Known) -> Evidence {
 
 /// What rules out a motion: its ends are not free, or colliding configurations separate them.
 fn rule_out(scene: &Scene, ends: [Configuration; 2]) -> Option<Vec<StuckBox>> {
-    // A checker moves corners in its own way.
     let scene = &*scene.certainly_pressed();
     let is_free = |q: &Configuration| scene.obstructions(*q).is_empty();
     if let Some(end) = ends.iter().find(|end| !is_free(end)) {
@@ -214,14 +225,4 @@ fn rule_out(scene: &Scene, ends: [Configuration; 2]) -> Option<Vec<StuckBox>> {
         Verdict::Infeasible(proof) => Some(proof.stuck().to_vec()),
         Verdict::Found(_) | Verdict::Unknown(_) => None,
     }
-}
-
-/// Smaller by a room on each side, if it is thick enough; what has no depth, and so no room, a little smaller about its middle.
-fn shrunk(piece: &Convex, room: f64) -> Option<Convex> {
-    if piece.depth() > 0.0 {
-        return piece.eroded(room.max(SMALLER * piece.depth()));
-    }
-    let core = piece.core();
-    let middle = core.iter().map(|p| p.coords).sum::<Vector>() / core.len() as f64;
-    Some(piece.mapped(|p| Point::from(middle + (p.coords - middle) * (1.0 - SMALLER)), 0.0))
 }

@@ -4,7 +4,8 @@ mod bridges;
 mod faces;
 mod noding;
 
-use super::{Convex, Point, PolygonError, SimplePolygon};
+use super::polygon::turn;
+use super::{Convex, Orientation, Point, PolygonError, SimplePolygon};
 use bridges::bridged;
 use faces::faces;
 use noding::Noded;
@@ -106,8 +107,13 @@ impl Polygon {
             };
             super::polygon::check_ring(corners).map_err(error)?;
         }
-        let parts = faces(&bridged(Noded::of(&rings)?)?)?;
-        Ok(Self { parts })
+        let mut noded = Noded::of(&rings)?;
+        // No hole is to be joined to a straight corner.
+        let bare: Vec<Vec<Point>> = rings.iter().map(|ring| without_straight(ring)).collect();
+        if bare != rings {
+            noded = Noded::of(&bare)?;
+        }
+        Ok(Self { parts: faces(&bridged(noded)?)? })
     }
 
     /// The polygon as simple polygons with disjoint interiors, whose corners are corners of the rings; one if the outer ring
@@ -128,4 +134,14 @@ impl Polygon {
     pub fn area(&self) -> f64 {
         self.parts.iter().map(SimplePolygon::area).sum()
     }
+}
+
+/// A ring without the corners that lie on a line with those beside them, and without repetitions.
+fn without_straight(ring: &[Point]) -> Vec<Point> {
+    let mut once = ring.to_vec();
+    once.dedup();
+    if once.len() > 1 && once.first() == once.last() {
+        once.pop();
+    }
+    (0..once.len()).filter(|&k| turn(&once, k) != Orientation::Collinear).map(|k| once[k]).collect()
 }
