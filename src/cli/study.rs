@@ -138,6 +138,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
         }
     }
     write_whole_set(&written)?;
+    note_robot(&study, &files);
     kept.remove()?;
     let planned = summary.best().and_then(|best| Some((best.layout, command(&study, &files)?)));
     let planned =
@@ -197,7 +198,17 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
     }
     let text = |content| if content == Content::Robot { &urdf } else { &world };
     write_whole_set(&files.iter().map(|(path, content)| (path.clone(), text(*content))).collect::<Vec<_>>())?;
+    note_robot(study, &files);
     Ok(DONE)
+}
+
+/// Says that a layout's robot is another one, where its world alone is written.
+fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
+    let of = |wanted: Content| files.iter().find(|(_, content)| *content == wanted);
+    if let (Some((world, _)), None, true) = (of(Content::World), of(Content::Robot), study.varies_robots()) {
+        let robot = world.with_extension("urdf");
+        sinks::say(&format!("note: the layout's robot is one of its own: --output {} writes it, too", robot.display()));
+    }
 }
 
 /// What a file holds; none of the best layout where there is none.

@@ -117,18 +117,19 @@ pub fn obstacle(index: usize) -> Rgb {
 }
 
 /// Colour and dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008). The dashes
-/// keep paths apart that lie on top of each other.
+/// keep paths apart that lie on top of each other; further rounds through the colours have other dashes, so that 36 paths differ.
 #[must_use]
 pub fn path(index: usize) -> (Rgb, &'static [f64]) {
-    const PENS: [(Rgb, &[f64]); 6] = [
-        (Rgb(0x00, 0x72, 0xb2), &[]),
-        (Rgb(0xd5, 0x5e, 0x00), &[9.0, 4.0]),
-        (Rgb(0x00, 0x9e, 0x73), &[3.0, 3.0]),
-        (Rgb(0xb0, 0x4f, 0x88), &[10.0, 3.0, 2.0, 3.0]),
-        (Rgb(0xc7, 0x8a, 0x00), &[5.0, 5.0]),
-        (Rgb(0x2b, 0x90, 0xc9), &[14.0, 4.0]),
+    const COLORS: [Rgb; 6] = [
+        Rgb(0x00, 0x72, 0xb2),
+        Rgb(0xd5, 0x5e, 0x00),
+        Rgb(0x00, 0x9e, 0x73),
+        Rgb(0xb0, 0x4f, 0x88),
+        Rgb(0xc7, 0x8a, 0x00),
+        Rgb(0x2b, 0x90, 0xc9),
     ];
-    PENS[index % PENS.len()]
+    const DASHES: [&[f64]; 6] = [&[], &[9.0, 4.0], &[3.0, 3.0], &[10.0, 3.0, 2.0, 3.0], &[5.0, 5.0], &[14.0, 4.0]];
+    (COLORS[index % COLORS.len()], DASHES[(index + index / COLORS.len()) % DASHES.len()])
 }
 
 /// A perceptually uniform scale for `value` from 0 (light) to 1 (dark): seaborn's "mako" without its darkest third,
@@ -161,6 +162,12 @@ mod tests {
             if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
         };
         0.2126 * linear(c.0) + 0.7152 * linear(c.1) + 0.0722 * linear(c.2)
+    }
+
+    #[test]
+    fn the_paths_of_many_planners_differ() {
+        let pens: std::collections::BTreeSet<String> = (0..36).map(|index| format!("{:?}", path(index))).collect();
+        assert_eq!(pens.len(), 36);
     }
 
     #[test]

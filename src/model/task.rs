@@ -270,17 +270,19 @@ impl Action {
         }
     }
 
-    /// In a few words: `pick "part"`.
+    /// In a few words: `pick "part"`. Numbers to a millionth.
     #[must_use]
     pub fn describe(&self, objects: &[Object]) -> String {
+        let short = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
+        let point = |x: f64, y: f64| format!("({}, {})", short(x), short(y));
         match self {
             Action::Pick { object, .. } => format!("pick \"{}\"", objects[*object].name),
-            Action::Place { at, angle: None, .. } => format!("place at ({}, {}) m", at.x, at.y),
+            Action::Place { at, angle: None, .. } => format!("place at {} m", point(at.x, at.y)),
             Action::Place { at, angle: Some(angle), .. } => {
-                format!("place at ({}, {}) m, turned to {angle} rad", at.x, at.y)
+                format!("place at {} m, turned to {} rad", point(at.x, at.y), short(*angle))
             }
-            Action::Move(Goal::Joints(q)) => format!("move to joints ({}, {})", q[0], q[1]),
-            Action::Move(Goal::Tip(tip)) => format!("move the tip to ({}, {}) m", tip.x, tip.y),
+            Action::Move(Goal::Joints(q)) => format!("move to joints {}", point(q[0], q[1])),
+            Action::Move(Goal::Tip(tip)) => format!("move the tip to {} m", point(tip.x, tip.y)),
         }
     }
 }

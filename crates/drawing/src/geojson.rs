@@ -178,6 +178,11 @@ fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
                     let cure = "give heights in the unit of the coordinates, or leave the height out";
                     return Err(Error::new(None, message.trim_start_matches('.'), cure));
                 }
+                [Some(low), Some(high)] => {
+                    let message = format!("{at}.properties.height: {high} is below {low}");
+                    let cure = "write the lower end first; a single number is above 0";
+                    return Err(Error::new(None, message.trim_start_matches('.'), cure));
+                }
                 _ => {
                     let at = format!("{at}.properties.height");
                     let message = "expected a number, or the lower and the upper end: [0, 0.2]";

@@ -187,10 +187,9 @@ pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found:
 impl Ledger {
     /// What is said of any motion.
     fn general(&mut self, arm: &Arm, recording: &Recording, claims: &Claims) {
-        // An exploration's motion is one, too.
-        if let Some(status) =
-            claims.status.as_ref().filter(|status| !["reached", "explored"].contains(&status.as_str()))
-        {
+        // An exploration's motion is one, too, and so is what it did before it knew that the goal is out of reach.
+        let of_exploration = ["reached", "explored", "unreachable"];
+        if let Some(status) = claims.status.as_ref().filter(|status| !of_exploration.contains(&status.as_str())) {
             self.same("status", status, &"found".to_owned());
         }
         if let Some(certified) = claims.certified {

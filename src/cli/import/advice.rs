@@ -33,7 +33,7 @@ pub(super) fn note(taken: &[Taken], notes: &mut Notes) {
         [0, 1].map(|k| (all[k].0.min(one[k].0), all[k].1.max(one[k].1)))
     });
     let width = all.map(|(low, high)| high - low).into_iter().fold(0.0, f64::max);
-    if !(USUAL[0]..=USUAL[1]).contains(&width) {
+    if !taken.is_empty() && !(USUAL[0]..=USUAL[1]).contains(&width) {
         let width = if width < 1.0 { format!("{:.3} mm", width * 1e3) } else { format!("{width:.0} m") };
         notes.add(format!("all of it is {width} wide: if that is not meant, say the drawing's --unit"), None);
     }

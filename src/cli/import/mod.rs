@@ -161,7 +161,10 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let is_told = |names: &[String]| layers.asks_for(names) || known.contains(names);
     let notes: Vec<String> = notes.of(is_told).iter().map(Note::to_string).collect();
     if taken.is_empty() {
-        let cure = "draw outlines as closed polylines, lines, arcs or circles, or say by --layer which layers to take";
+        let cure = match args.without.is_empty() {
+            true => "draw outlines as closed polylines, lines, arcs or circles, or say by --layer which layers to take",
+            false => "leave less out (--without)",
+        };
         let why: Vec<String> = notes.iter().map(|note| format!("; {note}")).collect();
         let message = format!("nothing of this drawing is an obstacle{}", why.concat());
         return Err(refused(args, Diagnostic::new("", message).help(cure)));

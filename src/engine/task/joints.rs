@@ -17,6 +17,17 @@ pub enum MessageError {
     /// Accelerations that would mislead their readers.
     #[error(transparent)]
     Jump(#[from] AccelerationJump),
+    /// A joint of the tool that moves, of which no accelerations are known.
+    #[error(
+        "accelerations cannot be written: those of the tool's joint \"{joint}\", which moves at {time:.6} s, jump; write the two planned joints \
+         alone (--joints planned), or leave out --accelerations"
+    )]
+    Tool {
+        /// The joint's name in the URDF.
+        joint: String,
+        /// When it moves first, seconds from the beginning.
+        time: f64,
+    },
     /// A wrist that cannot keep up.
     #[error(
         "joint \"{joint}\" cannot keep what is carried level: at {time:.6} s it would {what}; let it have a wider range, give the \
@@ -69,14 +80,14 @@ impl Messages {
     }
 
     /// Whether quintics are the motion of the tool, too: it does not move, because its acceleration would jump.
-    pub fn check_accelerations(&self, robot: &RobotJoints) -> Result<(), AccelerationJump> {
+    pub fn check_accelerations(&self, robot: &RobotJoints) -> Result<(), MessageError> {
         let tool = |driver: Driver| matches!(driver, Driver::Stroke | Driver::Wrist);
         let moved = |(k, joint): (usize, &RobotJoint)| {
             let moving = self.whole.velocity.iter().position(|rates| rates[k] != 0.0);
-            moving.filter(|_| tool(joint.driver)).map(|sample| self.whole.time[sample])
+            moving.filter(|_| tool(joint.driver)).map(|sample| (joint.name.clone(), self.whole.time[sample]))
         };
         match robot.joints.iter().enumerate().find_map(moved) {
-            Some(time) => Err(AccelerationJump { time }),
+            Some((joint, time)) => Err(MessageError::Tool { joint, time }),
             None => Ok(()),
         }
     }

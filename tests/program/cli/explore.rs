@@ -127,6 +127,11 @@ fn heights_that_are_known_let_a_scara_pass() {
     assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
 }
 
+/// What is between start and goal is seen from a way off.
+const RING: &str = "start.joints = [-2.0, 0.3]\ngoal.joints = [1.6, -0.6]\nsensor = { range = 0.7, on = \"tip\", rays = 200 }\n\
+                    [[obstacle]]\npolygon = [[1.0, -0.1], [1.6, -0.1], [1.6, 0.1], [1.0, 0.1]]\n\
+                    [[obstacle]]\ncircle = { center = [-0.7, 0.9], radius = 0.2 }\n";
+
 #[test]
 fn what_cannot_be_reached_is_proven() {
     let place = Place::new();
@@ -134,6 +139,13 @@ fn what_cannot_be_reached_is_proven() {
     let done = explore(&place, &files, "");
     assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
     assert!(done.stdout.contains("unreachable: proven"), "{}", done.stdout);
+    // What it did before is a motion, and what its file says of it is true.
+    place.write("ring.toml", RING);
+    let robot = files[0].as_str();
+    let done = explore(&place, &[robot, "ring.toml"].map(str::to_owned), "--output ring.json");
+    assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
+    let verified = place.run(&["verify", robot, "ring.toml", "ring.json"], "--anywhere");
+    assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
     let stopped = explore(&place, &rooms(), "--decisions 1");
     assert_eq!(stopped.code, 4, "{}", stopped.stdout);
     assert!(stopped.stdout.contains("unknown: not done after 1 decision"), "{}", stopped.stdout);

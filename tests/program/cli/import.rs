@@ -335,6 +335,7 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
         "--output w.toml",
         &["text.dxf: nothing of this drawing is an obstacle; TEXT: left out", "cure: draw outlines"],
     );
+    refused("one.dxf", "--without a", &["nothing of this drawing is an obstacle", "cure: leave less out (--without)"]);
     refused("nan.dxf", "", &["nan.dxf: line 20, column 1: group 10 needs a number", "cure: "]);
     refused(
         "far.dxf",

@@ -227,6 +227,11 @@ fn robots_vary_as_well_as_worlds() {
     let times: Vec<f64> =
         rows(&place.read("t.csv")).iter().map(|row| field(row, "duration").parse().unwrap()).collect();
     assert!(times[0] > times[1] && times[1] > times[2], "{times:?}");
+    // A layout is planned with its own robot, which has a file of its own.
+    let said = run(&place, "--layout 1 --output one.toml").stderr;
+    assert!(said.contains("--output one.urdf writes it"), "{said}");
+    let said = run(&place, "--layout 1 --output one.toml --output one.urdf").stderr;
+    assert!(!said.contains("note:"), "{said}");
 }
 
 #[test]

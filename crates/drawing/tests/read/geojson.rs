@@ -71,6 +71,7 @@ fn cures_are_for_what_is_wrong() {
         (r#"{"type": "Polygon", "coordinates": {}}"#, "stand in lists"),
         (r#"{"type": "Polygon", "coordinates": [[[0, 0], [1, "x"]]]}"#, "both coordinates as numbers, without quotes"),
         (r#"{"type": "Feature", "properties": {"height": "x"}}"#, "heights as numbers, without quotes"),
+        (r#"{"type": "Feature", "properties": {"height": -1}}"#, "lower end first; a single number is above 0"),
     ];
     for (text, cure) in cases {
         let error = read(text.as_bytes(), Format::GeoJson, &Settings::default()).unwrap_err();
