@@ -253,7 +253,7 @@ fn facts(done: &Exploration) -> Vec<Line> {
             "map",
             format!(
                 "{width} x {height} cells of {} m: {free} free, {occupied} occupied, {unknown} unknown",
-                map.resolution
+                (map.resolution * 1e6).round() / 1e6
             ),
         ),
         ("seen", format!("{seen:.1} % of the map")),

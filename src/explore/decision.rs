@@ -13,6 +13,7 @@ use crate::field::{Component, Lattice, harmonic_way};
 use crate::interrupt::checkpoint;
 use crate::model::{MotionProblem, Scene};
 use crate::space::{Configuration, GoalSet, Path, Segment};
+use crate::text::counted;
 use std::collections::{BTreeSet, HashSet};
 
 /// Places ahead on an optimistic path whose unknown cells are looked for.
@@ -269,10 +270,9 @@ impl Explorer<'_> {
         let optimistic = match solve(&problem, &self.settings.options, &mut |_| ()).verdict {
             Verdict::Found(path) => path,
             Verdict::Infeasible(proof) => {
-                let boxes = proof.stuck().len();
-                let why = format!(
-                    "proven: {boxes} boxes of configurations that meet what was seen separate it from the goal"
-                );
+                let boxes = counted(proof.stuck().len(), "box");
+                let why =
+                    format!("proven: separated from the goal by {boxes} of configurations that meet what was seen");
                 return Decision::Done(Ending::Unreachable(why));
             }
             // Its planner may give up, as in a trap: others see farther.

@@ -46,7 +46,7 @@ pub struct ImportArgs {
     /// Write the world: .toml; by default it is printed.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
-    /// Draw what was read: .svg, .png or .html. Can be repeated.
+    /// Draw what was read: .svg, .png, .gif or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
     /// Take only this, even if its layer is switched off. Can be repeated.

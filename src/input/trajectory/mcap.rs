@@ -34,7 +34,12 @@ const SHOWN: [&str; 3] =
 /// What is no MCAP file, compressed ones, messages that are none, and motions that do not fit together.
 pub(super) fn read(source: &Source, bytes: &[u8]) -> Result<Samples, InputError> {
     let broken = |error: ::mcap::McapError| {
-        let help = "record it uncompressed, as cplan writes it (mcap convert with compression none)";
+        let help = match &error {
+            ::mcap::McapError::UnsupportedCompression(_) => {
+                "record it uncompressed, as cplan writes it (mcap convert with compression none)"
+            }
+            _ => "it is damaged, cut off, or no recording: record it anew",
+        };
         source.diagnostic(format!("cannot be read as MCAP: {error}")).help(help)
     };
     let (mut trajectories, mut states, mut unknown) = (Vec::new(), Vec::new(), BTreeSet::new());

@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::markup::{margin, number, shortened};
 use crate::report::{Measure, Spread, Study};
-use crate::text::markup;
+use crate::text::{counted, markup};
 
 /// Width of a chart, pixels: about that of a phone, where charts are not made smaller then.
 const WIDTH: f64 = 460.0;
@@ -87,7 +87,8 @@ fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) 
 /// What the chart shows, for who hovers over it or has it read out.
 fn described(name: &str, spread: &Spread) -> String {
     let [min, low, median, high, max, _] = spread.numbers().map(|v| format!("{v:.4}"));
-    format!("{name}: {} runs, median {median}, quartiles {low} and {high}, least {min}, greatest {max}", spread.n)
+    let runs = counted(spread.n, "run");
+    format!("{name}: {runs}, median {median}, quartiles {low} and {high}, least {min}, greatest {max}")
 }
 
 #[cfg(test)]
