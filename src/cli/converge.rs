@@ -6,14 +6,14 @@ use super::failure::Failure;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::engine::{FieldProblem, Problem};
-use crate::field::{Difference, Direction, Equation, Measure, Stopping};
-use crate::grammar::{LimitsName, OrderName, direction, finite, positive};
+use crate::field::{Difference, Direction, Equation, Limits, Measure, Stopping};
+use crate::grammar::{OrderName, direction, finite, positive};
 use crate::input;
 use crate::motion::{Format, check_writable, write_whole_set};
 use crate::output::title_of;
 use crate::planner::EquationChoice;
 use crate::report::{Setup, convergence};
-use clap::{Args, ValueEnum, ValueHint};
+use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
 /// Arguments of `converge`.
@@ -48,11 +48,11 @@ pub struct ConvergeArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = OrderName::Rows)]
     pub order: OrderName,
     /// What lies beyond joint limits.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = LimitsName::High)]
-    pub limits: LimitsName,
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Limits::High)]
+    pub limits: Limits,
     /// What of a sweep's changes must fall below the tolerance.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = MeasureName::Relative)]
-    pub measure: MeasureName,
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Measure::GreatestRelativeChange)]
+    pub measure: Measure,
     /// Relax until the measure is below this.
     #[arg(long, value_name = "SIZE", default_value_t = 1e-6, value_parser = positive, allow_hyphen_values = true)]
     pub tolerance: f64,
@@ -67,33 +67,6 @@ pub struct ConvergeArgs {
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
     pub print: PrintArgs,
-}
-
-/// Stopping rules.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum MeasureName {
-    /// Greatest change as a part of the value.
-    Relative,
-    /// Greatest change.
-    Greatest,
-    /// Sum of changes.
-    Sum,
-    /// Sum of squared changes.
-    Squares,
-    /// Difference between the sum of changes and that of the sweep before.
-    Sums,
-}
-
-impl From<MeasureName> for Measure {
-    fn from(name: MeasureName) -> Self {
-        match name {
-            MeasureName::Relative => Self::GreatestRelativeChange,
-            MeasureName::Greatest => Self::GreatestChange,
-            MeasureName::Sum => Self::SumOfChange,
-            MeasureName::Squares => Self::SumOfSquares,
-            MeasureName::Sums => Self::DifferenceOfSums,
-        }
-    }
 }
 
 /// Measures, and says what came of it.
@@ -116,7 +89,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
             "{world}: a world with steps has a field for each of its motions\n  cure: one with a start and a goal"
         ))
     })?;
-    let posed = FieldProblem::new(motion, args.cells as usize, args.limits.into())
+    let posed = FieldProblem::new(motion, args.cells as usize, args.limits)
         .map_err(|reason| Failure::Option(format!("{reason}\n  cure: more --cells")))?;
     let setup = args.setup(title_of(problem.scene()), &posed).map_err(Failure::Option)?;
     let measured = convergence(&setup, &mut |text| args.print.say(&format!("{text} ...")))
@@ -155,8 +128,7 @@ impl ConvergeArgs {
             Equation::Oriented { direction, .. } => Some(*direction),
             _ => None,
         });
-        let stopping =
-            Stopping { measure: self.measure.into(), below: self.tolerance, max_sweeps: self.max_sweeps as usize };
+        let stopping = Stopping { measure: self.measure, below: self.tolerance, max_sweeps: self.max_sweeps as usize };
         Ok(Setup {
             title,
             domain: &posed.domain,

@@ -1,16 +1,7 @@
 //! What tables and ROS 2 messages hold, on the command line.
 
-use crate::engine;
-use clap::{Args, ValueEnum};
-
-/// Joints that a message names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum NamedJoints {
-    /// Every movable joint of the robot.
-    All,
-    /// The two that are planned for.
-    Planned,
-}
+use crate::engine::NamedJoints;
+use clap::Args;
 
 /// What tables and messages hold.
 #[derive(Debug, Args)]
@@ -22,13 +13,4 @@ pub struct MessageArgs {
     /// Refused where the acceleration jumps; limits on the jerk of both joints (--jerk) keep it from that.
     #[arg(long)]
     pub accelerations: bool,
-}
-
-impl From<NamedJoints> for engine::NamedJoints {
-    fn from(joints: NamedJoints) -> Self {
-        match joints {
-            NamedJoints::All => Self::All,
-            NamedJoints::Planned => Self::Planned,
-        }
-    }
 }

@@ -198,7 +198,7 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
     }
     let text = |content| if content == Content::Robot { &urdf } else { &world };
     write_whole_set(&files.iter().map(|(path, content)| (path.clone(), text(*content))).collect::<Vec<_>>())?;
-    note_robot(study, &files);
+    note_robot(study, files);
     Ok(DONE)
 }
 

@@ -84,7 +84,7 @@ pub(super) fn options(
         levels: options.levels(),
         drive: motion.drive(),
         jerk: motion.jerk(),
-        joints: message.joints.into(),
+        joints: message.joints,
         accelerations: message.accelerations,
         ..Options::default()
     })

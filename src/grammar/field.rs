@@ -25,15 +25,6 @@ pub enum FieldName {
     Khatib,
 }
 
-/// Discretisations of slopes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DifferenceName {
-    /// Monotone for an epsilon of less than 2 only.
-    Central,
-    /// Monotone for every epsilon.
-    Upwind,
-}
-
 /// Relaxations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum RelaxationName {
@@ -71,42 +62,6 @@ impl From<OrderName> for Order {
     }
 }
 
-/// Where sweeps are done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DeviceName {
-    /// In double precision.
-    Cpu,
-    /// In single precision, cells red-black or all at once; needs a program with the feature gpu.
-    Gpu,
-}
-
-impl From<DeviceName> for Device {
-    fn from(name: DeviceName) -> Self {
-        match name {
-            DeviceName::Cpu => Self::Cpu,
-            DeviceName::Gpu => Self::Gpu,
-        }
-    }
-}
-
-/// What lies beyond joint limits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum LimitsName {
-    /// Obstacles.
-    High,
-    /// Mirrors: they neither attract nor repel.
-    Reflecting,
-}
-
-impl From<LimitsName> for Limits {
-    fn from(name: LimitsName) -> Self {
-        match name {
-            LimitsName::High => Self::High,
-            LimitsName::Reflecting => Self::Reflecting,
-        }
-    }
-}
-
 /// The field of the harmonic planner.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[command(next_help_heading = "Fields (planner harmonic)")]
@@ -123,7 +78,7 @@ pub struct FieldArgs {
     pub direction: Option<Direction>,
     /// How slopes are discretised (oriented, local, bvp) [default: central].
     #[arg(long, value_enum, value_name = "NAME")]
-    pub difference: Option<DifferenceName>,
+    pub difference: Option<Difference>,
     /// How the equation is relaxed, such as --relaxation sor --order corners [default, if the field is not the plain
     /// harmonic one: gauss-seidel].
     #[arg(long, value_enum, value_name = "NAME")]
@@ -137,7 +92,7 @@ pub struct FieldArgs {
     pub factor: Option<f64>,
     /// What lies beyond joint limits [default: high].
     #[arg(long, value_enum, value_name = "NAME")]
-    pub limits: Option<LimitsName>,
+    pub limits: Option<Limits>,
     /// Relax until no value changes by more than this part of itself in a sweep [default: 1e-6].
     #[arg(long, value_name = "SHARE", value_parser = positive, allow_hyphen_values = true)]
     pub tolerance: Option<f64>,
@@ -146,7 +101,7 @@ pub struct FieldArgs {
     pub max_sweeps: Option<u32>,
     /// What the field is relaxed on [default: cpu].
     #[arg(long, value_enum, value_name = "DEVICE")]
-    pub on: Option<DeviceName>,
+    pub on: Option<Device>,
     /// Pull of the goal (khatib): constant:C, or linear:K for K times the distance [default: linear:1].
     #[arg(long, value_name = "LAW", value_parser = attraction)]
     pub attraction: Option<Attraction>,
@@ -202,7 +157,7 @@ impl FieldArgs {
                 on: self.device(),
             },
         };
-        let limits = self.limits.unwrap_or(LimitsName::High).into();
+        let limits = self.limits.unwrap_or_default();
         Ok(Some(FieldPlanner { field, limits, path: PathKind::Own }))
     }
 
@@ -238,10 +193,7 @@ impl FieldArgs {
     }
 
     fn equation(&self, name: FieldName) -> Result<EquationChoice, String> {
-        let difference = match self.difference {
-            Some(DifferenceName::Upwind) => Difference::Upwind,
-            Some(DifferenceName::Central) | None => Difference::Central,
-        };
+        let difference = self.difference.unwrap_or_default();
         let elsewhere = self.epsilon.unwrap_or(0.0);
         Ok(match name {
             FieldName::Local => EquationChoice::LocallyOriented { direction: self.direction, difference },

@@ -7,7 +7,7 @@ mod number;
 mod planner;
 mod roadmap;
 
-pub use field::{LimitsName, OrderName, direction};
+pub use field::{OrderName, direction};
 pub use motion::MotionArgs;
 pub use number::{finite, number_in, positive};
 pub use planner::{EffortArgs, PlannerArgs, PlannerWords};

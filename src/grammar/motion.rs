@@ -2,14 +2,14 @@
 
 use super::number::{number_in, seconds};
 use crate::motion::{Drive, Objective};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 /// How to drive along a path.
 #[derive(Debug, Args)]
 pub struct MotionArgs {
     /// What is to be the least: the length of the path, or the time of the motion, for which the path is given another shape.
     #[arg(long, value_enum, value_name = "WHAT", default_value_t)]
-    pub optimize: Optimize,
+    pub optimize: Objective,
     /// Time between two samples of the trajectory, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
     pub period: f64,
@@ -26,25 +26,6 @@ pub struct MotionArgs {
     /// Greatest jerk of each joint instead of the world's, such as 200,none: rad/s3 or m/s3, "none" for a joint without.
     #[arg(long, value_name = "j1,j2", value_parser = jerk, allow_hyphen_values = true)]
     pub jerk: Option<Jerk>,
-}
-
-/// As [`Objective`] has it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum Optimize {
-    /// The length of the path.
-    #[default]
-    Length,
-    /// The time of the motion.
-    Time,
-}
-
-impl From<Optimize> for Objective {
-    fn from(optimize: Optimize) -> Self {
-        match optimize {
-            Optimize::Length => Objective::Length,
-            Optimize::Time => Objective::Time,
-        }
-    }
 }
 
 /// Greatest jerk of each joint that has one.
@@ -86,6 +67,6 @@ impl MotionArgs {
     /// The same for the trajectory.
     pub fn drive(&self) -> Drive {
         let Self { period, blend, tip_speed, torque, .. } = *self;
-        Drive { optimize: self.optimize.into(), period, blend, tip_speed, torque }
+        Drive { optimize: self.optimize, period, blend, tip_speed, torque }
     }
 }

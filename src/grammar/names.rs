@@ -1,6 +1,9 @@
-//! Planners, paths and searches by name, so that help and shells can list them.
+//! Planners, paths, searches and what else has names, so that help and shells can list them.
 
-use crate::engine::{GridSpace, Method};
+use crate::engine::{GridSpace, Method, NamedJoints};
+use crate::explore::Strategy;
+use crate::field::{Device, Difference, Limits, Measure};
+use crate::motion::Objective;
 use crate::planner::{GridSearch, PathKind};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
@@ -80,3 +83,39 @@ impl ValueEnum for GridSpace {
         Some(PossibleValue::new(self.name()).help(help))
     }
 }
+
+/// Names of variants, and help that may be empty.
+macro_rules! named {
+    ($of:ty: $($variant:ident $name:literal $help:literal),+) => {
+        impl ValueEnum for $of {
+            fn value_variants<'a>() -> &'a [Self] {
+                &[$(Self::$variant),+]
+            }
+
+            fn to_possible_value(&self) -> Option<PossibleValue> {
+                let (name, help) = match self {
+                    $(Self::$variant => ($name, $help)),+
+                };
+                let value = PossibleValue::new(name);
+                Some(if help.is_empty() { value } else { value.help(help) })
+            }
+        }
+    };
+}
+
+named!(Difference: Central "central" "Monotone for an epsilon of less than 2 only", Upwind "upwind" "Monotone for every epsilon");
+
+named!(Device: Cpu "cpu" "In double precision",
+    Gpu "gpu" "In single precision, cells red-black or all at once; needs a program with the feature gpu");
+
+named!(Limits: High "high" "Obstacles", Reflecting "reflecting" "Mirrors: they neither attract nor repel");
+
+named!(Measure: GreatestRelativeChange "relative" "Greatest change as a part of the value", GreatestChange "greatest" "Greatest change",
+    SumOfChange "sum" "Sum of changes", SumOfSquares "squares" "Sum of squared changes",
+    DifferenceOfSums "sums" "Difference between the sum of changes and that of the sweep before");
+
+named!(NamedJoints: All "all" "Every movable joint of the robot", Planned "planned" "The two that are planned for");
+
+named!(Objective: Length "length" "The length of the path", Time "time" "The time of the motion");
+
+named!(Strategy: Goal "goal" "", View "view" "", Nearest "nearest" "", Harmonic "harmonic" "", Wall "wall" "");
