@@ -9,7 +9,7 @@ use crate::engine::{FieldProblem, Problem};
 use crate::field::{Difference, Direction, Equation, Limits, Measure, Stopping};
 use crate::grammar::{OrderName, direction, finite, positive};
 use crate::input;
-use crate::motion::{Format, check_writable, write_whole_set};
+use crate::motion::write_whole_set;
 use crate::output::title_of;
 use crate::planner::EquationChoice;
 use crate::report::{Setup, convergence};
@@ -74,9 +74,10 @@ pub struct ConvergeArgs {
 /// # Errors
 /// Bad input and I/O.
 pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
-    let outputs = outputs(&args.output)?;
+    let told = "the name of a file of measurements must end in .csv or .json";
+    let outputs = sinks::outputs(&args.output, &[("csv", true), ("json", false)], told)?;
     let pictures = sinks::sinks(&[], &args.picture)?;
-    let files = || outputs.iter().map(|output| output.1.as_path()).chain(pictures.iter().map(Sink::path));
+    let files = || outputs.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
     sinks::distinct(files())?;
     let loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
     sinks::spare_inputs(files())?;
@@ -96,7 +97,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
         .map_err(|error| Failure::Option(error.to_string()))?;
     let json = || sinks::pretty(&measured.to_json());
     let mut written = Vec::new();
-    for (is_csv, path) in &outputs {
+    for (path, is_csv) in &outputs {
         let text = if *is_csv { measured.to_csv() } else { json()? };
         written.push((path.clone(), text.into_bytes()));
     }
@@ -138,22 +139,4 @@ impl ConvergeArgs {
             stopping,
         })
     }
-}
-
-/// The files of figures, and whether each is CSV.
-///
-/// # Errors
-/// Extensions that are none of ours, and files that cannot be written.
-fn outputs(paths: &[PathBuf]) -> Result<Vec<(bool, PathBuf)>, Failure> {
-    let of = |path: &PathBuf| match Format::from_path(path) {
-        Ok(Format::Csv) => Ok((true, path.clone())),
-        Ok(Format::Json) => Ok((false, path.clone())),
-        _ => {
-            let message = "the name of a file of measurements must end in .csv or .json";
-            Err(Failure::Usage(format!("{}: {message}", path.display())))
-        }
-    };
-    let outputs: Vec<_> = paths.iter().map(of).collect::<Result<_, _>>()?;
-    outputs.iter().try_for_each(|output| check_writable(&output.1))?;
-    Ok(outputs)
 }

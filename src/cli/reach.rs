@@ -59,7 +59,7 @@ pub struct ReachArgs {
 /// Bad input and I/O.
 pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     let tables =
-        args.output.iter().map(|path| Ok((path.clone(), is_json(path)?))).collect::<Result<Vec<_>, Failure>>()?;
+        sinks::outputs(&args.output, &[("json", true), ("csv", false)], "a reach is written as .json or .csv")?;
     let pictures = args.picture.iter().map(|path| match PictureFormat::from_path(path)? {
         format if format.plays() && format != PictureFormat::Html => {
             Err(Failure::Usage(format!("{}: a reach is drawn as .svg, .png or .html", path.display())))
@@ -90,15 +90,6 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     write_whole_set(&written)?;
     args.print.tell(DONE, || sinks::pretty(&object(&world, &reach)), || summary(&world, &reach))?;
     Ok(DONE)
-}
-
-fn is_json(path: &std::path::Path) -> Result<bool, Failure> {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    match extension.as_deref() {
-        Some("json") => Ok(true),
-        Some("csv") => Ok(false),
-        _ => Err(Failure::Usage(format!("{}: a reach is written as .json or .csv", path.display()))),
-    }
 }
 
 fn names(world: &Explorable) -> [&str; 2] {

@@ -64,6 +64,23 @@ pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option
     Ok(sinks)
 }
 
+/// What each file is to hold, by the end of its name; `told` says what ends there are. Checked before any work is done.
+///
+/// # Errors
+/// Ends that are none of these, and files that cannot be written.
+pub fn outputs<T: Copy>(paths: &[PathBuf], ends: &[(&str, T)], told: &str) -> Result<Vec<(PathBuf, T)>, Failure> {
+    let of = |path: &PathBuf| {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+        let known = ends.iter().find(|(end, _)| *end == extension);
+        known
+            .map(|(_, content)| (path.clone(), *content))
+            .ok_or_else(|| Failure::Usage(format!("{}: {told}", path.display())))
+    };
+    let outputs = paths.iter().map(of).collect::<Result<Vec<_>, _>>()?;
+    outputs.iter().try_for_each(|(path, _)| check_writable(path))?;
+    Ok(outputs)
+}
+
 /// Whether a file is a result in JSON that is written anyway: then a certificate has a place in it.
 #[must_use]
 pub fn is_json_among(path: &Path, results: &[PathBuf]) -> bool {

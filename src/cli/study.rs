@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::print_args::PrintArgs;
 use super::progress::Progress;
 use super::sinks;
-use crate::motion::{check_writable, write_whole_set};
+use crate::motion::write_whole_set;
 use crate::study::{Journal, JournalError, Row, Study, Summary, pictures};
 use crate::text::counted;
 use clap::{Args, ValueHint};
@@ -149,30 +149,16 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
 
 /// What the names of the outputs ask for, checked before any work is done.
 fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Content)>, Failure> {
-    let content = |path: &PathBuf| {
-        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-        let content = match extension.as_deref() {
-            Some("toml") => Content::World,
-            Some("urdf") => Content::Robot,
-            Some("csv") if !is_layout => Content::Csv,
-            Some("parquet") if !is_layout => Content::Parquet,
-            Some("html") if !is_layout => Content::Page,
-            Some("json") if !is_layout => Content::Summary,
-            _ if is_layout => {
-                return Err(Failure::Usage(format!(
-                    "{}: a layout is written as .toml (world) or .urdf",
-                    path.display()
-                )));
-            }
-            _ => {
-                let endings = ".csv, .parquet, .html or .json, a layout's in .toml or .urdf";
-                return Err(Failure::Usage(format!("{}: a study's name must end in {endings}", path.display())));
-            }
-        };
-        Ok((path.clone(), content))
+    let layout = [("toml", Content::World), ("urdf", Content::Robot)];
+    let whole =
+        [("csv", Content::Csv), ("parquet", Content::Parquet), ("html", Content::Page), ("json", Content::Summary)];
+    let contents = match is_layout {
+        true => sinks::outputs(outputs, &layout, "a layout is written as .toml (world) or .urdf")?,
+        false => {
+            let told = "a study's name must end in .csv, .parquet, .html or .json, a layout's in .toml or .urdf";
+            sinks::outputs(outputs, &[&whole[..], &layout].concat(), told)?
+        }
     };
-    let contents = outputs.iter().map(content).collect::<Result<Vec<_>, _>>()?;
-    contents.iter().try_for_each(|(path, _)| check_writable(path))?;
     sinks::distinct(contents.iter().map(|(path, _)| path.as_path()))?;
     Ok(contents)
 }

@@ -28,7 +28,8 @@ pub struct Part {
     /// A shape within the projection, where `shape` is larger than that: proofs that something is in the way rest on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner: Option<Convex>,
-    /// The number of the shape that it is, or is a part of, among those of the URDF link that have a size.
+    /// The number of the shape that it is, or is a part of, among those of the URDF link that have a size; of what is carried the number of the
+    /// payload's piece.
     #[serde(default, skip_serializing_if = "is_first")]
     pub number: usize,
     /// Extent along the plane's normal in the root frame.

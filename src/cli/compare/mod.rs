@@ -38,9 +38,10 @@ use sink::{ReportFormat, report_sinks};
 pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure> {
     let sinks = report_sinks(&args.output)?;
     let pictures = sinks::sinks(&[], &args.picture)?;
-    sinks::distinct(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
+    let files = || sinks.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
+    sinks::distinct(files())?;
     let cases = Cases::load(args)?;
-    sinks::spare_inputs(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
+    sinks::spare_inputs(files())?;
     cases.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
         sinks::say(&format!("warning: {problem} is not run: {reason}"));
@@ -57,7 +58,7 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     }
     let results = Results { args, cases: &cases, study: &study, done: &done, started };
     let written: Result<Vec<_>, Failure> =
-        sinks.iter().map(|sink| Ok((sink.path.clone(), results.content(sink.format)?))).collect();
+        sinks.iter().map(|(path, format)| Ok((path.clone(), results.content(*format)?))).collect();
     write_whole_set(&written?)?;
     match (args.json, args.csv, args.markdown) {
         (true, ..) => sinks::print_json(&results.content(ReportFormat::Json)?)?,

@@ -108,8 +108,7 @@ fn is_too_fine(task: &Task) -> bool {
 /// How well a checker knows where the arm is before cases.
 struct Known<'a> {
     task: &'a Task,
-    /// A share of the joints' ranges, for [`Known::sides`], where something has been let go of that is not told to be turned: from the least well known place where
-    /// something was taken.
+    /// As [`Known::let_go`] has it, of what is not told to be turned: as well known as where it was taken, for which the worst of all cases stands.
     untold: f64,
     /// The farthest from joint 1, or from where it is grasped, that anything of an object gets.
     farthest: [f64; 2],

@@ -246,7 +246,7 @@ fn every_file_is_written_or_none() {
     well_formed(&place.read("r.html"));
     for (options, code, part) in [
         ("--output new.txt", 2, ".md, .csv, .json, .html or .log"),
-        ("--output new.md --output new.md", 2, "twice"),
+        ("--output new.md --output new.md", 1, "are one file"),
         ("--output new.md --output absent/new.md", 1, "no folder absent"),
         ("--markdown --csv", 2, "--csv"),
         ("--jobs 0", 2, "1..=1024"),
