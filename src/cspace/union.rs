@@ -5,7 +5,7 @@ use crate::geometry::Point;
 use crate::interrupt::checkpoint;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::core::solver::Solver;
+use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 
 /// Free parts of less area than this (products of rad and m) are left out: they are debris of rounding where contours
@@ -79,12 +79,17 @@ const GROUPS: usize = 4;
 /// Outlines of which more than this share of the corners was left by a union hardly overlap: the last union does as well.
 const WORTH: f64 = 0.75;
 
+/// Corners are snapped to others within 256 steps of the grid, as far as coordinates are rounded anyway, and four times as far in each round that has to
+/// follow: from less, or more slowly, sides that all but lie on each other are split in their thousands.
+const SNAPPING: Precision = Precision { start: 16, progression: 4 };
+
 type Overlay = FloatOverlay<[f64; 2], i64>;
 
 type Contours = Vec<Vec<[f64; 2]>>;
 
 fn overlay(subject: &[[f64; 2]], clip: &[Vec<[f64; 2]>]) -> Overlay {
-    Overlay::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), Solver::default())
+    let solver = Solver { precision: SNAPPING, ..Solver::default() };
+    Overlay::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), solver)
 }
 
 /// Contours with the same union, in which fewer cross: those of small neighbouring pieces overlap almost wholly, each with

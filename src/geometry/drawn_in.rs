@@ -8,47 +8,56 @@ use super::{
 };
 use std::collections::BTreeMap;
 
-/// Of corners at which two pieces meet on a straight side of the whole, the share by which they move: less than beside any corner but needles.
-const STRAIGHT: f64 = 1e-3;
+/// Corners that bend by less, radians, are none: rounding bends those that people write down on a line.
+const STRAIGHT: f64 = 1e-7;
 
 /// What is left of each of these pieces, convex too, where each corner of their union moves into it by `distance`, halfway between the
 /// sides there: a side moves by `distance` times the sine of half the angle at its ends.
 /// Of what is too fine for that no less is left; rounded outlines lose of their radius first.
 #[must_use]
 pub(crate) fn drawn_in(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
-    let (all, together) = corners_in(pieces, distance);
+    let all = corner_to_corner(pieces);
+    let together = Moved::new(all.iter().flatten().filter(is_sharp), |_| distance);
     let left = |piece: &Convex| match piece.radius() {
-        0.0 => together.of(piece.core()).unwrap_or_else(|| vec![together.within(piece.core())]),
+        0.0 => together.of(piece.core()).unwrap_or_else(|| vec![together.within(piece.core(), pieces)]),
         radius if radius >= distance => vec![piece.grown(-distance)],
         radius => drawn_in(&[piece.grown(-radius)], distance - radius).concat(),
     };
     all.iter().map(|parts| parts.iter().flat_map(left).collect()).collect()
 }
 
-/// Whether nothing of these pieces is too fine to be drawn in by that.
+/// Whether all corners stay within what they are drawn into, and none is one of several rings that touch there.
 #[must_use]
 pub(crate) fn can_be_drawn_in(pieces: &[Convex], distance: f64) -> bool {
-    let (all, together) = corners_in(pieces, distance);
-    all.iter().flatten().filter(is_sharp).all(|piece| together.of(piece.core()).is_some())
+    let all = corner_to_corner(pieces).concat();
+    let together = Moved::new(all.iter().filter(is_sharp), |_| distance);
+    let is_in = |piece: &Convex| together.ring(piece.core()).iter().all(|corner| holds(pieces, *corner));
+    !together.touches && all.iter().filter(is_sharp).all(is_in)
 }
 
-fn corners_in(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, Moved) {
-    let all = corner_to_corner(pieces);
-    let by = |sine: Option<f64>| if sine.is_none() { STRAIGHT * distance } else { distance };
-    let together = Moved::new(all.iter().flatten().filter(is_sharp), by);
-    (all, together)
+/// Whether pieces have corners that are all but on a line with those beside them.
+#[must_use]
+pub(crate) fn has_straight_corners(pieces: &[Convex]) -> bool {
+    let all = corner_to_corner(pieces).concat();
+    Moved::new(all.iter().filter(is_sharp), |_| 0.0).is_straight
 }
 
 /// What is left of these pieces where each side of their union moves into it by `distance`; none where something is too fine for that.
 #[must_use]
 pub(crate) fn narrowed(pieces: &[Convex], distance: f64) -> Option<Vec<Convex>> {
     let all = corner_to_corner(pieces).concat();
-    let together = Moved::new(all.iter().filter(is_sharp), |sine| distance / sine.unwrap_or(1.0));
+    let together = Moved::new(all.iter().filter(is_sharp), |sine| distance / sine);
     let left = |piece: &Convex| match piece.radius() {
         0.0 => together.of(piece.core()),
         _ => piece.eroded(distance).map(|left| vec![left]),
     };
     Some(all.iter().map(left).collect::<Option<Vec<_>>>()?.concat())
+}
+
+/// Whether a point is in one of these, which have corners.
+fn holds(pieces: &[Convex], point: Point) -> bool {
+    let is_left = |ring: &[Point], k: usize| orientation(ring[k], beside(ring, k)[0], point) != Orientation::Clockwise;
+    pieces.iter().map(Convex::core).any(|ring| ring.len() > 2 && (0..ring.len()).all(|k| is_left(ring, k)))
 }
 
 fn is_sharp(piece: &&Convex) -> bool {
@@ -123,13 +132,37 @@ fn key(p: Point) -> Key {
     [p.x, p.y].map(|v| (v + 0.0).to_bits())
 }
 
-/// Where corners of pieces go, by corner and the one after it in its piece; all but those that pieces lie all round.
-struct Moved(BTreeMap<[Key; 2], Point>);
+/// Where corners of pieces go.
+struct Moved {
+    /// By corner and the one after it in its piece; all but those that pieces lie all round.
+    to: BTreeMap<[Key; 2], Point>,
+    /// Whether sides of the union meet elsewhere than one after the other.
+    touches: bool,
+    /// Whether corners of the union do not bend.
+    is_straight: bool,
+}
+
+/// A corner of the union, between the side that begins there and the one that ends there.
+struct Corner {
+    at: Point,
+    next: Point,
+    last: Point,
+    /// Where its parts' corners are looked up.
+    parts: Vec<[Key; 2]>,
+    /// The direction halfway between the sides, how far it moves, and cosine and sine of half the angle between them; none where sides are not
+    /// told apart.
+    way: Option<(Vector, f64, [f64; 2])>,
+}
+
+impl Corner {
+    fn is_straight(&self) -> bool {
+        self.way.is_some_and(|(_, _, [cosine, _])| cosine.abs() < STRAIGHT / 2.0)
+    }
+}
 
 impl Moved {
-    /// Of pieces that are cut from corner to corner: by a distance that depends on the sine of half the angle of their union, none where that is
-    /// straight.
-    fn new<'a>(pieces: impl IntoIterator<Item = &'a Convex>, distance: impl Fn(Option<f64>) -> f64) -> Self {
+    /// Of pieces that are cut from corner to corner: by a distance that depends on the sine of half the angle of their union.
+    fn new<'a>(pieces: impl IntoIterator<Item = &'a Convex>, distance: impl Fn(f64) -> f64) -> Self {
         let mut sectors: BTreeMap<[Key; 2], [Point; 3]> = BTreeMap::new();
         for ring in pieces.into_iter().map(Convex::core) {
             for (k, &corner) in ring.iter().enumerate() {
@@ -137,27 +170,64 @@ impl Moved {
                 sectors.insert([key(corner), key(next)], [corner, next, last]);
             }
         }
-        let mut moved = BTreeMap::new();
         // From each side of the union on counter-clockwise about its first corner, to the next one.
-        for [corner, first, _] in sectors.values() {
-            if sectors.contains_key(&[key(*first), key(*corner)]) {
+        let mut corners = Vec::new();
+        for &[at, next, _] in sectors.values() {
+            if sectors.contains_key(&[key(next), key(at)]) {
                 continue;
             }
-            let (mut at, mut around) = (*first, Vec::new());
-            while let Some([_, _, last]) =
-                sectors.get(&[key(*corner), key(at)]).filter(|_| around.len() < sectors.len())
-            {
-                around.push([key(*corner), key(at)]);
-                at = *last;
+            let (mut last, mut parts) = (next, Vec::new());
+            while let Some(sector) = sectors.get(&[key(at), key(last)]).filter(|_| parts.len() < sectors.len()) {
+                parts.push([key(at), key(last)]);
+                last = sector[2];
             }
-            let to = inwards(*corner, *first, at).map_or(*corner, |(way, sine)| corner + way * distance(sine));
-            moved.extend(around.into_iter().map(|sector| (sector, to)));
+            let way = inwards(at, next, last).map(|(way, [cosine, sine])| (way, distance(sine), [cosine, sine]));
+            corners.push(Corner { at, next, last, parts, way });
         }
-        Self(moved)
+        let number = |of: fn(&Corner) -> Point| -> BTreeMap<[Key; 2], usize> {
+            corners.iter().enumerate().map(|(k, corner)| ([key(corner.at), key(of(corner))], k)).collect()
+        };
+        let (by_next, by_last) = (number(|corner| corner.next), number(|corner| corner.last));
+        // The first corner that bends, along the union's sides.
+        let ahead = |from: usize, forwards: bool| {
+            let mut at = from;
+            for _ in 0..corners.len() {
+                let Corner { at: own, next, last, .. } = &corners[at];
+                let beyond = if forwards {
+                    by_last.get(&[key(*next), key(*own)])
+                } else {
+                    by_next.get(&[key(*last), key(*own)])
+                };
+                at = *beyond?;
+                if !corners[at].is_straight() {
+                    return corners[at].way.map(|(_, far, [cosine, sine])| (corners[at].at, far * cosine, far * sine));
+                }
+            }
+            None
+        };
+        let mut to = BTreeMap::new();
+        for (k, corner) in corners.iter().enumerate() {
+            let moved = match corner.way {
+                None => corner.at,
+                Some((way, far, _)) if !corner.is_straight() => corner.at + way * far,
+                // As deep as the side between the corners at its ends is there.
+                Some((way, ..)) => ahead(k, false).zip(ahead(k, true)).map_or(corner.at, |(from, to)| {
+                    let [behind, before] = [&from, &to].map(|end| (corner.at - end.0).norm());
+                    let [start, end] = [from.1, behind + before - to.1];
+                    let share = ((behind - start) / (end - start)).clamp(0.0, 1.0);
+                    corner.at + way * (from.2 + share * (to.2 - from.2))
+                }),
+            };
+            to.extend(corner.parts.iter().map(|part| (*part, moved)));
+        }
+        let mut places: Vec<Key> = corners.iter().map(|corner| key(corner.at)).collect();
+        places.sort_unstable();
+        let touches = places.windows(2).any(|pair| pair[0] == pair[1]);
+        Self { to, touches, is_straight: corners.iter().any(Corner::is_straight) }
     }
 
     fn ring(&self, ring: &[Point]) -> Vec<Point> {
-        let to = |k: usize| self.0.get(&[key(ring[k]), key(beside(ring, k)[0])]).copied().unwrap_or(ring[k]);
+        let to = |k: usize| self.to.get(&[key(ring[k]), key(beside(ring, k)[0])]).copied().unwrap_or(ring[k]);
         (0..ring.len()).map(to).collect()
     }
 
@@ -172,24 +242,21 @@ impl Moved {
         Some(left.convex_pieces())
     }
 
-    /// The same of one that is too fine: what corners do not leave it.
-    fn within(&self, ring: &[Point]) -> Convex {
-        let is_left = |p: Point, k: usize| orientation(ring[k], beside(ring, k)[0], p) != Orientation::Clockwise;
-        let is_in = |p: Point| (0..ring.len()).all(|k| is_left(p, k));
+    /// The same of one that is too fine, of these pieces: corners that would leave them stay.
+    fn within(&self, ring: &[Point], pieces: &[Convex]) -> Convex {
         let moved = self.ring(ring).into_iter().zip(ring);
-        let stays: Vec<Point> = moved.map(|(p, own)| if is_in(p) { p } else { *own }).collect();
+        let stays: Vec<Point> = moved.map(|(p, own)| if holds(pieces, p) { p } else { *own }).collect();
         Convex::trusted(hull(&stays), 0.0)
     }
 }
 
-/// The direction halfway between two sides of a corner, counter-clockwise from the first, and the sine of half the angle between them, none if that is straight.
-/// None of both where sides are not told apart.
-fn inwards(corner: Point, first: Point, last: Point) -> Option<(Vector, Option<f64>)> {
+/// The direction halfway between two sides of a corner, counter-clockwise from the first, and cosine and sine of half the angle between them. None where
+/// sides are not told apart.
+fn inwards(corner: Point, first: Point, last: Point) -> Option<(Vector, [f64; 2])> {
     let unit = |v: Vector| v.try_normalize(0.0);
-    let [first_way, last_way] = [unit(first - corner)?, unit(last - corner)?];
-    let way = unit(perpendicular(first_way - last_way))?;
-    let is_straight = orientation(corner, first, last) == Orientation::Collinear;
-    Some((way, (!is_straight).then(|| cross(first_way, way))))
+    let [first, last] = [unit(first - corner)?, unit(last - corner)?];
+    let way = unit(perpendicular(first - last))?;
+    Some((way, [first.dot(&way), cross(first, way)]))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::GpuError;
 pub enum Edge {
     /// The cells of the other end.
     Circle,
-    /// [`Problem::outside`].
+    /// `Problem::outside`.
     Wall,
     /// The cell itself.
     Mirror,

@@ -6,6 +6,7 @@ mod motion;
 mod task;
 
 pub use motion::recorded as certificate_of_recording;
+pub use task::checkable;
 
 use super::bound::{claim, motions};
 use super::motion_plan::MotionPlan;
@@ -34,6 +35,12 @@ pub enum NoCertificate {
          object lies that the arm has turned on a way of several steps, or about where the arm is all but stretched"
     )]
     Task,
+    /// Something rests that a checker refuses to move the corners of.
+    #[error(
+        "object \"{0}\" rests on something, and is too fine, touches itself, or has corners all but on a line: they cannot all be moved inwards by what it may \
+         press in"
+    )]
+    TooFine(String),
     /// A motion without times in a world in which something moves.
     #[error("the motion says no times, and among what moves it depends on them whether it is free")]
     Untimed,
@@ -84,6 +91,7 @@ impl Plan {
         asked: &Overrides,
         files: Option<&Digests>,
     ) -> Result<String, NoCertificate> {
+        task::checkable(task, matches!(answer.verdict, TaskVerdict::Infeasible(_)))?;
         let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
         let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
         let said = about(files, &task.arm).into_iter().chain(start).chain(clearance).collect();

@@ -2,12 +2,12 @@
 //! are then follows from the world.
 
 use super::contacts::Contacts;
-use super::{Evidence, Stuck, lines, stuck_about, tells_apart};
+use super::{Evidence, NoCertificate, Stuck, lines, stuck_about, tells_apart};
 use crate::check::StuckBox;
 use crate::engine::task::{RefutedCase, StepReport, Turned, refuted};
 use crate::engine::{Options, Verdict, solve};
-use crate::geometry::{Convex, can_be_drawn_in, narrowed};
-use crate::model::{Action, Arm, Joint, MotionProblem, Object, Payload, RecordedStep, Scene, Step, Task};
+use crate::geometry::{Convex, can_be_drawn_in, has_straight_corners, narrowed};
+use crate::model::{Action, Arm, Joint, MotionProblem, Object, Payload, RecordedStep, Scene, Task};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
 use std::iter;
@@ -64,9 +64,6 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let arm = &task.arm;
     let are_told = |cases: &[RefutedCase]| cases.iter().all(|case| told_of(arm, case) >= NEARLY_STRETCHED);
     let mut room = 0.0_f64;
-    if is_too_fine(task) {
-        return None;
-    }
     for _ in 0..MOST_LOOKS {
         let mut smaller = task.clone();
         for object in &mut smaller.objects {
@@ -98,11 +95,23 @@ fn depth(object: &Object) -> f64 {
     object.pieces.iter().map(Convex::depth).fold(0.0, f64::max)
 }
 
-/// Whether something that rests is too fine for a checker to move its corners inwards.
-fn is_too_fine(task: &Task) -> bool {
+/// Whether a checker can move the corners of all that rests on something inwards; and, for proofs about it, name their corners.
+///
+/// # Errors
+/// [`NoCertificate::TooFine`].
+pub fn checkable(task: &Task, is_proof: bool) -> Result<(), NoCertificate> {
     let allowance = Payload::penetration_allowance(&task.arm);
-    let rests = |step: &Step| matches!(&step.action, Action::Pick { supports, .. } | Action::Place { supports, .. } if !supports.is_empty());
-    task.steps().any(rests) && task.objects.iter().any(|object| !can_be_drawn_in(&object.pieces, allowance))
+    let mut picked = None;
+    for step in task.steps() {
+        picked = step.action.picked().or(picked);
+        let (Action::Pick { supports, .. } | Action::Place { supports, .. }) = &step.action else { continue };
+        let Some(object) = picked.filter(|_| !supports.is_empty()) else { continue };
+        let Object { name, pieces, .. } = &task.objects[object];
+        if !can_be_drawn_in(pieces, allowance) || (is_proof && has_straight_corners(pieces)) {
+            return Err(NoCertificate::TooFine(name.clone()));
+        }
+    }
+    Ok(())
 }
 
 /// How well a checker knows where the arm is before cases.

@@ -195,3 +195,115 @@ fn with_a_clearance_nothing_recorded_may_press_deeper_than_without() {
     }
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
+
+/// On a table that is 5e-5 m higher than where the object lies; a gantry may press in by 1.6e-4 m.
+fn on_a_table(polygon: &str) -> String {
+    format!(
+        "robot.payload = \"level\"\nstart.tip = [0.3, 0.3]\n[[obstacle]]\nname = \"table\"\n\
+         polygon = [[0.2, 0.2], [1.8, 0.2], [1.8, 0.50005], [0.2, 0.50005]]\nheight = [0.0, 0.01]\n\
+         [[object]]\nname = \"part\"\npolygon = {polygon}\nat = [0.5, 0.5]\nheight = [0.0, 0.015]\nsupports = [\"table\"]\n\
+         [[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [1.0, 0.5] }}\n"
+    )
+}
+
+/// Corners on straight sides say nothing, nor does a rib that is too fine say anything of the sides beside it. What the checker would refuse to
+/// move the corners of has no certificate.
+#[test]
+fn outlines_say_the_same_however_they_are_written() {
+    let urdf = shipped("robots/gantry.urdf");
+    for (what, polygon, is_certified) in [
+        (
+            "a straight corner",
+            "[[-0.05, 0], [0, 0], [0.05, 0], [0.05, 0.1], [0.02, 0.1], [0.02, 0.05], [-0.02, 0.05], [-0.02, 0.1], [-0.05, 0.1]]",
+            true,
+        ),
+        (
+            "a hole, and a straight corner",
+            "[[[-0.05, 0], [0, 0], [0.05, 0], [0.05, 0.1], [-0.05, 0.1]], [[-0.02, 0.03], [0.02, 0.03], [0.02, 0.07], [-0.02, 0.07]]]",
+            true,
+        ),
+        (
+            "a rib",
+            "[[-0.05, 0], [0.05, 0], [0.05, 0.08], [0.0001, 0.08], [0.0001, 0.09], [-0.0001, 0.09], [-0.0001, 0.08], [-0.05, 0.08]]",
+            true,
+        ),
+        (
+            "holes that touch",
+            "[[[-0.08, 0], [0.08, 0], [0.08, 0.16], [-0.08, 0.16]], [[0, 0.08], [0.04, 0.1], [0.04, 0.06]], [[0, 0.08], [-0.04, 0.1], [-0.04, 0.06]]]",
+            false,
+        ),
+    ] {
+        let place = Place::new();
+        place.write("w.toml", on_a_table(polygon));
+        let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
+        assert_eq!(done.code, 0, "{what}: {}", done.stderr);
+        assert_eq!(place.path("c.json").exists(), is_certified, "{what}: {}", done.stderr);
+        if is_certified {
+            let said = cplan_check::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
+            assert!(said.is_ok_and(|said| said.contains("does all 2 steps")), "{what}");
+        } else {
+            assert!(
+                done.stderr.contains("object \"part\" rests on something, and is too fine, touches itself"),
+                "{}",
+                done.stderr
+            );
+        }
+        let verified = place.run(&["verify", &urdf, "w.toml", "plan.json"], "--quiet --certificate v.json");
+        assert_eq!((verified.code, place.path("v.json").exists()), (0, is_certified), "{what}: {}", verified.stderr);
+    }
+}
+
+/// Three corners on a line but for rounding are no corner that could be moved farther than the side that it is on.
+#[test]
+fn corners_that_bend_by_rounding_are_none() {
+    let world = |x: f64, deep: f64| {
+        let y = 0.5 + 0.1 * x + deep;
+        format!(
+            "start.joints = [0.1, 0.1]\n[[obstacle]]\nname = \"post\"\npolyline = [[{0}, 0.4], [{0}, {y}]]\nheight = [0.0, 0.01]\n\
+             [[object]]\nname = \"part\"\npolygon = [[0, 0], [{x}, {1}], [0.1, 0.01], [0.1, 0.1], [0, 0.1]]\nat = [0.5, 0.5]\n\
+             height = [0.0, 0.015]\nlift = 0.05\nsupports = [\"post\"]\n[[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [1.0, 0.5] }}\n",
+            1.0 + x,
+            (x * 1e4).round() / 1e5
+        )
+    };
+    // Two thirds of 1.6e-4 m are allowed there.
+    for x in [0.01, 0.02, 0.03, 0.05, 0.06, 0.07] {
+        for (deep, code) in [(8e-5, 0), (1.4e-4, 3)] {
+            let place = Place::new();
+            place.write("w.toml", world(x, deep));
+            let done = place.run(&[&shipped("robots/gantry.urdf"), "w.toml"], "--quiet");
+            assert_eq!(done.code, code, "{x} {deep}: {}", done.stderr);
+        }
+    }
+}
+
+/// Sides of C-obstacles that all but lie on each other, of which a union was not found for minutes and gigabytes.
+#[test]
+fn rings_beside_what_they_rest_on_are_planned() {
+    let world = r#"clearance=0
+[robot]
+payload="level"
+[start]
+joints=[0.1,0.1]
+[[obstacle]]
+name="s0"
+polygon=[[1.443710767478203, 1.0324135044022258], [1.5974607674782029, 0.9747835044022257], [1.5996607674782028, 0.8628335044022257]]
+height=[0.0,0.01]
+[[object]]
+name="part"
+polygon=[[[-0.0168289, 0.0990708], [-0.0994224, 0.0146093], [-0.0446175, -0.0900418], [0.0718472, -0.0702582]], [[0.0039533, -0.0082987], [0.0004618, -0.0079051], [-0.0027371, -0.0064519], [-0.0053303, -0.0040813], [-0.0070641, -0.0], [-0.0077687, 0.0024167], [0.01, 0.01], [0.0146687, 0.0]]]
+at=[0.673, 0.9604]
+angle=0
+height=[0.0,0.015]
+lift=0
+grasp=[0,0]
+supports=["s0"]
+[[step]]
+pick="part"
+[[step]]
+place={at=[1.5622, 1.1317]}"#;
+    let place = Place::new();
+    place.write("w.toml", world);
+    let done = place.run(&[&shipped("robots/gantry.urdf"), "w.toml"], "--quiet");
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+}
