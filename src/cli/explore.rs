@@ -77,6 +77,8 @@ pub struct ExploreArgs {
     pub options: PlannerArgs,
 }
 
+crate::grammar::named!(Strategy: Goal "goal" "", View "view" "", Nearest "nearest" "", Harmonic "harmonic" "", Wall "wall" "");
+
 /// Explores, and says what came of it.
 ///
 /// # Errors

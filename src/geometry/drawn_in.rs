@@ -35,11 +35,13 @@ pub(crate) fn can_be_drawn_in(pieces: &[Convex], distance: f64) -> bool {
     !together.touches && all.iter().filter(is_sharp).all(is_in)
 }
 
-/// Whether pieces have corners that are all but on a line with those beside them.
+/// Whether each part that has corners in common with others alone is drawn in to one, which its corners name, and none of these is all but on a line.
 #[must_use]
-pub(crate) fn has_straight_corners(pieces: &[Convex]) -> bool {
+pub(crate) fn stays_convex(pieces: &[Convex], distance: f64) -> bool {
     let all = corner_to_corner(pieces).concat();
-    Moved::new(all.iter().filter(is_sharp), |_| 0.0).is_straight
+    let together = Moved::new(all.iter().filter(is_sharp), |_| distance);
+    let is_one = |piece: &Convex| together.of(piece.core()).is_some_and(|left| left.len() == 1);
+    !together.is_straight && all.iter().filter(is_sharp).all(is_one)
 }
 
 /// What is left of these pieces where each side of their union moves into it by `distance`; none where something is too fine for that.

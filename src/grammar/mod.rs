@@ -9,5 +9,6 @@ mod roadmap;
 
 pub use field::{OrderName, direction};
 pub use motion::MotionArgs;
+pub(crate) use names::named;
 pub use number::{finite, number_in, positive};
 pub use planner::{EffortArgs, PlannerArgs, PlannerWords};

@@ -1,7 +1,6 @@
 //! Planners, paths, searches and what else has names, so that help and shells can list them.
 
 use crate::engine::{GridSpace, Method, NamedJoints};
-use crate::explore::Strategy;
 use crate::field::{Device, Difference, Limits, Measure};
 use crate::motion::Objective;
 use crate::planner::{GridSearch, PathKind};
@@ -87,21 +86,23 @@ impl ValueEnum for GridSpace {
 /// Names of variants, and help that may be empty.
 macro_rules! named {
     ($of:ty: $($variant:ident $name:literal $help:literal),+) => {
-        impl ValueEnum for $of {
+        impl clap::ValueEnum for $of {
             fn value_variants<'a>() -> &'a [Self] {
                 &[$(Self::$variant),+]
             }
 
-            fn to_possible_value(&self) -> Option<PossibleValue> {
+            fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
                 let (name, help) = match self {
                     $(Self::$variant => ($name, $help)),+
                 };
-                let value = PossibleValue::new(name);
+                let value = clap::builder::PossibleValue::new(name);
                 Some(if help.is_empty() { value } else { value.help(help) })
             }
         }
     };
 }
+
+pub(crate) use named;
 
 named!(Difference: Central "central" "Monotone for an epsilon of less than 2 only", Upwind "upwind" "Monotone for every epsilon");
 
@@ -117,5 +118,3 @@ named!(Measure: GreatestRelativeChange "relative" "Greatest change as a part of 
 named!(NamedJoints: All "all" "Every movable joint of the robot", Planned "planned" "The two that are planned for");
 
 named!(Objective: Length "length" "The length of the path", Time "time" "The time of the motion");
-
-named!(Strategy: Goal "goal" "", View "view" "", Nearest "nearest" "", Harmonic "harmonic" "", Wall "wall" "");

@@ -6,7 +6,7 @@ use super::{Evidence, NoCertificate, Stuck, lines, stuck_about, tells_apart};
 use crate::check::StuckBox;
 use crate::engine::task::{RefutedCase, StepReport, Turned, refuted};
 use crate::engine::{Options, Verdict, solve};
-use crate::geometry::{Convex, can_be_drawn_in, has_straight_corners, narrowed};
+use crate::geometry::{Convex, can_be_drawn_in, narrowed, stays_convex};
 use crate::model::{Action, Arm, Joint, MotionProblem, Object, Payload, RecordedStep, Scene, Task};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
@@ -107,7 +107,7 @@ pub fn checkable(task: &Task, is_proof: bool) -> Result<(), NoCertificate> {
         let (Action::Pick { supports, .. } | Action::Place { supports, .. }) = &step.action else { continue };
         let Some(object) = picked.filter(|_| !supports.is_empty()) else { continue };
         let Object { name, pieces, .. } = &task.objects[object];
-        if !can_be_drawn_in(pieces, allowance) || (is_proof && has_straight_corners(pieces)) {
+        if !can_be_drawn_in(pieces, allowance) || (is_proof && !stays_convex(pieces, allowance)) {
             return Err(NoCertificate::TooFine(name.clone()));
         }
     }
@@ -197,17 +197,23 @@ impl<'a> Known<'a> {
 fn written(task: &Task, cases: &[RefutedCase], known: &Known) -> Evidence {
     let empty = Scene::trusted(task.arm.clone(), task.workspace.clone());
     let about = |q: Configuration, sides: [f64; 2]| [0, 1].map(|k| [q[k] - sides[k], q[k] + sides[k]]);
+    let told = |case: &'_ RefutedCase| -> Vec<(&'static str, Scene, Vec<StuckBox>)> {
+        let boxes = iter::once(("boxes", (&case.scene, &case.stuck)));
+        let lowered = case.lowered.iter().filter(|(_, stuck)| !stuck.is_empty());
+        let all = boxes.chain(lowered.map(|(scene, stuck)| ("lowered", (scene, stuck))));
+        // Boxes are about the parts of what rules out, which are more or fewer where corners move farther.
+        all.map(|(name, (scene, stuck))| (name, scene.certainly_pressed().into_owned(), stuck.clone())).collect()
+    };
+    let told: Vec<_> = cases.iter().map(told).collect();
     let mut contacts = Contacts::new(&empty);
     let mut all = Vec::new();
-    for case in cases {
-        let RefutedCase { step, after, from, turned, scene, stuck, lowered, .. } = case;
+    for (case, told) in cases.iter().zip(&told) {
+        let RefutedCase { step, after, from, turned, .. } = case;
         let mut entry = json!({ "step": step });
-        let lowered =
-            lowered.iter().filter(|(_, stuck)| !stuck.is_empty()).map(|(scene, stuck)| ("lowered", scene, stuck));
-        for (name, scene, stuck) in iter::once(("boxes", scene, stuck)).chain(lowered) {
+        for (name, scene, stuck) in told {
             contacts = contacts.among(scene);
             let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
-            entry[name] = json!(boxes);
+            entry[*name] = json!(boxes);
         }
         after.iter().for_each(|after| entry["after"] = json!(after));
         from.iter().zip(known.before(case)).for_each(|(q, sides)| entry["from"] = json!(about(*q, sides)));
