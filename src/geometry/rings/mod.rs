@@ -107,12 +107,10 @@ impl Polygon {
             };
             super::polygon::check_ring(corners).map_err(error)?;
         }
-        let mut noded = Noded::of(&rings)?;
-        // No hole is to be joined to a straight corner.
+        let noded = Noded::of(&rings)?;
+        // No hole is to be joined to a straight corner. Where sides cross in one that is told below.
         let bare: Vec<Vec<Point>> = rings.iter().map(|ring| without_straight(ring)).collect();
-        if bare != rings {
-            noded = Noded::of(&bare)?;
-        }
+        let noded = if bare == rings { noded } else { Noded::of(&bare).unwrap_or(noded) };
         Ok(Self { parts: faces(&bridged(noded)?)? })
     }
 
