@@ -35,7 +35,7 @@ pub(crate) fn can_be_drawn_in(pieces: &[Convex], distance: f64) -> bool {
     !together.touches && all.iter().filter(is_sharp).all(is_in)
 }
 
-/// Whether each part that has corners in common with others alone is drawn in to one, which its corners name, and none of these is all but on a line.
+/// Whether each piece, cut from corner to corner, is drawn in to one convex shape, so that its corners name that, and no corner is all but on a line.
 #[must_use]
 pub(crate) fn stays_convex(pieces: &[Convex], distance: f64) -> bool {
     let all = corner_to_corner(pieces).concat();
