@@ -16,7 +16,9 @@ pub use markup::markup;
 #[cfg(feature = "program")]
 pub use plain::plain_json;
 pub use plain::{plain, plain_line};
-pub use rounded::{at_least, at_most, percent};
+#[cfg(feature = "program")]
+pub use rounded::at_most;
+pub use rounded::{at_least, percent};
 pub use wrapped::wrapped;
 
 /// A number of things: `1 obstacle`, `3 obstacles`, `2 boxes`.
