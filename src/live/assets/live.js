@@ -2,7 +2,7 @@
 'use strict';
 
 /** A positive number of a few digits, rounded by `Math.floor` or `Math.ceil`, so that what is proven of it is proven of what is shown. */
-const rounded = (value, digits, round) => {
+const roundedSafely = (value, digits, round) => {
   const unit = 10 ** (Math.floor(Math.log10(value)) + 1 - digits);
   return value > 0 ? String(+(round(value / unit) * unit).toPrecision(digits)) : '0';
 };
@@ -334,8 +334,8 @@ class Live {
     const parts = [
       final ? verdicts[verdict] : 'following',
       length && `length ${length.toFixed(4)}`,
-      bound && `at most ${rounded(100 * (length / bound - 1), 2, Math.ceil)} % longer than the shortest`,
-      final && clearance && `clearance ${rounded(1000 * clearance, 3, Math.floor)} mm proven`,
+      bound && `at most ${roundedSafely(100 * (length / bound - 1), 2, Math.ceil)} % longer than the shortest`,
+      final && clearance && `clearance ${roundedSafely(1000 * clearance, 3, Math.floor)} mm proven`,
       duration && `motion ${duration.toFixed(3)} s`,
       size,
       `${final ? 'planned' : 'answered'} in ${milliseconds.toFixed(milliseconds < 10 ? 1 : 0)} ms`,
