@@ -14,7 +14,7 @@ use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_whole_set};
 use crate::output::{Line, contours, laid_out, title_of};
 use crate::space::{Configuration, Path as JointPath};
-use crate::text::counted;
+use crate::text::{counted, short};
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -233,7 +233,7 @@ fn facts(done: &Exploration) -> Vec<Line> {
             "map",
             format!(
                 "{width} x {height} cells of {} m: {free} free, {occupied} occupied, {unknown} unknown",
-                (map.resolution * 1e6).round() / 1e6
+                short(map.resolution)
             ),
         ),
         ("seen", format!("{seen:.1} % of the map")),

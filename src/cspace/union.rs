@@ -15,7 +15,7 @@ const SLIVER_AREA: f64 = 1e-10;
 /// The free parts of `window`: one polygon a connected component, outer contour counter-clockwise, holes clockwise.
 ///
 /// Every contour is counter-clockwise and repeats by `periods` along each axis that has one. Corners are rounded to a
-/// grid of some 1e-17 of the coordinates' range, which contours that carry a margin absorb.
+/// grid of some 1e-17 of the coordinates' range and snapped to each other ([`SNAPPING`]), which contours that carry a margin absorb.
 pub(super) fn free_space<'a>(
     window: Window,
     periods: [Option<f64>; 2],
@@ -79,7 +79,7 @@ const GROUPS: usize = 4;
 /// Outlines of which more than this share of the corners was left by a union hardly overlap: the last union does as well.
 const WORTH: f64 = 0.75;
 
-/// Corners are snapped to others within 256 steps of the grid, as far as coordinates are rounded anyway, and four times as far in each round that has to
+/// Corners are snapped to others within 256 steps of the grid, some 3e-15 of the coordinates' range, and four times as far in each round that has to
 /// follow: from less, or more slowly, sides that all but lie on each other are split in their thousands.
 const SNAPPING: Precision = Precision { start: 16, progression: 4 };
 

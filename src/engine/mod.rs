@@ -71,7 +71,7 @@ mod thinned;
 
 pub use bound::{Bound, bound, checked_bound};
 pub use cell_counts::CellCounts;
-pub use certificate::{NoCertificate, certificate_of_recording, checkable};
+pub use certificate::{NoCertificate, certificate_of_recording};
 pub use field_problem::FieldProblem;
 pub use grid_space::GridSpace;
 pub(crate) use kind::Kind;

@@ -1,7 +1,7 @@
 //! Decomposition of a simple polygon into convex ones.
 
 use super::planar::{Boundary, HalfEdges, NONE, triangulate};
-use super::polygon::turn;
+use super::polygon::without_straight;
 use super::{Convex, Orientation, Point, SimplePolygon, orientation};
 use crate::interrupt::checkpoint;
 
@@ -18,11 +18,8 @@ pub const MOST_CORNERS: usize = 64;
 /// union is the polygon itself, without rounding. Straight corners, of the polygon and of pieces, are dropped. `O(n log n)`.
 #[must_use]
 pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
-    let strict = |ring: &[Point]| -> Vec<Point> {
-        (0..ring.len()).filter(|&i| turn(ring, i) != Orientation::Collinear).map(|i| ring[i]).collect()
-    };
     // No diagonal is to end at a straight corner.
-    let corners = strict(polygon.corners());
+    let corners = without_straight(polygon.corners());
     let pieces = if polygon.is_convex() {
         vec![corners]
     } else {
@@ -31,7 +28,7 @@ pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
     };
     let mut convex = Vec::with_capacity(pieces.len());
     for piece in pieces {
-        cut_up(strict(&piece), 0.0, &mut convex);
+        cut_up(without_straight(&piece), 0.0, &mut convex);
     }
     convex
 }

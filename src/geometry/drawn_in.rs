@@ -5,6 +5,7 @@
 
 use super::{
     Convex, Orientation, Point, SimplePolygon, Vector, cross, hull, orientation, perpendicular, point_on_segment,
+    shapes_meet,
 };
 use std::collections::BTreeMap;
 
@@ -16,8 +17,7 @@ const STRAIGHT: f64 = 1e-7;
 /// Of what is too fine for that no less is left; rounded outlines lose of their radius first.
 #[must_use]
 pub(crate) fn drawn_in(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
-    let all = corner_to_corner(pieces);
-    let together = Moved::new(all.iter().flatten().filter(is_sharp), |_| distance);
+    let (all, together) = moved(pieces, |_| distance);
     let left = |piece: &Convex| match piece.radius() {
         0.0 => together.of(piece.core()).unwrap_or_else(|| vec![together.within(piece.core(), pieces)]),
         radius if radius >= distance => vec![piece.grown(-distance)],
@@ -29,37 +29,39 @@ pub(crate) fn drawn_in(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
 /// Whether all corners stay within what they are drawn into, and none is one of several rings that touch there.
 #[must_use]
 pub(crate) fn can_be_drawn_in(pieces: &[Convex], distance: f64) -> bool {
-    let all = corner_to_corner(pieces).concat();
-    let together = Moved::new(all.iter().filter(is_sharp), |_| distance);
+    let (all, together) = moved(pieces, |_| distance);
     let is_in = |piece: &Convex| together.ring(piece.core()).iter().all(|corner| holds(pieces, *corner));
-    !together.touches && all.iter().filter(is_sharp).all(is_in)
+    !together.touches && all.iter().flatten().filter(is_sharp).all(is_in)
 }
 
 /// Whether each piece, cut from corner to corner, is drawn in to one convex shape, so that its corners name that, and no corner is all but on a line.
 #[must_use]
 pub(crate) fn stays_convex(pieces: &[Convex], distance: f64) -> bool {
-    let all = corner_to_corner(pieces).concat();
-    let together = Moved::new(all.iter().filter(is_sharp), |_| distance);
+    let (all, together) = moved(pieces, |_| distance);
     let is_one = |piece: &Convex| together.of(piece.core()).is_some_and(|left| left.len() == 1);
-    !together.is_straight && all.iter().filter(is_sharp).all(is_one)
+    !together.is_straight && all.iter().flatten().filter(is_sharp).all(is_one)
 }
 
 /// What is left of these pieces where each side of their union moves into it by `distance`; none where something is too fine for that.
 #[must_use]
 pub(crate) fn narrowed(pieces: &[Convex], distance: f64) -> Option<Vec<Convex>> {
-    let all = corner_to_corner(pieces).concat();
-    let together = Moved::new(all.iter().filter(is_sharp), |sine| distance / sine);
+    let (all, together) = moved(pieces, |sine| distance / sine);
     let left = |piece: &Convex| match piece.radius() {
         0.0 => together.of(piece.core()),
         _ => piece.eroded(distance).map(|left| vec![left]),
     };
-    Some(all.iter().map(left).collect::<Option<Vec<_>>>()?.concat())
+    Some(all.iter().flatten().map(left).collect::<Option<Vec<_>>>()?.concat())
 }
 
-/// Whether a point is in one of these, which have corners.
+/// Pieces cut from corner to corner, and where their corners go: by a distance that depends on the sine of half the angle of the union.
+fn moved(pieces: &[Convex], distance: impl Fn(f64) -> f64) -> (Vec<Vec<Convex>>, Moved) {
+    let all = corner_to_corner(pieces);
+    let together = Moved::new(all.iter().flatten().filter(is_sharp), distance);
+    (all, together)
+}
+
 fn holds(pieces: &[Convex], point: Point) -> bool {
-    let is_left = |ring: &[Point], k: usize| orientation(ring[k], beside(ring, k)[0], point) != Orientation::Clockwise;
-    pieces.iter().map(Convex::core).any(|ring| ring.len() > 2 && (0..ring.len()).all(|k| is_left(ring, k)))
+    pieces.iter().any(|piece| shapes_meet(piece, &Convex::point(point)))
 }
 
 fn is_sharp(piece: &&Convex) -> bool {
@@ -113,8 +115,8 @@ fn with_corners(core: &[Point], corners: &[Point]) -> Vec<Point> {
         let [from, to] = [core[k], core[(k + 1) % core.len()]];
         let is_between = |p: &&Point| **p != from && **p != to && point_on_segment(**p, from, to);
         let first = corners.partition_point(|p| p.x < from.x.min(to.x));
-        let beside = corners[first..].iter().take_while(|p| p.x <= from.x.max(to.x));
-        let mut between: Vec<Point> = beside.filter(is_between).copied().collect();
+        let near = corners[first..].iter().take_while(|p| p.x <= from.x.max(to.x));
+        let mut between: Vec<Point> = near.filter(is_between).copied().collect();
         between.sort_by(|p, q| (p - from).norm_squared().total_cmp(&(q - from).norm_squared()));
         between.dedup();
         std::iter::once(from).chain(between)
@@ -136,9 +138,9 @@ fn key(p: Point) -> Key {
 
 /// Where corners of pieces go.
 struct Moved {
-    /// By corner and the one after it in its piece; all but those that pieces lie all round.
+    /// By corner and the one after it in its piece. Those that pieces lie all round stay, and are not in it.
     to: BTreeMap<[Key; 2], Point>,
-    /// Whether sides of the union meet elsewhere than one after the other.
+    /// Whether a corner of the union is that of several rings, or twice one of the same.
     touches: bool,
     /// Whether corners of the union do not bend.
     is_straight: bool,

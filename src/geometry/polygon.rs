@@ -158,6 +158,11 @@ pub(super) fn turn(corners: &[Point], i: usize) -> Orientation {
     orientation(corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n])
 }
 
+/// A ring without its straight corners; exact. No corner may repeat the one before it.
+pub(super) fn without_straight(ring: &[Point]) -> Vec<Point> {
+    (0..ring.len()).filter(|&i| turn(ring, i) != Orientation::Collinear).map(|i| ring[i]).collect()
+}
+
 /// What a ring that may touch itself has to have: corners, coordinates, area.
 pub(super) fn check_ring(corners: &[Point]) -> Result<(), PolygonError> {
     check_coordinates(corners)?;

@@ -83,7 +83,7 @@ impl ValueEnum for GridSpace {
     }
 }
 
-/// Names of variants, and help that may be empty.
+/// Names of the variants of types that have no others, and help that may be empty.
 macro_rules! named {
     ($of:ty: $($variant:ident $name:literal $help:literal),+) => {
         impl clap::ValueEnum for $of {

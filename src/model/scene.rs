@@ -208,14 +208,12 @@ impl Scene {
 
     /// The same scene for evidence that a payload presses too deep into its supports.
     #[must_use]
-    pub(crate) fn certainly_pressed(&self) -> Cow<'_, Self> {
+    pub(crate) fn certainly_pressed(self) -> Self {
         match &self.payload {
-            Some(payload) if !payload.supports.is_empty() => Cow::Owned(self.remade(
-                |_| (),
-                |obstacle| obstacle.pieces.clone(),
-                Reading { pressed: SURELY, ..self.reading },
-            )),
-            _ => Cow::Borrowed(self),
+            Some(payload) if !payload.supports.is_empty() => {
+                self.remade(|_| (), |obstacle| obstacle.pieces.clone(), Reading { pressed: SURELY, ..self.reading })
+            }
+            _ => self,
         }
     }
 
@@ -430,7 +428,7 @@ impl Scene {
     #[must_use]
     pub(crate) fn payload_piece(&self, pair: Pair) -> Option<&Convex> {
         let payload = self.payload.as_ref().filter(|_| self.is_payload(pair))?;
-        payload.pieces.get(self.arm.links[1].parts[pair.part].number)
+        Some(&payload.pieces[self.arm.links[1].parts[pair.part].number])
     }
 
     /// The piece of the obstacle that a pair is about, in its place, whatever is made of it for a payload.

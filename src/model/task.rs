@@ -3,6 +3,7 @@
 use super::{Arm, Course, Goal, Grip, Heights, Mover, Obstacle, Payload, Shape, Stroke, Workspace};
 use crate::geometry::{Convex, Interval, Point, Pose};
 use crate::space::Configuration;
+use crate::text::short;
 use serde::{Deserialize, Serialize};
 
 /// What becomes of an object's orientation while the arm carries it.
@@ -270,10 +271,9 @@ impl Action {
         }
     }
 
-    /// In a few words: `pick "part"`. Numbers to a millionth.
+    /// In a few words: `pick "part"`. Numbers to six digits.
     #[must_use]
     pub fn describe(&self, objects: &[Object]) -> String {
-        let short = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
         let point = |x: f64, y: f64| format!("({}, {})", short(x), short(y));
         match self {
             Action::Pick { object, .. } => format!("pick \"{}\"", objects[*object].name),

@@ -18,7 +18,7 @@ pub use plain::plain_json;
 pub use plain::{plain, plain_line};
 #[cfg(feature = "program")]
 pub use rounded::at_most;
-pub use rounded::{at_least, percent};
+pub use rounded::{at_least, percent, short};
 pub use wrapped::wrapped;
 
 /// A number of things: `1 obstacle`, `3 obstacles`, `2 boxes`.

@@ -1,4 +1,10 @@
-//! Numbers that are proven, in decimals that are no more than what is proven.
+//! Numbers for people: short, and if they are proven no more than what is proven.
+
+/// A number to six digits that count, without zeros at its end.
+#[must_use]
+pub fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
 
 /// A number with some decimals that is no more than this one, so that what is proven of it is proven of what is shown.
 #[must_use]
@@ -46,6 +52,12 @@ mod tests {
         assert_eq!([at_least(1.66871, 3), at_most(1.66871, 3)], ["1.668", "1.669"]);
         assert_eq!([at_least(7.627e-6, 6), at_least(4.0, 4), at_most(0.25, 2)], ["0.000007", "4.0000", "0.25"]);
         assert_eq!([at_most(0.0301, 2), at_least(f64::INFINITY, 3)], ["0.04", "inf"]);
+    }
+
+    #[test]
+    fn short_numbers_keep_six_digits() {
+        let shown = [0.2617993877991494, 0.281882666843, 1e-4 / 3.0, 123_456.789, 0.1 + 0.2, -0.0, 1.0].map(short);
+        assert_eq!(shown, [0.261799, 0.281883, 3.33333e-5, 123_457.0, 0.3, 0.0, 1.0]);
     }
 
     #[test]

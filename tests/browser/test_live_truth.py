@@ -1,5 +1,7 @@
 """The live page says certified of what is certified, and what is wrong where it is."""
 
+import re
+
 import pytest
 from live import PLANAR, badge, drag, notices, settled, spot
 
@@ -160,6 +162,19 @@ def test_the_badge_never_says_certified_of_what_is_not(serve):
     seen.page.keyboard.press("Enter")
     settled(seen)
     assert seen.do("lies") == []
+
+
+def test_what_is_proven_is_rounded_to_the_safe_side(serve):
+    seen = serve(*PLANAR)
+    settled(seen)
+    text, figures = seen.do("cplan.figures.textContent"), seen.do("cplan.answered.figures")
+    clearance = float(re.search(r"clearance ([\d.e+-]+) mm proven", text)[1]) / 1e3
+    longer = float(re.search(r"at most ([\d.e+-]+) % longer", text)[1]) / 100
+    assert 0.99 * figures["clearance"] <= clearance <= figures["clearance"], text
+    gap = figures["length"] / figures["lower_bound"] - 1
+    assert gap <= longer <= 1.1 * gap + 1e-12, text
+    shown = seen.do("[[0.1201, 2, Math.ceil], [99.01, 2, Math.ceil], [1239, 3, Math.floor], [0, 2, Math.ceil]].map((v) => roundedSafely(...v))")
+    assert shown == ["0.13", "100", "1230", "0"]
 
 
 def test_what_is_awaited_is_not_certified(serve):

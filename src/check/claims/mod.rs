@@ -187,8 +187,8 @@ pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found:
 impl Ledger {
     /// What is said of any motion.
     fn general(&mut self, arm: &Arm, recording: &Recording, claims: &Claims) {
-        // An exploration's motion is one, too, and so is what it did before it knew that the goal is out of reach.
-        let of_exploration = ["reached", "explored", "unreachable"];
+        // An exploration's motion is one, too, however it ended; what ends otherwise without a motion has none to judge.
+        let of_exploration = ["reached", "explored", "unreachable", "unknown"];
         if let Some(status) = claims.status.as_ref().filter(|status| !of_exploration.contains(&status.as_str())) {
             self.same("status", status, &"found".to_owned());
         }

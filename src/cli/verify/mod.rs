@@ -8,8 +8,8 @@ use super::failure::Failure;
 use super::sinks::{self, Sink};
 use super::{DONE, REFUTED, UNKNOWN};
 use crate::draw::{Picture, View};
+use crate::engine::certificate_of_recording;
 use crate::engine::findings::{MotionFindings, Verdict, verify};
-use crate::engine::{certificate_of_recording, checkable};
 use crate::input::{self, Digests, Overrides};
 use crate::model::Scene;
 use crate::motion::write_whole;
@@ -51,10 +51,8 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
                 let (start, goal) = if args.anywhere { (None, None) } else { loaded.ends(&overrides(args))? };
                 let (steps, asked) = (recorded.steps.as_deref(), (&overrides(args), &about));
                 let task = steps.map(|_| loaded.clone().task(&overrides(args))).transpose()?;
-                let written = task
-                    .map_or(Ok(()), |loaded| checkable(&loaded.task, false))
-                    .and_then(|()| certificate_of_recording(scene, recording, steps, asked, [start, goal]));
-                match written {
+                let steps = task.as_ref().map(|loaded| &loaded.task).zip(steps);
+                match certificate_of_recording(scene, recording, steps, asked, [start, goal]) {
                     Ok(certificate) => write_whole(path, certificate.as_bytes())?,
                     Err(why) => sinks::say(&format!("warning: {} is not written: {why}", path.display())),
                 }

@@ -6,7 +6,6 @@ mod motion;
 mod task;
 
 pub use motion::recorded as certificate_of_recording;
-pub use task::checkable;
 
 use super::bound::{claim, motions};
 use super::motion_plan::MotionPlan;
@@ -40,7 +39,7 @@ pub enum NoCertificate {
         "object \"{0}\" rests on something, and is too fine, touches itself, or has corners all but on a line: they cannot all be moved inwards by what it may \
          press in"
     )]
-    TooFine(String),
+    Outline(String),
     /// A motion without times in a world in which something moves.
     #[error("the motion says no times, and among what moves it depends on them whether it is free")]
     Untimed,

@@ -1,9 +1,9 @@
 //! Evidence for a motion: what its consumers play, which is all that it takes to check it.
 
-use super::task::steps_of_recording;
+use super::task::{checkable, steps_of_recording};
 use super::{NoCertificate, about, inward, lines, written};
 use crate::input::{Digests, Overrides, TipPoint};
-use crate::model::{Arm, Goal, RecordedStep, Scene};
+use crate::model::{Arm, Goal, RecordedStep, Scene, Task};
 use crate::motion::Trajectory;
 use crate::space::{Configuration, Interpolation, Recording, Topology};
 use serde_json::{Value, json};
@@ -26,17 +26,18 @@ pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, Str
 /// about these `files`.
 ///
 /// # Errors
-/// [`NoCertificate::Untimed`].
+/// [`NoCertificate::Untimed`] and [`NoCertificate::Outline`].
 pub fn recorded(
     scene: &Scene,
     recording: &Recording,
-    steps: Option<&[RecordedStep]>,
+    steps: Option<(&Task, &[RecordedStep])>,
     (asked, files): (&Overrides, &Digests),
     ends: [Option<Goal>; 2],
 ) -> Result<String, NoCertificate> {
     if recording.times().is_none() && !scene.workspace().movers.is_empty() {
         return Err(NoCertificate::Untimed);
     }
+    steps.map_or(Ok(()), |(task, _)| checkable(task, false))?;
     let topology = &scene.arm().topology();
     let q = recording.positions();
     let own = [q[0], q[q.len() - 1]];
@@ -65,7 +66,7 @@ pub fn recorded(
     };
     let all = [&positions, &velocities, &accelerations];
     let motion = played(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
-    Ok(written("found", said, [motion].into_iter().chain(steps.map(steps_of_recording))))
+    Ok(written("found", said, [motion].into_iter().chain(steps.map(|(_, steps)| steps_of_recording(steps)))))
 }
 
 /// Values of the joints as they are written.

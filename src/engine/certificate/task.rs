@@ -98,8 +98,8 @@ fn depth(object: &Object) -> f64 {
 /// Whether a checker can move the corners of all that rests on something inwards; and, for proofs about it, name their corners.
 ///
 /// # Errors
-/// [`NoCertificate::TooFine`].
-pub fn checkable(task: &Task, is_proof: bool) -> Result<(), NoCertificate> {
+/// [`NoCertificate::Outline`].
+pub(super) fn checkable(task: &Task, is_proof: bool) -> Result<(), NoCertificate> {
     let allowance = Payload::penetration_allowance(&task.arm);
     let mut picked = None;
     for step in task.steps() {
@@ -108,7 +108,7 @@ pub fn checkable(task: &Task, is_proof: bool) -> Result<(), NoCertificate> {
         let Some(object) = picked.filter(|_| !supports.is_empty()) else { continue };
         let Object { name, pieces, .. } = &task.objects[object];
         if !can_be_drawn_in(pieces, allowance) || (is_proof && !stays_convex(pieces, allowance)) {
-            return Err(NoCertificate::TooFine(name.clone()));
+            return Err(NoCertificate::Outline(name.clone()));
         }
     }
     Ok(())
@@ -197,23 +197,17 @@ impl<'a> Known<'a> {
 fn written(task: &Task, cases: &[RefutedCase], known: &Known) -> Evidence {
     let empty = Scene::trusted(task.arm.clone(), task.workspace.clone());
     let about = |q: Configuration, sides: [f64; 2]| [0, 1].map(|k| [q[k] - sides[k], q[k] + sides[k]]);
-    let told = |case: &'_ RefutedCase| -> Vec<(&'static str, Scene, Vec<StuckBox>)> {
-        let boxes = iter::once(("boxes", (&case.scene, &case.stuck)));
-        let lowered = case.lowered.iter().filter(|(_, stuck)| !stuck.is_empty());
-        let all = boxes.chain(lowered.map(|(scene, stuck)| ("lowered", (scene, stuck))));
-        // Boxes are about the parts of what rules out, which are more or fewer where corners move farther.
-        all.map(|(name, (scene, stuck))| (name, scene.certainly_pressed().into_owned(), stuck.clone())).collect()
-    };
-    let told: Vec<_> = cases.iter().map(told).collect();
     let mut contacts = Contacts::new(&empty);
     let mut all = Vec::new();
-    for (case, told) in cases.iter().zip(&told) {
-        let RefutedCase { step, after, from, turned, .. } = case;
+    for case in cases {
+        let RefutedCase { step, after, from, turned, scene, stuck, lowered, .. } = case;
         let mut entry = json!({ "step": step });
-        for (name, scene, stuck) in told {
+        let lowered =
+            lowered.iter().filter(|(_, stuck)| !stuck.is_empty()).map(|(scene, stuck)| ("lowered", scene, stuck));
+        for (name, scene, stuck) in iter::once(("boxes", scene, stuck)).chain(lowered) {
             contacts = contacts.among(scene);
             let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
-            entry[*name] = json!(boxes);
+            entry[name] = json!(boxes);
         }
         after.iter().for_each(|after| entry["after"] = json!(after));
         from.iter().zip(known.before(case)).for_each(|(q, sides)| entry["from"] = json!(about(*q, sides)));
@@ -228,7 +222,6 @@ fn written(task: &Task, cases: &[RefutedCase], known: &Known) -> Evidence {
 
 /// What rules out a motion: its ends are not free, or colliding configurations separate them.
 fn rule_out(scene: &Scene, ends: [Configuration; 2]) -> Option<Vec<StuckBox>> {
-    let scene = &*scene.certainly_pressed();
     let is_free = |q: &Configuration| scene.obstructions(*q).is_empty();
     if let Some(end) = ends.iter().find(|end| !is_free(end)) {
         let at = Segment::new(*end, *end);

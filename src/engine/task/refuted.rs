@@ -22,7 +22,7 @@ pub struct RefutedCase {
     pub held: Option<usize>,
     /// What it has let go of, turned as it happened to be; none where that is no matter.
     pub turned: Vec<Turned>,
-    /// What is where.
+    /// What is where, with what the arm holds as it presses into its supports for certain.
     pub scene: Scene,
     /// Configurations that are not free.
     pub stuck: Vec<StuckBox>,
@@ -401,7 +401,7 @@ impl Walk<'_> {
         let held = at.state.held.clone().filter(|held| is_known(held.grip));
         let mut poses = at.state.poses.clone();
         self.hidden_after(at).iter().for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
-        State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked())
+        State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked()).certainly_pressed()
     }
 
     /// What is where while the tool is lowered where a step ends, but for what is picked, as far as a checker knows.
@@ -414,7 +414,7 @@ impl Walk<'_> {
         let payload = scene.payload().cloned().map(|payload| Payload { heights, ..payload });
         let mut workspace = scene.workspace().clone();
         workspace.obstacles[task.obstacle_number(object)] = task.objects[object].lying(None);
-        Some(Scene::handling_trusted(arm, workspace, payload, &[]))
+        Some(Scene::handling_trusted(arm, workspace, payload, &[]).certainly_pressed())
     }
 }
 

@@ -4,8 +4,8 @@ mod bridges;
 mod faces;
 mod noding;
 
-use super::polygon::turn;
-use super::{Convex, Orientation, Point, PolygonError, SimplePolygon};
+use super::polygon::without_straight;
+use super::{Convex, Point, PolygonError, SimplePolygon};
 use bridges::bridged;
 use faces::faces;
 use noding::Noded;
@@ -109,8 +109,8 @@ impl Polygon {
         }
         let noded = Noded::of(&rings)?;
         // No hole is to be joined to a straight corner. Where sides cross in one that is told below.
-        let bare: Vec<Vec<Point>> = rings.iter().map(|ring| without_straight(ring)).collect();
-        let noded = if bare == rings { noded } else { Noded::of(&bare).unwrap_or(noded) };
+        let bared: Vec<Vec<Point>> = rings.iter().map(|ring| bare(ring)).collect();
+        let noded = if bared == rings { noded } else { Noded::of(&bared).unwrap_or(noded) };
         Ok(Self { parts: faces(&bridged(noded)?)? })
     }
 
@@ -134,12 +134,12 @@ impl Polygon {
     }
 }
 
-/// A ring without the corners that lie on a line with those beside them, and without repetitions.
-fn without_straight(ring: &[Point]) -> Vec<Point> {
+/// A ring without straight corners, and without repetitions.
+fn bare(ring: &[Point]) -> Vec<Point> {
     let mut once = ring.to_vec();
     once.dedup();
     if once.len() > 1 && once.first() == once.last() {
         once.pop();
     }
-    (0..once.len()).filter(|&k| turn(&once, k) != Orientation::Collinear).map(|k| once[k]).collect()
+    without_straight(&once)
 }

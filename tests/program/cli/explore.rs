@@ -149,6 +149,10 @@ fn what_cannot_be_reached_is_proven() {
     let stopped = explore(&place, &rooms(), "--decisions 1");
     assert_eq!(stopped.code, 4, "{}", stopped.stdout);
     assert!(stopped.stdout.contains("unknown: not done after 1 decision"), "{}", stopped.stdout);
+    explore(&place, &rooms(), "--decisions 1 --output stopped.json");
+    let [urdf, world] = rooms();
+    let verified = place.run(&["verify", &urdf, &world, "stopped.json"], "--anywhere");
+    assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
 }
 
 /// Steps between middles of so few cells lead through walls.

@@ -98,8 +98,8 @@ fn states_that_somebody_recorded() {
 
     let whole = recording(&states([0.5, -0.8]));
     for (bytes, part) in [
-        (whole[..whole.len() / 2].to_vec(), "cannot be read as MCAP"),
-        (b"no recording".to_vec(), "cannot be read as MCAP"),
+        (whole[..whole.len() / 2].to_vec(), "cure: it is damaged, cut off, or no recording"),
+        (b"no recording".to_vec(), "cure: it is damaged, cut off, or no recording"),
         (
             recording(&[("/joint_states", 7, state(10, [0.4, -0.9])[..40].to_vec())]),
             "a message on /joint_states at 7 ns",
@@ -108,6 +108,6 @@ fn states_that_somebody_recorded() {
     ] {
         let (code, _, errors) = judged(&bytes);
         assert_eq!(code, 1, "{errors}");
-        assert!(errors.contains(part) && errors.contains("cure:"), "{errors}");
+        assert!(errors.contains(part) && errors.contains("cure:"), "{part}: {errors}");
     }
 }
