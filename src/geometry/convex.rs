@@ -264,6 +264,15 @@ impl Convex {
         }
         twice / 2.0 + perimeter * self.radius + std::f64::consts::PI * self.radius * self.radius
     }
+
+    /// Whether it is a polygon whose corners are all on one line, but for what rounding makes of their coordinates.
+    pub(crate) fn is_sliver(&self) -> bool {
+        let [first, others @ ..] = &self.core[..] else { return false };
+        let twice: f64 = others.windows(2).map(|pair| super::cross(pair[0] - first, pair[1] - first).abs()).sum();
+        let largest = self.core.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+        let long = others.iter().map(|p| (p - first).norm()).fold(0.0, f64::max);
+        self.radius == 0.0 && others.len() > 1 && twice <= 64.0 * f64::EPSILON * largest * long
+    }
 }
 
 /// Greatest distance of any of these points from `pivot`.

@@ -40,8 +40,8 @@ pub(super) struct PalletTable {
 /// Places of one pallet, at most: more than any machine has.
 const MOST_PLACES: usize = 10_000;
 
-/// Places are rounded to one part of so many of a metre, so that they are the decimals that people would write.
-const GRAINS: f64 = 1e12;
+/// Significant digits of places, of the largest number that they are made of: so they are the decimals that people would write.
+const DIGITS: i32 = 15;
 
 /// A grid of places.
 #[derive(Debug, Clone)]
@@ -65,12 +65,20 @@ impl Pallet {
         (0..self.rows).flat_map(move |row| {
             (0..self.columns).map(move |column| {
                 let offset = Point2::new(column as f64 * self.pitch[0], row as f64 * self.pitch[1]);
-                let at = (self.origin * offset).map(|x| (x * GRAINS).round() / GRAINS);
+                let largest = self.origin.translation.vector.amax().max(offset.coords.amax());
+                let at = (self.origin * offset).map(|x| rounded(x, largest));
                 let pose = Translation2::from(at) * self.origin.rotation;
                 (format!("{},{}", row + 1, column + 1), pose)
             })
         })
     }
+}
+
+/// A sum of numbers that are at most as large as `largest`, without what rounding adds.
+fn rounded(sum: f64, largest: f64) -> f64 {
+    let before = largest.log10().ceil().clamp(-300.0, 300.0) as i32;
+    let decimals = usize::try_from(DIGITS - before).unwrap_or(0);
+    format!("{sum:.decimals$}").parse().unwrap_or(sum) + 0.0
 }
 
 /// All pallets by name.
@@ -170,5 +178,26 @@ impl PalletTable {
         let angle =
             self.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
         Ok(Pallet { rows, columns, origin: Isometry2::new(at.coords, angle), pitch })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The last place of two rows and two columns.
+    fn last(at: [f64; 2], pitch: [f64; 2], angle: f64) -> Point {
+        let pallet = Pallet { rows: 2, columns: 2, origin: Pose::new(Point::from(at).coords, angle), pitch };
+        pallet.places().last().unwrap().1.translation.vector.into()
+    }
+
+    #[test]
+    fn places_are_decimals_that_people_write() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        assert_eq!(last([0.1, 0.7], [0.2, 0.1], 0.0), Point::new(0.3, 0.8));
+        assert_eq!(last([0.3, -0.3], [0.3, 0.3], quarter), Point::new(0.0, 0.0));
+        // Those of the smallest and the largest arms too.
+        assert_eq!(last([1.2345678901e-5, 0.0], [1e-6, 0.0], 0.0), Point::new(1.3345678901e-5, 0.0));
+        assert_eq!(last([1234.5678901234, 0.0], [0.1, 0.0], 0.0), Point::new(1234.6678901234, 0.0));
     }
 }

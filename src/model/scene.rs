@@ -152,18 +152,25 @@ impl Scene {
         let (mut pairs, mut moving) = (Vec::new(), Vec::new());
         let standing = workspace.obstacles.len();
         let base = Convex::point(arm.base);
-        let is_left_out = |piece: &Convex| separation(&base, piece).distance > reading.farthest;
-        let left_out: Vec<Vec<bool>> = match reading.farthest {
-            f64::INFINITY => Vec::new(),
-            _ => workspace.obstacles.iter().map(|o| o.pieces.iter().map(is_left_out).collect()).collect(),
+        let is_far = |obstacle: usize, piece: &Convex| {
+            let stands = obstacle < standing && reading.farthest.is_finite();
+            stands && separation(&base, piece).distance > reading.farthest
         };
-        let is_kept = |pair: &Pair| !left_out.get(pair.obstacle).and_then(|all| all.get(pair.piece)).unwrap_or(&false);
+        let is_nothing = |piece: &Convex| reading.meet == Meet::Surely && piece.is_sliver();
+        let is_left_out = |obstacle: usize, piece: &Convex| is_far(obstacle, piece) || is_nothing(piece);
+        let left_out = |(number, o): (usize, &Obstacle)| o.pieces.iter().map(|p| is_left_out(number, p)).collect();
+        let left_out: Vec<Vec<bool>> = workspace.all().enumerate().map(left_out).collect();
+        // What is made of pieces comes after them, all for one piece of the payload after all for another.
+        let is_kept = |pair: &Pair| !left_out[pair.obstacle][pair.piece % left_out[pair.obstacle].len()];
+        let is_carried_nothing =
+            |p: &Part| payload.as_ref().is_some_and(|payload| is_nothing(&payload.pieces[p.number]));
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
                 let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
                 let as_high = |(_, o): &(usize, &Obstacle)| reading.meet.holds(p.heights, o.heights);
                 for (obstacle, o) in workspace.all().enumerate().filter(as_high) {
                     let pieces = match meetable {
+                        Some(_) if is_carried_nothing(p) => 0..0,
                         Some(meetable) => meetable[obstacle].clone(),
                         None if link == 1 && allowed_contacts.contains(&obstacle) => 0..0,
                         None => 0..o.pieces.len(),
@@ -177,14 +184,17 @@ impl Scene {
         Self { arm, workspace, payload, allowed_contacts, own_parts, reading, pairs, moving, differences }
     }
 
-    /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within, and what is as
-    /// high as each other for certain.
+    /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within, what is as
+    /// high as each other for certain, and no pieces that are nothing without rounding.
     #[must_use]
     pub(crate) fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
         let heights = || parts().flat_map(|part| self.workspace.all().map(|obstacle| (part.heights, obstacle.heights)));
         let is_exact = self.reading.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
-        if is_exact && parts().all(|part| part.inner.is_none()) {
+        let carried = self.payload.iter().flat_map(|payload| &payload.pieces);
+        let mut pieces = self.workspace.all().flat_map(|obstacle| &obstacle.pieces).chain(carried);
+        let is_whole = self.reading.meet == Meet::Surely || !pieces.any(Convex::is_sliver);
+        if is_exact && is_whole && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
         let shrink = |part: &mut Part| {

@@ -21,29 +21,32 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
     // The middle of a parabola is halfway between its corner and the middle of its ends.
     let within = NEAR + largest * f64::EPSILON * 16.0 + radius.map_or(0.0, |radius| radius.clamp(0.0, longest) / 2.0);
     let last = q.len().saturating_sub(2);
-    let (mut leg, mut before) = (0, q[0]);
+    let off = |at: Configuration, leg: usize| to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
+    // Where legs are close to each other, or turn back, it may be on any of several.
+    let (mut legs, mut before) = (vec![0], q[0]);
     for (sample, piece) in recording.pieces().iter().enumerate() {
         for look in 0..=LOOKS {
             let at = piece.at(f64::from(look) / f64::from(LOOKS));
-            let off = |leg: usize| to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
-            let found = (leg..=last).find(|leg| off(*leg) <= within);
             // Corners may be passed between two places, but only nearby.
-            let stride = within + (at - before).norm();
-            let passed = |next: usize| q[leg + 1..=next].iter().all(|corner| (corner - at).norm() <= stride + within);
-            match found {
-                Some(next) if next == leg || passed(next) => leg = next,
-                _ => {
-                    let off = (0..=last).map(off).fold(f64::INFINITY, f64::min);
-                    return Err(format!(
-                        "the motion does not follow it: after sample {sample} it is at ({}, {}), {off:.6} from it",
-                        at[0], at[1]
-                    ));
-                }
+            let near = 2.0 * within + (at - before).norm();
+            let mut found: Vec<usize> = Vec::new();
+            for &leg in &legs {
+                let passed = q[leg + 1..].iter().take_while(|corner| (*corner - at).norm() <= near).count();
+                let first = found.last().map_or(leg, |last| leg.max(last + 1));
+                found.extend((first..=(leg + passed).min(last)).filter(|leg| off(at, *leg) <= within));
             }
-            before = at;
+            if found.is_empty() {
+                let off = (0..=last).map(|leg| off(at, leg)).fold(f64::INFINITY, f64::min);
+                return Err(format!(
+                    "the motion does not follow it: after sample {sample} it is at ({}, {}), {off:.6} from it",
+                    at[0], at[1]
+                ));
+            }
+            (legs, before) = (found, at);
         }
     }
-    if let Some(missed) = q[leg..].iter().skip(1).find(|corner| (*corner - before).norm() > within) {
+    let first = legs.last().map_or(0, |leg| leg + 1);
+    if let Some(missed) = q[first..].iter().find(|corner| (*corner - before).norm() > within) {
         return Err(format!("the motion does not follow it to the end: not to ({}, {})", missed[0], missed[1]));
     }
     Ok(())
@@ -55,4 +58,27 @@ fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
     let length2 = along.norm_squared();
     let share = if length2 > 0.0 { (along.dot(&off) / length2).clamp(0.0, 1.0) } else { 0.0 };
     (off - along * share).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_followed(by: &[[f64; 2]], path: &[[f64; 2]], radius: Option<f64>) -> bool {
+        let all = |at: &[[f64; 2]]| at.iter().map(|q| Configuration::from(*q)).collect::<Vec<_>>();
+        let motion = Recording::new(all(by), None, None).unwrap();
+        follows(&Path::new(all(path)), &motion, radius).is_ok()
+    }
+
+    /// A slide of 100 m turns back while the other joint goes on by less than corners may be cut by.
+    #[test]
+    fn legs_that_turn_back_are_followed_to_the_end() {
+        let path = [[0.0, 0.0], [1.0, 100.0], [1.6, 60.0], [5.0, 60.0]];
+        assert!(is_followed(&path, &path, Some(4.0)));
+        assert!(is_followed(&[path[0], [0.99, 99.0], [1.01, 99.3], path[2], path[3]], &path, Some(4.0)));
+        for short in [&path[..2], &path[..3], &[path[0], [0.5, 50.0], path[2], path[3]]] {
+            assert!(!is_followed(short, &path, Some(4.0)), "{short:?}");
+        }
+        assert!(is_followed(&path, &path, None) && !is_followed(&[path[0], [0.99, 99.0], path[3]], &path, None));
+    }
 }
