@@ -217,26 +217,23 @@ impl Chain {
 
     /// What lies in the plane, as it hangs on the second link that takes it at a configuration.
     pub fn hung(&self, lying: &Obstacle, values: &Point) -> Obstacle {
-        let [sine, cosine] = lying.turn.clone();
-        let ahead = self.seen_at(&sum(&lying.at, &[cosine, sine]), values);
-        let origin = self.seen_at(&lying.at, values);
-        let [x, y] = minus(&ahead, &origin);
-        lying.clone().moved(origin, [y, x])
+        lying.clone().moved(self.seen_at(&lying.at, values), self.turn(1, &lying.turn, true, values))
     }
 
     /// What hangs on something, in the plane, at a configuration.
     pub fn lying(&self, on: &On, hanging: &Obstacle, values: &Point) -> Obstacle {
-        let [sine, cosine] = &hanging.turn;
-        let at = self.point_at(on, &hanging.at, values);
         let turn = match on {
             On::Level(_) => hanging.turn.clone(),
-            On::Link(_) => {
-                let ahead = self.point_at(on, &sum(&hanging.at, &[cosine.clone(), sine.clone()]), values);
-                let [x, y] = minus(&ahead, &at);
-                [y, x]
-            }
+            On::Link(link) => self.turn(*link, &hanging.turn, false, values),
         };
-        hanging.clone().moved(at, turn)
+        hanging.clone().moved(self.point_at(on, &hanging.at, values), turn)
+    }
+
+    /// Sine and cosine of how what hangs on a link lies, or back.
+    fn turn(&self, link: usize, [sine, cosine]: &[Interval; 2], back: bool, values: &Point) -> [Interval; 2] {
+        let by = [0, 1].map(|joint| joint <= link && matches!(self.motions[joint], Motion::Turn(_)));
+        let [x, y] = self.still(&vec![Term { by, back, at: [cosine.clone(), sine.clone()], slide: None }], values);
+        [y, x]
     }
 
     /// A point of the plane as it is seen from the second link's joint at a configuration.

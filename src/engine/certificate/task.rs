@@ -41,7 +41,7 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
 const SMALLER: f64 = 1e-6;
 
 /// Room for how objects lie and hang is this many times what is known of it at most: a checker encloses it step by step.
-const ENCLOSED: f64 = 8.0;
+const ENCLOSED: f64 = 4.0;
 
 /// Proofs of objects that are taken for smaller may begin elsewhere: they are looked for again with room for that at most so often.
 const MOST_LOOKS: usize = 3;

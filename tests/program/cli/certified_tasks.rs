@@ -428,6 +428,49 @@ fn boxes_reach_across_half_a_turn() {
     }
 }
 
+/// A piece that has no area but for rounding: a hole touches a side between its corners, in decimals.
+#[test]
+fn slivers_are_no_evidence() {
+    let place = Place::new();
+    let urdf = shipped("robots/gantry.urdf");
+    let world = "[start]\njoints = [0.1, 0.1]\n[[obstacle]]\npolygon = [[[1.41558807525, 1.1732870148], [1.45402146287, 1.16220212798], \
+                 [1.5, 1.2006]], [[1.43480476906, 1.16774457139], [1.45, 1.18], [1.45, 1.17]]]\n[[object]]\nname = \"disc\"\n\
+                 at = [1.4, 0.98]\ncircle = { center = [0.0, 0.0], radius = 0.1 }\n[[step]]\npick = \"disc\"\n";
+    place.write("w.toml", world);
+    let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    let said = check(&read(&urdf), world, &place.read("c.json")).unwrap();
+    assert!(said.contains("does the steps up to step 1"), "{said}");
+}
+
+/// A crane turns a thin object of 100 m: how that is turned is known as well as the joints are, however large all is.
+#[test]
+fn needles_on_cranes_have_certificates() {
+    let place = Place::new();
+    let link = "<link name=\"boom\"><collision><origin xyz=\"300 0 20\"/><geometry><box size=\"600 1 1\"/></geometry></collision></link>";
+    let joint = |name: &str, kind: &str, [parent, child]: [&str; 2], axis: &str, limit: f64| {
+        format!(
+            "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/><axis xyz=\"{axis}\"/>\
+             <limit lower=\"-{limit}\" upper=\"{limit}\" effort=\"1\" velocity=\"1\"/></joint>"
+        )
+    };
+    let joints = joint("slide", "prismatic", ["rail", "trolley"], "1 0 0", 1000.0)
+        + &joint("turn", "revolute", ["trolley", "boom"], "0 0 1", 2.9)
+        + "<joint name=\"mount\" type=\"fixed\"><parent link=\"boom\"/><child link=\"hook\"/><origin xyz=\"600 0 0\"/></joint>";
+    let links = format!("<link name=\"rail\"/><link name=\"trolley\"/>{link}<link name=\"hook\"/>");
+    let urdf = format!("<robot name=\"crane\">{links}{joints}</robot>");
+    let world = "robot = { payload = \"rigid\" }\nstart = { joints = [-800.0, 0.5] }\n[[obstacle]]\n\
+                 polyline = [[-13.0, -303.0], [-110.0, -220.0], [-160.0, -300.0], [-13.0, -300.0]]\nheight = [0, 10]\n\
+                 [[object]]\nname = \"needle\"\npolygon = [[-50.0, 1.0], [50.0, 0.0], [-50.0, -1.0]]\nat = [230.0, 240.0]\n\
+                 height = [0, 1]\n[[step]]\npick = \"needle\"\n[[step]]\nplace = { at = [-86.5, -290.0] }\n";
+    place.write("crane.urdf", &urdf);
+    place.write("w.toml", world);
+    let done = place.run(&["crane.urdf", "w.toml"], "--quiet --certificate c.json");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    let said = check(&urdf, world, &place.read("c.json")).unwrap();
+    assert!(said.contains("does the steps up to step 2"), "{said}");
+}
+
 #[test]
 fn what_is_asked_in_place_of_the_world_is_in_the_certificate() {
     let place = Place::new();
