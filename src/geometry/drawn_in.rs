@@ -45,22 +45,10 @@ pub(crate) fn stays_convex(pieces: &[Convex], distance: f64) -> bool {
     !together.is_straight && all.iter().flatten().filter(is_sharp).all(is_one)
 }
 
-/// What is left of these pieces where each side of their union moves into it by `distance`; none where something is too fine for that.
-#[must_use]
-pub(crate) fn narrowed(pieces: &[Convex], distance: f64) -> Option<Vec<Convex>> {
-    let all = corner_to_corner(pieces).concat();
-    let together = Moved::new(all.iter().filter(is_sharp), |sine| distance / sine);
-    let left = |piece: &Convex| match piece.radius() {
-        0.0 => together.of(piece.core()),
-        _ => piece.eroded(distance).map(|left| vec![left]),
-    };
-    Some(all.iter().map(left).collect::<Option<Vec<_>>>()?.concat())
-}
-
 /// Pieces cut from corner to corner, and where their corners go within them.
 fn within(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, Moved) {
     let all = corner_to_corner(pieces);
-    let mut together = Moved::new(all.iter().flatten().filter(is_sharp), |_| distance);
+    let mut together = Moved::new(all.iter().flatten().filter(is_sharp), distance);
     let tree = BoxTree::new(pieces.iter().map(Convex::bounds).collect());
     let mut found = Vec::new();
     for [corner, to] in together.to.values_mut() {
@@ -79,7 +67,8 @@ fn is_sharp(piece: &&Convex) -> bool {
 }
 
 /// Each piece cut so that where pieces adjoin no corner of one is between those of a side of another. No new corners.
-fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
+#[must_use]
+pub(crate) fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
     let has_sides = |piece: &&Convex| is_sharp(piece) && piece.core().len() > 2;
     let mut corners: Vec<Point> = pieces.iter().filter(has_sides).flat_map(Convex::core).copied().collect();
     corners.sort_by(|p, q| p.x.total_cmp(&q.x));
@@ -165,20 +154,19 @@ struct Corner {
     last: Point,
     /// Where its parts' corners are looked up.
     parts: Vec<[Key; 2]>,
-    /// The direction halfway between the sides, how far it moves, and cosine and sine of half the angle between them; none where sides are not
-    /// told apart.
-    way: Option<(Vector, f64, [f64; 2])>,
+    /// The direction halfway between the sides, and cosine and sine of half the angle between them; none where sides are not told apart.
+    way: Option<(Vector, [f64; 2])>,
 }
 
 impl Corner {
     fn is_straight(&self) -> bool {
-        self.way.is_some_and(|(_, _, [cosine, _])| cosine.abs() < STRAIGHT / 2.0)
+        self.way.is_some_and(|(_, [cosine, _])| cosine.abs() < STRAIGHT / 2.0)
     }
 }
 
 impl Moved {
-    /// Of pieces that are cut from corner to corner: by a distance that depends on the sine of half the angle of their union.
-    fn new<'a>(pieces: impl IntoIterator<Item = &'a Convex>, distance: impl Fn(f64) -> f64) -> Self {
+    /// Of pieces that are cut from corner to corner.
+    fn new<'a>(pieces: impl IntoIterator<Item = &'a Convex>, distance: f64) -> Self {
         let mut sectors: BTreeMap<[Key; 2], [Point; 3]> = BTreeMap::new();
         for ring in pieces.into_iter().map(Convex::core) {
             for (k, &corner) in ring.iter().enumerate() {
@@ -197,8 +185,7 @@ impl Moved {
                 parts.push([key(at), key(last)]);
                 last = sector[2];
             }
-            let way = inwards(at, next, last).map(|(way, [cosine, sine])| (way, distance(sine), [cosine, sine]));
-            corners.push(Corner { at, next, last, parts, way });
+            corners.push(Corner { at, next, last, parts, way: inwards(at, next, last) });
         }
         let number = |of: fn(&Corner) -> Point| -> BTreeMap<[Key; 2], usize> {
             corners.iter().enumerate().map(|(k, corner)| ([key(corner.at), key(of(corner))], k)).collect()
@@ -216,7 +203,9 @@ impl Moved {
                 };
                 at = *beyond?;
                 if !corners[at].is_straight() {
-                    return corners[at].way.map(|(_, far, [cosine, sine])| (corners[at].at, far * cosine, far * sine));
+                    let along =
+                        |(_, [cosine, sine]): (Vector, [f64; 2])| (corners[at].at, distance * cosine, distance * sine);
+                    return corners[at].way.map(along);
                 }
             }
             None
@@ -225,9 +214,9 @@ impl Moved {
         for (k, corner) in corners.iter().enumerate() {
             let moved = match corner.way {
                 None => corner.at,
-                Some((way, far, _)) if !corner.is_straight() => corner.at + way * far,
+                Some((way, _)) if !corner.is_straight() => corner.at + way * distance,
                 // As deep as the side between the corners at its ends is there.
-                Some((way, ..)) => ahead(k, false).zip(ahead(k, true)).map_or(corner.at, |(from, to)| {
+                Some((way, _)) => ahead(k, false).zip(ahead(k, true)).map_or(corner.at, |(from, to)| {
                     let [behind, before] = [&from, &to].map(|end| (corner.at - end.0).norm());
                     let [start, end] = [from.1, behind + before - to.1];
                     let share = ((behind - start) / (end - start)).clamp(0.0, 1.0);
@@ -332,7 +321,6 @@ mod tests {
         let outer = points(&[[1.34375, 0.0], [-0.58984375, 1.0224609375], [-0.818359375, -1.4169921875]]);
         let hole = points(&[[0.2, 0.0], [0.14, 0.14], [0.0, 0.6982421875], [-0.14, 0.14], [-0.2, 0.0], [0.0, -0.2]]);
         let pieces = Polygon::new(outer, vec![hole]).unwrap().convex_pieces();
-        assert!(narrowed(&pieces, 0.019).is_none() && narrowed(&pieces, 0.001).is_some());
         assert!(stays_convex(&pieces, 0.005) && !stays_convex(&pieces, 0.01));
         assert!(can_be_drawn_in(&pieces, 0.01) && !can_be_drawn_in(&pieces, 0.019));
         let is_in = |corner: &Point| covers(std::slice::from_ref(&pieces), *corner);
@@ -366,14 +354,13 @@ mod tests {
         (0..ring.len()).flat_map(|k| std::iter::once(ring[k]).chain(halfway(k))).collect()
     }
 
-    /// A ring whose corners, or else sides, are moved, by the angles of its sides.
-    fn by_angles(ring: &[Point], distance: f64, sides: bool) -> Vec<Point> {
+    /// A ring whose corners are moved, by the angles of its sides.
+    fn by_angles(ring: &[Point], distance: f64) -> Vec<Point> {
         let angle = |v: Vector| v.y.atan2(v.x);
         let corner = |k: usize| {
             let [next, last] = beside(ring, k).map(|p| angle(p - ring[k]));
             let half = (last - next).rem_euclid(std::f64::consts::TAU) / 2.0;
-            let far = if sides { distance / half.sin() } else { distance };
-            ring[k] + far * Vector::new((next + half).cos(), (next + half).sin())
+            ring[k] + distance * Vector::new((next + half).cos(), (next + half).sin())
         };
         (0..ring.len()).map(corner).collect()
     }
@@ -384,7 +371,7 @@ mod tests {
         /// Of a polygon with a hole it is the polygon whose rings are moved; and however fine it is, what is deep is left.
         #[test]
         fn it_is_what_moved_rings_surround(
-            outer in star([1.0, 3.0]), hole in star([0.2, 0.7]), some in any::<[u8; 2]>(), by in 0.0..0.03f64, by_sides: bool,
+            outer in star([1.0, 3.0]), hole in star([0.2, 0.7]), some in any::<[u8; 2]>(), by in 0.0..0.03f64,
             at in prop::collection::vec((-3.0..3.0f64, -3.0..3.0f64), 60),
         ) {
             let given = [with_straight(&outer, some[0]), with_straight(&hole, some[1])];
@@ -392,12 +379,10 @@ mod tests {
             prop_assume!(polygon.is_ok());
             let pieces = polygon.unwrap().convex_pieces();
             let is_too_fine = !can_be_drawn_in(&pieces, by) || !turns_over_nothing(&pieces, by);
-            let left = if by_sides { narrowed(&pieces, by).map(|left| vec![left]) } else { Some(drawn_in(&pieces, by)) };
-            prop_assume!(left.is_some());
-            let left = left.unwrap();
+            let left = drawn_in(&pieces, by);
             let clockwise: Vec<Point> = hole.iter().rev().copied().collect();
             let own = [outer, clockwise];
-            let moved = own.clone().map(|ring| by_angles(&ring, by, by_sides));
+            let moved = own.clone().map(|ring| by_angles(&ring, by));
             let sides = |rings: &[Vec<Point>; 2]| -> Vec<[Point; 2]> {
                 rings.iter().flat_map(|ring| (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]])).collect()
             };
@@ -414,7 +399,7 @@ mod tests {
             };
             let near = moved.iter().flatten().map(|corner| corner + Vector::new(at[0].0, at[0].1) * 0.01);
             for p in at.iter().map(|(x, y)| Point::new(*x, *y)).chain(near) {
-                if by_sides || !is_too_fine {
+                if !is_too_fine {
                     let is_left = is_inside(&moved_sides, p);
                     prop_assert!(off(&moved_sides, p) < 1e-9 || covers(&left, p) == is_left, "{} {:?}", p, left);
                 } else if off(&own_sides, p) > by + 1e-9 && is_inside(&own_sides, p) {

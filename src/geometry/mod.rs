@@ -44,7 +44,7 @@ pub use box_tree::{Bounds, BoxTree};
 pub(crate) use convex::reach;
 pub use convex::{Convex, ConvexError};
 pub use decompose::{MOST_CORNERS, decompose};
-pub(crate) use drawn_in::{can_be_drawn_in, drawn_in, narrowed, stays_convex};
+pub(crate) use drawn_in::{can_be_drawn_in, corner_to_corner, drawn_in, stays_convex};
 pub(crate) use galloping::farthest;
 pub use hull::hull;
 pub(crate) use inset::{common, inset};

@@ -1,5 +1,6 @@
 //! What is carried, as parts of link 2: whole, and for its supports smaller by what it may press into them.
 
+use super::scene::Reading;
 use super::{Arm, Grip, Part, Payload, Workspace};
 use crate::geometry::{Convex, drawn_in};
 use nalgebra::{Isometry2, Translation2};
@@ -11,6 +12,12 @@ pub(super) const AT_MOST: f64 = 1.0 - 1e-3;
 
 /// The same for evidence that it presses deeper.
 pub(super) const SURELY: f64 = 1.0 + 1e-6;
+
+/// How much smaller what consists of pieces is taken in evidence that has room for how it lies and hangs, metres: at least a share of its depth,
+/// for rounding.
+pub(crate) fn taken_off(pieces: &[Convex], room: f64) -> f64 {
+    room.max(1e-6 * pieces.iter().map(Convex::depth).fold(0.0, f64::max))
+}
 
 /// What a payload's part can meet.
 #[derive(Clone, Copy, PartialEq)]
@@ -31,11 +38,11 @@ impl Payload {
         &self,
         arm: &Arm,
         workspace: &Workspace,
-        pressed: f64,
+        reading: &Reading,
         differences: &mut [Vec<Convex>],
     ) -> Vec<(Part, Meetable)> {
         let mut parts = Vec::new();
-        for (piece, shape, kind) in self.parts_pressed(arm, pressed) {
+        for (piece, shape, kind) in self.parts_read(arm, reading) {
             let (on_link, level) = match self.grip {
                 Grip::Rigid(in_link) => (shape.at(&in_link), None),
                 Grip::Level { angle, point } => {
@@ -73,21 +80,23 @@ impl Payload {
 
     /// Its pieces, and smaller ones for its supports, in its own frame.
     pub(crate) fn parts(&self, arm: &Arm) -> impl Iterator<Item = (Convex, Meets)> {
-        self.parts_pressed(arm, AT_MOST).into_iter().map(|(_, shape, kind)| (shape, kind))
+        self.parts_read(arm, &Reading::ALL).into_iter().map(|(_, shape, kind)| (shape, kind))
     }
 
     /// The same, after the number of the piece that each is of.
-    fn parts_pressed(&self, arm: &Arm, pressed: f64) -> Vec<(usize, Convex, Meets)> {
+    fn parts_read(&self, arm: &Arm, reading: &Reading) -> Vec<(usize, Convex, Meets)> {
         let mut parts: Vec<_> =
             self.pieces.iter().enumerate().map(|(number, piece)| (number, piece.clone(), Meets::Others)).collect();
-        if self.supports.is_empty() {
-            return parts;
+        if !self.supports.is_empty() {
+            let left = drawn_in(&self.pieces, reading.pressed * Self::penetration_allowance(arm)).into_iter();
+            let of_piece = |(number, left): (usize, Vec<Convex>)| {
+                left.into_iter().map(move |shape| (number, shape, Meets::Supports))
+            };
+            parts.extend(left.enumerate().flat_map(of_piece));
         }
-        let left = drawn_in(&self.pieces, pressed * Self::penetration_allowance(arm)).into_iter().enumerate();
-        parts.extend(
-            left.flat_map(|(number, left)| left.into_iter().map(move |shape| (number, shape, Meets::Supports))),
-        );
-        parts
+        let Some(room) = reading.room else { return parts };
+        let off = taken_off(&self.pieces, room);
+        parts.into_iter().filter_map(|(number, shape, kind)| Some((number, shape.eroded(off)?, kind))).collect()
     }
 
     /// Whether its parts of that kind can meet an obstacle.

@@ -1,6 +1,6 @@
 //! The arm among its obstacles.
 
-use super::payload_parts::{AT_MOST, SURELY};
+use super::payload_parts::{AT_MOST, SURELY, taken_off};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{Arm, Dynamics, Heights, Joint, Mover, Obstacle, Part, Payload, SceneError, Workspace};
@@ -74,18 +74,20 @@ impl Meet {
 
 /// How it takes what is left open, and what it leaves out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Reading {
+pub(super) struct Reading {
     /// Which heights can meet.
     meet: Meet,
     /// By which share of what a payload may press into its supports its corners are moved.
-    pressed: f64,
+    pub pressed: f64,
+    /// How well it is known at least how objects lie and hang, metres, where they are taken for smaller by that.
+    pub room: Option<f64>,
     /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
     farthest: f64,
 }
 
 impl Reading {
     /// What may meet does, and nothing is left out.
-    const ALL: Self = Self { meet: Meet::Perhaps, pressed: AT_MOST, farthest: f64::INFINITY };
+    pub const ALL: Self = Self { meet: Meet::Perhaps, pressed: AT_MOST, room: None, farthest: f64::INFINITY };
 }
 
 /// More pairs out of reach are left out of a search: with fewer it is as fast.
@@ -147,7 +149,7 @@ impl Scene {
         let own_parts = arm.links[1].parts.len();
         let mut differences = vec![Vec::new(); workspace.obstacles.len() + workspace.movers.len()];
         let carried =
-            payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, reading.pressed, &mut differences));
+            payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &reading, &mut differences));
         arm.links[1].parts.extend(carried.iter().map(|(part, _)| part.clone()));
         let (mut pairs, mut moving) = (Vec::new(), Vec::new());
         let standing = workspace.obstacles.len();
@@ -216,15 +218,19 @@ impl Scene {
         self.remade(reshape, pieces, self.reading)
     }
 
-    /// The same scene for evidence that a payload presses too deep into its supports.
+    /// The same scene for evidence that a payload is in the way, or presses too deep into its supports, where the obstacles from `first` on are
+    /// objects: these and the payload are smaller by `room`, all round each piece, so that it holds wherever they lie and hang within that.
     #[must_use]
-    pub(crate) fn certainly_pressed(self) -> Self {
-        match &self.payload {
-            Some(payload) if !payload.supports.is_empty() => {
-                self.remade(|_| (), |obstacle| obstacle.pieces.clone(), Reading { pressed: SURELY, ..self.reading })
+    pub(crate) fn certain(self, first: usize, room: f64) -> Self {
+        let mut number = 0..;
+        let smaller = |obstacle: &Obstacle| match number.next() {
+            Some(number) if number >= first => {
+                let off = taken_off(&obstacle.pieces, room);
+                obstacle.pieces.iter().filter_map(|piece| piece.eroded(off)).collect()
             }
-            _ => self,
-        }
+            _ => obstacle.pieces.clone(),
+        };
+        self.remade(|_| (), smaller, Reading { pressed: SURELY, room: Some(room), ..self.reading })
     }
 
     /// The same scene without the pairs with what stands farther from joint 1 than anything of the arm gets, clearance included; none where these are

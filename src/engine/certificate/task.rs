@@ -6,8 +6,8 @@ use super::{Evidence, NoCertificate, Stuck, lines, stuck_about, tells_apart};
 use crate::check::StuckBox;
 use crate::engine::task::{RefutedCase, StepReport, Turned, refuted};
 use crate::engine::{Options, Verdict, solve};
-use crate::geometry::{Convex, can_be_drawn_in, narrowed, stays_convex};
-use crate::model::{Action, Arm, Joint, MotionProblem, Object, Payload, RecordedStep, Scene, Task};
+use crate::geometry::{Convex, can_be_drawn_in, corner_to_corner, stays_convex};
+use crate::model::{Action, Arm, Joint, MotionProblem, Object, Payload, RecordedStep, Scene, Task, taken_off};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
 use std::iter;
@@ -37,13 +37,10 @@ fn done(step: usize, knots: [usize; 2], turn: Option<f64>) -> Value {
     }
 }
 
-/// How much smaller objects are taken than they are, as a share of their depth, so that evidence has room for rounding of how they lie and hang.
-const SMALLER: f64 = 1e-6;
-
 /// Room for how objects lie and hang is this many times what is known of it at most: a checker encloses it step by step.
 const ENCLOSED: f64 = 4.0;
 
-/// Proofs of objects that are taken for smaller may begin elsewhere: they are looked for again with room for that at most so often.
+/// Proofs about objects that are taken for smaller may begin elsewhere: they are looked for again with room for that at most so often.
 const MOST_LOOKS: usize = 3;
 
 /// IK solutions that a checker finds less well, by [`tells_apart`], have none: it looks at 2 000 parts.
@@ -63,16 +60,15 @@ const AFTER_ANOTHER: f64 = 100.0;
 pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let arm = &task.arm;
     let are_told = |cases: &[RefutedCase]| cases.iter().all(|case| told_of(arm, case) >= NEARLY_STRETCHED);
+    // Of what presses into supports the parts of a piece have each its own corners.
+    let mut parts = task.clone();
+    parts.objects.iter_mut().for_each(|object| object.pieces = corner_to_corner(&object.pieces).concat());
     let mut room = 0.0_f64;
     for _ in 0..MOST_LOOKS {
-        let mut smaller = task.clone();
-        for object in &mut smaller.objects {
-            object.pieces = narrowed(&object.pieces, room.max(SMALLER * depth(object)))?;
-        }
-        let cases = refuted(&smaller, last, &mut rule_out, &are_told)?;
+        let cases = refuted(&parts, last, room, &mut rule_out, &are_told)?;
         let known = Known::new(task, &cases);
         let needed = ENCLOSED * cases.iter().map(|case| known.moves(case)).fold(0.0, f64::max);
-        if needed <= room || is_little(task, needed) {
+        if parts.objects.iter().all(|object| needed <= taken_off(&object.pieces, room)) {
             return Some(written(task, &cases, &known));
         }
         room = 2.0 * needed;
@@ -83,16 +79,6 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
 /// What tells where an arm is before a case from beside it.
 fn told_of(arm: &Arm, case: &RefutedCase) -> f64 {
     case.from.map_or(MOST_TOLD, |q| tells_apart(arm, q))
-}
-
-/// Whether objects that are [`SMALLER`] have that much room.
-fn is_little(task: &Task, room: f64) -> bool {
-    task.objects.iter().all(|object| room <= SMALLER * depth(object))
-}
-
-/// How deep anything of an object lies in it at least.
-fn depth(object: &Object) -> f64 {
-    object.pieces.iter().map(Convex::depth).fold(0.0, f64::max)
 }
 
 /// Whether a checker can move the corners of all that rests on something inwards; and, for proofs about it, name their corners.

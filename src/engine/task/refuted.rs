@@ -60,10 +60,12 @@ const AT_THE_TIP: f64 = 1e-12;
 const MOST_PAIRS: usize = 8;
 
 /// What rules out all ways to do the steps up to the one of a number, as far as it is accepted; none where that is not known, or not of the kind
-/// that the checker knows. Turns of a wrist and IK solutions that leave a joint free are not.
+/// that the checker knows. Turns of a wrist and IK solutions that leave a joint free are not. Evidence has `room`, metres, for how objects lie
+/// and hang.
 pub(in crate::engine) fn refuted(
     task: &Task,
     last: usize,
+    room: f64,
     rule_out: RuleOut,
     accepts: Accepts,
 ) -> Option<Vec<RefutedCase>> {
@@ -82,7 +84,8 @@ pub(in crate::engine) fn refuted(
     attempts.extend(is_long.then_some((0, true)));
     attempts.into_iter().find_map(|(first, tells_turned)| {
         let rule_out = &mut *rule_out;
-        let mut walk = Walk { task, first, tells_turned, rule_out, accepts, cases: Vec::new(), hidden: Vec::new() };
+        let (cases, hidden) = (Vec::new(), Vec::new());
+        let mut walk = Walk { task, first, room, tells_turned, rule_out, accepts, cases, hidden };
         let left = walk.until(last, vec![At { is_start: true, ..At::from(State::at_start(task)) }])?;
         (left.is_empty() || walk.cannot_stay(&left)).then_some(walk.cases).filter(|cases| accepts(cases))
     })
@@ -144,6 +147,8 @@ struct Walk<'a> {
     task: &'a Task,
     /// The first item of which it is looked what rules it out.
     first: usize,
+    /// For how what is turned lies and hangs, metres.
+    room: f64,
     /// Whether it is told how what lies that was turned.
     tells_turned: bool,
     rule_out: RuleOut<'a>,
@@ -214,7 +219,7 @@ impl Walk<'_> {
             let mut poses = at.state.poses.clone();
             let others = self.hidden_after(at).iter().filter(|object| Some(**object) != at.state.released);
             others.for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
-            let scene = State { poses, ..at.state.clone() }.scene(task, None);
+            let scene = self.certain(State { poses, ..at.state.clone() }.scene(task, None));
             let stuck = (self.rule_out)(&scene, [at.state.q; 2]).unwrap_or_default();
             let is_ruled_out = !stuck.is_empty();
             let from = Some(at.state.q);
@@ -326,8 +331,8 @@ impl Walk<'_> {
         let task = self.only(&pairs[own]);
         let first = if is_asked { 0 } else { usize::MAX };
         let rule_out: RuleOut = &mut |_, _| None;
-        let (accepts, cases, hidden) = (self.accepts, Vec::new(), Vec::new());
-        let mut walk = Walk { task: &task, first, tells_turned: false, rule_out, accepts, cases, hidden };
+        let (accepts, room, cases, hidden) = (self.accepts, self.room, Vec::new(), Vec::new());
+        let mut walk = Walk { task: &task, first, room, tells_turned: false, rule_out, accepts, cases, hidden };
         let picked = walk.step(&[Self::alone(entry, pairs, own)], false)?;
         walk.step(&picked, false)
     }
@@ -346,9 +351,9 @@ impl Walk<'_> {
         // Where only what is carried is looked at it is no matter how many pairs there are.
         let firsts = if pairs.len() > MOST_PAIRS { 1..2 } else { 0..2 };
         firsts.rev().find_map(|first| {
-            let (rule_out, accepts) = (&mut *self.rule_out, self.accepts);
+            let (rule_out, accepts, room) = (&mut *self.rule_out, self.accepts, self.room);
             let (cases, hidden) = (Vec::new(), hidden.clone());
-            let mut walk = Walk { task: &task, first, tells_turned: false, rule_out, accepts, cases, hidden };
+            let mut walk = Walk { task: &task, first, room, tells_turned: false, rule_out, accepts, cases, hidden };
             walk.until(1, starts.clone())?.is_empty().then_some(walk.cases).filter(|cases| accepts(cases))
         })
     }
@@ -401,7 +406,11 @@ impl Walk<'_> {
         let held = at.state.held.clone().filter(|held| is_known(held.grip));
         let mut poses = at.state.poses.clone();
         self.hidden_after(at).iter().for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
-        State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked()).certainly_pressed()
+        self.certain(State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked()))
+    }
+
+    fn certain(&self, scene: Scene) -> Scene {
+        scene.certain(self.task.obstacle_number(0), self.room)
     }
 
     /// What is where while the tool is lowered where a step ends, but for what is picked, as far as a checker knows.
@@ -414,7 +423,7 @@ impl Walk<'_> {
         let payload = scene.payload().cloned().map(|payload| Payload { heights, ..payload });
         let mut workspace = scene.workspace().clone();
         workspace.obstacles[task.obstacle_number(object)] = task.objects[object].lying(None);
-        Some(Scene::handling_trusted(arm, workspace, payload, &[]).certainly_pressed())
+        Some(self.certain(Scene::handling_trusted(arm, workspace, payload, &[])))
     }
 }
 

@@ -39,7 +39,8 @@ impl Carried {
     pub fn hung(&self, arm: &Arm, corners: &[Corner]) -> Result<Hung, CheckError> {
         let (shape, heights) = (part(&self.hanging, corners)?, self.heights.clone());
         let pressed = self.pressed.as_ref();
-        let pressed = pressed.map(|own| own.as_ref().map_err(Clone::clone).and_then(|own| part(own, corners)));
+        let named = |own: &Obstacle| part(own, &self.hanging.moved_corners(own, corners));
+        let pressed = pressed.map(|own| own.as_ref().map_err(Clone::clone).and_then(named));
         let (body, about_tip) = match self.is_level {
             false => (Body { link: 1, shape, heights }, None),
             true => (Body { heights, ..arm.tip.clone() }, Some(shape)),
@@ -48,7 +49,7 @@ impl Carried {
     }
 }
 
-/// A convex part of what hangs that is named by its corners in its own frame, or by those that were these once, as it hangs.
+/// A convex part of what hangs that is named by its corners in its own frame, as it hangs.
 fn part(hanging: &Obstacle, corners: &[Corner]) -> Result<Shape, CheckError> {
     let own = hanging.clone().moved([0, 0].map(Interval::whole), [0, 1].map(Interval::whole));
     let Shape { points, radius } = own.part(corners)?;

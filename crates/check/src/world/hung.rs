@@ -1,6 +1,6 @@
 //! What of an object keeps off others while it hangs on the arm.
 
-use super::obstacle::Outline;
+use super::obstacle::{Outline, nearest};
 use super::{Obstacle, Read, point};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
@@ -56,6 +56,16 @@ impl Obstacle {
         Ok(Self { outline, ..self.clone() })
     }
 
+    /// Where the corners of it that are nearest to these are in what is pressed of it.
+    pub fn moved_corners(&self, pressed: &Self, given: &[Corner]) -> Vec<Corner> {
+        let (Outline::Polygon(rings), Outline::Polygon(smaller)) = (&self.outline, &pressed.outline) else {
+            return given.to_vec();
+        };
+        let own: Vec<Point> = rings.iter().flat_map(|ring| bent(ring)).map(|corner| point(&corner)).collect();
+        let moved = |at: &Corner| smaller.iter().flatten().nth(nearest(&own, &point(at))?).cloned();
+        given.iter().filter_map(moved).collect()
+    }
+
     fn hull(&self, corners: &[Corner]) -> Shape {
         let radius =
             if let Outline::Circle(_, radius) = &self.outline { Interval::from(radius) } else { Interval::whole(0) };
@@ -93,13 +103,14 @@ fn bent(ring: &[Corner]) -> Vec<Corner> {
 }
 
 /// A ring whose corners are moved by a length, halfway between its sides: to what it surrounds, or away from there. None where that turns it
-/// over, or it has corners that are too sharp to tell.
+/// over, or it has corners that are too sharp to tell. In the order of the ring.
 fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Corner>> {
     let turns_left = |ring: &[Corner]| {
         let doubled = edges(ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));
         doubled.fold(Decimal::whole(0), |sum, area| &sum + &area).sign() == Sign::Plus
     };
-    if turns_left(&ring) == outwards {
+    let turns_over = turns_left(&ring) == outwards;
+    if turns_over {
         ring.reverse();
     }
     let points: Vec<Point> = ring.iter().map(point).collect();
@@ -118,8 +129,12 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
         let moved = sum(&points[k], &times(&along(&[-&y, x])?, &by));
         Some(moved.map(|c| Decimal::dyadic(&c.middle().0, BITS)))
     };
-    let moved = (0..points.len()).map(corner).collect::<Option<Vec<_>>>();
-    moved.filter(|moved| turns_left(moved) != outwards)
+    let mut moved =
+        (0..points.len()).map(corner).collect::<Option<Vec<_>>>().filter(|moved| turns_left(moved) != outwards)?;
+    if turns_over {
+        moved.reverse();
+    }
+    Some(moved)
 }
 
 #[cfg(test)]

@@ -143,7 +143,7 @@ impl Obstacle {
 }
 
 /// Which of the places is nearest, as the middles of their enclosures have it.
-fn nearest(places: &[Point], to: &Point) -> Option<usize> {
+pub(super) fn nearest(places: &[Point], to: &Point) -> Option<usize> {
     let distance = |place: &Point| {
         let [x, y] = [0, 1].map(|k| (&place[k] - &to[k]).middle().0);
         &x * &x + &y * &y
