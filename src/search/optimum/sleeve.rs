@@ -48,7 +48,8 @@ impl Strips<'_> {
         (from <= goal.x && goal.x <= to && lower <= goal.y && goal.y <= upper).then_some(sleeve)
     }
 
-    /// Portals along both sides of a wall between two places at a slice, as far as it goes; where the way is then.
+    /// Portals along both sides of a wall between two places at a slice, as far as it goes; where the way is then. None of a wall that goes all
+    /// round a joint, and so has no end.
     fn around_end(&mut self, from: Point, to: Point, ahead: bool, sleeve: &mut Vec<Portal>) -> Option<Point> {
         let slice = self.around(to.x).last().copied().filter(|slice| self.q1(*slice) == to.x && from.x == to.x)?;
         let mut sides = [from, to];
@@ -67,6 +68,9 @@ impl Strips<'_> {
             back.push(portal(x, second, !ahead));
             let nearest = |y: f64, free: [f64; 2]| Point::new(x, y.clamp(free[0], free[1]));
             sides = [nearest(sides[0].y, first), nearest(sides[1].y, second)];
+            if back.len() > self.count() {
+                return None;
+            }
         }
         sleeve.extend(back.into_iter().rev());
         Some(to)

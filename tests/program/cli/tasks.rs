@@ -367,3 +367,22 @@ fn supports_that_recede_are_drawn() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     assert!(place.read("plan.svg").contains("</svg>") && place.read("plan.html").contains("\"worlds\""));
 }
+
+/// A bar that fits into a bay in few directions: a wall in the configuration space goes all round the first joint, and a path that is to be
+/// pulled taut around its end finds none.
+#[test]
+fn walls_all_round_a_joint_have_no_end() {
+    let place = Place::new();
+    place.write(
+        "w.toml",
+        "[robot]\npayload = \"level\"\n[start]\njoints = [-0.5, 1.0]\n[[obstacle]]\nheight = [-2, -1]\n\
+         polyline = [[0.3, 0.7], [0.4, 0.6], [0.6, 0.7], [0.5, 0.8], [0.3, 0.8]]\n[[object]]\nname = \"bar\"\n\
+         polygon = [[0.05, -0.001], [-0.043, 0.001], [-0.05, 0.001]]\nat = [0.742, -1.169]\nheight = [-2, -1]\n\
+         [[step]]\npick = \"bar\"\n[[step]]\nplace = { at = [0.4, 0.7] }\n",
+    );
+    let urdf = shipped("robots/planar_2r_continuous.urdf");
+    let done = place.run(&[&urdf, "w.toml"], "--quiet --output plan.json --certificate c.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let checked = cplan_check::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
+    assert!(checked.is_ok_and(|said| said.contains("does all 2 steps")));
+}
