@@ -94,6 +94,7 @@ impl Payload {
             };
             parts.extend(left.enumerate().flat_map(of_piece));
         }
+        parts.retain(|(number, ..)| !reading.takes_for_nothing(&self.pieces[*number]));
         let Some(room) = reading.room else { return parts };
         let off = taken_off(&self.pieces, room);
         parts.into_iter().filter_map(|(number, shape, kind)| Some((number, shape.eroded(off)?, kind))).collect()

@@ -88,6 +88,11 @@ pub(super) struct Reading {
 impl Reading {
     /// What may meet does, and nothing is left out.
     pub const ALL: Self = Self { meet: Meet::Perhaps, pressed: AT_MOST, room: None, farthest: f64::INFINITY };
+
+    /// Whether a piece is perhaps nothing without rounding, and so no evidence.
+    pub fn takes_for_nothing(&self, piece: &Convex) -> bool {
+        self.meet == Meet::Surely && piece.is_sliver()
+    }
 }
 
 /// More pairs out of reach are left out of a search: with fewer it is as fast.
@@ -158,21 +163,19 @@ impl Scene {
             let stands = obstacle < standing && reading.farthest.is_finite();
             stands && separation(&base, piece).distance > reading.farthest
         };
-        let is_nothing = |piece: &Convex| reading.meet == Meet::Surely && piece.is_sliver();
-        let is_left_out = |obstacle: usize, piece: &Convex| is_far(obstacle, piece) || is_nothing(piece);
+        let is_left_out = |obstacle: usize, piece: &Convex| is_far(obstacle, piece) || reading.takes_for_nothing(piece);
         let left_out = |(number, o): (usize, &Obstacle)| o.pieces.iter().map(|p| is_left_out(number, p)).collect();
-        let left_out: Vec<Vec<bool>> = workspace.all().enumerate().map(left_out).collect();
+        let may_leave_out = reading.farthest.is_finite() || reading.meet == Meet::Surely;
+        let left_out: Vec<Vec<bool>> =
+            if may_leave_out { workspace.all().enumerate().map(left_out).collect() } else { Vec::new() };
         // What is made of pieces comes after them, all for one piece of the payload after all for another.
-        let is_kept = |pair: &Pair| !left_out[pair.obstacle][pair.piece % left_out[pair.obstacle].len()];
-        let is_carried_nothing =
-            |p: &Part| payload.as_ref().is_some_and(|payload| is_nothing(&payload.pieces[p.number]));
+        let is_kept = |pair: &Pair| left_out.get(pair.obstacle).is_none_or(|all| !all[pair.piece % all.len()]);
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
                 let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
                 let as_high = |(_, o): &(usize, &Obstacle)| reading.meet.holds(p.heights, o.heights);
                 for (obstacle, o) in workspace.all().enumerate().filter(as_high) {
                     let pieces = match meetable {
-                        Some(_) if is_carried_nothing(p) => 0..0,
                         Some(meetable) => meetable[obstacle].clone(),
                         None if link == 1 && allowed_contacts.contains(&obstacle) => 0..0,
                         None => 0..o.pieces.len(),
