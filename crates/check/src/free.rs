@@ -232,7 +232,7 @@ impl Chain {
     /// Sine and cosine of how what hangs on a link lies, or back.
     fn turn(&self, link: usize, [sine, cosine]: &[Interval; 2], back: bool, values: &Point) -> [Interval; 2] {
         let by = [0, 1].map(|joint| joint <= link && matches!(self.motions[joint], Motion::Turn(_)));
-        let [x, y] = self.still(&vec![Term { by, back, at: [cosine.clone(), sine.clone()], slide: None }], values);
+        let [x, y] = self.still(&[Term { by, back, at: [cosine.clone(), sine.clone()], slide: None }], values);
         [y, x]
     }
 
@@ -241,7 +241,7 @@ impl Chain {
         self.still(&self.seen(1, p), values)
     }
 
-    fn still(&self, terms: &Terms, values: &Point) -> Point {
+    fn still(&self, terms: &[Term], values: &Point) -> Point {
         Posture::new(self, Tube::still(values.clone())).moving(terms).at
     }
 }

@@ -29,11 +29,14 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
             let at = piece.at(f64::from(look) / f64::from(LOOKS));
             // Corners may be passed between two places, but only nearby.
             let near = 2.0 * within + (at - before).norm();
-            let mut found: Vec<usize> = Vec::new();
+            let (mut found, mut next): (Vec<usize>, usize) = (Vec::new(), 0);
             for &leg in &legs {
-                let passed = q[leg + 1..].iter().take_while(|corner| (*corner - at).norm() <= near).count();
-                let first = found.last().map_or(leg, |last| leg.max(last + 1));
-                found.extend((first..=(leg + passed).min(last)).filter(|leg| off(at, *leg) <= within));
+                // From one that was passed it gets no farther.
+                if leg >= next {
+                    let passed = q[leg + 1..].iter().take_while(|corner| (*corner - at).norm() <= near).count();
+                    next = (leg + passed).min(last) + 1;
+                    found.extend((leg..next).filter(|leg| off(at, *leg) <= within));
+                }
             }
             if found.is_empty() {
                 let off = (0..=last).map(|leg| off(at, leg)).fold(f64::INFINITY, f64::min);

@@ -297,10 +297,10 @@ fn ruled_out(problem: &MotionProblem) -> (Vec<StuckBox>, Vec<Configuration>) {
 
 /// The widest box about a piece in all of which something remains that is in its way.
 fn stuck_about(scene: &Scene, piece: &Segment) -> Option<StuckBox> {
-    let [from, to] = piece.ends();
+    let (scene, [from, to]) = (&*scene.inner(), piece.ends());
     let ranges = scene.arm().topology().ranges.map(|range| range.domain());
     // What may pass over or under an obstacle proves nothing.
-    let obstructions = scene.inner().obstructions(piece.at(0.5));
+    let obstructions = scene.obstructions(piece.at(0.5));
     MARGINS.into_iter().find_map(|margin| {
         let room = ranges.map(|(lower, upper)| margin * (upper - lower));
         let lower = [0, 1].map(|k| from[k].min(to[k]) - room[k]);

@@ -7,9 +7,10 @@ use crate::check::StuckBox;
 use crate::engine::task::{RefutedCase, StepReport, Turned, refuted};
 use crate::engine::{Options, Verdict, solve};
 use crate::geometry::{Convex, can_be_drawn_in, corner_to_corner, stays_convex};
-use crate::model::{Action, Arm, Joint, MotionProblem, Object, Payload, RecordedStep, Scene, Task, taken_off};
+use crate::model::{Action, Arm, Joint, MotionProblem, Object, Payload, RecordedStep, Scene, Step, Task, taken_off};
 use crate::space::{Configuration, Segment};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::iter;
 
 /// The steps of a planned task, whose motion is among the results.
@@ -62,7 +63,9 @@ pub(super) fn cases(task: &Task, last: usize) -> Option<Evidence> {
     let are_told = |cases: &[RefutedCase]| cases.iter().all(|case| told_of(arm, case) >= NEARLY_STRETCHED);
     // Of what presses into supports the parts of a piece have each its own corners.
     let mut parts = task.clone();
-    parts.objects.iter_mut().for_each(|object| object.pieces = corner_to_corner(&object.pieces).concat());
+    for object in pressed(task) {
+        parts.objects[object].pieces = corner_to_corner(&task.objects[object].pieces).concat();
+    }
     let mut room = 0.0_f64;
     for _ in 0..MOST_LOOKS {
         let cases = refuted(&parts, last, room, &mut rule_out, &are_told)?;
@@ -81,17 +84,24 @@ fn told_of(arm: &Arm, case: &RefutedCase) -> f64 {
     case.from.map_or(MOST_TOLD, |q| tells_apart(arm, q))
 }
 
+/// Objects that rest on something where a step takes or places them.
+fn pressed(task: &Task) -> BTreeSet<usize> {
+    let mut picked = None;
+    let rests = |step: &Step| {
+        picked = step.action.picked().or(picked);
+        let (Action::Pick { supports, .. } | Action::Place { supports, .. }) = &step.action else { return None };
+        picked.filter(|_| !supports.is_empty())
+    };
+    task.steps().filter_map(rests).collect()
+}
+
 /// Whether a checker can move the corners of all that rests on something inwards; and, for proofs about it, name their corners.
 ///
 /// # Errors
 /// [`NoCertificate::Outline`].
 pub(super) fn checkable(task: &Task, is_proof: bool) -> Result<(), NoCertificate> {
     let allowance = Payload::penetration_allowance(&task.arm);
-    let mut picked = None;
-    for step in task.steps() {
-        picked = step.action.picked().or(picked);
-        let (Action::Pick { supports, .. } | Action::Place { supports, .. }) = &step.action else { continue };
-        let Some(object) = picked.filter(|_| !supports.is_empty()) else { continue };
+    for object in pressed(task) {
         let Object { name, pieces, .. } = &task.objects[object];
         if !can_be_drawn_in(pieces, allowance) || (is_proof && !stays_convex(pieces, allowance)) {
             return Err(NoCertificate::Outline(name.clone()));

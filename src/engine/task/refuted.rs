@@ -22,7 +22,7 @@ pub struct RefutedCase {
     pub held: Option<usize>,
     /// What it has let go of, turned as it happened to be; none where that is no matter.
     pub turned: Vec<Turned>,
-    /// What is where, with what the arm holds as it presses into its supports for certain.
+    /// What is where for certain: objects smaller by the room, and what the arm holds as it presses into its supports at least.
     pub scene: Scene,
     /// Configurations that are not free.
     pub stuck: Vec<StuckBox>,
@@ -147,7 +147,7 @@ struct Walk<'a> {
     task: &'a Task,
     /// The first item of which it is looked what rules it out.
     first: usize,
-    /// For how what is turned lies and hangs, metres.
+    /// For how objects lie and hang, metres.
     room: f64,
     /// Whether it is told how what lies that was turned.
     tells_turned: bool,
@@ -399,6 +399,15 @@ impl Walk<'_> {
 
     /// What is where while a step is done, as far as a checker knows.
     fn scene(&self, at: &At, step: &Step) -> Scene {
+        self.certain(self.known(at, step))
+    }
+
+    fn certain(&self, scene: Scene) -> Scene {
+        scene.certain(self.task.obstacle_number(0), self.room)
+    }
+
+    /// The same, with all as large as it is.
+    fn known(&self, at: &At, step: &Step) -> Scene {
         let is_known = |grip: Grip| match grip {
             Grip::Rigid(_) => at.has_just_picked || is_gantry(&self.task.arm),
             Grip::Level { .. } => self.task.wrist.is_none() || !at.state.may_turn(self.task),
@@ -406,11 +415,7 @@ impl Walk<'_> {
         let held = at.state.held.clone().filter(|held| is_known(held.grip));
         let mut poses = at.state.poses.clone();
         self.hidden_after(at).iter().for_each(|object| Arc::make_mut(&mut poses)[*object] = None);
-        self.certain(State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked()))
-    }
-
-    fn certain(&self, scene: Scene) -> Scene {
-        scene.certain(self.task.obstacle_number(0), self.room)
+        State { held, poses, ..at.state.clone() }.scene(self.task, step.action.picked())
     }
 
     /// What is where while the tool is lowered where a step ends, but for what is picked, as far as a checker knows.
@@ -419,7 +424,7 @@ impl Walk<'_> {
         let object = step.action.picked().or(at.state.held.as_ref().map(|held| held.object));
         let object = object.filter(|_| !matches!(step.action, Action::Move(_)))?;
         let (arm, heights) = task.lowered(object, matches!(step.action, Action::Place { .. }))?;
-        let scene = self.scene(at, step);
+        let scene = self.known(at, step);
         let payload = scene.payload().cloned().map(|payload| Payload { heights, ..payload });
         let mut workspace = scene.workspace().clone();
         workspace.obstacles[task.obstacle_number(object)] = task.objects[object].lying(None);

@@ -129,8 +129,8 @@ fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (
 ///
 /// It is the shortest way of [`least_length`] among obstacles that are grown by `kept`: strips are cut where it leads deeper
 /// into these than by most of that, and where the judge says so. Among finer strips the way is pulled taut through the portals
-/// that it passes, which takes a small part of the time of a search; where the judge takes such a way for too long, all later ones are
-/// searched for. None if that does not get there, as where a passage is narrower than `kept` leaves it.
+/// that it passes, which takes a small part of the time of a search; where the judge takes such a way for too long, or refuses the same one
+/// twice, all later ones are searched for. None if that does not get there, as where a passage is narrower than `kept` leaves it.
 #[must_use]
 pub fn short_motion(
     motions: &Motions,
@@ -178,6 +178,8 @@ pub fn short_motion(
         if !is_finer || refused * scene.pairs().len() > MOST_REFUSED {
             return None;
         }
+        // Finer strips do not show it what is in its way: the next one is searched for.
+        is_pulled &= corners != last;
         last = corners;
     }
     None

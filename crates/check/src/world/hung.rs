@@ -109,8 +109,8 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
         let doubled = edges(ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));
         doubled.fold(Decimal::whole(0), |sum, area| &sum + &area).sign() == Sign::Plus
     };
-    let turns_over = turns_left(&ring) == outwards;
-    if turns_over {
+    let is_reversed = turns_left(&ring) == outwards;
+    if is_reversed {
         ring.reverse();
     }
     let points: Vec<Point> = ring.iter().map(point).collect();
@@ -131,7 +131,7 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
     };
     let mut moved =
         (0..points.len()).map(corner).collect::<Option<Vec<_>>>().filter(|moved| turns_left(moved) != outwards)?;
-    if turns_over {
+    if is_reversed {
         moved.reverse();
     }
     Some(moved)
@@ -153,6 +153,11 @@ mod tests {
             for text in ["0 0 1 0 1 1 0 1", "0 0 0 1 1 1 1 0", "0 0 0.5 0 1 0 1 1 0 1"] {
                 let moved = inset(bent(&ring(text)), outwards, &by).unwrap();
                 assert_eq!(moved.len(), 4);
+                let is_beside = |(own, moved): (&Corner, &Corner)| {
+                    let half = |c: &Decimal| *c > "0.5".parse().unwrap();
+                    own.each_ref().map(half) == moved.each_ref().map(half)
+                };
+                assert!(bent(&ring(text)).iter().zip(&moved).all(is_beside), "{text}: {moved:?}");
                 let near = |a: &Decimal, b: &str| {
                     let off = a - &b.parse().unwrap();
                     off < Decimal::power_of_ten(9) && -&off < Decimal::power_of_ten(9)
