@@ -1,4 +1,4 @@
-//! Passages of a few cells.
+//! Passages of a few cells, and walls that strips of joint 1 are seldom fine enough for.
 
 use super::{Place, shipped};
 
@@ -14,4 +14,36 @@ fn fields_find_a_passage_of_three_cells_without_a_finer_grid() {
         let cells = result["size"]["cells"].as_u64().unwrap();
         assert!((10_000..=256 * 256).contains(&cells), "{planner}: {cells} cells");
     }
+}
+
+/// A slide of hundreds of metres beside a star: a way pulled taut leads through its side however fine strips are. It is searched for anew,
+/// and not left to a visibility graph after millions of strips.
+#[test]
+fn ways_through_walls_are_searched_for_anew() {
+    let place = Place::new();
+    let shape = |at: &str, size: &str| {
+        format!("<collision><origin xyz=\"{at} 0 0\"/><geometry><box size=\"{size} 100 100\"/></geometry></collision>")
+    };
+    let joint = |name: &str, kind: &str, [parent, child]: [&str; 2], axis: &str, rest: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/><axis xyz=\"{axis}\"/>{rest}</joint>"
+        )
+    };
+    let slide = "<origin xyz=\"101 0 0\"/><limit lower=\"-1000\" upper=\"308\" effort=\"1\" velocity=\"3000\"/>";
+    let links =
+        format!("<link name=\"l1\">{}</link><link name=\"l2\">{}</link>", shape("-93", "388"), shape("456", "1439"));
+    let joints = joint("turn", "continuous", ["base", "l1"], "0 0 1", "")
+        + &joint("slide", "prismatic", ["l1", "l2"], "1 0 0", slide);
+    place.write("crane.urdf", format!("<robot name=\"crane\"><link name=\"base\"/>{links}{joints}</robot>"));
+    place.write(
+        "w.toml",
+        "clearance = 1.0\n[start]\njoints = [-0.836678, -785.563]\n[goal]\njoints = [0.983404, -590.242]\n[[obstacle]]\n\
+         polyline = [[513, -13], [987, 889], [-18, 717], [-729, 1447], [-876, 438], [-1790, -13], [-876, -464], [-729, -1473], \
+         [-18, -743], [987, -916], [513, -13]]\n",
+    );
+    let done = place.run(&["crane.urdf", "w.toml"], "--output plan.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let plan: serde_json::Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+    assert!(plan["optimum"]["gap"].as_f64().unwrap() <= 1e-4, "{}", done.stdout);
+    assert!(done.stdout.contains(" slices"), "{}", done.stdout);
 }
