@@ -79,7 +79,8 @@ pub(super) struct Reading {
     meet: Meet,
     /// By which share of what a payload may press into its supports its corners are moved.
     pub pressed: f64,
-    /// How well it is known at least how objects lie and hang, metres, where they are taken for smaller by that.
+    /// By how much a payload is smaller at least, all round each piece, metres, as it is not known better how it hangs; none: it is as large
+    /// as it is.
     pub room: Option<f64>,
     /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
     farthest: f64,
