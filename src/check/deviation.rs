@@ -65,8 +65,9 @@ impl Deviation {
 pub struct Posture<'a> {
     scene: &'a Scene,
     q: Configuration,
-    poses: [Pose; 2],
-    elbow: Point,
+    poses: [Pose; 3],
+    /// Where joint 2 is, here and with joint 1 at zero.
+    elbows: [Point; 2],
 }
 
 /// A pair at a posture: its distance there, and the least it can come to.
@@ -114,8 +115,10 @@ impl<'a> Posture<'a> {
     /// The arm of `scene` at `q`.
     #[must_use]
     pub fn new(scene: &'a Scene, q: Configuration) -> Self {
-        let poses = scene.arm().poses(q);
-        Self { scene, q, poses, elbow: poses[0] * Point::from(scene.arm().offset) }
+        let poses = scene.arm().pair_poses(q);
+        let offset = Point::from(scene.arm().offset);
+        let at_zero = scene.arm().pose(0, Configuration::new(0.0, q[1])) * offset;
+        Self { scene, q, poses, elbows: [poses[0] * offset, at_zero] }
     }
 
     /// The configuration.
@@ -271,12 +274,14 @@ impl<'a> Posture<'a> {
     fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
         let arm = self.scene.arm();
         let first = match arm.joints[0].joint_type {
+            _ if link == 2 => 0.0,
             JointType::Revolute { sign } => sign * n.dot(&perpendicular(x - arm.base)),
             JointType::Prismatic { direction } => n.dot(&direction),
         };
         let second = match arm.joints[1].joint_type {
             _ if link == 0 => 0.0,
-            JointType::Revolute { sign } => sign * n.dot(&perpendicular(x - self.elbow)),
+            JointType::Revolute { sign } => sign * n.dot(&perpendicular(x - self.elbows[link - 1])),
+            JointType::Prismatic { direction } if link == 2 => n.dot(&direction),
             JointType::Prismatic { direction } => n.dot(&(self.poses[0].rotation * direction)),
         };
         [first, second]
@@ -290,6 +295,8 @@ impl<'a> Posture<'a> {
         let none = Curvature { center: Point::origin(), shift: 0.0, factor: 0.0, constant: 0.0 };
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => Curvature { factor: d1, ..none },
+            (2, _, Revolute { .. }) => Curvature { factor: d2, ..none },
+            (2, _, Prismatic { .. }) => none,
             (_, Revolute { .. }, Revolute { .. }) => {
                 Curvature { factor: turn_of_link_2(arm, deviation), constant: arm.offset.norm() * d1 * d1, ..none }
             }
@@ -309,6 +316,8 @@ impl<'a> Posture<'a> {
         let [d1, d2] = deviation.each();
         let about_base = Curvature { center: arm.base, shift: 0.0, factor: 0.0, constant: 0.0 };
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
+            (2, _, Revolute { .. }) => Curvature { center: self.elbows[1], factor: d2, ..about_base },
+            (2, _, Prismatic { .. }) => about_base,
             (0, Revolute { .. }, _) | (_, Revolute { .. }, Prismatic { .. }) => Curvature { factor: d1, ..about_base },
             // y = R(-phi) (p - base) - R(-q2) offset
             (_, Revolute { .. }, Revolute { .. }) => {
@@ -316,7 +325,7 @@ impl<'a> Posture<'a> {
                 Curvature { factor: turn_of_link_2(arm, deviation), constant, ..about_base }
             }
             (1, Prismatic { .. }, Revolute { .. }) => {
-                Curvature { center: self.elbow, shift: d1, factor: d2, constant: 2.0 * d1 * d2 }
+                Curvature { center: self.elbows[0], shift: d1, factor: d2, constant: 2.0 * d1 * d2 }
             }
             _ => about_base,
         }
@@ -335,6 +344,8 @@ impl<'a> Posture<'a> {
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => reach * d1,
             (0, Prismatic { .. }, _) => d1,
+            (2, _, Revolute { .. }) => reach * d2,
+            (2, _, Prismatic { .. }) => d2,
             (_, Revolute { .. }, Revolute { .. }) => arm.offset.norm() * d1 + reach * turn_of_link_2(arm, deviation),
             (_, Revolute { .. }, Prismatic { direction }) => {
                 ((arm.offset + direction * self.q[1]).norm() + d2 + reach) * d1 + d2

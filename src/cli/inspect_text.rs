@@ -2,6 +2,7 @@
 
 use crate::input::{
     Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, RateEntry, RateSource, Role,
+    SelfObstacleEntry,
 };
 use crate::text::{Columns, counted};
 
@@ -39,6 +40,7 @@ pub fn text(report: &Inspection) -> String {
         lines.add("plane", plane.words.trim_start_matches("plane: "));
     }
     report.outlines.iter().for_each(|o| outline(&mut lines, o));
+    report.self_obstacles.iter().for_each(|own| self_obstacle(&mut lines, own));
     if let (Some(reach), Some(tip)) = (&report.reach, &report.tip) {
         let [x, y] = reach.tip;
         lines.add("tip", &format!("origin of link \"{tip}\", at ({x:.4}, {y:.4}) m with both joints at zero"));
@@ -185,6 +187,14 @@ fn outline(lines: &mut Columns, outline: &OutlineEntry) {
             &format!("  of it \"{}\": {}, {:.6} m2", body.link, counted(body.parts, "part"), body.area),
         );
     }
+}
+
+fn self_obstacle(lines: &mut Columns, own: &SelfObstacleEntry) {
+    let SelfObstacleEntry { link, moves, heights: [lower, upper], ignored } = own;
+    let hit_by = if *moves { "link 2" } else { "both links" };
+    let free: Vec<String> = ignored.iter().map(|link| format!("\"{link}\"")).collect();
+    let except = if free.is_empty() { String::new() } else { format!(", except {}", free.join(", ")) };
+    lines.add("own body", &format!("\"{link}\": in the way of {hit_by}{except}; heights {lower:.4} to {upper:.4} m"));
 }
 
 fn vector(d: [f64; 3]) -> String {

@@ -257,6 +257,7 @@ mod tests {
             tip_name: "tip".into(),
             plane,
             dynamics: None,
+            self_obstacles: Vec::new(),
         }
     }
 

@@ -66,7 +66,7 @@ fn crossings(contour: &[Point], p: Point) -> usize {
 /// axis its copies shifted by whole turns belong to it. For pictures and as input of the union.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CObstacle {
-    /// Into the workspace's obstacles.
+    /// As in [`Pair::obstacle`].
     pub obstacle: usize,
     /// Which link would hit it.
     pub link: usize,
@@ -132,7 +132,7 @@ pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
     let level = scene.workspace().clearance;
     let contour = |pair: &Pair| {
         checkpoint();
-        if pair.link == 0 {
+        if pair.link != 1 {
             return None;
         }
         let (part, piece) = (scene.part(*pair), scene.piece(*pair));
@@ -163,13 +163,13 @@ fn periods(scene: &Scene) -> [Option<f64>; 2] {
     scene.arm().joints.each_ref().map(|joint| joint.joint_type.is_revolute().then_some(TAU))
 }
 
-/// What each obstacle of the workspace blocks within the limits, on a circle within `[-pi, pi]`, given the contours of the
+/// What each obstacle of the workspace, then each of the arm's self obstacles, blocks within the limits, on a circle within `[-pi, pi]`, given the contours of the
 /// [`c_obstacles`]: disjoint polygons an obstacle, cut at the seams of circles.
 #[must_use]
 pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<Polygon>> {
     let window = scene.arm().topology().ranges.map(JointRange::domain);
     let of = |number: usize| contours.iter().filter(move |c| c.obstacle == number).map(|c| c.contour.as_slice());
-    let obstacles = 0..scene.workspace().obstacles.len();
+    let obstacles = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
     obstacles.map(|number| blocked_space(window, periods(scene), of(number))).collect()
 }
 
@@ -198,7 +198,7 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
     for (index, pair) in scene.pairs().iter().enumerate() {
         checkpoint();
         let contours = match (pair.link, &map) {
-            (0, _) => bands(&slices, index, level + tolerance, OVERLAP * level.min(1.0)),
+            (0 | 2, _) => bands(&slices, index, level + tolerance, OVERLAP * level.min(1.0)),
             (_, Some(map)) => {
                 let (part, piece) = (scene.part(*pair), scene.piece(*pair));
                 vec![translation::contour(scene.arm(), map, part, piece, level, tolerance)]
@@ -223,17 +223,29 @@ pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
 }
 
 /// The values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end: the overlap
-/// closes the seam between the copies of a whole turn.
+/// closes the seam between the copies of a whole turn. Of a pair of link 2 and link 1 the values of `q2`, for all `q1`.
 fn bands(slices: &Contacts, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
     let domain = |joint: &Joint| if joint.joint_type.is_revolute() { (-PI, PI) } else { joint.range.domain() };
-    let [first, second] = &slices.scene().arm().joints;
-    let mut spans = Vec::new();
-    if slices.first_link(index, level, &mut spans) == Hits::Always {
-        spans = vec![<[f64; 2]>::from(domain(first))];
+    let folds = slices.scene().pairs()[index].link == 2;
+    let mut joints: Vec<&Joint> = slices.scene().arm().joints.iter().collect();
+    if folds {
+        joints.reverse();
     }
-    let (lower, upper) = domain(second);
+    let mut spans = Vec::new();
+    let hits = match folds {
+        true => slices.second_link(index, 0.0, level, &mut spans),
+        false => slices.first_link(index, level, &mut spans),
+    };
+    if hits == Hits::Always {
+        spans = vec![<[f64; 2]>::from(domain(joints[0]))];
+    }
+    let (lower, upper) = domain(joints[1]);
     let corners = |[a, b]: [f64; 2]| {
-        [(a, lower - pad), (b, lower - pad), (b, upper + pad), (a, upper + pad)].map(|(x, y)| Point::new(x, y)).to_vec()
+        let corners = match folds {
+            true => [(lower - pad, a), (upper + pad, a), (upper + pad, b), (lower - pad, b)],
+            false => [(a, lower - pad), (b, lower - pad), (b, upper + pad), (a, upper + pad)],
+        };
+        corners.map(|(x, y)| Point::new(x, y)).to_vec()
     };
     spans.into_iter().map(corners).collect()
 }

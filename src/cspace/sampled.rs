@@ -29,7 +29,7 @@ pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     for index in 0..grid.blocked.len() {
         checkpoint();
         let q: Configuration = grid.center(index);
-        let poses = scene.arm().poses(q).map(|p| pose(&p));
+        let poses = scene.arm().pair_poses(q).map(|p| pose(&p));
         grid.blocked[index] = pairs.iter().any(|(link, part, piece)| part.meets(&poses[*link], piece));
     }
     grid

@@ -1,7 +1,7 @@
 //! Which stretches of a segment along one joint are free, exactly.
 
 use super::slices::Slice;
-use crate::geometry::{Features, Vector, merge_in_place};
+use crate::geometry::{Features, Vector, merge_in_place, separation};
 use crate::model::{Carried, Contacts, Scene, on_axis};
 use crate::space::{Configuration, Segment};
 
@@ -56,6 +56,13 @@ fn along_first(scene: &Scene, q2: f64, grow: f64) -> Vec<[f64; 2]> {
     let (mut forbidden, mut scratch) = (Vec::new(), Vec::new());
     for &pair in scene.pairs() {
         let part = scene.part(pair);
+        if pair.link == 2 {
+            // Joint 1 carries both.
+            if separation(&part.at(&second), scene.piece(pair)).distance <= grow {
+                return vec![[f64::NEG_INFINITY, f64::INFINITY]];
+            }
+            continue;
+        }
         let part = if pair.link == 0 {
             Carried::new(joint.joint_type, part)
         } else {

@@ -57,6 +57,8 @@ pub const CHANNEL: Rgb = Rgb(0xf6, 0xe3, 0xa1);
 pub const FREE: Rgb = Rgb(0xd3, 0xee, 0xda);
 /// Boxes of which nothing is known: grey, which no obstacle is.
 pub const MIXED: Rgb = Rgb(0xae, 0xb3, 0xbb);
+/// Links of the robot that stand still.
+pub const ROBOT: Rgb = Rgb(0x8a, 0x90, 0x98);
 /// Regions that fields avoid, and that they prefer.
 pub const AVOIDED: Rgb = Rgb(0xc4, 0x6a, 0x1d);
 pub const PREFERRED: Rgb = Rgb(0x2b, 0x7a, 0x78);

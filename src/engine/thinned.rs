@@ -35,7 +35,8 @@ impl Thinned {
 
     /// The pair that a pair of the thinned scene is in truth.
     pub fn in_truth(&self, pair: Pair) -> Pair {
-        let (kept, all) = &self.kept[pair.obstacle];
+        // Links of the robot keep all their pieces.
+        let Some((kept, all)) = self.kept.get(pair.obstacle) else { return pair };
         // What a level payload makes of the pieces is numbered after them, once or several times over.
         Pair { piece: pair.piece / kept.len() * all + kept[pair.piece % kept.len()], ..pair }
     }

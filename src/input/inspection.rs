@@ -33,6 +33,8 @@ pub struct Inspection {
     pub plane: Option<PlaneEntry>,
     /// Outlines of the two links, if they could be made.
     pub outlines: Vec<OutlineEntry>,
+    /// Links of the robot that its other links can hit.
+    pub self_obstacles: Vec<SelfObstacleEntry>,
     /// How far the arm reaches.
     pub reach: Option<ReachEntry>,
     /// What was not taken into account, and why.
@@ -226,6 +228,19 @@ pub struct BodyEntry {
     pub parts: usize,
     /// Sum of their areas, square metres.
     pub area: f64,
+}
+
+/// A link of the robot, or a layer of it, that links further along the chain can hit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SelfObstacleEntry {
+    /// The URDF link.
+    pub link: String,
+    /// Whether joint 1 carries it; else it stands still.
+    pub moves: bool,
+    /// Extent along the plane's normal, metres.
+    pub heights: [f64; 2],
+    /// URDF links further along the chain that are free to meet it.
+    pub ignored: Vec<String>,
 }
 
 /// How far the arm reaches.

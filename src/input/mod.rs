@@ -64,7 +64,7 @@ pub use explorable::Explorable;
 pub use identity::{FileIdentity, read_from};
 pub use inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
-    RateEntry, RateSource, ReachEntry, Role,
+    RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry,
 };
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};

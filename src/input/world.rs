@@ -138,6 +138,11 @@ pub(super) struct RobotTable {
     /// Acceleration of free fall in the robot's root frame, m/s2; by default [0, 0, -9.81].
     #[schemars(with = "Option<[f64; 3]>")]
     pub gravity: Option<Numbers>,
+    /// Whether links of the robot are in the way of its other links; by default true.
+    pub own_body: Option<bool>,
+    /// Pairs of the robot's links that may touch each other.
+    #[schemars(with = "Option<Vec<[String; 2]>>")]
+    pub ignore_contact: Option<Vec<Spanned<Vec<Spanned<String>>>>>,
     /// Radius of the capsule that stands in for a link without geometry, m.
     #[schemars(with = "Option<Positive>")]
     pub bar: Option<Number>,

@@ -62,7 +62,7 @@ fn reply(obstruction: &Obstruction) -> HitReply {
     let contact = &obstruction.contact;
     let distance = contact.separation.distance;
     HitReply {
-        link: contact.pair.link,
+        link: contact.pair.link.min(1),
         obstacle: contact.pair.obstacle,
         // Exact predicates may know of a contact that the distance does not show.
         distance: if obstruction.touches { distance.min(0.0) } else { distance },
@@ -87,7 +87,7 @@ fn in_the_way(scene: &Scene, what: &str, blocked: &[(Configuration, Vec<Obstruct
 
 fn in_words(scene: &Scene, hit: &Obstruction) -> String {
     let (part, distance) = (scene.describe_part(hit.contact.pair), hit.contact.separation.distance);
-    let obstacle = &scene.workspace().obstacles[hit.contact.pair.obstacle].name;
+    let obstacle = scene.obstacle_name(hit.contact.pair);
     if !hit.touches {
         let wanted = millimetres(scene.workspace().clearance);
         return format!(

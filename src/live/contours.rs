@@ -18,6 +18,8 @@ struct Known {
     of: Option<(Arm, f64)>,
     /// In the order of the last scene's obstacles.
     entries: Vec<Entry>,
+    /// Those of the arm's self obstacles, each with its number among them.
+    own: Vec<CObstacle>,
 }
 
 #[derive(Clone)]
@@ -43,7 +45,7 @@ impl Contours {
         let found = {
             let mut known = self.known.borrow_mut();
             if known.of != of {
-                *known = Known { of, entries: Vec::new() };
+                *known = Known { of, entries: Vec::new(), own: own(scene) };
             }
             known.found(obstacles)
         };
@@ -55,8 +57,11 @@ impl Contours {
             let numbered = |contour: &CObstacle| CObstacle { obstacle: number, ..contour.clone() };
             entry.contours.iter().map(numbered).collect::<Vec<_>>()
         };
-        let contours = entries.iter().enumerate().flat_map(numbered).collect();
-        self.known.borrow_mut().entries = entries;
+        let mut contours: Vec<CObstacle> = entries.iter().enumerate().flat_map(numbered).collect();
+        let mut known = self.known.borrow_mut();
+        known.entries = entries;
+        let first = scene.self_obstacles().start;
+        contours.extend(known.own.iter().map(|own| CObstacle { obstacle: first + own.obstacle, ..own.clone() }));
         contours
     }
 }
@@ -74,13 +79,23 @@ impl Known {
     }
 }
 
+/// The contours of the arm's self obstacles.
+fn own(scene: &Scene) -> Vec<CObstacle> {
+    if scene.arm().self_obstacles.is_empty() {
+        return Vec::new();
+    }
+    let workspace = Workspace { obstacles: Vec::new(), movers: Vec::new(), ..scene.workspace().clone() };
+    output::contours(&Scene::trusted(scene.arm().clone(), workspace))
+}
+
 /// The contours of some obstacles, one entry for each.
 fn traced(scene: &Scene, wanted: &[usize]) -> Vec<Entry> {
     let obstacles: Vec<Obstacle> = wanted.iter().map(|&k| scene.workspace().obstacles[k].clone()).collect();
     let entry = |o: &Obstacle| Entry { pieces: o.pieces.clone(), heights: o.heights, contours: Vec::new() };
     let mut entries: Vec<Entry> = obstacles.iter().map(entry).collect();
     let workspace = Workspace { obstacles, preferences: Vec::new(), ..scene.workspace().clone() };
-    for contour in output::contours(&Scene::trusted(scene.arm().clone(), workspace)) {
+    let arm = Arm { self_obstacles: Vec::new(), ..scene.arm().clone() };
+    for contour in output::contours(&Scene::trusted(arm, workspace)) {
         entries[contour.obstacle].contours.push(contour);
     }
     entries

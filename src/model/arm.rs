@@ -1,6 +1,6 @@
 //! The planar two-joint arm and its kinematics.
 
-use super::{Dynamics, Joint, JointType, Link};
+use super::{Dynamics, Joint, JointType, Link, SelfObstacle};
 use crate::geometry::{ConvexError, Point, Pose, Vector, perpendicular};
 use crate::space::{Configuration, Topology};
 use nalgebra::{Isometry2, Translation2, Vector3};
@@ -52,6 +52,9 @@ pub struct Arm {
     /// Masses and efforts, if they are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamics: Option<Dynamics>,
+    /// Links of the robot that are in the way of its other links.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub self_obstacles: Vec<SelfObstacle>,
 }
 
 impl Arm {
@@ -71,6 +74,7 @@ impl Arm {
             tip_name: "tip".into(),
             plane,
             dynamics: None,
+            self_obstacles: Vec::new(),
         }
     }
 
@@ -110,6 +114,7 @@ impl Arm {
                 body.center = turn * body.center;
             }
         }
+        arm.self_obstacles.iter_mut().for_each(|own| own.obstacle.move_by(place));
         arm
     }
 
@@ -130,9 +135,10 @@ impl Arm {
         }
     }
 
-    /// Pose of link 1 (`index` 0) or link 2 (`index` 1).
+    /// Pose of link 1 (`index` 0), of link 2 (1), or of link 2 while joint 1 stays at zero (2): how it lies to link 1.
     #[must_use]
     pub fn pose(&self, index: usize, q: Configuration) -> Pose {
+        let q = if index == 2 { Configuration::new(0.0, q[1]) } else { q };
         let first = Translation2::from(self.base.coords) * motion(self.joints[0].joint_type, q[0]);
         if index == 0 {
             return first;
@@ -143,8 +149,16 @@ impl Arm {
     /// Both link poses.
     #[must_use]
     pub fn poses(&self, q: Configuration) -> [Pose; 2] {
-        let first = self.pose(0, q);
-        [first, first * Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1])]
+        let [first, second, _] = self.pair_poses(q);
+        [first, second]
+    }
+
+    /// The poses by which a pair's part is placed, by [`super::Pair::link`].
+    #[must_use]
+    pub fn pair_poses(&self, q: Configuration) -> [Pose; 3] {
+        let second = Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1]);
+        let [first, at_zero] = [q[0], 0.0].map(|value| self.pose(0, Configuration::new(value, 0.0)));
+        [first, first * second, at_zero * second]
     }
 
     /// A length that bounds how far the outlines and the tip reach from joint 1 with both joints at zero; the size of

@@ -19,8 +19,10 @@ pub struct Contacts<'a> {
     pairs: Vec<Prepared>,
     parts: Vec<PreparedPart>,
     pieces: Vec<PreparedPiece>,
-    /// The first part and the first pair of link 2.
+    /// The first part and the first pair of link 2; those of link 2 as it lies to link 1 are among them.
     second: (usize, usize),
+    /// Where joint 2 is with joint 1 at zero, and the direction of link 1's x axis.
+    at_zero: (Point, Vector),
 }
 
 /// A pair, by numbers.
@@ -43,6 +45,8 @@ struct PreparedPiece {
 /// A part, prepared for the joint that carries it.
 #[derive(Debug, Clone)]
 struct PreparedPart {
+    /// As in [`Pair::link`].
+    link: usize,
     carried: Carried,
     /// Reach from the base of all that the part can occupy, metres.
     reach: f64,
@@ -68,7 +72,7 @@ impl PreparedPart {
         };
         let pieces = BoxTree::new(pairs.iter().map(|&pair| scene.piece(pair).bounds()).collect());
         let reach = sweep.as_ref().unwrap_or(&carried).shape().reach_from(Point::origin());
-        Self { carried, reach, sweep, pairs: from..from + pairs.len(), pieces }
+        Self { link: pairs[0].link, carried, reach, sweep, pairs: from..from + pairs.len(), pieces }
     }
 
     fn near(&self, elbow: Point, grow: f64, found: &mut Vec<u32>) {
@@ -105,7 +109,8 @@ impl<'a> Contacts<'a> {
         }
         let first_part = parts.partition_point(|part: &PreparedPart| part.sweep.is_none());
         let second = (first_part, parts.get(first_part).map_or(pairs.len(), |part| part.pairs.start));
-        Self { scene, pairs, parts, pieces, second }
+        let at_zero = elbow(scene, 0.0);
+        Self { scene, pairs, parts, pieces, second, at_zero }
     }
 
     fn part(&self, pair: Prepared) -> &PreparedPart {
@@ -143,7 +148,15 @@ impl<'a> Contacts<'a> {
     /// The numbers of the pairs, ascending, in which a part of link 2 can come within `grow` of something with joint 2 at `elbow`, and
     /// of some others.
     pub fn near(&self, part: usize, elbow: Point, grow: f64, found: &mut Vec<u32>) {
-        self.parts[part].near(elbow, grow, found);
+        let part = &self.parts[part];
+        part.near(if part.link == 2 { self.at_zero.0 } else { elbow }, grow, found);
+    }
+
+    /// Where joint 2 is for pair `index`, of link 2, and the direction of link 1's x axis, when the elbow is at `here`: there, except for
+    /// what joint 1 carries, too.
+    #[must_use]
+    pub fn frame(&self, index: usize, here: (Point, Vector)) -> (Point, Vector) {
+        if self.pairs[index].link == 2 { self.at_zero } else { here }
     }
 
     /// The scene that was prepared.
@@ -179,6 +192,9 @@ impl<'a> Contacts<'a> {
     /// If the pair is of link 1, or there is none of that number.
     pub fn reach_range(&self, index: usize, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         let pair = self.pairs[index];
+        if pair.link == 2 {
+            return Hits::Always;
+        }
         let sweep = self.part(pair).sweep.as_ref().expect("a pair of link 2");
         sweep.hits(self.scene.arm().base, Vector::x(), self.piece(pair), grow, out)
     }
@@ -195,6 +211,9 @@ impl<'a> Contacts<'a> {
     #[must_use]
     pub fn motion(&self, index: usize, step: f64, clearance: f64) -> f64 {
         let pair = self.pairs[index];
+        if pair.link == 2 {
+            return 0.0;
+        }
         let touched = self.pieces[pair.piece as usize].reach + clearance;
         self.chord(self.part(pair).reach.min(touched), step)
     }
@@ -202,7 +221,8 @@ impl<'a> Contacts<'a> {
     /// Farthest that any point of a part can move, metres, while joint 1 moves by at most `step` and joint 2 not at all.
     #[must_use]
     pub fn motion_of(&self, part: usize, step: f64) -> f64 {
-        self.chord(self.parts[part].reach, step)
+        let part = &self.parts[part];
+        if part.link == 2 { 0.0 } else { self.chord(part.reach, step) }
     }
 
     /// How far from the base the part of pair `index` is at most, whatever joint 2 does, while joint 1 stands at zero, metres.
@@ -232,8 +252,7 @@ impl<'a> Contacts<'a> {
     /// Where joint 2 is at `q1`, and the direction of link 1's x axis.
     #[must_use]
     pub fn elbow(&self, q1: f64) -> (Point, Vector) {
-        let pose = self.scene.arm().pose(0, Configuration::new(q1, 0.0));
-        (pose * Point::from(self.scene.arm().offset), pose * Vector::x())
+        elbow(self.scene, q1)
     }
 
     /// [`Contacts::second_link`] with the elbow at hand.
@@ -242,7 +261,14 @@ impl<'a> Contacts<'a> {
     /// If the pair is of link 1, or there is none of that number.
     pub fn at_elbow(&self, index: usize, elbow: Point, heading: Vector, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         let pair = self.pairs[index];
-        assert_eq!(pair.link, 1, "a pair of link 2");
+        assert_ne!(pair.link, 0, "a pair of link 2");
+        let (elbow, heading) = self.frame(index, (elbow, heading));
         self.part(pair).carried.hits(elbow, heading, self.piece(pair), grow, out)
     }
+}
+
+/// Where joint 2 is at `q1`, and the direction of link 1's x axis.
+fn elbow(scene: &Scene, q1: f64) -> (Point, Vector) {
+    let pose = scene.arm().pose(0, Configuration::new(q1, 0.0));
+    (pose * Point::from(scene.arm().offset), pose * Vector::x())
 }

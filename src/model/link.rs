@@ -32,6 +32,9 @@ pub struct Part {
     /// payload's piece.
     #[serde(default, skip_serializing_if = "is_first")]
     pub number: usize,
+    /// Whether it is the URDF link's `<visual>` geometry, which has no `<collision>` geometry.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_visual: bool,
     /// Extent along the plane's normal in the root frame.
     pub heights: Heights,
     /// The URDF link that the geometry belongs to.
@@ -58,7 +61,8 @@ impl Link {
     /// A link of these shapes, at all heights; no shapes for one that cannot collide.
     #[must_use]
     pub fn of(name: &str, shapes: impl IntoIterator<Item = Convex>) -> Self {
-        let part = |shape| Part { shape, inner: None, number: 0, heights: Heights::ALL, body: name.into() };
+        let part =
+            |shape| Part { shape, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: name.into() };
         let parts: Vec<Part> = shapes.into_iter().map(part).collect();
         let source = if parts.is_empty() { OutlineSource::None } else { OutlineSource::Collision };
         Self { name: name.into(), parts, source }

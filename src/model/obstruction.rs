@@ -39,7 +39,7 @@ impl Scene {
     }
 
     fn worst<'a>(&self, q: Configuration, pieces: impl Iterator<Item = (Pair, Cow<'a, Convex>)>) -> Vec<Obstruction> {
-        let poses = self.arm().poses(q);
+        let poses = self.arm().pair_poses(q);
         let mut worst: Vec<Obstruction> = Vec::new();
         for (pair, piece) in pieces {
             let part = self.part(pair).at(&poses[pair.link]);
@@ -68,13 +68,11 @@ impl Scene {
     pub fn explain(&self, obstruction: &Obstruction) -> String {
         let Contact { pair, separation } = obstruction.contact;
         let part = self.describe_part(pair);
-        let (obstacle, moves) = (self.obstacle_name(pair), if self.mover(pair).is_some() { "moving " } else { "" });
+        let obstacle = self.describe_obstacle(pair.obstacle);
         let distance = separation.distance;
         if !obstruction.touches {
             let clearance = self.workspace().clearance;
-            return format!(
-                "{part} is {distance:.6} m from {moves}obstacle \"{obstacle}\", nearer than the clearance of {clearance} m"
-            );
+            return format!("{part} is {distance:.6} m from {obstacle}, nearer than the clearance of {clearance} m");
         }
         let depth = (-distance).max(0.0);
         let how = match depth {
@@ -82,6 +80,6 @@ impl Scene {
             _ if depth >= DEEP => format!("{depth:.4} m deep"),
             _ => format!("{depth:.2e} m deep"),
         };
-        format!("{part} hits {moves}obstacle \"{obstacle}\", {how}")
+        format!("{part} hits {obstacle}, {how}")
     }
 }

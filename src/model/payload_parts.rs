@@ -1,8 +1,8 @@
 //! What is carried, as parts of link 2: whole, and for its supports smaller by what it may press into them.
 
-use super::scene::Reading;
-use super::{Arm, Grip, Part, Payload, Workspace};
-use crate::geometry::{Convex, drawn_in};
+use super::scene::{Reading, obstacles};
+use super::{Arm, Carrier, Grip, Part, Payload, Workspace};
+use crate::geometry::{Convex, Point, drawn_in};
 use nalgebra::{Isometry2, Translation2};
 use std::ops::Range;
 
@@ -51,19 +51,25 @@ impl Payload {
                 }
             };
             let mut meetable = Vec::new();
-            for (number, obstacle) in workspace.all().enumerate() {
+            let first_self = workspace.obstacles.len() + workspace.movers.len();
+            for (number, obstacle) in obstacles(arm, workspace).enumerate() {
                 let own = obstacle.pieces.len();
-                let meets = self.meets(kind, number);
+                let link = number.checked_sub(first_self).map(|link| arm.self_obstacles[link].carrier);
+                // How something level lies to what joint 1 carries is not known: it is covered all round, which is no evidence.
+                let is_turned = level.is_some() && link == Some(Carrier::FirstJoint);
+                let meets = self.meets(kind, number) && !(is_turned && reading.is_evidence());
                 let nearer = kind.nearer(workspace.clearance);
                 if !meets || (level.is_none() && nearer == 0.0) {
                     meetable.push(0..if meets { own } else { 0 });
                     continue;
                 }
                 // What moves has its pieces in its own frame, which does not turn where something level is carried.
-                let mover = number.checked_sub(workspace.obstacles.len()).map(|mover| &workspace.movers[mover]);
+                let mover = number.checked_sub(workspace.obstacles.len()).and_then(|mover| workspace.movers.get(mover));
                 let turned = mover.map(|mover| Isometry2::rotation(-mover.course.stops()[0].angle));
                 let seen = |level: &Convex| turned.map_or_else(|| level.clone(), |turned| level.at(&turned));
-                let level = level.as_ref().map(seen);
+                let all_round =
+                    |level: &Convex| Convex::trusted(vec![Point::origin()], level.reach_from(Point::origin()));
+                let level = level.as_ref().map(|level| if is_turned { all_round(level) } else { seen(level) });
                 let made = &mut differences[number];
                 let first = own + made.len();
                 made.extend(obstacle.pieces.iter().map(|piece| match &level {
@@ -73,7 +79,8 @@ impl Payload {
                 meetable.push(first..own + made.len());
             }
             let (heights, body) = (self.heights, self.object.clone());
-            parts.push((Part { shape: on_link, inner: None, number: piece, heights, body }, meetable));
+            parts
+                .push((Part { shape: on_link, inner: None, number: piece, is_visual: false, heights, body }, meetable));
         }
         parts
     }

@@ -3,20 +3,24 @@
 use super::payload_parts::{AT_MOST, SURELY, taken_off};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
-use super::{Arm, Dynamics, Heights, Joint, Mover, Obstacle, Part, Payload, SceneError, Workspace};
+use super::{
+    Arm, Carrier, Dynamics, Grip, Heights, Joint, Link, Mover, Obstacle, Part, Payload, SceneError, SelfObstacle,
+    Workspace,
+};
 use crate::geometry::{Convex, Separation, separation};
 use crate::space::{Configuration, JointRange};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Pair {
-    /// 0 or 1.
+    /// 0 or 1; 2 for link 2 as it lies to link 1, and the obstacle is carried by joint 1.
     pub link: usize,
     /// Into the link's parts.
     pub part: usize,
-    /// Into the workspace's obstacles; beyond these, into what moves.
+    /// Into the workspace's obstacles; beyond these, into what moves; beyond that, into the arm's self obstacles.
     pub obstacle: usize,
     /// Into the obstacle's pieces; beyond these, what is made of them for a payload.
     pub piece: usize,
@@ -50,7 +54,7 @@ pub struct Scene {
     pairs: Vec<Pair>,
     /// The same with what moves.
     moving: Vec<Pair>,
-    /// Of each obstacle, and of each mover after them, what a level payload makes of its pieces, and of supports what is met of them.
+    /// For each obstacle, mover and self obstacle, in this order: what a level payload makes of its pieces, and of supports what is met of them.
     differences: Vec<Vec<Convex>>,
 }
 
@@ -90,6 +94,11 @@ impl Reading {
     /// What may meet does, and nothing is left out.
     pub const ALL: Self = Self { meet: Meet::Perhaps, pressed: AT_MOST, room: None, farthest: f64::INFINITY };
 
+    /// Whether what is hit proves something.
+    pub fn is_evidence(&self) -> bool {
+        self.meet == Meet::Surely || self.room.is_some()
+    }
+
     /// Whether a piece is perhaps nothing without rounding, and so no evidence.
     pub fn takes_for_nothing(&self, piece: &Convex) -> bool {
         self.meet == Meet::Surely && piece.is_sliver()
@@ -101,6 +110,11 @@ const MANY_OUT_OF_REACH: usize = 200;
 
 /// By which share rounding may make a distance too large or a reach too small, and much more.
 const ROUNDING: f64 = 1e-9;
+
+/// All obstacles in the order in which a scene numbers them: those of the workspace, those that move, links of the robot.
+pub(super) fn obstacles<'a>(arm: &'a Arm, workspace: &'a Workspace) -> impl Iterator<Item = &'a Obstacle> {
+    workspace.all().chain(arm.self_obstacles.iter().map(|own| &own.obstacle))
+}
 
 impl Scene {
     /// Puts the arm into the workspace.
@@ -153,12 +167,13 @@ impl Scene {
     ) -> Self {
         debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
         let own_parts = arm.links[1].parts.len();
-        let mut differences = vec![Vec::new(); workspace.obstacles.len() + workspace.movers.len()];
+        let mut differences = vec![Vec::new(); obstacles(&arm, &workspace).count()];
         let carried =
             payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &reading, &mut differences));
         arm.links[1].parts.extend(carried.iter().map(|(part, _)| part.clone()));
-        let (mut pairs, mut moving) = (Vec::new(), Vec::new());
+        let (mut pairs, mut moving, mut folding) = (Vec::new(), Vec::new(), Vec::new());
         let standing = workspace.obstacles.len();
+        let movers = standing..standing + workspace.movers.len();
         let base = Convex::point(arm.base);
         let is_far = |obstacle: usize, piece: &Convex| {
             let stands = obstacle < standing && reading.farthest.is_finite();
@@ -168,24 +183,39 @@ impl Scene {
         let left_out = |(number, o): (usize, &Obstacle)| o.pieces.iter().map(|p| is_left_out(number, p)).collect();
         let may_leave_out = reading.farthest.is_finite() || reading.meet == Meet::Surely;
         let left_out: Vec<Vec<bool>> =
-            if may_leave_out { workspace.all().enumerate().map(left_out).collect() } else { Vec::new() };
+            if may_leave_out { obstacles(&arm, &workspace).enumerate().map(left_out).collect() } else { Vec::new() };
         // What is made of pieces comes after them, all for one piece of the payload after all for another.
         let is_kept = |pair: &Pair| left_out.get(pair.obstacle).is_none_or(|all| !all[pair.piece % all.len()]);
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
                 let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
-                let as_high = |(_, o): &(usize, &Obstacle)| reading.meet.holds(p.heights, o.heights);
-                for (obstacle, o) in workspace.all().enumerate().filter(as_high) {
+                let is_own = link == 0 || part < own_parts;
+                let can_meet = |(number, o): &(usize, &Obstacle)| match number.checked_sub(movers.end) {
+                    None => reading.meet.holds(p.heights, o.heights),
+                    // Links of a robot lie on each other.
+                    Some(number) => {
+                        let SelfObstacle { carrier, ignored, .. } = &arm.self_obstacles[number];
+                        let can_hit = link == 1 || *carrier == Carrier::Base;
+                        can_hit && Meet::Surely.holds(p.heights, o.heights) && !(is_own && ignored.contains(&p.body))
+                    }
+                };
+                for (obstacle, o) in obstacles(&arm, &workspace).enumerate().filter(can_meet) {
                     let pieces = match meetable {
                         Some(meetable) => meetable[obstacle].clone(),
                         None if link == 1 && allowed_contacts.contains(&obstacle) => 0..0,
                         None => 0..o.pieces.len(),
                     };
-                    let among = if obstacle < standing { &mut pairs } else { &mut moving };
+                    let own = obstacle.checked_sub(movers.end).map(|number| arm.self_obstacles[number].carrier);
+                    let (among, link) = match own {
+                        None if movers.contains(&obstacle) => (&mut moving, link),
+                        Some(Carrier::FirstJoint) => (&mut folding, 2),
+                        _ => (&mut pairs, link),
+                    };
                     among.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }).filter(is_kept));
                 }
             }
         }
+        pairs.extend(folding);
         let allowed_contacts = allowed_contacts.to_vec();
         Self { arm, workspace, payload, allowed_contacts, own_parts, reading, pairs, moving, differences }
     }
@@ -195,12 +225,15 @@ impl Scene {
     #[must_use]
     pub(crate) fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
-        let heights = || parts().flat_map(|part| self.workspace.all().map(|obstacle| (part.heights, obstacle.heights)));
+        let all = || obstacles(&self.arm, &self.workspace);
+        let heights = || parts().flat_map(|part| all().map(|obstacle| (part.heights, obstacle.heights)));
         let is_exact = self.reading.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
+        let is_level = self.payload.as_ref().is_some_and(|payload| matches!(payload.grip, Grip::Level { .. }));
+        let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
         let carried = self.payload.iter().flat_map(|payload| &payload.pieces);
-        let mut pieces = self.workspace.all().flat_map(|obstacle| &obstacle.pieces).chain(carried);
+        let mut pieces = all().flat_map(|obstacle| &obstacle.pieces).chain(carried);
         let is_whole = self.reading.meet == Meet::Surely || !pieces.any(Convex::is_sliver);
-        if is_exact && is_whole && parts().all(|part| part.inner.is_none()) {
+        if is_exact && is_whole && !is_covered && parts().all(|part| part.inner.is_none()) {
             return Cow::Borrowed(self);
         }
         let shrink = |part: &mut Part| {
@@ -384,17 +417,22 @@ impl Scene {
         self.workspace.movers.get(pair.obstacle.wrapping_sub(self.workspace.obstacles.len()))
     }
 
+    /// The link of a pair's part.
+    #[must_use]
+    pub fn link(&self, pair: Pair) -> &Link {
+        &self.arm.links[pair.link.min(1)]
+    }
+
     /// The link part of a pair, in its link's frame.
     #[must_use]
     pub fn part(&self, pair: Pair) -> &Convex {
-        &self.arm.links[pair.link].parts[pair.part].shape
+        &self.link(pair).parts[pair.part].shape
     }
 
     /// The obstacle piece of a pair, or what is made of it for a payload, in plane coordinates; of what moves, in its own frame.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
-        let standing = || &self.workspace.obstacles[pair.obstacle];
-        let own = &self.mover(pair).map_or_else(standing, |mover| &mover.obstacle).pieces;
+        let own = &self.obstacle(pair.obstacle).pieces;
         own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
     }
 
@@ -406,7 +444,7 @@ impl Scene {
 
     /// Signed distance of every pair at `q`, in the order of [`Scene::pairs`].
     pub fn separations(&self, q: Configuration) -> impl Iterator<Item = Contact> + '_ {
-        let poses = self.arm.poses(q);
+        let poses = self.arm.pair_poses(q);
         self.pairs.iter().map(move |&pair| Contact {
             pair,
             separation: separation(&self.part(pair).at(&poses[pair.link]), self.piece(pair)),
@@ -425,23 +463,68 @@ impl Scene {
         self.closest(q).map_or(f64::INFINITY, |c| c.separation.distance)
     }
 
+    /// The obstacle of a number: of the workspace, one that moves (in its own frame), or a link of the robot.
+    ///
+    /// # Panics
+    /// If there is none of that number.
+    #[must_use]
+    pub fn obstacle(&self, number: usize) -> &Obstacle {
+        let standing = self.workspace.obstacles.len();
+        if let Some(obstacle) = self.workspace.obstacles.get(number) {
+            return obstacle;
+        }
+        let moving = self.workspace.movers.get(number - standing).map(|mover| &mover.obstacle);
+        moving.unwrap_or_else(|| &self.arm.self_obstacles[number - standing - self.workspace.movers.len()].obstacle)
+    }
+
+    /// The arm's self obstacle of a number; none if that is another obstacle.
+    #[must_use]
+    pub fn self_obstacle(&self, number: usize) -> Option<&SelfObstacle> {
+        self.arm.self_obstacles.get(number.checked_sub(self.self_obstacles().start)?)
+    }
+
+    /// Numbers of the arm's self obstacles: after those of the obstacles and of what moves.
+    #[must_use]
+    pub fn self_obstacles(&self) -> Range<usize> {
+        let first = self.workspace.obstacles.len() + self.workspace.movers.len();
+        first..first + self.arm.self_obstacles.len()
+    }
+
+    /// Of a link of the robot in layers the number of the first; of another obstacle its own number.
+    #[must_use]
+    pub fn first_layer(&self, number: usize) -> usize {
+        let name = &self.obstacle(number).name;
+        let mut layers = self.self_obstacles().filter(|&layer| self.obstacle(layer).name == *name);
+        if number < self.self_obstacles().start { number } else { layers.next().unwrap_or(number) }
+    }
+
     /// The pair in words: `link "forearm" and obstacle "shelf"`.
     #[must_use]
     pub fn describe(&self, pair: Pair) -> String {
-        format!("{} and obstacle \"{}\"", self.describe_part(pair), self.obstacle_name(pair))
+        format!("{} and {}", self.describe_part(pair), self.describe_obstacle(pair.obstacle))
+    }
+
+    /// An obstacle in words: `obstacle "shelf"`, `moving obstacle "cart"`, `link "base_link"`.
+    #[must_use]
+    pub fn describe_obstacle(&self, number: usize) -> String {
+        let kind = match number.checked_sub(self.workspace.obstacles.len()) {
+            None => "obstacle",
+            Some(number) if number < self.workspace.movers.len() => "moving obstacle",
+            Some(_) => "link",
+        };
+        format!("{kind} \"{}\"", self.obstacle(number).name)
     }
 
     /// The name of what a part can meet in a pair.
     #[must_use]
     pub fn obstacle_name(&self, pair: Pair) -> &str {
-        let standing = || &self.workspace.obstacles[pair.obstacle];
-        &self.mover(pair).map_or_else(standing, |mover| &mover.obstacle).name
+        &self.obstacle(pair.obstacle).name
     }
 
     /// Whether a pair's part is the payload's.
     #[must_use]
     pub fn is_payload(&self, pair: Pair) -> bool {
-        pair.link == 1 && pair.part >= self.own_parts
+        pair.link > 0 && pair.part >= self.own_parts
     }
 
     /// Which of the payload's pieces a pair is about, be it by what is made of that for supports; none if it is about the arm itself.
@@ -454,7 +537,7 @@ impl Scene {
     /// The piece of the obstacle that a pair is about, in its place, whatever is made of it for a payload.
     #[must_use]
     pub(crate) fn obstacle_piece(&self, pair: Pair) -> &Convex {
-        let pieces = &self.workspace.obstacles[pair.obstacle].pieces;
+        let pieces = &self.obstacle(pair.obstacle).pieces;
         // What is made of them comes after them, all for one piece of the payload after all for another.
         &pieces[pair.piece % pieces.len()]
     }
@@ -462,7 +545,7 @@ impl Scene {
     /// What a pair's part belongs to, in words: `link "forearm" (body "gripper")`, `payload "part"`.
     #[must_use]
     pub fn describe_part(&self, pair: Pair) -> String {
-        let link = &self.arm.links[pair.link];
+        let link = self.link(pair);
         let body = &link.parts[pair.part].body;
         if self.is_payload(pair) {
             format!("payload \"{body}\"")

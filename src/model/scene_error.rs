@@ -1,6 +1,6 @@
 //! What arm, obstacles and what is carried must be to make a scene.
 
-use super::{Arm, Body, Dynamics, Grip, Heights, Joint, JointType, Payload, Plane, Workspace};
+use super::{Arm, Body, Dynamics, Grip, Heights, Joint, JointType, Obstacle, Payload, Plane, Workspace};
 use crate::geometry::{Convex, Point, Pose, separation};
 use crate::space::JointRange;
 
@@ -170,6 +170,7 @@ fn check_arm(arm: &Arm) -> Result<(), SceneError> {
         return Err(SceneError::Plane);
     }
     arm.dynamics.as_ref().map_or(Ok(()), check_dynamics)?;
+    arm.self_obstacles.iter().map(|own| &own.obstacle).try_for_each(check_obstacle)?;
     arm.links.iter().flat_map(|link| &link.parts).try_for_each(|part| {
         check_size(&part.body, [&part.shape])?;
         if part.inner.as_ref().is_some_and(|inner| !covers(&part.shape, inner)) {
@@ -241,15 +242,17 @@ pub(super) fn check_range(joint: &str, range: JointRange) -> Result<(), SceneErr
 fn check_workspace(workspace: &Workspace) -> Result<(), SceneError> {
     check_clearance(workspace.clearance)?;
     let moving = workspace.movers.iter().map(|mover| &mover.obstacle);
-    workspace.obstacles.iter().chain(moving).try_for_each(|obstacle| {
-        check_size(&obstacle.name, &obstacle.pieces)?;
-        check_heights(&obstacle.name, obstacle.heights)
-    })?;
+    workspace.obstacles.iter().chain(moving).try_for_each(check_obstacle)?;
     let is_unit = |[x, y]: [f64; 2]| (x.hypot(y) - 1.0).abs() <= UNIT_ROUNDING;
     match workspace.preferences.iter().find(|p| !(p.epsilon.is_finite() && p.direction.is_none_or(is_unit))) {
         Some(preference) => Err(SceneError::Preference { name: preference.name.clone() }),
         None => Ok(()),
     }
+}
+
+fn check_obstacle(obstacle: &Obstacle) -> Result<(), SceneError> {
+    check_size(&obstacle.name, &obstacle.pieces)?;
+    check_heights(&obstacle.name, obstacle.heights)
 }
 
 pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {

@@ -83,6 +83,7 @@ impl Scene {
             JointType::Prismatic { .. } => moves[1],
         };
         let first = match arm.joints[0].joint_type {
+            _ if pair.link == 2 => 0.0,
             JointType::Revolute { .. } => moves[0] * (from_base + second),
             JointType::Prismatic { .. } => moves[0],
         };

@@ -168,6 +168,14 @@ impl Obstacle {
     }
 }
 
+impl Obstacle {
+    /// Moves it by `pose`.
+    pub(super) fn move_by(&mut self, pose: &Pose) {
+        self.shape = self.shape.at(pose);
+        self.pieces.iter_mut().for_each(|piece| *piece = piece.at(pose));
+    }
+}
+
 fn points(coordinates: impl IntoIterator<Item = [f64; 2]>) -> Vec<Point> {
     coordinates.into_iter().map(Point::from).collect()
 }

@@ -256,6 +256,7 @@ fn contours_in_time(scene: &Scene, [from, to]: [f64; 2], most: usize) -> Moments
     let moment = |k: f64| {
         let time = from + (to - from) * k / count;
         let mut all = contours(&alone.frozen(time));
+        all.retain(|c_obstacle| (standing..standing + scene.workspace().movers.len()).contains(&c_obstacle.obstacle));
         all.iter_mut().for_each(|c_obstacle| c_obstacle.obstacle -= standing);
         (time, all)
     };

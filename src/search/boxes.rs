@@ -132,7 +132,7 @@ impl<'a> Subdivision<'a> {
         let mut this = Self { scene, topology, clearance, nodes: Vec::new(), roots: 0 };
         let (bottom, top) = topology.ranges[1].domain();
         let row = |j: usize| if j == FIRST { top } else { bottom + (top - bottom) * j as f64 / FIRST as f64 };
-        let second: Vec<Pair> = scene.pairs().iter().copied().filter(|p| p.link == 1).collect();
+        let second: Vec<Pair> = scene.pairs().iter().copied().filter(|p| p.link > 0).collect();
         // Only boxes of one column, of neighbouring columns, and of the first and the last one can be adjacent.
         let (mut end_of_first, mut previous) = (0, 0);
         for (lower, upper, state) in this.columns() {

@@ -117,8 +117,10 @@ impl<'a> SecondLink<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let contacts = Contacts::new(scene);
         let of_pairs = &scene.pairs()[contacts.second_link_pairs()];
-        let parts =
-            of_pairs.chunk_by(|a, b| a.part == b.part).map(|of_part| Deep::new(scene.part(of_part[0]))).collect();
+        let parts = of_pairs
+            .chunk_by(|a, b| (a.link, a.part) == (b.link, b.part))
+            .map(|of_part| Deep::new(scene.part(of_part[0])))
+            .collect();
         let piece = |pair: &Pair| {
             checkpoint();
             Deep::new(scene.piece(*pair))
@@ -163,7 +165,8 @@ impl<'a> SecondLink<'a> {
                 let joint = &self.contacts.scene().arm().joints[1];
                 on_axis(joint, hits, &scratch, |interval| verdicts.outer.push(interval));
                 scratch.clear();
-                let hits = self.stuck(index, level, overlap, (elbow, heading), &mut scratch);
+                let frame = self.contacts.frame(index, (elbow, heading));
+                let hits = self.stuck(index, level, overlap, frame, &mut scratch);
                 on_axis(joint, hits, &scratch, |interval| {
                     if interval[0] < interval[1] {
                         verdicts.inner.push((index, interval));
@@ -242,7 +245,8 @@ mod tests {
     fn scene(kinds: (bool, bool), offset: Vector, part: Convex, piece: Convex) -> Scene {
         let long = JointRange::Interval { lower: -4.0, upper: 4.0 };
         let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
-        let part = Part { shape: part, inner: None, number: 0, heights: Heights::ALL, body: "body".into() };
+        let part =
+            Part { shape: part, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: "body".into() };
         let arm = Arm {
             name: "arm".into(),
             joints: [joint(kinds.0, long), joint(kinds.1, if kinds.1 { JointRange::Circle } else { long })],
@@ -253,6 +257,7 @@ mod tests {
             tip_name: "tip".into(),
             plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
             dynamics: None,
+            self_obstacles: Vec::new(),
         };
         let shape = Shape::Polygon(piece.core().to_vec());
         let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };

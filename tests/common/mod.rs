@@ -65,6 +65,7 @@ pub fn link(name: &str, shapes: Vec<Convex>) -> Link {
             shape,
             inner: None,
             number: 0,
+            is_visual: false,
             heights: Heights { lower: 0.0, upper: 0.1 },
             body: name.into(),
         })
@@ -87,6 +88,7 @@ pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> 
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        self_obstacles: Vec::new(),
     }
 }
 

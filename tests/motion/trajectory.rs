@@ -28,6 +28,7 @@ fn scene(obstacle: bool) -> Scene {
         shape: disc(Point::origin(), 0.1),
         inner: None,
         number: 0,
+        is_visual: false,
         heights: Heights::ALL,
         body: "slider".into(),
     };
@@ -47,6 +48,7 @@ fn scene(obstacle: bool) -> Scene {
         tip_name: "slider".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        self_obstacles: Vec::new(),
     };
     let (center, radius) = (Point::new(9.0, 0.0), 0.5);
     let far = Obstacle {

@@ -152,7 +152,8 @@ fn gantry(obstacles: Vec<Obstacle>, clearance: f64) -> Question {
         0.0,
     )
     .expect("a square");
-    let part = Part { shape: square, inner: None, number: 0, heights: Heights::ALL, body: "block".into() };
+    let part =
+        Part { shape: square, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: "block".into() };
     let link = |name: &str, parts| Link { name: name.into(), parts, source: OutlineSource::Collision };
     let arm = Arm::new(
         [slide("x", Vector::x()), slide("y", Vector::y())],

@@ -90,7 +90,7 @@ impl Draft {
         let joints = [a.joint("one")?, b.joint("two")?];
         let link = |(count, shapes): &(u8, [ShapeDraft; 2]), name: &str| {
             let parts = shapes.iter().take(usize::from(*count) % 3);
-            let part = |s: &ShapeDraft| Part { shape: s.shape(0.125), inner: None, number: 0, heights: s.heights(), body: name.into() };
+            let part = |s: &ShapeDraft| Part { shape: s.shape(0.125), inner: None, number: 0, is_visual: false, heights: s.heights(), body: name.into() };
             Link { name: name.into(), parts: parts.map(part).collect(), source: OutlineSource::Collision }
         };
         let arm = Arm {
@@ -103,6 +103,7 @@ impl Draft {
             tip_name: "tip".into(),
             plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
             dynamics: None,
+            self_obstacles: Vec::new(),
         };
         let obstacle = |s: &ShapeDraft| {
             let piece = s.shape(0.25);

@@ -60,5 +60,6 @@ pub(super) fn held(scene: &Scene, pair: Pair, ends: [Configuration; 2], clearanc
 
 /// Whether no joint turns the part of a pair between two configurations.
 fn slides(scene: &Scene, pair: Pair, ends: [Configuration; 2]) -> bool {
-    (0..=pair.link).all(|k| ends[0][k] == ends[1][k] || !scene.arm().joints[k].joint_type.is_revolute())
+    let joints = if pair.link == 2 { 1..=1 } else { 0..=pair.link };
+    joints.into_iter().all(|k| ends[0][k] == ends[1][k] || !scene.arm().joints[k].joint_type.is_revolute())
 }

@@ -176,6 +176,8 @@ fn farthest(scene: &Scene, stuck: &StuckBox, q: Configuration, half: [f64; 2]) -
     let of_corner = |a: Vector| match (stuck.pair.link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
         (0, JointType::Revolute { .. }, _) => a.norm() * chord(half[0]),
         (0, JointType::Prismatic { .. }, _) => half[0],
+        (2, _, JointType::Revolute { .. }) => a.norm() * chord(half[1]),
+        (2, _, JointType::Prismatic { .. }) => half[1],
         (_, JointType::Revolute { .. }, JointType::Revolute { .. }) => {
             arm.offset.norm() * chord(half[0]) + a.norm() * chord(half[0] + half[1])
         }

@@ -7,7 +7,7 @@ use crate::check::CheckedProof;
 use crate::cspace::CObstacle;
 use crate::draw::color::{self, Rgb};
 use crate::geometry::{Convex, Point};
-use crate::model::{Course, Grip, Mover, Obstacle, Pair, Preference, Region, Scene, Shape};
+use crate::model::{Carrier, Course, Grip, Mover, Obstacle, Pair, Preference, Region, Scene, Shape};
 use crate::space::Configuration;
 use serde::{Serialize, Serializer};
 
@@ -39,6 +39,11 @@ impl ObstacleView {
             own: obstacle.pieces.len(),
             pieces: obstacle.pieces.iter().map(|piece| grain.shape(piece)).collect(),
         }
+    }
+
+    /// The same in the colour of the robot's own links.
+    fn of_robot(self) -> Self {
+        Self { color: color::ROBOT, ..self }
     }
 
     /// The obstacle itself as convex pieces; without any it lies nowhere: it is carried.
@@ -194,16 +199,21 @@ pub struct WorldView {
 impl WorldView {
     /// A scene, what there is to say of it, and the contours of its C-obstacles.
     pub fn new(scene: &Scene, label: String, c_obstacles: &[CObstacle], grain: Grain) -> Self {
-        let obstacles = &scene.workspace().obstacles;
-        let contours = contours(c_obstacles, grain);
+        let standing = scene.workspace().obstacles.len();
+        let shown = |number| shown_number(scene, number);
+        let in_view = c_obstacles.iter().map(|c| CObstacle { obstacle: shown(c.obstacle), ..c.clone() });
+        let contours = contours(&in_view.collect::<Vec<_>>(), grain);
+        let obstacles = (0..standing).map(|number| obstacle(scene, number, number, grain));
+        let links = scene.self_obstacles().map(|number| obstacle(scene, number, shown(number), grain).of_robot());
+        let obstacles: Vec<ObstacleView> = obstacles.chain(links).collect();
         Self {
             label,
             clearance: scene.workspace().clearance,
-            obstacles: obstacles.iter().enumerate().map(|(number, o)| obstacle(scene, number, o, grain)).collect(),
             movers: movers(scene, grain),
             payload: payload(scene, grain),
-            pairs: ranges(scene.pairs()),
+            pairs: ranges(scene),
             names: names::places(scene.arm(), obstacles.len(), &contours, grain),
+            obstacles,
             c_obstacles: contours,
             moments: Vec::new(),
             open: Vec::new(),
@@ -257,8 +267,18 @@ pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Grain) 
     all.into_iter().map(contour).collect()
 }
 
-fn obstacle(scene: &Scene, number: usize, obstacle: &Obstacle, grain: Grain) -> ObstacleView {
-    let mut view = ObstacleView::new(obstacle, number, grain);
+/// The number in the view's list of an obstacle: links of the robot follow those of the workspace; those that move have a list of their own.
+fn shown_number(scene: &Scene, number: usize) -> usize {
+    let links = scene.self_obstacles();
+    if links.contains(&number) { number - links.start + scene.workspace().obstacles.len() } else { number }
+}
+
+/// An obstacle by its number in the scene, and that in the view. What joint 1 carries lies nowhere of its own.
+fn obstacle(scene: &Scene, number: usize, shown: usize, grain: Grain) -> ObstacleView {
+    let mut view = ObstacleView::new(scene.obstacle(number), shown, grain);
+    if scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint) {
+        view.own = 0;
+    }
     let last = scene.pairs().iter().filter(|pair| pair.obstacle == number).map(|pair| pair.piece + 1).max();
     let made = (view.own..last.unwrap_or(view.own))
         .map(|piece| scene.piece(Pair { link: 1, part: 0, obstacle: number, piece }));
@@ -292,9 +312,10 @@ fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {
 }
 
 /// Pairs with consecutive pieces as one.
-fn ranges(pairs: &[Pair]) -> Vec<[usize; 5]> {
+fn ranges(scene: &Scene) -> Vec<[usize; 5]> {
     let mut ranges: Vec<[usize; 5]> = Vec::new();
-    for pair in pairs {
+    for pair in scene.pairs() {
+        let pair = Pair { obstacle: shown_number(scene, pair.obstacle), ..*pair };
         match ranges.last_mut() {
             Some([link, part, obstacle, _, end])
                 if [*link, *part, *obstacle, *end] == [pair.link, pair.part, pair.obstacle, pair.piece] =>

@@ -3,7 +3,7 @@
 use super::{Evidence, Stuck, lines, reaching_out};
 use crate::check::StuckBox;
 use crate::geometry::{Convex, Point};
-use crate::model::{OutlineSource, Pair, Part, Scene, Shape};
+use crate::model::{Heights, OutlineSource, Pair, Part, Scene, SelfObstacle, Shape};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -66,26 +66,45 @@ fn shape(scene: &Scene, pair: Pair) -> Value {
         let corners = if piece.radius() > 0.0 { Vec::new() } else { corners(piece) };
         return json!({ "carried": corners });
     }
-    let link = &scene.arm().links[pair.link];
-    let Part { body, number, .. } = &link.parts[pair.part];
-    match link.source {
-        OutlineSource::Visual => json!({ "link": body, "visual": number }),
-        OutlineSource::Bar if pair.part + 1 == scene.own_parts(pair.link).len() => json!({ "link": body, "bar": 0 }),
-        OutlineSource::Collision | OutlineSource::Bar | OutlineSource::None => {
-            json!({ "link": body, "collision": number })
-        }
+    let link = scene.link(pair);
+    let Part { body, number, is_visual, heights, .. } = &link.parts[pair.part];
+    if link.source == OutlineSource::Bar && pair.part + 1 == scene.own_parts(pair.link.min(1)).len() {
+        return json!({ "link": body, "bar": 0 });
     }
+    let same = |other: &&Part| other.body == *body && other.number == *number && other.is_visual == *is_visual;
+    let layers = link.parts.iter().filter(same).map(|other| other.heights);
+    of_layer(json!({ "link": body, kind(*is_visual): number }), *heights, layers)
 }
 
 /// A piece of an obstacle by its corners; a disc is all there is of its obstacle.
 fn part_of(scene: &Scene, pair: Pair) -> Value {
     let obstacle = pair.obstacle;
-    match scene.workspace().obstacles[obstacle].shape {
+    if let Some(own) = scene.self_obstacle(obstacle) {
+        let same = |other: &&SelfObstacle| {
+            (&other.obstacle.name, other.number, other.is_visual) == (&own.obstacle.name, own.number, own.is_visual)
+        };
+        let layers = scene.arm().self_obstacles.iter().filter(same).map(|other| other.obstacle.heights);
+        let named = json!({ "own": own.obstacle.name, kind(own.is_visual): own.number });
+        return of_layer(named, own.obstacle.heights, layers);
+    }
+    match scene.obstacle(obstacle).shape {
         Shape::Circle { .. } => json!({ "obstacle": obstacle }),
         Shape::Polygon(_) | Shape::Polyline(_) | Shape::Pieces => {
             json!({ "obstacle": obstacle, "corners": corners(scene.obstacle_piece(pair)) })
         }
     }
+}
+
+fn kind(is_visual: bool) -> &'static str {
+    if is_visual { "visual" } else { "collision" }
+}
+
+/// A shape as it is named, with a height of one of its layers if it has several.
+fn of_layer(mut named: Value, own: Heights, mut all: impl Iterator<Item = Heights>) -> Value {
+    if all.any(|other| other != own) {
+        named["height"] = json!(f64::midpoint(own.lower, own.upper));
+    }
+    named
 }
 
 fn corners(piece: &Convex) -> Vec<[f64; 2]> {

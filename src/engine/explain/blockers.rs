@@ -165,9 +165,9 @@ impl Filter<'_> {
         self.proof = proof;
         let Some(mut slim) = self.proof.clone() else { return };
         let (question, mut set) = (self.among(&self.set), self.set.clone());
+        let layer = |stuck: &StuckBox| question.scene().first_layer(stuck.pair.obstacle);
         for obstacle in self.set.iter().filter_map(|element| element.obstacle()) {
-            let fewer =
-                slim.stuck().iter().filter(|stuck| stuck.pair.obstacle != obstacle).cloned().collect::<Vec<_>>();
+            let fewer = slim.stuck().iter().filter(|stuck| layer(stuck) != obstacle).cloned().collect::<Vec<_>>();
             if fewer.len() == slim.stuck().len() {
                 set.retain(|element| element.obstacle() != Some(obstacle));
             } else if let Some(fewer) = held(&question, fewer) {

@@ -80,6 +80,8 @@ pub fn changes(question: &Question, element: Element, among: Among, boxes: usize
             let moved = moving(question, obstacle, number, fine, boxes).map(|(cure, by)| made(cure, by));
             moved.into_iter().chain(shrunk).collect()
         }
+        // Nobody changes a robot's body to open a path.
+        Element::Link { .. } => Vec::new(),
         Element::Limit { joint, side } => {
             let turns = scene.arm().joints[joint].joint_type.is_revolute();
             let (most, fine) = (question.beyond(joint), if turns { FINE } else { fine });

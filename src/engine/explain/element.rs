@@ -3,6 +3,7 @@
 use crate::model::{Arm, Scene};
 use crate::space::JointRange;
 use serde::Serialize;
+use std::collections::BTreeSet;
 
 /// An end of a joint's range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -14,13 +15,18 @@ pub enum Side {
     Upper,
 }
 
-/// What can stand in a motion's way: an obstacle, a joint's limit, or the clearance to keep.
+/// What can stand in a motion's way: an obstacle, a link of the robot, a joint's limit, or the clearance to keep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Element {
     /// An obstacle.
     Obstacle {
         /// Into the workspace's obstacles.
+        number: usize,
+    },
+    /// A link of the robot that stands still.
+    Link {
+        /// That of its first layer, as in [`crate::model::Pair::obstacle`].
         number: usize,
     },
     /// One end of a joint's range. Without it joint values stay what they are: a goal a whole turn off is another one.
@@ -35,30 +41,34 @@ pub enum Element {
 }
 
 impl Element {
-    /// All that a scene has: finite limits, a clearance above 0, and obstacles that something can meet, in the order of the file.
+    /// All that a scene has: finite limits, a clearance above 0, and obstacles and links that something can meet, in the order of the files.
     #[must_use]
     pub fn all(scene: &Scene) -> Vec<Self> {
         let limits = (0..2).filter(|&joint| !scene.arm().joints[joint].range.is_circle());
         let mut all: Vec<Self> =
             limits.flat_map(|joint| [Side::Lower, Side::Upper].map(|side| Self::Limit { joint, side })).collect();
         all.extend((scene.workspace().clearance > 0.0).then_some(Self::Clearance));
-        let mut met = vec![false; scene.workspace().obstacles.len()];
-        scene.pairs().iter().for_each(|pair| met[pair.obstacle] = true);
-        all.extend((0..met.len()).filter(|&number| met[number]).map(|number| Self::Obstacle { number }));
+        let met: BTreeSet<usize> = scene.pairs().iter().map(|pair| scene.first_layer(pair.obstacle)).collect();
+        let links = scene.self_obstacles();
+        let element = |number| if links.contains(&number) { Self::Link { number } } else { Self::Obstacle { number } };
+        all.extend(met.into_iter().map(element));
         all
     }
 
-    /// The number of the obstacle, if it is one.
+    /// The number of the obstacle or link, if it is one.
     #[must_use]
     pub fn obstacle(self) -> Option<usize> {
-        if let Self::Obstacle { number } = self { Some(number) } else { None }
+        match self {
+            Self::Obstacle { number } | Self::Link { number } => Some(number),
+            Self::Limit { .. } | Self::Clearance => None,
+        }
     }
 
     /// It in words: `obstacle "shelf"`.
     #[must_use]
     pub fn describe(self, scene: &Scene) -> String {
         match self {
-            Self::Obstacle { number } => format!("obstacle \"{}\"", scene.workspace().obstacles[number].name),
+            Self::Obstacle { number } | Self::Link { number } => scene.describe_obstacle(number),
             Self::Limit { joint, side } => {
                 let which = if side == Side::Lower { "lower" } else { "upper" };
                 format!("the {which} limit of joint \"{}\"", scene.arm().joints[joint].name)

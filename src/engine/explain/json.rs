@@ -33,7 +33,10 @@ fn pair(q: Configuration) -> [f64; 2] {
 fn of_element(scene: &Scene, element: Element) -> Map<String, Value> {
     let value = match element {
         Element::Obstacle { number } => {
-            json!({ "kind": "obstacle", "name": scene.workspace().obstacles[number].name, "number": number + 1 })
+            json!({ "kind": "obstacle", "name": scene.obstacle(number).name, "number": number + 1 })
+        }
+        Element::Link { number } => {
+            json!({ "kind": "link", "name": scene.obstacle(number).name })
         }
         Element::Limit { joint, side } => {
             json!({ "kind": "limit", "joint": scene.arm().joints[joint].name, "side": side })
@@ -108,12 +111,12 @@ fn of_closed(scene: &Scene, closed: &Closed) -> Value {
 }
 
 impl Closed {
-    /// The names of the obstacles of the first set.
+    /// The names of the obstacles, and of links of the robot, of the first set.
     #[must_use]
     pub fn blocking<'a>(&self, scene: &'a Scene) -> Vec<&'a str> {
         let elements = self.sets.first().map(|set| set.elements()).unwrap_or_default();
         let numbers = elements.into_iter().filter_map(Element::obstacle);
-        numbers.map(|number| scene.workspace().obstacles[number].name.as_str()).collect()
+        numbers.map(|number| scene.obstacle(number).name.as_str()).collect()
     }
 }
 

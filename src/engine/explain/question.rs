@@ -159,6 +159,11 @@ impl Question {
             for element in elements {
                 match *element {
                     Element::Obstacle { number } => workspace.obstacles[number].pieces.clear(),
+                    Element::Link { number } => {
+                        let name = &self.scene.obstacle(number).name;
+                        let layers = arm.self_obstacles.iter_mut().filter(|own| own.obstacle.name == *name);
+                        layers.for_each(|own| own.obstacle.pieces.clear());
+                    }
                     Element::Limit { joint, side } => {
                         arm.joints[joint].range = widened(arm.joints[joint].range, side, self.beyond[joint]);
                     }

@@ -133,11 +133,11 @@ fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFind
         found.iter().map(|c| CornerFinding { at: pair(corners[c.corner]), depth: c.depth }).collect()
     };
     let side = |corners: &[Point], i: usize| [pair(corners[i]), pair(corners[(i + 1) % corners.len()])];
-    let link = &scene.arm().links[indices.link];
+    let link = scene.link(indices);
     Some(PairFinding {
         link: link.name.clone(),
         body: link.parts[indices.part].body.clone(),
-        obstacle: scene.workspace().obstacles[indices.obstacle].name.clone(),
+        obstacle: scene.obstacle_name(indices).to_owned(),
         touching,
         depth: -separation.distance,
         link_corners_inside: test.as_ref().map_or_else(Vec::new, |t| inside(a, &t.a_inside)),

@@ -244,7 +244,7 @@ pub(super) fn limits(joints: &[Joint; 2], broken: &[Excess], timed: bool) -> Vec
 
 fn encounter(scene: &Scene, e: &Encounter, timed: bool) -> EncounterFinding {
     let pair = e.contact.pair;
-    let link = &scene.arm().links[pair.link];
+    let link = scene.link(pair);
     EncounterFinding {
         moment: moment(&e.moment, timed),
         link: link.name.clone(),

@@ -111,7 +111,7 @@ impl TurnFinding {
     fn new(scene: &Scene, ReplayedTurn { turn, verdict }: &ReplayedTurn) -> Self {
         let contact = verdict.err().map(|contact| TurnContactFinding {
             angle: contact.angle,
-            obstacle: scene.workspace().obstacles[contact.obstacle].name.clone(),
+            obstacle: scene.obstacle(contact.obstacle).name.clone(),
         });
         let clearance = verdict.ok().map(|free| free.clearance).filter(|clearance| clearance.is_finite());
         Self { from: turn.from, to: turn.to, seconds: turn.seconds, clearance, contact }

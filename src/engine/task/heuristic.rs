@@ -309,6 +309,7 @@ mod tests {
             tip_name: "tip".into(),
             plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
             dynamics: None,
+            self_obstacles: Vec::new(),
         }
     }
 

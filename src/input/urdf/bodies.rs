@@ -2,18 +2,17 @@
 
 use super::chain::Chain;
 use super::document::Document;
-use super::mesh;
 use super::plane::project;
-use super::solid::{Solid, capsule};
-use super::tree::{Tree, isometry};
+use super::self_collision::{Group, SelfCollision, group};
+use super::shapes::{Gathered, PlacedShape};
+use super::solid::capsule;
+use super::tree::Tree;
 use crate::geometry::{Convex, Point, Vector, separation};
-use crate::input::error::{Diagnostic, InputError};
+use crate::input::error::{Diagnostic, InputError, quoted};
 use crate::input::world::World;
-use crate::model::{Heights, Link, OutlineSource, Part, Plane};
+use crate::model::{Heights, Link, OutlineSource, Part, Plane, SelfObstacle};
 use crate::text::counted;
-use nalgebra::{Isometry3, Translation2, Vector3};
-use std::ops::Range;
-use urdf_rs::Geometry;
+use nalgebra::{Isometry3, Translation2};
 
 /// Corners of the largest outline that stays one shape: what is asked of it takes time that grows with them.
 const MOST_CORNERS: usize = 1024;
@@ -27,25 +26,6 @@ pub(super) struct Bodies<'a> {
     pub plane: &'a Plane,
     /// Poses of all links in the root frame, the two joints at 0.
     pub poses: &'a [Isometry3<f64>],
-}
-
-/// Which of a link's geometry.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Collision,
-    Visual,
-}
-
-/// What an arm link's geometry of one kind comes to.
-#[derive(Default)]
-struct Found {
-    parts: Vec<Part>,
-    /// Bodies with a shape without any size.
-    empty: Vec<String>,
-    /// Meshes that cannot be used.
-    unread: Vec<Diagnostic>,
-    /// Shapes of which it is not known what they cover.
-    uncertain: Vec<Diagnostic>,
 }
 
 /// What a shape covers, whichever way it is turned about a point, and what it covers at all angles; none if that is nothing. `certain` is what is within
@@ -63,23 +43,53 @@ fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, O
 /// How far from its axis a disc may be that is about it, metres; and a share of what is known of others.
 const OFF_AXIS: f64 = 1e-9;
 
-/// Two links, and what the user should know of them.
+/// Two links, those that are in their way, and what the user should know of them.
 pub(super) struct Outlines {
     pub links: [Link; 2],
+    pub self_obstacles: Vec<SelfObstacle>,
     pub geometry: Vec<String>,
     pub notes: Vec<String>,
     pub warnings: Vec<String>,
 }
 
+/// What is said of a link whose mesh cannot be read and that is planned without it.
+fn left_out(unread: &Diagnostic) -> String {
+    format!("{}; the link is left out, and the arm may hit it", unread.message)
+}
+
+/// Names the URDF links of an arm link whose visual geometry is used, if others have collision geometry.
+fn visual_links(link: &Link) -> Option<String> {
+    let mut names: Vec<&str> = link.parts.iter().filter(|part| part.is_visual).map(|part| part.body.as_str()).collect();
+    names.dedup();
+    let named =
+        || format!("outline from the visual geometry, since there is no collision geometry: {}", quoted(names.iter()));
+    (!names.is_empty()).then(named)
+}
+
 impl Bodies<'_> {
-    /// Both links' outlines, in their frames: origin at the joint.
+    /// Both links' outlines, in their frames: origin at the joint; and the links that stand still as obstacles for them.
     ///
     /// # Errors
-    /// When a mesh cannot be used and the world asks for no bar instead, or when neither link has an outline.
+    /// When a mesh cannot be used and the world asks for no bar instead, when neither link has an outline, or when the world names
+    /// links that the robot does not have.
     pub fn outlines(&self) -> Result<Outlines, InputError> {
         let bar = self.bar()?;
         let (mut notes, mut warnings) = (Vec::new(), Vec::new());
-        let links = [self.link(0, bar, &mut notes, &mut warnings)?, self.link(1, bar, &mut notes, &mut warnings)?];
+        let mut gathered = [0, 1].map(|index| self.gather(self.bodies(index)));
+        let mut fixed = self.gather(self.fixed_links());
+        let mut all = std::mem::take(&mut fixed.shapes);
+        all.extend(gathered.iter_mut().flat_map(|of_link| std::mem::take(&mut of_link.shapes)));
+        let solid = all.iter().map(|shape| shape.link).collect();
+        let own = SelfCollision::new(self, solid)?;
+        let mut links = Vec::new();
+        for (index, gathered) in gathered.into_iter().enumerate() {
+            let mut parts = Vec::new();
+            for shape in all.iter().filter(|shape| self.bodies(index).contains(&shape.link)) {
+                parts.extend(self.parts(index, shape, &own.cuts(shape.link, &all))?);
+            }
+            links.push(self.link(index, parts, gathered, bar, &mut notes, &mut warnings)?);
+        }
+        let links: [Link; 2] = links.try_into().expect("two links");
         if links.iter().all(|l| l.source == OutlineSource::None) {
             let message = format!(
                 "neither link \"{}\" nor link \"{}\" has collision or visual geometry: nothing of the arm can be hit",
@@ -90,7 +100,12 @@ impl Bodies<'_> {
             return Err(self.document.source.diagnostic(message).help(help).into());
         }
         let geometry = links.iter().enumerate().map(|(index, link)| self.described(index, link)).collect();
-        Ok(Outlines { links, geometry, notes, warnings })
+        let self_obstacles = own.obstacles(&all);
+        if self.world.robot.own_body != Some(false) {
+            warnings.extend(fixed.unread.iter().chain(&fixed.unseen).map(|unread| left_out(unread)));
+            notes.extend(own.notes());
+        }
+        Ok(Outlines { links, self_obstacles, geometry, notes, warnings })
     }
 
     fn bar(&self) -> Result<Option<f64>, Diagnostic> {
@@ -103,31 +118,29 @@ impl Bodies<'_> {
         Err(self.world.source.diagnostic_at(bar.span(), message).help("bar = 0.05, metres"))
     }
 
+    /// A link of these parts, which are all that could be read of it.
     fn link(
         &self,
         index: usize,
+        mut parts: Vec<Part>,
+        gathered: Gathered,
         bar: Option<f64>,
         notes: &mut Vec<String>,
         warnings: &mut Vec<String>,
     ) -> Result<Link, InputError> {
         let name = self.tree.links[self.tree.child[self.chain.joints[index]]].clone();
-        let bodies = self.bodies(index);
-        let mut source = OutlineSource::Collision;
-        let mut found = self.gather(index, &bodies, Kind::Collision);
-        if found.parts.is_empty() && found.unread.is_empty() {
-            let empty = std::mem::take(&mut found.empty);
-            found = self.gather(index, &bodies, Kind::Visual);
-            found.empty.extend(empty);
-            source = OutlineSource::Visual;
-        }
-        found.empty.sort();
-        found.empty.dedup();
-        if !found.empty.is_empty() {
-            let bodies = found.empty.join(", ");
+        let Gathered { empty, mut unread, unseen, .. } = gathered;
+        if !empty.is_empty() {
+            let bodies = empty.join(", ");
             notes.push(format!("link {} \"{name}\": shapes of size zero are ignored (in {bodies})", index + 1));
         }
-        let Found { mut parts, unread, uncertain, .. } = found;
-        InputError::check(uncertain)?;
+        let has_collision = parts.iter().any(|part| !part.is_visual);
+        if has_collision {
+            warnings.extend(unseen.iter().map(left_out));
+        } else {
+            unread.extend(unseen);
+        }
+        let mut source = if has_collision { OutlineSource::Collision } else { OutlineSource::Visual };
         if !unread.is_empty() || parts.is_empty() {
             match bar {
                 Some(radius) => {
@@ -152,6 +165,8 @@ impl Bodies<'_> {
         let link = Link { name, parts, source };
         if matches!(source, OutlineSource::Visual | OutlineSource::Bar) {
             notes.push(self.described(index, &link));
+        } else {
+            notes.extend(visual_links(&link));
         }
         Ok(link)
     }
@@ -186,60 +201,53 @@ impl Bodies<'_> {
             .collect()
     }
 
-    fn gather(&self, index: usize, bodies: &[usize], kind: Kind) -> Found {
-        let mut found = Found::default();
+    /// URDF links that stand still, in the order of the file.
+    fn fixed_links(&self) -> impl Iterator<Item = usize> + '_ {
+        let is_fixed = |link: &usize| group(self.document, self.tree, self.chain, *link) == Some(Group::Fixed);
+        (0..self.document.robot.links.len()).filter(is_fixed)
+    }
+
+    /// A shape as parts of arm link `index`, in the link's frame: one for each layer, cut where `cuts` says.
+    ///
+    /// # Errors
+    /// When it turns with the wrist and covers another thing at each angle.
+    fn parts(&self, index: usize, shape: &PlacedShape, cuts: &[f64]) -> Result<Vec<Part>, Diagnostic> {
+        let PlacedShape { link, number, is_visual, solid, pose, .. } = shape;
         let to_link = Translation2::from(-self.joint_at(index).0.coords);
-        for body in bodies {
-            let link = &self.document.robot.links[*body];
-            let place = &self.document.links[*body];
-            let mut number = 0;
-            let shapes: Vec<(&urdf_rs::Pose, &Geometry, &Range<usize>)> = match kind {
-                Kind::Collision => {
-                    link.collision.iter().zip(&place.collision).map(|(c, at)| (&c.origin, &c.geometry, at)).collect()
-                }
-                Kind::Visual => {
-                    link.visual.iter().zip(&place.visual).map(|(v, at)| (&v.origin, &v.geometry, at)).collect()
-                }
+        let body = &self.document.robot.links[*link].name;
+        let part = |shape, inner, heights| Part {
+            shape,
+            inner,
+            number: *number,
+            is_visual: *is_visual,
+            heights,
+            body: body.clone(),
+        };
+        let Some(axis) = self.wrist_axis(*link).map(|axis| to_link * axis) else {
+            let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link.into()));
+            let layers = solid.layers(pose, self.plane, cuts).into_iter();
+            let layers = layers.map(|(outline, heights)| (outline.at(&to_link.into()), heights));
+            let in_pieces = |(outline, heights): (Convex, Heights)| {
+                let pieces = if outline.core().len() > MOST_CORNERS { outline.cut_up() } else { vec![outline] };
+                pieces.into_iter().map(move |piece| (piece, heights))
             };
-            for (origin, geometry, at) in shapes {
-                let solid = match self.solid(geometry) {
-                    Ok(solid) if solid.is_nothing() => {
-                        found.empty.push(format!("\"{}\"", link.name));
-                        continue;
-                    }
-                    Ok(solid) => solid,
-                    Err(mesh::Unread { message, cure }) => {
-                        let message = format!("link \"{}\": {message}", link.name);
-                        found.unread.push(self.document.diagnostic_at(at, message).help(cure));
-                        continue;
-                    }
-                };
-                let pose = self.poses[*body] * isometry(origin);
-                let shape = solid.outline(&pose, self.plane).at(&to_link.into());
-                let inner = solid.inner(&pose, self.plane).map(|inner| inner.at(&to_link.into()));
-                let heights = solid.heights(&pose, self.plane);
-                let (shape, inner) = match self.wrist_axis(*body).map(|axis| to_link * axis) {
-                    Some(axis) => match all_round(axis, &shape, inner.as_ref().unwrap_or(&shape)) {
-                        Some(all_round) => all_round,
-                        None => {
-                            let message = format!(
-                                "link \"{}\" turns with the wrist and is not about its axis, so that what it covers is another thing at each angle",
-                                link.name
-                            );
-                            let help = "give it <collision> geometry that covers it all round: a <cylinder> along the axis of the wrist's joint";
-                            found.uncertain.push(self.document.diagnostic_at(at, message).help(help));
-                            continue;
-                        }
-                    },
-                    None => (shape, inner),
-                };
-                let shapes = if shape.core().len() > MOST_CORNERS { shape.cut_up() } else { vec![shape] };
-                let part = |shape| Part { shape, inner: inner.clone(), number, heights, body: link.name.clone() };
-                found.parts.extend(shapes.into_iter().map(part));
-                number += 1;
+            return Ok(layers
+                .flat_map(in_pieces)
+                .map(|(piece, heights)| part(piece, inner.clone(), heights))
+                .collect());
+        };
+        let outline = solid.outline(pose, self.plane).at(&to_link.into());
+        let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link.into()));
+        match all_round(axis, &outline, inner.as_ref().unwrap_or(&outline)) {
+            Some((outline, inner)) => Ok(vec![part(outline, inner, shape.heights)]),
+            None => {
+                let message = format!(
+                    "link \"{body}\" turns with the wrist and is not about its axis, so that what it covers is another thing at each angle"
+                );
+                let help = "give it <collision> geometry that covers it all round: a <cylinder> along the axis of the wrist's joint";
+                Err(self.document.diagnostic_at(&shape.at, message).help(help))
             }
         }
-        found
     }
 
     /// Where the wrist's axis is that a link turns about while steps are done.
@@ -247,19 +255,6 @@ impl Bodies<'_> {
         let name = self.world.robot.wrist_joint().filter(|_| self.world.steps.is_some())?;
         let joint = self.document.robot.joints.iter().position(|joint| joint.name == *name.get_ref())?;
         self.tree.carries(joint, body).then(|| self.at(self.tree.child[joint]).0)
-    }
-
-    fn solid(&self, geometry: &Geometry) -> Result<Solid, mesh::Unread> {
-        Ok(match geometry {
-            Geometry::Box { size } => Solid::Box { half: Vector3::from(size.0) / 2.0 },
-            Geometry::Cylinder { radius, length } => Solid::Cylinder { radius: *radius, half: length / 2.0 },
-            Geometry::Capsule { radius, length } => Solid::Capsule { radius: *radius, half: length / 2.0 },
-            Geometry::Sphere { radius } => Solid::Sphere { radius: *radius },
-            Geometry::Mesh { filename, scale } => {
-                let scale = scale.map_or([1.0; 3], |s| s.0);
-                Solid::Points(mesh::vertices(filename, scale, &self.document.source)?)
-            }
-        })
     }
 
     /// Where a joint is: in the plane, and its height.
@@ -279,6 +274,7 @@ impl Bodies<'_> {
         Part {
             inner: None,
             number: 0,
+            is_visual: false,
             shape: capsule(Point::origin(), Point::from(Vector::from(to - from)), radius),
             heights: Heights { lower: low.min(high) - radius, upper: low.max(high) + radius },
             body: body.to_owned(),

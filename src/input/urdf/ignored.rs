@@ -20,22 +20,20 @@ pub(super) fn elements(document: &Document) -> Vec<String> {
 pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
     let Reduction { document, tree, chain, .. } = reduction;
     let mut ignored = Vec::new();
-    let still: Vec<&str> = document
-        .robot
-        .links
-        .iter()
-        .enumerate()
-        .filter(|(l, link)| {
-            let shapes = link.collision.len() + link.visual.len();
-            shapes > 0 && !tree.carries(chain.joints[0], *l)
-        })
-        .map(|(_, link)| link.name.as_str())
-        .collect();
-    if !still.is_empty() {
-        ignored.push(format!(
-            "geometry of links that the arm does not move: {}; no obstacle unless the world lists it",
-            quoted(still)
-        ));
+    let has_shapes = |link: &urdf_rs::Link| link.collision.len() + link.visual.len() > 0;
+    let solid = document.robot.links.iter().enumerate().filter(|(_, link)| has_shapes(link));
+    let own_body = reduction.world.robot.own_body != Some(false);
+    let (still, beside): (Vec<_>, Vec<_>) = solid
+        .filter(|(l, _)| !tree.carries(chain.joints[0], *l))
+        .map(|(l, link)| (reduction.is_fixed(l), link.name.as_str()))
+        .partition(|(is_fixed, _)| *is_fixed);
+    let names = |links: Vec<(bool, &str)>| quoted(links.into_iter().map(|(_, name)| name.to_owned()));
+    if !still.is_empty() && !own_body {
+        ignored.push(format!("links that stand still, as [robot] own_body = false asks: {}", names(still)));
+    }
+    if !beside.is_empty() {
+        ignored
+            .push(format!("links that other joints move: {}; no obstacle unless the world lists them", names(beside)));
     }
     let beside: Vec<&str> = document
         .robot
@@ -58,8 +56,9 @@ pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
     for (index, link) in links.iter().enumerate().filter(|(_, link)| link.source == OutlineSource::Collision) {
         let mine =
             |l: &usize| tree.carries(chain.joints[index], *l) && (index == 1 || !tree.carries(chain.joints[1], *l));
-        let shapes: usize =
-            (0..document.robot.links.len()).filter(mine).map(|l| document.robot.links[l].visual.len()).sum();
+        let is_used = |l: &usize| link.parts.iter().any(|p| p.is_visual && p.body == document.robot.links[*l].name);
+        let unused = (0..document.robot.links.len()).filter(|l| mine(l) && !is_used(l));
+        let shapes: usize = unused.map(|l| document.robot.links[l].visual.len()).sum();
         if shapes > 0 {
             let shapes = counted(shapes, "visual shape");
             ignored.push(format!("{shapes} of link \"{}\": it has collision geometry", link.name));

@@ -22,6 +22,8 @@ mod mesh;
 mod pairing;
 mod plane;
 mod reduction;
+mod self_collision;
+mod shapes;
 mod help;
 mod solid;
 mod survey;

@@ -6,6 +6,7 @@ use super::document::Document;
 use super::limits::{Limits, Range, Rates};
 use super::pairing;
 use super::plane::{self, SpatialAxis, project};
+use super::self_collision::{Group, group, ignore_permanent_contact};
 use super::tree::{self, Tree};
 use crate::geometry::Point;
 use crate::input::RobotReport;
@@ -83,6 +84,11 @@ impl<'a> Reduction<'a> {
         }
     }
 
+    /// Whether a URDF link stands still.
+    pub fn is_fixed(&self, link: usize) -> bool {
+        group(self.document, self.tree, self.chain, link) == Some(Group::Fixed)
+    }
+
     /// Both links' outlines.
     pub fn outlines(&self, plane: &Plane) -> Result<Outlines, InputError> {
         let Self { document, tree, world, chain, poses } = self;
@@ -154,7 +160,9 @@ impl<'a> Reduction<'a> {
             tip_name: self.tree.links[self.chain.tip].clone(),
             plane,
             dynamics: None,
+            self_obstacles: outlines.self_obstacles,
         };
+        report.notes.extend(ignore_permanent_contact(&mut arm));
         let unknown = match self.dynamics(&arm, assumed) {
             Ok(dynamics) => {
                 arm.dynamics = Some(dynamics);

@@ -1,5 +1,6 @@
 //! Solids in space and their projections on a plane.
 
+use super::mesh::Mesh;
 use super::plane::project;
 use crate::geometry::{Convex, Point, Vector, hull};
 use crate::model::{Heights, Plane};
@@ -23,8 +24,8 @@ pub(super) enum Solid {
     Sphere {
         radius: f64,
     },
-    /// The convex hull of these points stands for the mesh.
-    Points(Vec<Point3<f64>>),
+    /// The convex hull of its points stands for a mesh, or for each layer of it; see [`Solid::layers`].
+    Mesh(Mesh),
 }
 
 /// Corners nearer than this to the one before are left out, metres. They come from the rounding of rotations; the
@@ -40,6 +41,9 @@ const ELLIPSE_SIDES: usize = 32;
 /// Steps along half of the ellipse within an oblique cylinder's end: its corners are where the sides of the polygon round it touch.
 const ELLIPSE_STEPS: usize = ELLIPSE_SIDES / 2;
 
+/// Layers of a mesh are thicker than this, metres: far above the rounding of heights.
+pub(super) const THINNEST: f64 = 1e-6;
+
 /// A cylinder whose axis is off the plane, or off its normal, by less than this share counts as lying or standing: rounding.
 const EXACT: f64 = 1e-13;
 
@@ -50,7 +54,7 @@ impl Solid {
             Solid::Box { half } => half.iter().all(|h| *h == 0.0),
             Solid::Cylinder { radius, half } | Solid::Capsule { radius, half } => *radius == 0.0 && *half == 0.0,
             Solid::Sphere { radius } => *radius == 0.0,
-            Solid::Points(points) => points.is_empty(),
+            Solid::Mesh(mesh) => mesh.points.is_empty(),
         }
     }
 
@@ -70,7 +74,7 @@ impl Solid {
                 };
                 polygon((0..8).map(corner).collect())
             }
-            Solid::Points(points) => polygon(points.iter().map(at).collect()),
+            Solid::Mesh(mesh) => polygon(mesh.points.iter().map(at).collect()),
             Solid::Sphere { radius } => Convex::trusted(vec![center], *radius),
             Solid::Capsule { radius, half } => capsule(center - along * *half, center + along * *half, *radius),
             Solid::Cylinder { radius, half } => {
@@ -78,6 +82,35 @@ impl Solid {
                 cylinder(center, along, tilt, *radius, *half)
             }
         }
+    }
+
+    /// Outlines of the layers between consecutive `cuts`, which ascend, with their extents along the normal; of a solid that is no mesh, or that no
+    /// cut goes through, the whole.
+    ///
+    /// A layer's outline is the convex hull of that part of the mesh's surface whose heights are within the layer: of the vertices there, and of
+    /// the places where edges cross its two heights.
+    pub fn layers(&self, pose: &Isometry3<f64>, plane: &Plane, cuts: &[f64]) -> Vec<(Convex, Heights)> {
+        let heights = self.heights(pose, plane);
+        let is_within = |cut: &&f64| heights.lower + THINNEST < **cut && **cut + THINNEST < heights.upper;
+        let cuts: Vec<f64> = cuts.iter().filter(is_within).copied().collect();
+        let Solid::Mesh(Mesh { points, edges }) = self else { return vec![(self.outline(pose, plane), heights)] };
+        if cuts.is_empty() || edges.is_empty() {
+            return vec![(self.outline(pose, plane), heights)];
+        }
+        let placed: Vec<(Point, f64)> =
+            points.iter().map(|p| (pose * p).coords).map(|p| (project(plane, &p), p.dot(&plane.normal))).collect();
+        let ends = || std::iter::once(heights.lower).chain(cuts.iter().copied()).chain([heights.upper]);
+        let layer = |(lower, upper): (f64, f64)| {
+            let mut corners: Vec<Point> =
+                placed.iter().filter(|(_, height)| (lower..=upper).contains(height)).map(|(at, _)| *at).collect();
+            for edge in edges {
+                let [(from, low), (to, high)] = edge.map(|end| placed[end as usize]);
+                let crossed = [lower, upper].into_iter().filter(|cut| (low - cut) * (high - cut) < 0.0);
+                corners.extend(crossed.map(|cut| from + (to - from) * ((cut - low) / (high - low))));
+            }
+            (!corners.is_empty()).then(|| (polygon(corners), Heights { lower, upper }))
+        };
+        ends().zip(ends().skip(1)).filter_map(layer).collect()
     }
 
     /// A shape within the projection, where the outline is larger than that: of oblique cylinders. It is at most a hundredth of the radius
@@ -102,8 +135,8 @@ impl Solid {
             Solid::Cylinder { radius, half } => half * tilt + radius * (1.0 - tilt * tilt).sqrt(),
             Solid::Capsule { radius, half } => half * tilt + radius,
             Solid::Sphere { radius } => *radius,
-            Solid::Points(points) => {
-                let heights = || points.iter().map(|p| (pose * p).coords.dot(&n));
+            Solid::Mesh(mesh) => {
+                let heights = || mesh.points.iter().map(|p| (pose * p).coords.dot(&n));
                 return Heights {
                     lower: heights().fold(f64::INFINITY, f64::min),
                     upper: heights().fold(f64::NEG_INFINITY, f64::max),

@@ -12,12 +12,12 @@ use super::tree::{self, Tree};
 use crate::input::error::InputError;
 use crate::input::inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
-    RateEntry, RateSource, ReachEntry, Role, source_name,
+    RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry, source_name,
 };
 use crate::input::source::Source;
 use crate::input::standing;
 use crate::input::world::World;
-use crate::model::{Arm, Link, OutlineSource, Plane, Scene};
+use crate::model::{Arm, Carrier, Link, OutlineSource, Plane, Scene, SelfObstacle};
 use crate::space::{Configuration, JointRange};
 use nalgebra::Vector3;
 use std::path::Path;
@@ -138,6 +138,7 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
     let (arm, notes, unknown) = reduction.arm(plane, bounds.unwrap_or_else(|_| unbounded(reduction)), outlines);
     report.errors.extend(unknown.filter(|_| reduction.world.robot.dynamics).map(InputError::from));
     report.ignored.extend(notes.notes.into_iter().filter(|note| note.contains("are ignored")));
+    report.self_obstacles = arm.self_obstacles.iter().map(self_obstacle).collect();
     report.reach = Some(reach(&arm));
     report.frames = frames(reduction, &plane);
     report.scene = Some(Scene::trusted(standing(&arm, reduction.world), reduction.world.at_first()));
@@ -265,6 +266,15 @@ fn outline(link: &Link) -> OutlineEntry {
     }
 }
 
+fn self_obstacle(own: &SelfObstacle) -> SelfObstacleEntry {
+    SelfObstacleEntry {
+        link: own.obstacle.name.clone(),
+        moves: own.carrier == Carrier::FirstJoint,
+        heights: [own.obstacle.heights.lower, own.obstacle.heights.upper],
+        ignored: own.ignored.clone(),
+    }
+}
+
 fn reach(arm: &Arm) -> ReachEntry {
     let tip = arm.tip_at(Configuration::zeros());
     let (upper, fore) = (arm.offset.norm(), arm.tip.coords.norm());
@@ -301,7 +311,7 @@ fn bare(reduction: &Reduction) -> Outlines {
         parts: Vec::new(),
         source: OutlineSource::None,
     });
-    Outlines { links, geometry: Vec::new(), notes: Vec::new(), warnings: Vec::new() }
+    Outlines { links, self_obstacles: Vec::new(), geometry: Vec::new(), notes: Vec::new(), warnings: Vec::new() }
 }
 
 /// Ranges for the picture of an arm whose ranges are not all known: the known ones, a turn, or no slide.

@@ -80,6 +80,11 @@ impl Tree {
         self.depth[link]
     }
 
+    /// A link, the one that carries it, and so on up to the root.
+    pub fn ancestors(&self, link: usize) -> Vec<usize> {
+        std::iter::successors(Some(link), |&link| self.above[link].map(|joint| self.parent[joint])).collect()
+    }
+
     /// Whether `joint` moves `link`. `O(1)`.
     pub fn carries(&self, joint: usize, link: usize) -> bool {
         self.stretch[self.child[joint]].contains(&self.stretch[link].start)

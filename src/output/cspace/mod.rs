@@ -250,7 +250,8 @@ impl Axis {
 impl CSpace {
     /// Obstacles alone.
     fn of_scene(scene: &Scene, start: Configuration) -> Self {
-        let names = scene.workspace().obstacles.iter().map(|obstacle| obstacle.name.clone());
+        let numbers = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
+        let names = numbers.map(|number| scene.obstacle(number).name.clone());
         let united = cspace::united(scene, &contours(scene));
         let region = |(obstacle, all): (String, Vec<Polygon>)| ObstacleRegion { obstacle, polygons: polygons(&all) };
         Self {

@@ -148,6 +148,7 @@ impl<'a> Closed<'a> {
         let joint = &self.contacts.scene().arm().joints[1];
         self.scratch.clear();
         let (part, piece) = (self.contacts.moving(pair.index), self.contacts.standing(pair.index));
+        let (elbow, heading) = self.contacts.frame(pair.index, (elbow, heading));
         let hits = eroded.hits(part, piece, elbow, heading, &mut self.scratch);
         let mut add = |[lower, upper]: [f64; 2]| {
             if lower < upper {
@@ -173,12 +174,17 @@ impl<'a> Closed<'a> {
         if self.follows(pair, &posture, ends) {
             return true;
         }
-        let pose = self.scene().arm().pose(1, middle);
+        let pose = self.scene().arm().pose(self.link(pair), middle);
         let (part, piece) = self.shapes(pair);
         halvings > 0
             && separation(&part.at(&pose), piece).distance < self.clearance
             && self.halved(pair, [ends[0], middle], halvings - 1)
             && self.halved(pair, [middle, ends[1]], halvings - 1)
+    }
+
+    /// As in [`Pair::link`].
+    fn link(&self, pair: &Prepared) -> usize {
+        self.scene().pairs()[pair.index].link
     }
 
     /// The part and the piece of a pair.
@@ -196,11 +202,13 @@ impl<'a> Closed<'a> {
         let (part, piece) = self.shapes(pair);
         let of_part = &self.sides[self.scene().pairs()[pair.index].part];
         let of_piece = &pair.sides;
-        let poses = ends.map(|q| self.scene().arm().pose(1, q));
+        let link = self.link(pair);
+        let poses = ends.map(|q| self.scene().arm().pose(link, q));
         let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
         let slack = STUCK_ROUNDING * posture.scale(part.at(&poses[0]).core(), part.radius(), piece);
         let radius = part.radius() + piece.radius() + self.clearance - slack;
-        let (in_link, in_plane) = (posture.curvature_in_link(1, deviation), posture.curvature_in_plane(1, deviation));
+        let (in_link, in_plane) =
+            (posture.curvature_in_link(link, deviation), posture.curvature_in_plane(link, deviation));
         let of_world = |p: Point, from_piece: f64| {
             let allowed = radius - from_piece - in_link.of(p) / 2.0;
             poses.iter().all(|pose| within(pose.inverse_transform_point(&p), part.core(), of_part, allowed))
@@ -212,7 +220,7 @@ impl<'a> Closed<'a> {
         if piece.core().iter().any(|p| of_world(*p, 0.0)) || part.core().iter().any(|a| of_link(*a, 0.0)) {
             return true;
         }
-        let pose = self.scene().arm().pose(1, (ends[0] + ends[1]) / 2.0);
+        let pose = self.scene().arm().pose(link, (ends[0] + ends[1]) / 2.0);
         middle_point(part, piece, &pose).is_some_and(|p| {
             let a = pose.inverse_transform_point(&p);
             of_world(p, signed_distance(p, piece.core(), of_piece))

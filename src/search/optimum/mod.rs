@@ -297,7 +297,7 @@ impl<'a> Ways<'a> {
         }
         let mut near: Vec<(Ordered, Pair)> = scene
             .separations(q)
-            .filter(|contact| contact.pair.link == 1)
+            .filter(|contact| contact.pair.link > 0)
             .map(|contact| (Ordered(contact.separation.distance), contact.pair))
             .collect();
         near.sort_unstable();

@@ -16,7 +16,8 @@ fn joint(name: &str, joint_type: JointType, range: JointRange) -> Joint {
 }
 
 fn link(name: &str, shapes: Vec<Convex>) -> Link {
-    let part = |shape| Part { shape, inner: None, number: 0, heights: Heights::ALL, body: name.into() };
+    let part =
+        |shape| Part { shape, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: name.into() };
     Link { name: name.into(), parts: shapes.into_iter().map(part).collect(), source: OutlineSource::Collision }
 }
 
@@ -32,6 +33,7 @@ fn scene(joints: [Joint; 2], offset: Vector, links: [Vec<Convex>; 2], pieces: Ve
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        self_obstacles: Vec::new(),
     };
     let obstacles = pieces
         .into_iter()

@@ -71,6 +71,8 @@ struct Run {
     lattice: usize,
     /// Every so many worlds all planners answer.
     share: u64,
+    /// Whether there are worlds of arms whose own body is in their way, too.
+    body: bool,
     long: bool,
 }
 
@@ -78,7 +80,7 @@ impl Run {
     /// Every planner as it is, beside so fine a lattice.
     fn usual(lattice: usize) -> Self {
         let Options { levels, boxes, .. } = Options::default();
-        Self { levels, boxes, cells: None, lattice, share: u64::MAX, long: false }
+        Self { levels, boxes, cells: None, lattice, share: u64::MAX, body: false, long: false }
     }
 
     fn options(&self, method: Method) -> Options {
@@ -231,9 +233,9 @@ fn look_at_all(kind: &str, seeds: std::ops::Range<u64>, run: &Run, threads: usiz
                     if seed >= seeds.end {
                         break;
                     }
-                    if let Some(problem) = world::world(kind, seed) {
-                        look(&problem, seed, run, &tally);
-                    }
+                    let of_body = || world::world_of_body(kind, seed);
+                    let worlds = [world::world(kind, seed), run.body.then(of_body).flatten()];
+                    worlds.iter().flatten().for_each(|problem| look(problem, seed, run, &tally));
                 }
             });
         }
@@ -291,10 +293,11 @@ fn answers_agree_with_brute_force_and_each_other() {
         Some(_) => Run {
             levels: number("CPLAN_LEVELS").map_or(Options::default().levels, |n| n as usize),
             share: number("CPLAN_SHARE").unwrap_or(20).max(1),
+            body: true,
             long: true,
             ..Run::usual(number("CPLAN_LATTICE").unwrap_or(2048) as usize)
         },
-        None => Run { levels: 2, boxes: 20_000, cells: Some(128), share: 2, ..Run::usual(512) },
+        None => Run { levels: 2, boxes: 20_000, cells: Some(128), share: 2, body: true, ..Run::usual(512) },
     };
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = number("CPLAN_THREADS").map_or(cores, |n| n as usize).max(1);

@@ -2,11 +2,12 @@
 //! and distances are its own.
 
 use super::solid::{Solid, V, add, dot, norm, rotate, sub};
-use cplan::model::{JointType, Scene};
+use cplan::model::{Carrier, JointType, Scene};
 use cplan::space::{Configuration, Path};
 
 /// A part of a link and what it can meet.
 struct Mover {
+    /// 0 or 1; 2 for link 2 with joint 1 at zero, which meets what joint 1 carries.
     link: usize,
     solid: Solid,
     obstacles: Vec<u16>,
@@ -37,7 +38,7 @@ pub struct Bounds {
 
 /// The arm at a configuration.
 pub struct Posture {
-    frames: [(V, V); 2],
+    frames: [(V, V); 3],
     /// The mover that was placed last.
     placed: Option<(u16, Solid)>,
 }
@@ -62,6 +63,11 @@ impl Oracle {
                 heights.push(obstacle.heights);
             }
         }
+        let standing = obstacles.len();
+        for own in &arm.self_obstacles {
+            obstacles.push(Solid::new(&own.obstacle.pieces[0]));
+            heights.push(own.obstacle.heights);
+        }
         let mut movers = Vec::new();
         for (link, l) in arm.links.iter().enumerate() {
             for part in &l.parts {
@@ -81,8 +87,20 @@ impl Oracle {
                     part.heights.lower <= heights[usize::from(*i)].upper
                         && heights[usize::from(*i)].lower <= part.heights.upper
                 };
-                let obstacles = (0..obstacles.len() as u16).filter(meets).collect();
-                movers.push(Mover { link, solid, obstacles, speed: [first, second] });
+                let hits = |i: &u16, carrier: Carrier| {
+                    let own = &arm.self_obstacles[usize::from(*i) - standing];
+                    let overlap = part.heights.lower < own.obstacle.heights.upper
+                        && own.obstacle.heights.lower < part.heights.upper;
+                    own.carrier == carrier && overlap && !own.ignored.contains(&part.body)
+                };
+                let own = || standing as u16..obstacles.len() as u16;
+                let stand = own().filter(|i| hits(i, Carrier::Base));
+                let all = (0..standing as u16).filter(meets).chain(stand).collect();
+                movers.push(Mover { link, solid, obstacles: all, speed: [first, second] });
+                let carried: Vec<u16> = own().filter(|i| link == 1 && hits(i, Carrier::FirstJoint)).collect();
+                if !carried.is_empty() {
+                    movers.push(Mover { link: 2, solid, obstacles: carried, speed: [0.0, second] });
+                }
             }
         }
         let base = [arm.base.x, arm.base.y];
@@ -95,9 +113,16 @@ impl Oracle {
     }
 
     pub fn posture(&self, q: V) -> Posture {
+        let [first, second] = self.frames(q);
+        let [_, as_link_1_has_it] = self.frames([0.0, q[1]]);
+        Posture { frames: [first, second, as_link_1_has_it], placed: None }
+    }
+
+    /// How both links are turned, and where their origins are.
+    fn frames(&self, q: V) -> [(V, V); 2] {
         let mut turn = [1.0, 0.0];
         let mut place = self.base;
-        let frames = [0, 1].map(|k| {
+        [0, 1].map(|k| {
             if k == 1 {
                 place = add(place, rotate(self.offset, turn));
             }
@@ -108,8 +133,7 @@ impl Oracle {
                 }
             }
             (turn, place)
-        });
-        Posture { frames, placed: None }
+        })
     }
 
     /// How near to forbidden a meeting can come, and how far from it, while each joint deviates by up to `half`: distance

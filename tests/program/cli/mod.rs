@@ -27,6 +27,7 @@ mod mazes;
 mod moving;
 mod narrow;
 mod outputs;
+mod own_body;
 mod path_kind;
 mod pressed;
 mod proof_sizes;

@@ -42,6 +42,7 @@ pub fn arm(
             shape: bars[k].clone(),
             inner: None,
             number: 0,
+            is_visual: false,
             heights: Heights::ALL,
             body: format!("link{k}"),
         }],
@@ -57,6 +58,7 @@ pub fn arm(
         tip_name: "tool0".to_owned(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        self_obstacles: Vec::new(),
     }
 }
 

@@ -130,13 +130,16 @@ const Contact = (() => {
    * are contacts.
    */
   function slice(arm, world, q1) {
-    const at = poses(arm, [q1, 0]);
-    const pivot = apply(at[0], ...arm.offset);
+    const at = [...poses(arm, [q1, 0]), poses(arm, [0, 0])[1]];
     const joint = arm.joints[1];
-    const slide = joint.direction && minus(apply(at[1], ...joint.direction), apply(at[1], 0, 0));
+    // Of link 2, and of link 2 as it lies to link 1.
+    const frames = [at[0], poses(arm, [0, 0])[0]].map((pose) => ({
+      pivot: apply(pose, ...arm.offset),
+      slide: joint.direction && minus(apply(pose, ...joint.direction), apply(pose, 0, 0)),
+    }));
     const [bands, rows] = [new Set(), new Map()];
     for (const [link, number, obstacle, first, end] of world.pairs) {
-      const own = arm.links[link].parts;
+      const own = arm.links[Math.min(link, 1)].parts;
       const shape = own[number] ?? world.payload.parts[number - own.length];
       const part = placed(shape, at[link]);
       for (const piece of world.obstacles[obstacle].pieces.slice(first, end)) {
@@ -145,6 +148,7 @@ const Contact = (() => {
           continue;
         }
         const named = (e) => ({ ...e, shape, piece, body: own[number]?.body ?? world.payload.object });
+        const { pivot, slide } = frames[link - 1];
         for (const found of intervals(part, piece, pivot, slide, world.clearance)) {
           if (!rows.has(obstacle)) rows.set(obstacle, []);
           rows.get(obstacle).push(...within(joint, found.map(named)));

@@ -123,13 +123,14 @@ const Geometry = (() => {
 
   /** Signed distance of every link (or what it carries) and obstacle that can meet, nearest first. */
   function contacts(arm, world, q) {
-    const at = poses(arm, q);
+    // Of both links, and of link 2 as it lies to link 1.
+    const at = [...poses(arm, q), poses(arm, [0, q[1]])[1]];
     const nearest = new Map();
     const parts = new Map();
     for (const [link, part, obstacle, first, end] of world.pairs) {
       const key = `${link} ${part}`;
       if (!parts.has(key)) {
-        const own = arm.links[link].parts;
+        const own = arm.links[Math.min(link, 1)].parts;
         const carried = part >= own.length;
         const shape = carried ? world.payload.parts[part - own.length] : own[part];
         parts.set(key, { shape: placed(shape, at[link]), carried, body: carried ? world.payload.object : own[part].body });
@@ -138,7 +139,7 @@ const Geometry = (() => {
       for (let piece = first; piece < end; piece += 1) {
         const distance = separation(shape, world.obstacles[obstacle].pieces[piece]);
         const name = `${carried ? 'payload' : link} ${obstacle}`;
-        if (!(nearest.get(name)?.distance <= distance)) nearest.set(name, { link, carried, body, obstacle, distance });
+        if (!(nearest.get(name)?.distance <= distance)) nearest.set(name, { link: Math.min(link, 1), carried, body, obstacle, distance });
       }
     }
     return [...nearest.values()].sort((a, b) => a.distance - b.distance);

@@ -1,4 +1,4 @@
-//! Mesh files: where they are, and their vertices.
+//! Mesh files: where they are, their vertices and edges.
 
 mod dae;
 mod obj;
@@ -8,6 +8,24 @@ use crate::input::source::{Source, read_bounded};
 use crate::input::world::LARGEST;
 use nalgebra::Point3;
 use std::path::{Path, PathBuf};
+
+/// The surface of a mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Mesh {
+    /// Vertices of its faces.
+    pub points: Vec<Point3<f64>>,
+    /// Ends of the edges of its faces, into `points`, an edge once or more often; none if the reader does not know the faces.
+    pub edges: Vec<[u32; 2]>,
+}
+
+impl Mesh {
+    /// Adds the closed outline of a face whose corners are the points from number `first` on.
+    fn close_face(&mut self, first: usize) {
+        let corners = first as u32..self.points.len() as u32;
+        let next = corners.clone().cycle().skip(1);
+        self.edges.extend(corners.zip(next).map(|(from, to)| [from, to]));
+    }
+}
 
 /// Why a mesh is not read, and what to do about it.
 pub(super) struct Unread {
@@ -24,13 +42,13 @@ impl From<String> for Unread {
     }
 }
 
-/// Vertices of a mesh, scaled, in the geometry's frame.
+/// A mesh, scaled, in the geometry's frame.
 ///
 /// `filename` is as in the URDF: `package://name/rest`, `file://path`, absolute, or relative to the URDF's folder.
 ///
 /// # Errors
 /// With the places that were searched: the file is missing, the URDF is no file, of a format that is not read, broken, or too large.
-pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Vec<Point3<f64>>, Unread> {
+pub(super) fn read(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Mesh, Unread> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !["stl", "dae", "obj"].contains(&extension.as_str()) {
         let message =
@@ -40,15 +58,15 @@ pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Source) -> Result
     let anchor = urdf.anchor().map_err(|why| format!("mesh \"{filename}\" cannot be found: {why}"))?;
     let path = find(filename, anchor)?;
     let bytes = read_bounded(&path).map_err(|e| format!("mesh {} cannot be read: {e}", path.display()))?;
-    let points = match extension.as_str() {
+    let mesh = match extension.as_str() {
         "stl" => stl::read(bytes),
-        "dae" => dae::read(&bytes),
+        "dae" => dae::read(&bytes).map(|points| Mesh { points, edges: Vec::new() }),
         _ => obj::read(&bytes),
     };
-    let points = points.map_err(|e| format!("mesh {}: {e}", path.display()))?;
+    let Mesh { points, edges } = mesh.map_err(|e| format!("mesh {}: {e}", path.display()))?;
     let scaled: Vec<_> = points.iter().map(|p| Point3::new(p.x * scale[0], p.y * scale[1], p.z * scale[2])).collect();
     match scaled.iter().position(|p| !p.iter().all(|c| c.abs() <= LARGEST)) {
-        None => Ok(scaled),
+        None => Ok(Mesh { points: scaled, edges }),
         Some(far) => Err(too_far(&points[far], scale, &path)),
     }
 }

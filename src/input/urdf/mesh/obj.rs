@@ -1,10 +1,11 @@
 //! Wavefront OBJ: lines of vertices, and of faces by the numbers of their vertices.
 
+use super::Mesh;
 use nalgebra::Point3;
 
-/// Vertices of the faces.
-pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
-    let (mut vertices, mut points) = (Vec::new(), Vec::new());
+/// The faces.
+pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
+    let (mut vertices, mut mesh) = (Vec::new(), Mesh::default());
     let mut lines = bytes.split(|&byte| byte == b'\n').zip(1..);
     let mut line = Vec::new();
     while let Some((mut piece, number)) = lines.next() {
@@ -25,23 +26,25 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
                 vertices.push(Point3::new(x, y, z));
             }
             Some("f") => {
+                let first = mesh.points.len();
                 for word in words {
                     // Numbers of textures and normals follow after slashes; negative numbers count from the end.
                     let vertex = word.split('/').next().and_then(|word| word.parse::<i64>().ok());
                     let index =
                         vertex.and_then(|k| if k < 0 { vertices.len() as i64 + k } else { k - 1 }.try_into().ok());
                     let point = index.and_then(|index: usize| vertices.get(index));
-                    points
-                        .push(*point.ok_or_else(|| format!("line {number}: there is no vertex \"{word}\" before it"))?);
+                    let unknown = || format!("line {number}: there is no vertex \"{word}\" before it");
+                    mesh.points.push(*point.ok_or_else(unknown)?);
                 }
+                mesh.close_face(first);
             }
             _ => {}
         }
     }
-    if points.is_empty() {
+    if mesh.points.is_empty() {
         return Err("the mesh has no face".into());
     }
-    Ok(points)
+    Ok(mesh)
 }
 
 /// What a line says that goes on in the next, by a backslash at its end. Comments end with their line: they may name folders.

@@ -1,5 +1,6 @@
 //! STL, binary or as text.
 
+use super::Mesh;
 use nalgebra::Point3;
 use std::io::Cursor;
 
@@ -7,28 +8,31 @@ use std::io::Cursor;
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
-/// Vertices of the triangles.
-pub(super) fn read(mut bytes: Vec<u8>) -> Result<Vec<Point3<f64>>, String> {
+/// The triangles.
+pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     let count = bytes.get(80..HEADER).and_then(|c| c.try_into().ok()).map(u32::from_le_bytes);
     let binary = count.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + TRIANGLE as u64 * u64::from(n));
-    let points = if binary {
+    let mesh = if binary {
         // Exporters begin binary headers with "solid" too, by which readers tell text; the header means nothing else.
         bytes[..5].fill(0);
         let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| format!("the STL is broken: {e}"))?;
-        mesh.vertices.iter().map(|v| Point3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))).collect()
+        let points =
+            mesh.vertices.iter().map(|v| Point3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))).collect();
+        let edges = |[a, b, c]: [usize; 3]| [[a, b], [b, c], [c, a]].map(|edge| edge.map(|corner| corner as u32));
+        Mesh { points, edges: mesh.faces.iter().flat_map(|face| edges(face.vertices)).collect() }
     } else if bytes.starts_with(b"solid") {
         text(&String::from_utf8_lossy(&bytes))?
     } else {
         return Err("the file is no STL: its length does not fit its number of triangles".into());
     };
-    if points.is_empty() { Err("the mesh has no triangle".into()) } else { Ok(points) }
+    if mesh.points.is_empty() { Err("the mesh has no triangle".into()) } else { Ok(mesh) }
 }
 
-/// Vertices of an STL in words: solids one after the other, each from `solid` to `endsolid`. (`stl_io` reads the first one alone.)
-fn text(text: &str) -> Result<Vec<Point3<f64>>, String> {
+/// The triangles of an STL in words: solids one after the other, each from `solid` to `endsolid`. (`stl_io` reads the first one alone.)
+fn text(text: &str) -> Result<Mesh, String> {
     /// What a facet has, line by line.
     const FACET: [&str; 7] = ["facet normal", "outer loop", "vertex", "vertex", "vertex", "endloop", "endfacet"];
-    let mut points = Vec::new();
+    let mut mesh = Mesh::default();
     // The line of a facet that is next; none outside of solids.
     let mut next: Option<usize> = None;
     for (number, line) in text.lines().enumerate() {
@@ -42,9 +46,10 @@ fn text(text: &str) -> Result<Vec<Point3<f64>>, String> {
                 let parsed: Vec<f64> =
                     numbers.iter().filter_map(|word| word.parse::<f32>().ok().map(f64::from)).collect();
                 match (FACET[k], &parsed[..]) {
-                    ("vertex", &[x, y, z]) if numbers.len() == 3 => points.push(Point3::new(x, y, z)),
+                    ("vertex", &[x, y, z]) if numbers.len() == 3 => mesh.points.push(Point3::new(x, y, z)),
                     ("facet normal", _) if numbers.len() == 3 => {}
-                    ("outer loop" | "endloop" | "endfacet", _) if numbers.is_empty() => {}
+                    ("outer loop" | "endloop", _) if numbers.is_empty() => {}
+                    ("endfacet", _) if numbers.is_empty() => mesh.close_face(mesh.points.len() - 3),
                     _ => return Err(format!("the STL is broken: line {}: {:?}", number + 1, line.trim())),
                 }
                 Some((k + 1) % FACET.len())
@@ -53,7 +58,7 @@ fn text(text: &str) -> Result<Vec<Point3<f64>>, String> {
         };
     }
     match next {
-        None => Ok(points),
+        None => Ok(mesh),
         Some(_) => Err("the STL is broken: its last solid does not end".into()),
     }
 }

@@ -43,7 +43,8 @@ fn joint(turns: bool, range: JointRange) -> Joint {
 
 fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex, piece: Convex) -> Scene {
     let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
-    let part = Part { shape: part, inner: None, number: 0, heights: Heights::ALL, body: "body".into() };
+    let part =
+        Part { shape: part, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: "body".into() };
     let arm = Arm {
         name: "arm".into(),
         joints: [0, 1].map(|k| joint(turns[k], ranges[k])),
@@ -54,6 +55,7 @@ fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        self_obstacles: Vec::new(),
     };
     let shape = Shape::Polygon(piece.core().to_vec());
     let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
