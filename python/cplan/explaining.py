@@ -58,10 +58,11 @@ class ProofBox:
 
 @dataclass(frozen=True)
 class BlockingSet:
-    """An irreducible set: with all of it there is no motion, which the boxes prove (none where start or goal is not free), without any one there is."""
+    """A set with all of which there is no motion, which the boxes prove (none where start or goal is not free); `irreducible` if without any one there is."""
 
     blockers: tuple[Blocker, ...]
     proof: tuple[ProofBox, ...]
+    irreducible: bool
 
 
 @dataclass(frozen=True)
@@ -157,6 +158,7 @@ class Explanation(_Findings):
 
     `status` is "found", "infeasible" or "unknown", then with a `reason`. Infeasible: `blocking` names the obstacles of the first of the `sets`.
     Found: `path`, its `length` and the `lower_bound` of any, and `shaped_by`. Of steps that can all be done there is the status alone.
+    `stopped_after` is there if the time was up (seconds): then sets may not be irreducible, and changes and savings may be missing.
     """
 
     status: str
@@ -173,9 +175,10 @@ class Explanation(_Findings):
     lower_bound: float | None
     shaped_by: tuple[Saving, ...]
     tightest: Tightest | None
+    stopped_after: float | None
     _: KW_ONLY
     _text: str = field(repr=False)
-    _asked: tuple[Arm, World, tuple[str, ...]] = field(repr=False)
+    _asked: tuple[Arm, World, tuple[str, ...], float] = field(repr=False)
 
     def summary(self) -> str:
         """As the program prints it: the verdict first."""
@@ -191,8 +194,8 @@ class Explanation(_Findings):
 
     def _drawn(self, page: bool) -> str:
         # Explained anew: a page is larger than all else, and few are looked at.
-        arm, world, asked = self._asked
-        return _explain_drawn(arm, world, _options(asked), page)
+        arm, world, asked, time = self._asked
+        return _explain_drawn(arm, world, _options(asked), page, time)
 
     def _repr_html_(self) -> str:
         return f'<pre>{html.escape(self._text)}</pre>{self.svg()}'
@@ -206,10 +209,12 @@ def explain(
     goal: Sequence[float] | str | None = None,
     goal_tip: Sequence[float] | None = None,
     clearance: float | None = None,
+    time: float = 5.0,
 ) -> Explanation:
     """Why there is no motion and what opens a way; of one that there is, what shapes it. A world with steps: of the step that fails.
 
-    `start`, `goal`, `goal_tip` and `clearance` stand in place of the world's. A start or goal that is not free is explained, too.
+    `start`, `goal`, `goal_tip` and `clearance` stand in place of the world's. A start or goal that is not free is explained, too. Once it is known
+    whether there is a motion, the explanation takes no more than `time` seconds; `stopped_after` says whether it would have taken longer.
 
     >>> arm = Arm.rr([1.0, 0.8], width=0.06, limits=[(-1.5, 1.5), (-2.5, 2.5)])
     >>> world = World({"circle": {"center": [0.6, 0.0], "radius": 0.1}, "name": "post"}, start=[1.0, 0.2], goal=[-1.0, -0.2])
@@ -218,5 +223,5 @@ def explain(
     ('infeasible', ('post',), ['moved'])
     """
     asked = tuple(words(start=start, goal=goal, goal_tip=goal_tip, clearance=clearance))
-    text, summary = _explain(arm, world, _options(asked))
-    return _made(Explanation, json.loads(text), _json=text, _text=summary, _asked=(arm, world, asked))
+    text, summary = _explain(arm, world, _options(asked), time)
+    return _made(Explanation, json.loads(text), _json=text, _text=summary, _asked=(arm, world, asked, time))

@@ -7,6 +7,7 @@ use crate::problem::{Arm, Options, World};
 use crate::signals::interruptible;
 use cplan::cli::{Explained, Failure, compare_in};
 use cplan::cspace::Slice;
+use cplan::engine::explain::TIME_LIMIT;
 use cplan::engine::findings;
 use cplan::input::{InputError, JointValues, Overrides, Source, load_recording, read_recording};
 use cplan::model::Contacts;
@@ -14,6 +15,7 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 use serde::Serialize;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Why a configuration (`0.3,-1`) is, or is not, free.
 #[pyfunction]
@@ -100,24 +102,31 @@ pub fn compare(py: Python<'_>, arm: &Arm, world: &World, words: Vec<String>) -> 
 
 /// Why there is no motion and what opens a way, or what shapes the one that there is: JSON and text.
 #[pyfunction]
-#[pyo3(signature = (arm, world, options = None))]
-pub fn explain(py: Python<'_>, arm: &Arm, world: &World, options: Option<&Options>) -> PyResult<[String; 2]> {
-    explained(py, arm, world, options, |explained| (explained.to_json(), explained.summary()))
+#[pyo3(signature = (arm, world, options = None, time = TIME_LIMIT.as_secs_f64()))]
+pub fn explain(
+    py: Python<'_>,
+    arm: &Arm,
+    world: &World,
+    options: Option<&Options>,
+    time: f64,
+) -> PyResult<[String; 2]> {
+    explained(py, arm, world, options, time, |explained| (explained.to_json(), explained.summary()))
         .and_then(|(json, summary)| Ok([printed(&json)?, summary]))
 }
 
 /// The same as a picture, or as a page.
 #[pyfunction]
-#[pyo3(signature = (arm, world, options = None, page = false))]
+#[pyo3(signature = (arm, world, options = None, page = false, time = TIME_LIMIT.as_secs_f64()))]
 pub fn explain_drawn(
     py: Python<'_>,
     arm: &Arm,
     world: &World,
     options: Option<&Options>,
     page: bool,
+    time: f64,
 ) -> PyResult<String> {
     let draw = if page { cplan::draw::page } else { cplan::draw::svg };
-    explained(py, arm, world, options, |explained| draw(&explained.view()))
+    explained(py, arm, world, options, time, |explained| draw(&explained.view()))
 }
 
 fn explained<T: Send>(
@@ -125,10 +134,13 @@ fn explained<T: Send>(
     arm: &Arm,
     world: &World,
     options: Option<&Options>,
+    time: f64,
     told: impl FnOnce(&Explained) -> T + Send,
 ) -> PyResult<T> {
+    let limit = Duration::try_from_secs_f64(time).map_err(refused)?;
     let overrides = options.map_or_else(Overrides::default, |options| options.overrides.clone());
-    let found = interruptible(py, |_| Explained::of(arm.among(world)?, &overrides).map(|explained| told(&explained)))?;
+    let found =
+        interruptible(py, |_| Explained::of(arm.among(world)?, &overrides, limit).map(|explained| told(&explained)))?;
     found.map_err(|failure| failed(py, failure))
 }
 

@@ -1,12 +1,12 @@
 //! `cplan explain`: why there is no motion, and what opens a way; of one that there is, what shapes it.
 
-use super::args::{Files, QueryArgs};
+use super::args::{Files, QueryArgs, time_limit};
 use super::failure::Failure;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::View;
-use crate::engine::explain::{Explanation, Question, explain};
+use crate::engine::explain::{Explanation, Question, TIME_LIMIT, explain};
 use crate::engine::task::Impossible;
 use crate::engine::{Options, Plan, Problem, TaskPlan, plan};
 use crate::input::{self, DiagnosticKind, LoadedScene, Overrides, Query};
@@ -16,6 +16,7 @@ use crate::space::{GoalSet, Segment};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Arguments of `explain`.
 #[derive(Debug, Args)]
@@ -25,11 +26,15 @@ without any one of them there is one, certified. Of each the smallest change tha
 that is not free, which the main job refuses, is explained in the same words; of a world with steps the motion of the step that fails.
 Where there is a motion, it tells what makes it longer.
 
+After 5 s, or --time SECONDS, it says what it has: sets may then not be irreducible, which it says, and changes may be missing. The time begins
+when it is known whether there is a motion. The same input gives the same output unless the time is up.
+
 Examples:
   cplan explain robots/planar_2r.urdf workspaces/no_path.toml
   cplan explain robots/planar_2r.urdf workspaces/limits_closed.toml --picture why.svg
   cplan explain robots/planar_2r.urdf workspaces/shelf.toml --json
   cplan explain robots/planar_2r.urdf workspaces/shelf.toml --goal-tip 5,0
+  cplan explain robots/planar_2r.urdf workspaces/no_path.toml --time 60
 
 Exit codes: 0 there is a motion, 1 bad input or I/O, 2 wrong command line, 3 proven that there is none, 4 unknown.")]
 pub struct ExplainArgs {
@@ -40,6 +45,9 @@ pub struct ExplainArgs {
     /// Draw workspace and configuration space, with what is in the way and where the motion gets stuck: .svg, .png, .gif or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
+    /// Time for the explanation once it is known whether there is a motion; then what is known is said.
+    #[arg(long, value_name = "SECONDS", default_value_t = TIME_LIMIT.as_secs_f64(), value_parser = time_limit, allow_hyphen_values = true)]
+    pub time: f64,
     #[command(flatten)]
     pub print: PrintArgs,
 }
@@ -53,7 +61,7 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     let loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.say(&format!("warning: {warning}")));
-    let explained = Explained::of(loaded, &args.query.overrides())?;
+    let explained = Explained::of(loaded, &args.query.overrides(), Duration::from_secs_f64(args.time))?;
     if !sinks.is_empty() {
         let view = explained.view();
         for sink in &sinks {
@@ -77,11 +85,11 @@ pub enum Explained {
 }
 
 impl Explained {
-    /// Explains what the world asks for, or `overrides` in its place.
+    /// Explains what the world asks for, or `overrides` in its place, within a time limit ([`Question::with_time_limit`]).
     ///
     /// # Errors
     /// Overrides that do not go with the world; a task that is none.
-    pub fn of(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, Failure> {
+    pub fn of(loaded: LoadedScene, overrides: &Overrides, limit: Duration) -> Result<Self, Failure> {
         loaded.require_standing("what is in the way is told of what stands")?;
         let (question, notes) = if loaded.has_steps() {
             match Problem::of_scene(loaded.clone(), overrides) {
@@ -103,6 +111,7 @@ impl Explained {
             let query = loaded.query(overrides)?;
             (Question::new(query.scene, query.start, query.goal), query.notes)
         };
+        let question = question.with_time_limit(limit);
         Ok(Self::Motion(Box::new(explain(&question, &Options::default())), notes))
     }
 

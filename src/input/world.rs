@@ -243,6 +243,10 @@ pub(super) struct GoalTable {
 /// that large.
 pub const LARGEST: f64 = 1e6;
 
+/// The hint for numbers beyond [`LARGEST`].
+pub const TOO_FAR: &str =
+    "numbers go up to 1e6, metres or radians: move robot and world nearer to the origin, or convert other units";
+
 /// Reads a world.
 ///
 /// # Errors
@@ -376,10 +380,7 @@ impl Reader<'_> {
         }
         if value.abs() > LARGEST {
             let message = format!("{what}: {value} is too large (at most {LARGEST:e})");
-            return Err(self
-                .source
-                .diagnostic_at(number.span(), message)
-                .help("lengths are in metres, angles in radians"));
+            return Err(self.source.diagnostic_at(number.span(), message).help(TOO_FAR));
         }
         Ok(value)
     }

@@ -3,6 +3,8 @@
 //! Samples lie on this grid, and positions and velocities are those of that very nanosecond, so that no format rounds a
 //! time: of a cubic between samples `h` seconds apart, half a nanosecond would change the acceleration by `3e-9 v / h^2`.
 
+use crate::geometry::Interval;
+
 /// Nanoseconds in a second.
 pub(super) const PER_SECOND: u64 = 1_000_000_000;
 
@@ -18,6 +20,33 @@ pub(crate) fn nanoseconds(time: f64) -> u64 {
 /// Nanoseconds as seconds: the nearest double, so that it has no more than nine decimals when it is written down.
 pub(crate) fn seconds(nanoseconds: u64) -> f64 {
     nanoseconds as f64 / PER_SECOND as f64
+}
+
+/// Times of this and more are not rounded, seconds: no motion lasts so long, and their nanoseconds are more than doubles count.
+const NEVER: f64 = 1e6;
+
+/// The first whole nanosecond that is not before a time, as seconds.
+pub(crate) fn not_before(time: f64) -> f64 {
+    if time >= NEVER {
+        return time;
+    }
+    let near = nanoseconds(time);
+    if seconds(near) < time { seconds(near + 1) } else { seconds(near) }
+}
+
+/// The last whole nanosecond that is not after a time from 0 on, as seconds.
+pub(crate) fn not_after(time: f64) -> f64 {
+    if time >= NEVER {
+        return time;
+    }
+    let near = nanoseconds(time);
+    if seconds(near) > time { seconds(near.saturating_sub(1)) } else { seconds(near) }
+}
+
+/// The whole nanosecond nearest to a time among those of an interval, its ends included, as seconds; none if the interval holds none.
+pub(crate) fn nearest_within(time: f64, [from, to]: Interval) -> Option<f64> {
+    let (first, last) = (not_before(from), not_after(to));
+    (first <= last).then(|| seconds(nanoseconds(time)).clamp(first, last))
 }
 
 /// A duration rounded up to whole nanoseconds; times that exceed them by no more than rounding are left as they are.
@@ -47,6 +76,21 @@ mod tests {
             assert_eq!(whole_nanoseconds(duration), expected);
         }
         assert!(whole_nanoseconds(f64::INFINITY).is_infinite());
+    }
+
+    /// To the nearest nanosecond this window's beginning is before it, and its end after it.
+    #[test]
+    fn times_are_rounded_into_intervals() {
+        let [from, to] = [0.720_956_725_469_559_8, 0.820_956_725_669_559_8];
+        assert!(seconds(nanoseconds(from)) < from && to < seconds(nanoseconds(to)));
+        assert_eq!([not_before(from), not_after(to)], [0.720_956_726, 0.820_956_725]);
+        assert_eq!(
+            [from, 0.75, to].map(|time| nearest_within(time, [from, to])),
+            [Some(0.720_956_726), Some(0.75), Some(0.820_956_725)]
+        );
+        assert_eq!(nearest_within(from, [from, from + 1e-10]), None);
+        assert_eq!([not_before(0.3), not_after(0.3), not_after(f64::INFINITY)], [0.3, 0.3, f64::INFINITY]);
+        assert_eq!(nearest_within(2.0, [1.0, f64::INFINITY]), Some(2.0));
     }
 
     #[test]

@@ -48,6 +48,12 @@ impl Default for Drive {
 }
 
 impl Drive {
+    /// The same with a stop at every corner, which takes a small part of the time to find.
+    #[must_use]
+    pub fn stopping_at_corners(self) -> Self {
+        Self { blend: 0.0, ..self }
+    }
+
     /// A motion along a path at this share of the joints' top speeds (more than 0, at most 1), within the scene's clearance: the fastest, as
     /// [`time`] has it. With limits on jerks the corners are moved off what they go around by as much as makes the motion fastest, since a
     /// smooth motion needs room there; if time is to be the least ([`Drive::optimize`]), the whole path is given the shape that does.

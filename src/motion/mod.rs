@@ -91,7 +91,7 @@ mod tests;
 pub use self::mcap::{Body, Solid, Stage, mcap};
 pub use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use clock::whole_nanoseconds;
-pub(crate) use clock::{nanoseconds, seconds};
+pub(crate) use clock::{nanoseconds, nearest_within, not_after, not_before, seconds};
 pub use csv::csv;
 pub use drive::{Drive, Objective};
 pub use field::FieldReport;

@@ -1,6 +1,6 @@
 //! A path under a clock.
 
-use super::clock::{self, PER_SECOND, nanoseconds, whole_nanoseconds};
+use super::clock::{self, PER_SECOND, nanoseconds, not_before, whole_nanoseconds};
 use super::limits::Limits;
 use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
@@ -125,11 +125,23 @@ impl Trajectory {
     /// Stands still for so many seconds at the end, rounded up to whole nanoseconds; less than [`SHORTEST_INTERVAL`] counts as
     /// nothing.
     pub fn stand(&mut self, pause: f64) {
-        if let (Some(&end), Some(&position), true) = (self.time.last(), self.position.last(), rest(pause) > 0.0) {
-            self.push(
-                nanoseconds(end + rest(pause)),
-                [position.into(), Configuration::zeros(), Configuration::zeros()],
-            );
+        if rest(pause) > 0.0 {
+            self.stand_to(nanoseconds(self.duration() + rest(pause)));
+        }
+    }
+
+    /// Stands still at the end until the first whole nanosecond from a time on, not less than [`SHORTEST_INTERVAL`]; does nothing where the motion ends no
+    /// sooner than that.
+    pub fn stand_until(&mut self, time: f64) {
+        let (end, until) = (nanoseconds(self.duration()), nanoseconds(not_before(time)));
+        if end < until {
+            self.stand_to(until.max(end + nanoseconds(SHORTEST_INTERVAL)));
+        }
+    }
+
+    fn stand_to(&mut self, end: u64) {
+        if let Some(&position) = self.position.last() {
+            self.push(end, [position.into(), Configuration::zeros(), Configuration::zeros()]);
             // What it takes to hold the arm there.
             self.torque.extend(self.torque.last().copied());
         }

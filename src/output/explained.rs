@@ -6,10 +6,13 @@ use crate::draw::{Picture, Stuck, View};
 use crate::engine::Verdict;
 use crate::engine::explain::{
     Among, BlockedEnd, BlockingSet, Bottleneck, Change, Closed, Cure, Element, End, Explanation, OutOfReach, Shaped,
-    Target,
+    TIME_LIMIT, Target,
 };
 use crate::model::{Outcome, Scene};
-use crate::text::{at_least, at_most, percent};
+use crate::text::{at_least, at_most, percent, short};
+
+/// How many times as long an explanation that was stopped is advised to take.
+const MORE_TIME: f64 = 12.0;
 
 /// The verdict first, then why.
 #[must_use]
@@ -17,6 +20,7 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
     let scene = explanation.question.scene();
     let mut lines = vec![("result", verdict(explanation))];
     lines.extend(facts(explanation));
+    lines.extend(stopped(explanation).map(|words| ("stopped", words)));
     lines.push(("start", configuration(scene.arm(), explanation.question.start())));
     match explanation.question.target() {
         Target::Goals(goals) => {
@@ -67,6 +71,7 @@ fn verdict(explanation: &Explanation) -> String {
     match &explanation.outcome {
         Outcome::Unknown(reason) => format!("unknown: {reason}"),
         Outcome::Found(shaped) => match shaped.savings.len() {
+            0 if explanation.is_stopped => "there is a motion; what makes the shortest one longer is not known".into(),
             0 => "there is a motion, and nothing alone makes the shortest one longer".into(),
             n => format!("there is a motion; {} the shortest one longer", counted_makes(n)),
         },
@@ -76,6 +81,13 @@ fn verdict(explanation: &Explanation) -> String {
             None => "there is no motion, and nothing that could be left out opens a way".into(),
         },
     }
+}
+
+/// That the time was up before all was looked at, and how to have more of it.
+fn stopped(explanation: &Explanation) -> Option<String> {
+    let limit = explanation.question.time_limit().filter(|_| explanation.is_stopped)?.as_secs_f64();
+    let more = short((MORE_TIME * limit).max(TIME_LIMIT.as_secs_f64()));
+    Some(format!("after {limit} s, before all was looked at; --time {more} takes longer"))
 }
 
 fn counted_makes(n: usize) -> String {
@@ -100,8 +112,8 @@ fn found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Vec<Line> {
     }
     for saving in savings {
         let (what, length) = (saving.element.describe(scene), saving.length);
-        let (least, most) = (saving.at_least, saving.at_most);
-        let by = format!("without {what} it would be {length:.4}: shorter by {least:.4} at least, {most:.4} at most");
+        let (least, most) = (at_least(saving.at_least, 4), at_most(saving.at_most, 4));
+        let by = format!("without {what} it would be {length:.4}: shorter by {least} at least, {most} at most");
         lines.push(("shaped by", by));
     }
     if let Verdict::Found(path) = &answer.verdict
@@ -130,7 +142,8 @@ fn infeasible(scene: &Scene, closed: &Closed) -> Vec<Line> {
             },
         );
         let also = if number == 0 { "" } else { ", enough by itself, too" };
-        lines.push(("blocked by", format!("{}{also}; {boxes}", set.describe(scene))));
+        let proven = if set.is_irreducible() { "" } else { "; not proven irreducible" };
+        lines.push(("blocked by", format!("{}{also}; {boxes}{proven}", set.describe(scene))));
         for blocker in &set.blockers {
             let what = blocker.element.describe(scene);
             let known =

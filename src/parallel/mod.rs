@@ -9,6 +9,20 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 /// Pieces of work that begin before the one that is due has ended, at the most, for each thread: their results wait.
 const WAITING: usize = 64;
 
+/// Does one piece of many, whose panic is not to end the others.
+///
+/// # Errors
+/// That it panicked, in words. Work that is stopped from outside unwinds, too, and goes on doing so.
+pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
+        let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+        match said {
+            Some(said) => format!("cplan failed, which is a mistake in it: {said}"),
+            None => resume_unwind(panic),
+        }
+    })
+}
+
 /// Does `count` pieces of work on `jobs` threads, and hands the results to `each` on this thread, in order, each as soon as all before it
 /// are there; until one is refused. Panics of the work are panics here.
 ///
@@ -133,6 +147,21 @@ mod tests {
             assert_eq!(refused, Err("enough"));
             assert!(begun.load(Ordering::Relaxed) < 10_000);
         }
+    }
+
+    #[test]
+    fn a_panic_is_caught_and_what_is_stopped_is_not() {
+        assert_eq!(caught(|| 7), Ok(7));
+        let why = caught(|| -> u8 { panic!("corner {}", 3) });
+        assert_eq!(why, Err("cplan failed, which is a mistake in it: corner 3".into()));
+        let interrupt = crate::interrupt::Interrupt::new();
+        let stopped = interrupt.run(|| {
+            caught(|| {
+                interrupt.set();
+                crate::interrupt::checkpoint();
+            })
+        });
+        assert_eq!(stopped, Err(crate::interrupt::Interrupted::Set));
     }
 
     #[test]

@@ -37,12 +37,11 @@ pub use summary::Summary;
 
 use crate::engine::{Options, Plan, Problem, plan, solve};
 use crate::input::{InputError, LoadedScene, Overrides, Source};
-use crate::parallel::in_order;
+use crate::parallel::{caught, in_order};
 use file::Named;
 use overlap::overlap;
 use parameter::Design;
 use std::ops::Range;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
 use template::Template;
 
@@ -174,13 +173,7 @@ impl Study {
 
     fn row_of(&self, layout: usize, values: Vec<f64>) -> Row {
         // What goes wrong with one layout is its own affair: it is a row. Whoever stops the whole unwinds, too, and goes on doing so.
-        let judged = catch_unwind(AssertUnwindSafe(|| self.judged(&values))).unwrap_or_else(|panic| {
-            let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-            match said {
-                Some(said) => Err(format!("cplan failed, which is a mistake in it: {said}")),
-                None => resume_unwind(panic),
-            }
-        });
+        let judged = caught(|| self.judged(&values)).unwrap_or_else(Err);
         let (ending, reason, measured) = match judged {
             Ok(judged) => judged,
             Err(reason) => (Ending::Refused, Some(reason), vec![None; self.measures.len()]),

@@ -65,18 +65,36 @@ impl Moving {
         Oracle::new(&Scene::new(arm, workspace).expect("a scene"))
     }
 
-    /// Farthest that a point of anything that moves gets in a second, metres.
-    pub fn fastest(&self) -> f64 {
+    /// The same with obstacles that go from stop to stop so many times as fast.
+    pub fn hurried(self, times: f64) -> Self {
+        let (start, goals) = (self.problem.start(), self.problem.goals().clone());
+        let (arm, mut workspace) = self.problem.into_scene().into_parts();
+        for mover in &mut workspace.movers {
+            let first = mover.course.stops()[0].time;
+            let sooner = |stop: &Stop| Stop { time: first + (stop.time - first) / times, ..*stop };
+            let stops = mover.course.stops().iter().map(sooner).collect();
+            mover.course = Course::new(stops, mover.course.velocity()).expect("a course");
+        }
+        let scene = Scene::new(arm, workspace).expect("a scene");
+        let problem = MotionProblem::new(scene, start, goals).expect("as free as before");
+        Self { problem, ..self }
+    }
+
+    /// From stop to stop of all that moves: from when, until when, and how far a point of it gets in a second at most, metres.
+    pub fn speeds(&self) -> Vec<[f64; 3]> {
         let of = |mover: &Mover| {
             let pieces = mover.obstacle.pieces.iter();
             let reach = pieces.map(|piece| piece.reach_from(Point::origin())).fold(0.0, f64::max);
-            let legs = mover.course.stops().windows(2).map(|ends| {
+            let stops = mover.course.stops();
+            let leg = |ends: &[Stop]| {
                 let [a, b] = [ends[0], ends[1]];
-                ((b.at - a.at).norm() + (b.angle - a.angle).abs() * reach) / (b.time - a.time)
-            });
-            legs.fold(mover.course.velocity().norm(), f64::max)
+                let gone = (b.at - a.at).norm() + (b.angle - a.angle).abs() * reach;
+                [a.time, b.time, gone / (b.time - a.time)]
+            };
+            let last = [stops[stops.len() - 1].time, f64::INFINITY, mover.course.velocity().norm()];
+            stops.windows(2).map(leg).chain([last]).collect::<Vec<_>>()
         };
-        self.problem.scene().workspace().movers.iter().map(of).fold(0.0, f64::max)
+        self.problem.scene().workspace().movers.iter().flat_map(of).collect()
     }
 
     /// The time after which nothing moves any more, or nothing that moves is near.

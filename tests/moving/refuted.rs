@@ -1,18 +1,38 @@
 //! What is said to be impossible along a path is impossible for brute force, too.
 
 use crate::common::random::{seeds, usual};
-use crate::drawn::Moving;
-use cplan::space::{Configuration, Path};
+use crate::common::{asked, obstacle, placed, q, rectangle, rr};
+use crate::drawn::{Moving, at as moved};
+use crate::oracle::Oracle;
+use cplan::geometry::{Point, Vector};
+use cplan::model::{Course, Mover, Stop, Workspace};
+use cplan::space::{Configuration, JointRange, Path};
 use cplan::{Options, Outcome, plan};
 
-/// Places on the path, and seconds between looks.
+/// Places on the path, seconds between looks at the most, and how far anything moves between two, metres.
 const PLACES: usize = 100;
 const STEP: f64 = 0.02;
+const GOES: f64 = 0.05;
 
 #[test]
 fn where_no_timing_helps_a_flood_in_place_and_time_does_not_get_through() {
+    let (refuted, unknown) = flooded(Moving::all(seeds(10)));
+    println!("{refuted} refuted, {unknown} open");
+    assert!(!usual() || refuted > 0, "nothing was refuted");
+}
+
+/// Some cross the workspace in hundredths of a second, which looks every so often do not see.
+#[test]
+fn where_no_timing_helps_among_what_is_fast_a_flood_does_not_get_through_either() {
+    let (refuted, unknown) = flooded(Moving::all(seeds(8)).map(|world| world.hurried(100.0)));
+    println!("{refuted} refuted, {unknown} open");
+    assert!(!usual() || refuted > 0, "nothing was refuted");
+}
+
+/// Holds what is said to be impossible along a path to a flood; how many of the worlds are refuted, and how many open.
+fn flooded(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
     let (mut refuted, mut unknown) = (0, 0);
-    for world in Moving::all(seeds(10)) {
+    for world in worlds {
         let plan = plan(&world.asked(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Outcome::Unknown(reason) = plan.outcome() else { continue };
         if !reason.contains("obstacle") || !reason.contains("move") {
@@ -31,8 +51,48 @@ fn where_no_timing_helps_a_flood_in_place_and_time_does_not_get_through() {
         let path = Path::new(path.iter().map(|&q| q.into()).collect());
         assert!(!gets_through(&world, &path), "{}: a flood gets through", world.name);
     }
-    println!("{refuted} refuted, {unknown} open");
-    assert!(!usual() || refuted > 0, "nothing was refuted");
+    (refuted, unknown)
+}
+
+/// A bar that is in the way of every posture of the path for a thousandth of a second, and comes and goes at thousands of metres a second: that no
+/// timing helps is right, though a search that looks every hundredth of a second sees nothing of it.
+#[test]
+fn what_is_in_the_way_for_a_moment_refutes_every_timing() {
+    let at = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
+    let stops = vec![at(0.1036, 9.0), at(0.1046, 0.0), at(0.1056, 9.0)];
+    let mover = Mover {
+        obstacle: obstacle("bar", rectangle(0.4, 0.6, -1.0, 1.0)),
+        course: Course::new(stops, Vector::zeros()).expect("a course"),
+    };
+    let workspace = Workspace { movers: vec![mover.clone()], ..Workspace::new([]) };
+    let scene = placed(rr([JointRange::Interval { lower: -1.5, upper: 1.5 }; 2]), workspace);
+    let (start, goal) = (q(-0.5, 0.2), q(0.6, -0.3));
+    let plan = plan(&asked(scene.clone(), start, goal).into(), &Options::default()).expect("a plan");
+    let Outcome::Unknown(reason) = plan.outcome() else { panic!("{:?}", plan.status()) };
+    assert!(reason.contains("proven: along"), "{reason}");
+    let (arm, _) = scene.into_parts();
+    let there = |time: f64| Oracle::new(&placed(arm.clone(), Workspace::new([moved(&mover, time)])));
+    for place in 0..=100 {
+        let posture = start + (goal - start) * (f64::from(place) / 100.0);
+        // Deeper than the arm moves from one of these places to the next.
+        assert!(there(0.1046).room(posture) < -0.02, "{posture}");
+        for look in (0..=100).map(|look| f64::from(look) * 0.01) {
+            assert!(there(look).room(posture) > 0.1, "{posture} at {look}");
+        }
+    }
+}
+
+/// Moments at which it is looked: every so often, and more often while something is fast.
+fn looks(world: &Moving) -> Vec<f64> {
+    let count = (world.horizon() / STEP) as usize;
+    let mut looks: Vec<f64> = (0..=count).map(|look| look as f64 * STEP).collect();
+    for [from, to, speed] in world.speeds().into_iter().filter(|[_, to, _]| to.is_finite()) {
+        let parts = (speed * (to - from) / GOES).ceil().max(1.0) as usize;
+        looks.extend((0..=parts).map(|part| from + (to - from) * (part as f64 / parts as f64)));
+    }
+    looks.sort_by(f64::total_cmp);
+    looks.dedup();
+    looks
 }
 
 /// Whether steps from place to place and from look to look lead along the path, within the joints' speeds.
@@ -42,24 +102,35 @@ fn gets_through(world: &Moving, path: &Path) -> bool {
     let places: Vec<Configuration> = (0..=PLACES).map(at).collect();
     let takes =
         |a: Configuration, b: Configuration| (0..2).map(|j| (b - a)[j].abs() / speeds[j]).fold(0.0_f64, f64::max);
-    // Those that can be gone on to within a step, by their distance.
-    let reach: Vec<usize> = (0..=PLACES)
-        .map(|k| (1..=PLACES - k).take_while(|n| takes(places[k], places[k + n]) <= STEP).count())
+    // Seconds up to each place without a stop.
+    let gone: Vec<f64> = (0..=PLACES)
+        .scan(0.0, |gone, k| {
+            *gone += takes(places[k.saturating_sub(1)], places[k]);
+            Some(*gone)
+        })
         .collect();
-    // What is kept, so that nothing happens between two looks: as far as anything moves in half a step.
-    let apart = STEP / 2.0 * (world.fastest() + world.movers_at(0.0).speed(speeds.into()));
+    let (courses, arm) = (world.speeds(), world.movers_at(0.0).speed(speeds.into()));
+    // How far anything moves between two moments.
+    let goes = |[from, to]: [f64; 2]| {
+        let met = courses.iter().filter(|[begins, ends, _]| *begins < to && from < *ends);
+        (to - from) * (arm + met.map(|[.., speed]| *speed).fold(0.0, f64::max))
+    };
+    let looks = looks(world);
     let mut there = vec![false; PLACES + 1];
     there[0] = true;
-    let looks = (world.horizon() / STEP) as usize;
-    for look in 1..=looks {
-        let time = look as f64 * STEP;
+    for k in 1..looks.len() {
+        let after = looks.get(k + 1).map_or(0.0, |next| goes([looks[k], *next]));
+        // What is kept, so that nothing happens between two looks: as far as anything moves in half of the time to the one before and the one after.
+        let apart = goes([looks[k - 1], looks[k]]).max(after) / 2.0;
         let mut next = vec![false; PLACES + 1];
-        for k in (0..=PLACES).filter(|&k| there[k]) {
-            next[k.saturating_sub(reach[k])..=(k + reach[k]).min(PLACES)].fill(true);
+        for from in (0..=PLACES).filter(|&from| there[from]) {
+            let within = |to: &usize| (gone[*to] - gone[from]).abs() <= looks[k] - looks[k - 1];
+            (from..=PLACES).take_while(within).for_each(|to| next[to] = true);
+            (0..from).rev().take_while(within).for_each(|to| next[to] = true);
         }
-        let movers = world.movers_at(time);
-        for (k, place) in places.iter().enumerate() {
-            next[k] = next[k] && movers.room(*place) > apart;
+        let movers = world.movers_at(looks[k]);
+        for (number, place) in places.iter().enumerate() {
+            next[number] = next[number] && movers.room(*place) > apart;
         }
         if next[PLACES] {
             return true;

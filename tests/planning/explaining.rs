@@ -7,15 +7,15 @@
 //! CPLAN_WORLDS=250 cargo test --profile quick --test planning explaining -- --nocapture
 //! ```
 
-use crate::common::random::seeds;
+use crate::common::random::{seeds, usual};
 use crate::random_worlds::world::{KINDS, world};
 use cplan::engine::explain::{BlockingSet, Cure, Element, Question, Side, blocking_set, explain};
-use cplan::engine::{Verdict, decide};
-use cplan::geometry::Vector;
+use cplan::engine::{Method, Planner, Verdict, decide, solve};
+use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, Outcome, OutlineSource, Part, Scene, Workspace,
 };
-use cplan::space::{Configuration, JointRange};
+use cplan::space::{Configuration, GoalSet, JointRange, Segment};
 use cplan::{Options, Status, engine};
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
@@ -57,13 +57,13 @@ fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
             }
         }
     }
-    // A micrometre is kept, unless an end does not.
+    // A micrometre is kept, by small arms a millionth of their reach, unless an end does not.
     let asked = |clearance: f64| {
         let workspace = Workspace { clearance: workspace.clearance.max(clearance), ..workspace.clone() };
         let scene = Scene::new(arm.clone(), workspace).expect("less of what is valid");
         MotionProblem::new(scene, problem.start(), problem.goals().clone())
     };
-    asked(1e-6).unwrap_or_else(|_| asked(0.0).expect("ends stay free"))
+    asked(1e-6 * problem.scene().arm().reach().min(1.0)).unwrap_or_else(|_| asked(0.0).expect("ends stay free"))
 }
 
 /// What is wrong with a set.
@@ -267,4 +267,132 @@ fn what_shapes_the_shortest_path_is_told_with_what_it_costs() {
     let truth = around - 1.6;
     assert!(saving.at_least <= truth && truth <= saving.at_most, "{saving:?} {truth}");
     assert!(saving.at_most - saving.at_least < 1e-2 * truth, "{saving:?}");
+}
+
+/// The same arm and world in another unit of length, with the start some turns of the continuous joints away, or as many goals.
+fn rescaled(problem: &MotionProblem, scale: f64, turns: [f64; 2]) -> MotionProblem {
+    let (mut arm, mut workspace) = problem.scene().clone().into_parts();
+    let point = |p: Point| p * scale;
+    let shape = |piece: &Convex| {
+        Convex::new(piece.core().iter().map(|p| point(*p)).collect(), piece.radius() * scale).expect("a shape")
+    };
+    let slides = arm.joints.each_ref().map(|joint| !joint.joint_type.is_revolute());
+    let range = |k: usize| arm.joints[k].range;
+    let value = |k: usize, value: f64, by: f64| match range(k) {
+        JointRange::Circle => value + by * TAU,
+        JointRange::Interval { .. } if slides[k] => value * scale,
+        JointRange::Interval { .. } => value,
+    };
+    let at = |q: Configuration, turns: [f64; 2]| Configuration::from_fn(|k, _| value(k, q[k], turns[k]));
+    let start = at(problem.start(), turns);
+    let goals: GoalSet =
+        problem.goals().pieces().iter().map(|goal| Segment::point(at(goal.ends()[0], [0.0; 2]))).collect();
+    for (joint, slides) in arm.joints.iter_mut().zip(slides) {
+        if let (JointRange::Interval { lower, upper }, true) = (&mut joint.range, slides) {
+            (*lower, *upper) = (*lower * scale, *upper * scale);
+        }
+    }
+    (arm.base, arm.tip, arm.offset) = (point(arm.base), point(arm.tip), arm.offset * scale);
+    arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(|part| part.shape = shape(&part.shape));
+    for obstacle in &mut workspace.obstacles {
+        obstacle.pieces = obstacle.pieces.iter().map(shape).collect();
+        obstacle.shape = cplan::model::Shape::Pieces;
+    }
+    workspace.clearance *= scale;
+    MotionProblem::new(Scene::new(arm, workspace).expect("a scene"), start, goals).expect("as free as before")
+}
+
+/// Arms of metres, of millimetres and of hundreds of metres, with starts up to twenty turns away: what is said of lengths without something holds for
+/// paths of another planner in the world without it, made from scratch.
+#[test]
+fn what_is_said_of_lengths_holds_for_paths_of_another_planner() {
+    let (by_graph, mut seen) = (Options { planner: Planner::named(Method::Visibility), ..Options::default() }, 0);
+    let graph = |problem: &MotionProblem| match solve(problem, &by_graph, &mut |_| ()).verdict {
+        Verdict::Found(path) => Some(path.path().length()),
+        _ => None,
+    };
+    for seed in seeds(4) {
+        for (kind, scale) in KINDS.into_iter().flat_map(|kind| [(kind, 1e-3), (kind, 1.0), (kind, 300.0)]) {
+            let Some(drawn) = world(kind, seed) else { continue };
+            let turns = [[0.0, 0.0], [3.0, -1.0], [-20.0, 7.0]][(seed % 3) as usize];
+            let (mut arm, mut workspace) = drawn.scene().clone().into_parts();
+            workspace.obstacles.truncate(4);
+            arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(|part| part.inner = None);
+            let few = Scene::new(arm, workspace).expect("fewer obstacles");
+            let few = MotionProblem::new(few, drawn.start(), drawn.goals().clone()).expect("as free as before");
+            let problem = rescaled(&few, scale, turns);
+            let explanation = explain(&Question::from(&problem), &Options::default());
+            let Outcome::Found(shaped) = &explanation.outcome else { continue };
+            let whole = shaped.answer.bound.expect("a bound");
+            let name = format!("{kind} {seed} at {scale}");
+            let slack = 1e-12 * whole.upper;
+            if let Some(length) = graph(&problem) {
+                assert!(whole.lower <= length + slack, "{name}: {whole:?}, another path of {length}");
+            }
+            for saving in &shaped.savings {
+                let gone = |element: &Element| *element != saving.element;
+                let there: Vec<Element> = Element::all(problem.scene()).into_iter().filter(gone).collect();
+                let (mut arm, mut workspace) = among(&problem, &there).into_scene().into_parts();
+                // The limits that are left out go farther the smaller the arm is; no clearance is added here.
+                if scale != 1.0 && matches!(saving.element, Element::Limit { .. }) {
+                    continue;
+                }
+                let keeps = problem.scene().workspace().clearance;
+                workspace.clearance = if saving.element == Element::Clearance { 0.0 } else { keeps };
+                arm.name = "without".into();
+                let scene = Scene::new(arm, workspace).expect("less of what is valid");
+                let without = MotionProblem::new(scene, problem.start(), problem.goals().clone()).expect("free");
+                let Some(length) = graph(&without) else { continue };
+                seen += 1;
+                let least = whole.upper - saving.at_most;
+                assert!(least <= length + slack, "{name}: not below {least} without {saving:?}, but {length}");
+            }
+        }
+    }
+    println!("{seen} lengths compared");
+    assert!(!usual() || seen > 2, "{seen}");
+}
+
+/// Of an arm of a millimetre a micrometre is much: a bound for paths that keep it is none for those that need not.
+#[test]
+fn lengths_without_an_obstacle_are_those_at_the_worlds_own_clearance() {
+    let small = |obstacle: Obstacle| {
+        let cplan::model::Shape::Polygon(corners) = &obstacle.shape else { panic!("a bar") };
+        Obstacle::polygon(&obstacle.name, corners.iter().map(|p| [p.x * 1e-3, p.y * 1e-3])).expect("a rectangle")
+    };
+    let corner = [0.15_f64, 0.3];
+    let bars = vec![small(bar("higher", -3.0, 0.5)), small(bar("lower", -3.0, corner[1] - HALF))];
+    let (mut arm, workspace) = gantry(bars, 0.0).scene().clone().into_parts();
+    for joint in &mut arm.joints {
+        joint.range = JointRange::Interval { lower: -1e-3, upper: 1e-3 };
+    }
+    for part in arm.links.iter_mut().flat_map(|link| &mut link.parts) {
+        let corners = part.shape.core().iter().map(|p| *p * 1e-3).collect();
+        part.shape = Convex::new(corners, 0.0).expect("a square");
+    }
+    let scene = Scene::new(arm, workspace).expect("a scene");
+    let goal = GoalSet::from(Configuration::new(0.8e-3, 0.0));
+    let explanation = explain(&Question::new(scene, Configuration::new(-0.8e-3, 0.0), goal), &Options::default());
+    let Outcome::Found(shaped) = &explanation.outcome else { panic!("{}", explanation.status()) };
+    let around = |height: f64| 2.0 * ((0.8_f64 - corner[0]).hypot(height) + corner[0]) * 1e-3;
+    let [saving] = &shaped.savings[..] else { panic!("{:?}", shaped.savings) };
+    let truth = around(0.5 + HALF) - around(corner[1]);
+    assert!(saving.at_least <= truth && truth <= saving.at_most, "{saving:?} {truth}");
+    assert!(saving.at_most - saving.at_least < 1e-2 * truth, "{saving:?}");
+}
+
+/// When the time is up what is known is said: that there is no motion, and what may be in the way.
+#[test]
+fn an_explanation_that_is_stopped_has_the_verdict_and_no_set_that_is_said_to_be_irreducible() {
+    let question = gantry(wall(2.0 * HALF - 0.03), 0.0).with_time_limit(Duration::from_nanos(1));
+    let explanation = explain(&question, &Options::default());
+    let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
+    assert!(explanation.is_stopped && closed.proof.is_some());
+    let [set] = &closed.sets[..] else { panic!("{:?}", closed.sets) };
+    assert!(!set.is_irreducible() && set.blockers.len() >= 2, "{set:?}");
+    assert_eq!(closed.changes().count(), 0);
+    let open = gantry(vec![bar("middle", -3.0, 0.2)], 0.0).with_time_limit(Duration::from_nanos(1));
+    let explanation = explain(&open, &Options::default());
+    let Outcome::Found(shaped) = &explanation.outcome else { panic!("{}", explanation.status()) };
+    assert!(explanation.is_stopped && shaped.savings.is_empty());
 }

@@ -16,6 +16,10 @@ pub fn guard() -> BigInt {
     BigInt::from(1) << (BITS - 96)
 }
 
+/// Directions that may separate are written with so many binary digits, all that a double has: what is left out counts as often as an obstacle is
+/// larger than the distance to it.
+const DIGITS: u32 = 52;
+
 /// Parts of a motion that are looked at before the checker gives up: some minutes' worth.
 const MOST_PARTS: usize = 1_000_000;
 
@@ -408,8 +412,9 @@ impl<'a> Posture<'a> {
         let here: Vec<[f64; 2]> = solid.ring.iter().map(|i| seen(&corners[*i].at)).collect();
         let there: Vec<[f64; 2]> = side.shape.points.iter().map(seen).collect();
         let Some([x, y]) = direction(&here, &there, roughly(&apart)) else { return false };
-        let exact =
-            |n: [f64; 2]| n.map(|c| Interval::exactly(BigInt::from((c * f64::from(1 << 30)) as i64) << (BITS - 30)));
+        let exact = |n: [f64; 2]| {
+            n.map(|c| Interval::exactly(BigInt::from((c * (1_u64 << DIGITS) as f64) as i64) << (BITS - DIGITS)))
+        };
         if self.separates(&exact([x, y]), corners, &side.shape.points, &apart) {
             return true;
         }
@@ -502,11 +507,17 @@ fn ring(points: &[[f64; 2]]) -> Vec<usize> {
 fn direction(here: &[[f64; 2]], there: &[[f64; 2]], apart: f64) -> Option<[f64; 2]> {
     let minus = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-    // From a point to the nearest of a segment.
+    // From a point to the nearest of a segment. Between its ends that is straight across it: of a way that is far shorter than the segment, computed as
+    // the difference of two places, no digit would be right.
     let to_segment = |p: [f64; 2], a: [f64; 2], b: [f64; 2]| {
         let (along, to) = (minus(b, a), minus(a, p));
         let square = dot(along, along);
-        let share = if square > 0.0 { (-dot(to, along) / square).clamp(0.0, 1.0) } else { 0.0 };
+        let share = if square > 0.0 { -dot(to, along) / square } else { 0.0 };
+        if 0.0 < share && share < 1.0 {
+            let across = [-along[1], along[0]];
+            return across.map(|c| c * (dot(to, across) / square));
+        }
+        let share = share.clamp(0.0, 1.0);
         [to[0] + share * along[0], to[1] + share * along[1]]
     };
     let mut nearest = ([0.0; 2], f64::INFINITY);

@@ -4,18 +4,21 @@ mod reader;
 mod turns;
 
 use super::DONE;
+use super::args::time_limit;
 use super::error_json::ErrorJson;
 use super::failure::Failure;
 use crate::engine::Report;
+use crate::model::Status;
 use crate::text::plain_json;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
-use reader::{Answer, Reader};
+use reader::{Answer, Planned, Reader};
 use serde::Serialize;
 use serde_json::value::RawValue;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::PathBuf;
+use std::time::Duration;
 use turns::Turns;
 
 /// Arguments of `batch`.
@@ -27,10 +30,12 @@ A line is an object: `urdf` (a path) or `urdf_text`; `world` (a path, or the key
   {\"urdf\": \"arm.urdf\", \"world\": \"world.toml\", \"options\": {\"goal\": [1.2, -0.3], \"clearance\": 0.01}}
 Each line is answered by one, in the same order, as soon as it and those before it are done: by the main job's result, or by an
 error. The same input gives the same output, whatever the --jobs. Robots that come again are read once; blank lines are skipped.
+With --time SECONDS a problem that takes longer is answered by `unknown` with that reason, and those after it do not wait for it.
 
 Examples:
   cplan batch problems.jsonl
   cplan batch problems.jsonl --jobs 2 --fields status,length,clearance > rows.jsonl
+  cplan batch problems.jsonl --time 10
 
 Exit codes: 0 every line is answered, whatever the answers; 1 I/O, or no line is a JSON object; 2 wrong command line.")]
 pub struct BatchArgs {
@@ -44,6 +49,9 @@ pub struct BatchArgs {
     #[arg(long, value_name = "NAMES", value_delimiter = ',', hide_possible_values = true,
         value_parser = PossibleValuesParser::new(Report::FIELDS))]
     pub fields: Vec<String>,
+    /// Time for each problem [default: as long as it takes].
+    #[arg(long, value_name = "SECONDS", value_parser = time_limit, allow_hyphen_values = true)]
+    pub time: Option<f64>,
 }
 
 /// What answers a line.
@@ -55,6 +63,13 @@ struct Row<T> {
     answer: T,
 }
 
+/// The answer to a problem that took too long.
+#[derive(Serialize)]
+struct Stopped {
+    status: Status,
+    reason: String,
+}
+
 /// Answers all lines.
 ///
 /// # Errors
@@ -64,7 +79,10 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     let turns = Turns::new(BufReader::new(opened(args)?), &input, io::stdout(), args.jobs.into());
     let work = || {
         let mut reader = Reader::default();
-        turns.work(|line| row(reader.answer(line, &input), &args.fields));
+        turns.work(|line| {
+            let answer = reader.answer(line, &input, args.time.map(Duration::from_secs_f64));
+            row(answer, &args.fields)
+        });
     };
     std::thread::scope(|scope| {
         (1..args.jobs).for_each(|_| drop(scope.spawn(work)));
@@ -95,7 +113,8 @@ fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
 fn row(answer: Answer, fields: &[String]) -> (String, bool) {
     let Answer { id, is_object, plan } = answer;
     let text = match plan {
-        Ok(plan) => text(&Row { id, answer: plan.report().only(fields) }),
+        Ok(Planned::Done(plan)) => text(&Row { id, answer: plan.report().only(fields) }),
+        Ok(Planned::Stopped(reason)) => text(&Row { id, answer: Stopped { status: Status::Unknown, reason } }),
         Err(failure) => text(&Row { id, answer: ErrorJson::of_failure(&failure) }),
     };
     (text, is_object)

@@ -5,6 +5,8 @@ use crate::cli::failure::Failure;
 use crate::cli::words::{self, Asked};
 use crate::engine::{Plan, Problem, plan};
 use crate::input::{Diagnostic, InputError, LoadedScene, Position, Source, scene_from};
+use crate::interrupt::{Instant, Interrupt};
+use crate::parallel::caught;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::error::Category;
@@ -12,6 +14,7 @@ use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// Robots, and lists of words, that are remembered at the most.
 const REMEMBERED: usize = 256;
@@ -65,7 +68,15 @@ pub struct Answer {
     /// Whether the line is a JSON object at all.
     pub is_object: bool,
     /// What is answered.
-    pub plan: Result<Plan, Failure>,
+    pub plan: Result<Planned, Failure>,
+}
+
+/// What became of a problem.
+pub enum Planned {
+    /// It is planned.
+    Done(Box<Plan>),
+    /// The time was up before: in words.
+    Stopped(String),
 }
 
 /// Reads lines and remembers what they name.
@@ -83,8 +94,8 @@ struct Known {
 }
 
 impl Reader {
-    /// Answers a line. `input` is what messages call its file.
-    pub fn answer(&mut self, line: &Line, input: &str) -> Answer {
+    /// Answers a line, in no more than a time. `input` is what messages call its file.
+    pub fn answer(&mut self, line: &Line, input: &str, limit: Option<Duration>) -> Answer {
         let refused = |message: String, help: &str| refused(input, line.number, message, help);
         // The parser names a line of this line.
         let said = |error: serde_json::Error| error.to_string().replace(" at line 1 column", " at column");
@@ -100,10 +111,28 @@ impl Reader {
         };
         let given = serde_json::from_slice(&line.text)
             .map_err(|error| refused(said(error), "`cplan batch --help` tells what a line can say"));
-        Answer { id: keys.remove("id"), is_object: true, plan: given.and_then(|given| self.plan(given, &refused)) }
+        // What goes wrong with one problem is its own affair: the others are answered, too.
+        let planned = given.and_then(|given| {
+            let help = "report it with this line; the others are answered";
+            caught(|| self.in_time(given, &refused, limit)).unwrap_or_else(|why| Err(refused(why, help)))
+        });
+        Answer { id: keys.remove("id"), is_object: true, plan: planned }
     }
 
-    fn plan(&mut self, given: Given, refused: &dyn Fn(String, &str) -> Failure) -> Result<Plan, Failure> {
+    /// Plans, unless the time is up before that is done.
+    fn in_time(
+        &mut self,
+        given: Given,
+        refused: &dyn Fn(String, &str) -> Failure,
+        limit: Option<Duration>,
+    ) -> Result<Planned, Failure> {
+        let Some(limit) = limit else { return self.plan(given, refused) };
+        let interrupt = Interrupt::new().by(Instant::now() + limit);
+        let stopped = |_| Ok(Planned::Stopped(format!("stopped after {} s", limit.as_secs_f64())));
+        interrupt.run(|| self.plan(given, refused)).unwrap_or_else(stopped)
+    }
+
+    fn plan(&mut self, given: Given, refused: &dyn Fn(String, &str) -> Failure) -> Result<Planned, Failure> {
         let one =
             |what: &str| refused(format!("give `{what}` or `{what}_text`, one of them"), "see `cplan batch --help`");
         let robot = match (given.urdf, given.urdf_text) {
@@ -121,7 +150,7 @@ impl Reader {
         };
         let Asked { options, overrides } = self.asked(given.options, refused)?;
         let problem = Problem::of_scene(self.scene(robot, world)?, &overrides)?;
-        Ok(plan(&problem, &options)?)
+        Ok(Planned::Done(Box::new(plan(&problem, &options)?)))
     }
 
     fn scene(&mut self, robot: Named, world: Named) -> Result<LoadedScene, InputError> {

@@ -182,9 +182,10 @@ impl Filter<'_> {
     }
 }
 
-/// The proof by these boxes, if it holds.
+/// The proof by these boxes, if it holds and that is shown in time.
 fn held(question: &Question, stuck: Vec<StuckBox>) -> Option<CheckedProof> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;
-    Disconnection::new(stuck).checked(scene, question.start(), &question.goals(), clearance).ok()
+    let check = || Disconnection::new(stuck).checked(scene, question.start(), &question.goals(), clearance).ok();
+    question.in_time(check).flatten()
 }

@@ -23,6 +23,8 @@ pub struct Explanation {
     pub question: Question,
     /// What there is to say of the answer.
     pub outcome: Outcome<Shaped, Closed>,
+    /// Whether the time was up before all was looked at: then sets may not be irreducible, and changes and savings may be missing.
+    pub is_stopped: bool,
 }
 
 /// A motion that was found.
@@ -58,22 +60,24 @@ impl Explanation {
 }
 
 /// Explains a question: of a motion that is found, what shapes it; of one that there is none of, what is in the way, the smallest change
-/// of each that opens a way, and where it gets stuck. Tenths of a second, as a rule.
+/// of each that opens a way, and where it gets stuck. Tenths of a second, as a rule; once it is known whether there is a motion, no longer than the
+/// question's time limit.
 #[must_use]
 pub fn explain(question: &Question, options: &Options) -> Explanation {
     let answer = question.problem().map(|problem| solve(&problem, options, &mut |_| ()));
-    let closed = |proof: Option<CheckedProof>| Outcome::Infeasible(closed(question, proof));
+    let started = question.started();
+    let closed = |proof: Option<CheckedProof>| Outcome::Infeasible(closed(&started, proof));
     let outcome = match answer.as_ref().map(|answer| &answer.verdict) {
         None => closed(None),
         Some(Verdict::Infeasible(proof)) => closed(Some(proof.clone())),
         Some(Verdict::Unknown(reason)) => Outcome::Unknown(reason.clone()),
         Some(Verdict::Found(_)) => {
             let answer = answer.expect("it was just looked at");
-            let savings = savings(question, &answer, options);
+            let savings = savings(&started, &answer, options);
             Outcome::Found(Shaped { answer: Box::new(answer), savings })
         }
     };
-    Explanation { question: question.clone(), outcome }
+    Explanation { question: question.clone(), outcome, is_stopped: started.is_out_of_time() }
 }
 
 impl Closed {

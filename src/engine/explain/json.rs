@@ -20,6 +20,9 @@ impl Explanation {
         };
         if let (Value::Object(object), Value::Object(more)) = (&mut object, more) {
             object.extend(more);
+            if let (true, Some(limit)) = (self.is_stopped, self.question.time_limit()) {
+                object.insert("stopped_after".into(), json!(limit.as_secs_f64()));
+            }
         }
         object
     }
@@ -98,7 +101,8 @@ fn of_closed(scene: &Scene, closed: &Closed) -> Value {
         .map(|set| {
             let proof: Option<Vec<ProofBox>> =
                 set.proof.as_ref().map(|proof| proof.stuck().iter().map(ProofBox::from).collect());
-            json!({ "blockers": set.blockers.iter().map(blocker).collect::<Vec<_>>(), "proof": proof })
+            let blockers: Vec<Value> = set.blockers.iter().map(blocker).collect();
+            json!({ "blockers": blockers, "proof": proof, "irreducible": set.is_irreducible() })
         })
         .collect();
     json!({

@@ -4,13 +4,19 @@ use super::element::{Element, Side, widened};
 use crate::check::{CertifiedPath, CheckedProof};
 use crate::engine::{Verdict, decide};
 use crate::geometry::{Convex, Point};
+use crate::interrupt::{Instant, Interrupt};
 use crate::model::{Arm, Goal, JointType, MotionProblem, Scene, Workspace, inverse};
 use crate::space::{Configuration, GoalSet, Segment};
 use std::f64::consts::TAU;
+use std::time::Duration;
 
 /// The clearance among some of what is in the way where the world asks for less, or that is left out, metres: what passes through less passes by
-/// luck. Without any, what passes nothing but obstacles as thin as a line could be shown neither to be a way nor to be none, by boxes.
+/// luck. Without any, what passes nothing but obstacles as thin as a line could be shown neither to be a way nor to be none, by boxes. Of arms that
+/// reach less than a metre this share of their reach.
 pub const HARDLY_ANY: f64 = 1e-6;
+
+/// Time for an explanation once it is known whether there is a motion, unless more is asked for. Most take tenths of a second.
+pub const TIME_LIMIT: Duration = Duration::from_secs(5);
 
 /// What is to be reached.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +46,10 @@ pub struct Question {
     beyond: [f64; 2],
     /// The least clearance when something is left out: [`HARDLY_ANY`], if start and goals keep it.
     least_clearance: f64,
+    /// Time for all decisions together; none for as long as they take.
+    time_limit: Option<Duration>,
+    /// When that time is up, once its clock runs.
+    deadline: Option<Instant>,
 }
 
 /// What is decided of a question.
@@ -72,10 +82,43 @@ impl Question {
     pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
         let target = target.into();
         let beyond = beyond(&scene, start, &target);
-        let asked = Self { scene, start, target, beyond, least_clearance: 0.0 };
-        let kept = asked.with_clearance(asked.scene.workspace().clearance.max(HARDLY_ANY));
+        let asked = Self { scene, start, target, beyond, least_clearance: 0.0, time_limit: None, deadline: None };
+        let hardly_any = HARDLY_ANY * asked.scene.arm().reach().min(1.0);
+        let kept = asked.with_clearance(asked.scene.workspace().clearance.max(hardly_any));
         let keeps = kept.is_free(start) == asked.is_free(start) && kept.goals() == asked.goals();
-        Self { least_clearance: if keeps { HARDLY_ANY } else { 0.0 }, ..asked }
+        Self { least_clearance: if keeps { hardly_any } else { 0.0 }, ..asked }
+    }
+
+    /// The same question, explained in at most this time, whose clock starts when it is known whether there is a motion. What is not decided by then
+    /// is unknown, so that the answer may depend on the machine.
+    #[must_use]
+    pub fn with_time_limit(self, limit: Duration) -> Self {
+        Self { time_limit: Some(limit), ..self }
+    }
+
+    /// Time for an explanation; none if it takes as long as it takes.
+    #[must_use]
+    pub fn time_limit(&self) -> Option<Duration> {
+        self.time_limit
+    }
+
+    /// The same question, the clock of whose time limit runs from now on.
+    pub(super) fn started(&self) -> Self {
+        let deadline = self.time_limit.map(|limit| Instant::now() + limit);
+        Self { deadline, ..self.clone() }
+    }
+
+    /// Does `work`; none if the time is up before it is done.
+    pub(super) fn in_time<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
+        match self.deadline {
+            Some(deadline) => Interrupt::new().by(deadline).run(work).ok(),
+            None => Some(work()),
+        }
+    }
+
+    /// Whether the time is up.
+    pub(super) fn is_out_of_time(&self) -> bool {
+        self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
     /// Arm and obstacles.
@@ -136,8 +179,9 @@ impl Question {
     /// By slabs and boxes, of these no more than so many.
     #[must_use]
     pub fn answer(&self, boxes: usize) -> Decision {
-        match self.problem().map(|problem| decide(&problem, boxes)) {
-            None => Decision::Closed(None),
+        let Some(problem) = self.problem() else { return Decision::Closed(None) };
+        match self.in_time(|| decide(&problem, boxes)) {
+            None => Decision::Unknown("the time is up".into()),
             Some(Verdict::Found(path)) => Decision::Open(Box::new(path)),
             Some(Verdict::Infeasible(proof)) => Decision::Closed(Some(proof)),
             Some(Verdict::Unknown(reason)) => Decision::Unknown(reason),
@@ -155,6 +199,15 @@ impl Question {
     /// clearance. At least [`HARDLY_ANY`] is kept, if start and goals do. All else keeps its number, so that a proof which names nothing of it holds in both.
     #[must_use]
     pub fn without(&self, elements: &[Element]) -> Self {
+        self.just_without(elements).rebuilt(|_, workspace| {
+            workspace.clearance = workspace.clearance.max(self.least_clearance);
+        })
+    }
+
+    /// The same as [`Question::without`], but with the world's clearance however small it is. What is said of lengths is about this one: to keep a
+    /// little more than the world asks for makes paths longer, so that a lower bound of that question is none of this one.
+    #[must_use]
+    pub fn just_without(&self, elements: &[Element]) -> Self {
         self.rebuilt(|arm, workspace| {
             for element in elements {
                 match *element {
@@ -170,7 +223,6 @@ impl Question {
                     Element::Clearance => workspace.clearance = 0.0,
                 }
             }
-            workspace.clearance = workspace.clearance.max(self.least_clearance);
         })
     }
 

@@ -19,15 +19,15 @@ pub struct Saving {
 }
 
 /// What shapes the shortest path of which `answer` knows: all without which it is proven to be shorter, the greatest savings first. A shortest
-/// path is looked for without each in turn.
+/// path is looked for without each in turn, until the question's time is up.
 #[must_use]
 pub fn savings(question: &Question, answer: &Answer, options: &Options) -> Vec<Saving> {
     let Some(whole) = answer.bound else { return Vec::new() };
     let mut savings = Vec::new();
     for element in Element::all(question.scene()) {
         checkpoint();
-        let Some(problem) = question.without(&[element]).problem() else { continue };
-        let without = solve(&problem, options, &mut |_| ());
+        let Some(problem) = question.just_without(&[element]).problem() else { continue };
+        let Some(without) = question.in_time(|| solve(&problem, options, &mut |_| ())) else { break };
         if let (Verdict::Found(_), Some(Bound { lower, upper, .. })) = (&without.verdict, without.bound) {
             let (at_least, at_most) = (whole.lower - upper, whole.upper - lower);
             if at_least > 0.0 {

@@ -19,7 +19,7 @@ use super::options::Options;
 use super::{Verdict, solve};
 use crate::check::{CertifiedPath, CollisionCheck, Nearest, certify, certify_in_time, met_in_time};
 use crate::model::{MotionProblem, Scene};
-use crate::motion::{Timed, TimingError, Trajectory};
+use crate::motion::{Limits, Timed, TimingError, Trajectory};
 use crate::space::{Configuration, GoalSet, Interpolation, Recording, Segment};
 use crate::text::counted;
 use refutation::no_timing;
@@ -88,7 +88,10 @@ pub fn in_time(
         let before = for_good.unwrap_or(f64::INFINITY).min(latest);
         if whole.trajectory.duration() < before {
             let along = |effort: Effort| {
-                let along = schedule(&movers, &path, &whole, &options.drive, demand, effort, before)?;
+                // With limits on jerks corners take as long to round as all else together, and here there are many motions with them.
+                let stops = effort == Effort::THOROUGH && Limits::from(&scene.arm().joints).stops_at_corners();
+                let drive = if stops { options.drive.stopping_at_corners() } else { options.drive };
+                let along = schedule(&movers, &path, &whole, &drive, demand, effort, before)?;
                 Ok::<_, TimingError>(along.filter(|it| best.is_none_or(|best| it.is_better_than(best))))
             };
             let mut better = along(Effort::QUICK)?;

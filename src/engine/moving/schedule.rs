@@ -282,7 +282,7 @@ impl Stops<'_> {
         }
         let curve = curve.unwrap_or_else(|| start.into());
         if let Some([begins, _]) = self.demand.arrival {
-            trajectory.stand(self.demand.until.unwrap_or(begins) - arrived);
+            trajectory.stand_until(self.demand.until.unwrap_or(begins));
             let (to, goal) = (trajectory.duration(), self.path.path().goal());
             waits.extend((to > arrived).then(|| Wait { from: arrived, to, at: goal.into() }));
         }

@@ -3,7 +3,7 @@
 use super::document::{escaped, tag};
 use crate::input::error::Diagnostic;
 use crate::input::source::Source;
-use crate::input::world::LARGEST;
+use crate::input::world::{LARGEST, TOO_FAR};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
@@ -137,7 +137,7 @@ impl Attributes<'_> {
                 let is_length = ["xyz", "size", "radius", "length"].contains(&name);
                 if let Some(value) = values.iter().find(|x| is_length && x.is_finite() && x.abs() > LARGEST) {
                     let message = format!("{value:e} in {name}=\"{text}\" is too large (at most {LARGEST:e})");
-                    self.diagnostic(node, Some(name), message, "lengths are in metres");
+                    self.diagnostic(node, Some(name), message, TOO_FAR);
                     return None;
                 }
                 values.iter().all(|x| x.is_finite()).then_some(values)

@@ -180,3 +180,38 @@ fn answers_come_while_lines_do_and_end_with_their_reader() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
 }
+
+/// A problem that takes longer than its time has an answer, and so have those after it.
+#[test]
+fn each_problem_has_an_answer_in_time() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let lines: Vec<Value> = (0..3).map(|id| json!({"id": id, "urdf": urdf, "world": world})).collect();
+    let done = answered(&place, &lines, "--time 1e-9");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let stopped = |id: i32| json!({"id": id, "status": "unknown", "reason": "stopped after 0.000000001 s"});
+    assert_eq!(done.rows(), [stopped(0), stopped(1), stopped(2)]);
+    let unhurried = answered(&place, &lines, "--time 1000 --jobs 2");
+    assert_eq!(unhurried.stdout, answered(&place, &lines, "").stdout);
+    assert_eq!(answered(&place, &lines, "--time 0").code, 2);
+}
+
+/// What the world asks for itself may be blocked: each line asks for something else.
+#[test]
+fn worlds_whose_own_ends_are_blocked_are_answered_line_by_line() {
+    let place = Place::new();
+    let [urdf, _] = shelf();
+    let crate_at =
+        "[[obstacle]]\nname = \"crate\"\npolygon = [[0.85, -0.15], [1.15, -0.15], [1.15, 0.15], [0.85, 0.15]]\n";
+    place.write("world.toml", format!("start.joints = [0, 0]\ngoal.joints = [0.05, 0]\n{crate_at}"));
+    let ends = [([0.0, 0.0], [1.2, 0.0]), ([1.2, 0.0], [0.0, 0.0]), ([1.2, 0.3], [2.0, 0.1]), ([1.0, 0.0], [2.0, 0.5])];
+    let line = |(id, (start, goal)): (usize, &([f64; 2], [f64; 2]))| json!({"id": id, "urdf": urdf, "world": "world.toml", "options": {"start": start, "goal": goal}});
+    let mut lines: Vec<Value> = ends.iter().enumerate().map(line).collect();
+    lines.push(json!({"id": 4, "urdf": urdf, "world": "world.toml"}));
+    let done = answered(&place, &lines, "--fields status");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let said: Vec<Value> = done.rows().iter().map(|row| json!([row["id"], row["status"], row["kind"]])).collect();
+    let found = |id: i32| json!([id, "found", null]);
+    let refused = |id: i32, kind: &str| json!([id, "error", kind]);
+    assert_eq!(said, [refused(0, "start"), refused(1, "goal"), found(2), found(3), refused(4, "start")]);
+}

@@ -268,3 +268,50 @@ fn arms_of_meshes_have_certificates_that_hold() {
         place.write("block.stl", stl());
     }
 }
+
+/// Arms of a millimetre or two, of two bars, by polygons a thousand times as large: the shortest paths keep some nanometres from their sides.
+#[test]
+fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_hold() {
+    let arm = |[first, second]: [f64; 2], width: f64| {
+        let bar = |length: f64| {
+            let middle = length / 2.0;
+            format!(
+                "<collision><origin xyz=\"{middle} 0 0\"/><geometry><box size=\"{length} {width} {width}\"/></geometry></collision>"
+            )
+        };
+        let joint = |name: &str, parent: &str, child: &str, at: f64| {
+            format!(
+                "<joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/><child link=\"{child}\"/><origin xyz=\"{at} 0 0\"/>\
+                 <axis xyz=\"0 0 1\"/><limit effort=\"1\" velocity=\"2\"/></joint>"
+            )
+        };
+        let (one, two) = (joint("j1", "base", "first", 0.0), joint("j2", "first", "second", first));
+        format!(
+            "<robot name=\"small\"><link name=\"base\"/>{one}<link name=\"first\">{}</link>{two}<link name=\"second\">{}</link></robot>",
+            bar(first),
+            bar(second)
+        )
+    };
+    let drawn = [
+        (
+            arm([0.000_768_001_349_861_993, 0.000_496_322_129_867_232_4], 3.251_186_249_428_235e-5),
+            "start.joints = [-0.7658430157668175, 0.6172762024624654]\ngoal.joints = [0.6680556539680671, 0.3629183085269361]\n\
+             [[obstacle]]\npolygon = [[0.001066289303945124, -0.000513903727308219], [2.1648420973291085, -2.631137332551655], \
+             [4.795465526153455, -0.4673615245264915], [2.6316897181282917, 2.163261904297855]]\n",
+        ),
+        (
+            arm([0.000_881_213_591_769_368_7, 0.000_833_884_153_919_755_6], 0.000_149_795_346_061_618_28),
+            "start.joints = [-2.127767445010293, 0.5185130737650949]\ngoal.joints = [-1.253169459995272, -1.613275432719459]\n\
+             [[obstacle]]\npolygon = [[-6.416929572231785, 17.412259488316753], [-18.024165429593197, 13.135443473552318], \
+             [-9.470533400064332, -10.079028241170503], [2.13670245729708, -5.802212226406071]]\n",
+        ),
+    ];
+    for (number, (urdf, world)) in drawn.iter().enumerate() {
+        let place = Place::new();
+        place.write("a.urdf", urdf);
+        place.write("w.toml", world);
+        let done = place.run(&["a.urdf", "w.toml"], "--quiet --certificate c.json");
+        assert_eq!(done.code, 0, "{number}: {}", done.stderr);
+        check(urdf, world, &place.read("c.json")).unwrap_or_else(|why| panic!("{number}: {why}"));
+    }
+}

@@ -132,3 +132,26 @@ fn what_waits_out_of_reach_is_never_within_reach() {
     let said = check(&urdf, world, &place.read("c.json")).unwrap();
     assert!(said.contains("never within reach"), "{said}");
 }
+
+/// A pick at the very beginning of its window, which is no whole nanosecond: the first one within it.
+#[test]
+fn a_pick_at_the_beginning_of_its_window_is_within_it() {
+    let (place, urdf) = (Place::new(), shipped("robots/planar_2r.urdf"));
+    let shipped = read(&shipped("workspaces/moving/belt_pick.toml"));
+    let mut rounded_down = 0;
+    for k in 0..6 {
+        let [from, to] = [2.120_956_725_469_559_8 + 0.201_3 * f64::from(k), 6.0];
+        let world =
+            shipped.replacen("pick = \"bottle 1\"", &format!("pick = \"bottle 1\"\nwindow = [{from:?}, {to:?}]"), 1);
+        place.write("w.toml", &world);
+        let done = place.run(&[&*urdf, "w.toml"], "--json --certificate c.json");
+        assert_eq!(done.code, 0, "{from}: {}", done.stderr);
+        let result: serde_json::Value = serde_json::from_str(&done.stdout).unwrap();
+        let picked = result["steps"][0]["arrival"].as_f64().unwrap_or_else(|| panic!("{}", result["steps"][0]));
+        assert!(from <= picked && picked <= to, "{from}: {picked}");
+        rounded_down += usize::from(picked < from + 1e-9 && (picked - from) > 5e-10);
+        let judged = check(&read(&urdf), &world, &place.read("c.json"));
+        assert!(judged.is_ok(), "{from}: {judged:?}");
+    }
+    assert!(rounded_down > 0, "no pick was at the beginning of its window");
+}

@@ -130,3 +130,59 @@ fn of_a_task_that_can_be_done_there_is_a_picture() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     assert!(place.read("done.svg").contains("<svg"));
 }
+
+/// An arm of hundreds of metres: what is in its way is known at once, and which part of it is needed not in a minute.
+const LONG_ARM: &str = r#"<robot name="long"><link name="base"/>
+<joint name="j1" type="revolute"><parent link="base"/><child link="first"/><origin xyz="-143.9847 267.1032 0" rpy="3.141592653589793 0 0"/>
+<axis xyz="0 0 1"/><limit lower="-1.2907" upper="1.5639" effort="1" velocity="1"/></joint>
+<link name="first"><collision><origin xyz="273.3623 0 0"/><geometry><box size="304.9523 59.3303 50"/></geometry></collision>
+<collision><origin xyz="396.1733 51.1006 0"/><geometry><box size="59.3303 102.2012 50"/></geometry></collision></link>
+<joint name="j2" type="revolute"><parent link="first"/><child link="second"/><origin xyz="425.8384 0 0"/>
+<axis xyz="0 0 1"/><limit lower="-3.1096" upper="4.8904" effort="1" velocity="1"/></joint>
+<link name="second"><collision><origin xyz="447.9735 0 0"/><geometry><box size="895.947 60.3479 50"/></geometry></collision></link></robot>
+"#;
+
+const WIDE_WORLD: &str = r#"clearance = 39.6536
+[start]
+joints = [-0.9125, 4.1826]
+[goal]
+joints = [-0.9723, 0.5891]
+[[obstacle]]
+name = "o0"
+polygon = [[207.7316, 125.5632], [-76.092, 289.4288], [-76.092, -38.3025]]
+[[obstacle]]
+name = "o1"
+polygon = [[-320.9808, -154.5411], [-409.6456, -210.1317], [-423.927, -212.3088], [-443.2852, -213.0322], [-474.6479, -208.7825], [-541.6537, 42.8578], [-408.1092, 80.6394], [-291.5286, -48.3271]]
+[[obstacle]]
+name = "o2"
+circle = { center = [1029.5896, -213.1444], radius = 95.3178 }
+"#;
+
+#[test]
+fn after_the_time_it_says_what_it_has() {
+    let place = Place::new();
+    place.write("a.urdf", LONG_ARM);
+    place.write("w.toml", WIDE_WORLD);
+    let clock = std::time::Instant::now();
+    let result = json(&place.run(&["explain", "a.urdf", "w.toml"], "--time 0.3 --json"));
+    assert!(clock.elapsed().as_secs() < 20, "{:?}", clock.elapsed());
+    assert_eq!((&result["status"], &result["stopped_after"]), (&"infeasible".into(), &0.3.into()), "{result}");
+    // In no time at all.
+    let done = place.run(&["explain", "a.urdf", "w.toml"], "--time 0.000001");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    for words in [
+        "there is no motion: proven; blocked by",
+        "boxes of collisions prove it; not proven irreducible",
+        "stopped    after 0.000001 s, before all was looked at; --time 5 takes longer",
+    ] {
+        assert!(done.stdout.contains(words), "{words}: {}", done.stdout);
+    }
+    let result = json(&place.run(&["explain", "a.urdf", "w.toml"], "--time 0.000001 --json"));
+    assert_eq!(result["sets"][0]["irreducible"], false, "{result}");
+    // In time nothing is said of time.
+    let usual = json(&explain(&Place::new(), "planar_2r_continuous", "no_path", "--json"));
+    assert!(usual["stopped_after"].is_null() && usual["sets"][0]["irreducible"] == true, "{usual}");
+    for time in ["0", "-1", "nan", "inf", "1e10"] {
+        assert_eq!(place.run(&["explain", "a.urdf", "w.toml"], &format!("--time {time}")).code, 2, "{time}");
+    }
+}

@@ -472,3 +472,29 @@ fn pictures_explain_what_they_show() {
     assert!(!legend(["robots/planar_2r_continuous.urdf", "workspaces/no_path.toml"], 3));
     assert!(legend(["robots/planar_2r.urdf", "workspaces/shelf.toml"], 0));
 }
+
+/// What the world's own start and goal hit is the affair of the layouts in which they do: each has its row, that of the files as they are, too.
+#[test]
+fn layouts_have_rows_where_the_base_has_a_blocked_start_or_goal() {
+    let place = Place::new();
+    let robot = shipped("robots/planar_2r.urdf");
+    let parameter = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nvalues = [1.0, 3.0]\n";
+    let at_home = [
+        ("start", "start.joints = [0, 0]\ngoal.joints = [1.2, 0.3]\n"),
+        ("goal", "start.joints = [1.2, 0.3]\ngoal.joints = [0, 0]\n"),
+    ];
+    let tip = ("IK solution", "start.joints = [1.2, 0.3]\ngoal.tip = [1.0, 0.0]\n");
+    for (blocked, ends) in at_home.into_iter().chain([tip]) {
+        let world = format!(
+            "{ends}[[obstacle]]\nname = \"crate\"\nat = [1.0, 0.0]\npolygon = [[-0.15, -0.15], [0.15, -0.15], [0.15, 0.15], [-0.15, 0.15]]\n"
+        );
+        place.write("world.toml", world);
+        place.write("study.toml", format!("robot = \"{robot}\"\nworld = \"world.toml\"\n{parameter}"));
+        let done = run(&place, "--output t.csv --output t.html --output best.toml");
+        assert_eq!(done.code, 0, "{ends}: {}", done.stderr);
+        let rows = rows(&place.read("t.csv"));
+        assert_eq!(rows.len(), 2, "{ends}");
+        assert_eq!((field(&rows[0], "outcome"), field(&rows[1], "outcome")), ("refused", "found"), "{ends}");
+        assert!(field(&rows[0], "reason").contains(blocked), "{ends}: {}", field(&rows[0], "reason"));
+    }
+}

@@ -24,7 +24,7 @@ use crate::engine::result::finite;
 use crate::geometry::Ordered;
 use crate::interrupt::checkpoint;
 use crate::model::{Action, Item, MotionProblem, Step, Task};
-use crate::motion::{Timed, after_pause, nanoseconds, seconds};
+use crate::motion::{Limits, Timed, after_pause, nanoseconds, not_before, seconds};
 use passing::passages;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -36,6 +36,10 @@ const MOTIONS: [usize; 2] = [150, 40];
 
 /// The same for a sooner end.
 const MORE_MOTIONS: [usize; 2] = [10, 8];
+
+/// Motions whose corners are rounded where jerks are limited, which takes tenths of a second for each: so many, and for each step. Later ones stop at
+/// their corners.
+const ROUNDED_MOTIONS: [usize; 2] = [12, 4];
 
 /// Parts of the span between a moment that works and the one before it in which a sooner one is looked for, again and again, ...
 const PARTS: usize = 4;
@@ -66,8 +70,10 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
     let mut search = Search {
         task,
         options: of_legs(options),
+        stopping: Options { drive: options.drive.stopping_at_corners(), ..of_legs(options) },
         heuristic: &heuristic,
         legs: Legs::new(options),
+        stopping_legs: Legs::new(&Options { drive: options.drive.stopping_at_corners(), ..*options }),
         nodes: Vec::new(),
         open: BinaryHeap::new(),
         is_done: false,
@@ -180,6 +186,9 @@ struct Search<'a> {
     heuristic: &'a Heuristic<'a>,
     /// Motions as if nothing moved.
     legs: Legs,
+    /// The same with a stop at every corner.
+    stopping: Options,
+    stopping_legs: Legs,
     nodes: Vec<Node<'a>>,
     open: BinaryHeap<Reverse<Rank>>,
     /// Whether a way through the whole task is known.
@@ -336,7 +345,7 @@ impl<'a> Search<'a> {
         let (mut since, mut until, mut best) = (moment.since, moment.time, None);
         while until - since > FINEST {
             let step = (until - since) / PARTS as f64;
-            let parts = (1..PARTS).map(|k| seconds(nanoseconds(since + step * k as f64)));
+            let parts = (1..PARTS).map(|k| not_before(since + step * k as f64));
             let sooner =
                 parts.scan(since, |before, time| Some(Moment { time, since: std::mem::replace(before, time) }));
             let found = sooner.into_iter().find_map(|moment| {
@@ -360,21 +369,34 @@ impl<'a> Search<'a> {
             // What touches something where it is taken may be taken elsewhere on its way.
             unobstructed(&here.standing(candidate, time), candidate.to, "after it")?;
         }
+        let [some, each] = ROUNDED_MOTIONS;
+        let stops = Limits::from(&task.arm.joints).stops_at_corners()
+            && self.motions >= some + each * self.task.steps().count();
+        let (options, legs) =
+            if stops { (&self.stopping, &mut self.stopping_legs) } else { (&self.options, &mut self.legs) };
         // As if nothing moved.
-        let motion = self.legs.motion(task, state, candidate)?;
+        let motion = legs.motion(task, state, candidate)?;
         self.motions += 1;
         let problem = MotionProblem::trusted(here.scene(step), state.q, candidate.to);
+        // On the clock of the motion: differences of whole nanoseconds are whole ones, too.
+        let since = |at: f64| match at.is_finite() {
+            true => seconds(nanoseconds(at).saturating_sub(nanoseconds(time))),
+            false => at,
+        };
         let demand = Demand {
             speed: step.speed,
-            arrival: Some(way.arrival.map(|arrival| (arrival - time).max(0.0))),
-            until: way.moment.map(|moment| moment.time - time),
+            arrival: Some(way.arrival.map(since)),
+            until: way.moment.map(|moment| since(moment.time)),
         };
         let path = motion.timed.curve.straight();
-        let planned = in_time(&problem, &path, (*motion.timed).clone(), &self.options, &demand);
+        let planned = in_time(&problem, &path, (*motion.timed).clone(), options, &demand);
         let planned = planned.map_err(|error| Refusal::new(error.to_string(), false))?;
         let InTime { timed: Timed { curve, trajectory }, figures } =
             planned.map_err(|reason| Refusal::new(reason, false))?;
         let arrival = after_pause(time + trajectory.duration(), 0.0);
+        if arrival > way.moment.map_or(way.arrival[1], |moment| moment.time) {
+            return Err(Refusal::new("it cannot stand still there within the time that it has", false));
+        }
         let q = curve.curve().path().goal();
         let kept = stands(&here.standing(candidate, arrival), q, step.dwell);
         let kept = kept.ok_or_else(|| Refusal::new("something that moves comes while the arm stands there", false))?;

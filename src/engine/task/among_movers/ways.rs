@@ -8,7 +8,7 @@ use crate::check::Posture;
 use crate::engine::moving::Movers;
 use crate::geometry::Interval;
 use crate::model::{Action, Scene, Step, Task};
-use crate::motion::{SHORTEST_INTERVAL, nanoseconds, seconds};
+use crate::motion::{SHORTEST_INTERVAL, nanoseconds, nearest_within, not_after, not_before, seconds};
 use crate::space::Configuration;
 
 /// Stretches of time in which a motion is to arrive, for each IK solution.
@@ -130,7 +130,11 @@ impl<'a> Here<'a, '_> {
                     }
                     continue;
                 }
-                let moment = Moment { time: seconds(nanoseconds(time)), since };
+                // Clocks count nanoseconds: the one nearest to the window's beginning may be before it.
+                let [begins, ends] = passage.times;
+                let instant = || (begins == ends).then(|| seconds(nanoseconds(time)));
+                let Some(time) = nearest_within(time, passage.times).or_else(instant) else { continue };
+                let moment = Moment { time, since };
                 ways.extend(self.passing(movers, step, object, moment));
                 since = moment.time;
             }
@@ -152,7 +156,7 @@ impl<'a> Here<'a, '_> {
             let stays_until = moment.time + step.dwell;
             let before = safe.into_iter().find(|[from, to]| *from <= moment.time && moment.time <= *to)?;
             stays.into_iter().find(|[from, to]| *from <= moment.time && stays_until <= *to)?;
-            let arrival = [before[0], moment.time - EARLY];
+            let arrival = [not_before(before[0]), moment.time - EARLY];
             let is_in_time = arrival[0].max(self.soonest(&candidate)) <= arrival[1];
             // A sooner moment may be found for it.
             let ends = moment.since + step.dwell;
@@ -161,13 +165,14 @@ impl<'a> Here<'a, '_> {
         self.candidates(step, object, moment.time).into_iter().enumerate().filter_map(way).collect()
     }
 
-    /// The ways to arrive at a candidate's target, within some times, and to stay there as long as the step asks for.
+    /// The ways to arrive at a candidate's target, within some times, and to stay there as long as the step asks for: from a whole nanosecond to another
+    /// one, both within these times.
     fn arrivals(&self, movers: &Movers, candidate: &Candidate<'a>, within: Interval, ways: &mut Vec<Way<'a>>) {
         let [safe, stays] = self.safe(movers, candidate);
         let (dwell, soonest) = (candidate.step.dwell, self.soonest(candidate));
         let both = |a: &Interval| {
             let within = [a[0].max(within[0]), a[1].min(within[1])];
-            let common = |b: &Interval| [within[0].max(b[0]), within[1].min(b[1] - dwell)];
+            let common = |b: &Interval| [not_before(within[0].max(b[0])), not_after(within[1].min(b[1] - dwell))];
             stays.iter().map(common).collect::<Vec<_>>()
         };
         let arrivals = safe.iter().flat_map(both).filter(|[from, to]| from.max(soonest) <= *to).take(MOST_ARRIVALS);
