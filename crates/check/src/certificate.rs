@@ -41,7 +41,7 @@ pub struct Certificate {
     pub motion: Option<Motion>,
     /// Of a task: which part of it does which step.
     pub steps: Option<Vec<Done>>,
-    /// Links that are taken to meet in every configuration.
+    /// Pairs of links that overlap in every configuration.
     #[serde(default)]
     pub ignored: Vec<[String; 2]>,
     /// What evidence names.

@@ -40,7 +40,7 @@ impl<'a> Among<'a> {
         }
     }
 
-    /// A part of an obstacle.
+    /// Finds a convex part of an obstacle.
     fn part(&self, number: usize, obstacle: usize, name: &PartName) -> Result<Evident, CheckError> {
         let fails = |why: &str| CheckError::Fails(format!("part {number}, of obstacle {obstacle}: {why}"));
         if name.own.is_some() || name.collision.is_some() || name.visual.is_some() || name.height.is_some() {
@@ -58,14 +58,15 @@ impl<'a> Among<'a> {
     }
 }
 
-/// What a part is of, and its shape and heights.
+/// The owner of a part, its shape and its heights.
 type Evident = (Whole, Shape, Option<Range>);
 
-const PART: &str = "a part has an obstacle, or a link of the robot's own and one number";
+/// Hint for parts that name nothing, or too much.
+const PART: &str = "a part names an obstacle, or by \"own\" a link of the robot and one of its shapes";
 
 /// A shape that evidence names.
 enum Named {
-    /// One of the arm, and the links that stand still that it may meet.
+    /// A shape of the arm, and the links that it may touch.
     Own(Body, BTreeSet<String>),
     Carried(Hung),
 }
@@ -79,9 +80,11 @@ pub struct Part {
     heights: Option<Range>,
 }
 
-/// What a part is of: an obstacle, by its number, or a link.
+/// The owner of a part.
 enum Whole {
+    /// The obstacle with this number.
     Obstacle(usize),
+    /// The link of the robot with this name.
     Link(String),
 }
 
@@ -160,6 +163,7 @@ impl<'a> Contacts<'a> {
     }
 }
 
+/// Finds a shape by the name that evidence gives it.
 fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError> {
     let own = |link: &str, kind: &str, number: usize| {
         let shape = named_shape(&arm.shapes, (link, kind, number), name.height.as_ref())?;

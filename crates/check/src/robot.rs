@@ -63,9 +63,9 @@ pub struct Arm<'a> {
     pub tip: Body,
     /// All that can collide, ...
     pub shapes: Vec<Counted>,
-    /// ... and what of the robot it can collide with, ...
+    /// ... shapes of the robot that stand still, ...
     pub still: Vec<Counted>,
-    /// ... as obstacles.
+    /// ... and the obstacles that they make.
     pub own: Vec<Obstacle>,
     /// What is taken to be otherwise than the URDF has it, in words.
     pub notes: String,

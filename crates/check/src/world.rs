@@ -48,8 +48,9 @@ pub struct World {
     pub bar: Option<Decimal>,
     /// The link whose origin is the tip, if it says one.
     pub tip: Option<String>,
-    /// Whether links of the robot are in the way of its other links, and pairs of them that may meet.
+    /// Whether links of the robot must not collide with its other links, ...
     pub own_body: bool,
+    /// ... and pairs that may.
     pub ignore_contact: Vec<[String; 2]>,
     pub clearance: Decimal,
     /// Those of the file that stand, then the map's walls, then the objects where they lie at first, or move.

@@ -14,7 +14,7 @@ pub struct ShapeName {
     pub collision: Option<usize>,
     pub visual: Option<usize>,
     pub bar: Option<usize>,
-    /// In which layer of it, if it has several.
+    /// A height in the layer, if the shape has several.
     pub height: Option<Decimal>,
     /// Corners of a convex part of what is carried, in its own frame; none of a disc.
     pub carried: Option<Vec<Corner>>,
@@ -24,11 +24,11 @@ pub struct ShapeName {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartName {
-    /// The obstacle's number in the world file.
+    /// Number of the obstacle in the world file.
     pub obstacle: Option<usize>,
     /// Corners of the obstacle; none of a circle.
     pub corners: Option<Vec<Corner>>,
-    /// The link.
+    /// Link of the robot that stands still.
     pub own: Option<String>,
     pub collision: Option<usize>,
     pub visual: Option<usize>,

@@ -1,11 +1,14 @@
-//! Links of the robot that stand still, as evidence names them.
+//! Parts of proofs that are links of the robot.
 
 use super::{Evident, PART, Whole};
 use crate::certificate::PartName;
 use crate::error::{CheckError, Input};
 use crate::robot::{Arm, Outline, named};
 
-/// A link that stands still, or a layer of it.
+/// Finds the shape of a link that stands still, or a layer of it.
+///
+/// # Errors
+/// When the name is incomplete, or no such shape counts.
 pub fn part(arm: &Arm, name: &PartName) -> Result<Evident, CheckError> {
     let (link, kind, number) = match (&name.own, name.collision, name.visual, &name.corners) {
         (Some(link), Some(number), None, None) => (link, "collision", number),

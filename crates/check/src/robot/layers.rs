@@ -1,21 +1,21 @@
-//! Layers of meshes: what of a surface is between two heights.
+//! Meshes cut in layers at given heights.
 
 use super::solid::Surface;
 use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval, Point, minus, sum, times};
 use num_bigint::BigInt;
 
-/// Layers are thicker than this, metres: `10^-6`.
+/// Least thickness of a layer, metres: `10^-6`.
 const THINNEST: u32 = 6;
 
-/// Points that are outside a layer by no more than this count as in it, metres: `10^-9`.
+/// Vertices at most this far outside a layer belong to it, metres: `10^-9`.
 const ROUNDED: u32 = 9;
 
 fn metres(digits: u32) -> BigInt {
     Interval::from(&Decimal::power_of_ten(digits)).lower
 }
 
-/// Some of these heights, from the lowest to the highest: none that is so near to the one before that nothing is between them.
+/// Sorts heights, and drops those that are too close to the one before.
 pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
     let thinnest = metres(THINNEST);
     ends.sort();
@@ -24,10 +24,9 @@ pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
 }
 
 impl Surface {
-    /// The layers between cuts that go through it, from the lowest to the highest: points whose hull each is, and its heights. None where there are no
-    /// such cuts, or no edges.
+    /// Cuts the surface, and returns the points and the heights of each layer, the lowest first. A layer is the convex hull of its points.
     ///
-    /// The part of a face between two heights is the hull of its corners there and of the places where its edges are at these heights.
+    /// The result is empty if no cut goes through the surface, or if the edges are unknown.
     pub fn layers(&self, cuts: &[BigInt]) -> Vec<(Vec<Point>, [Interval; 2])> {
         let [low, high] = self.heights();
         let (thinnest, rounded) = (metres(THINNEST), metres(ROUNDED));
@@ -56,7 +55,7 @@ impl Surface {
         layers
     }
 
-    /// The places where edges are at a height that they pass. Where both ends count as at that height these stand for them.
+    /// Returns the points where edges cross a height. Edges whose two ends belong to both layers are left out: their ends are enough.
     fn crossings(&self, cut: &BigInt, rounded: &BigInt) -> Vec<Point> {
         let [floor, top] = [cut - rounded, cut + rounded];
         let is_at = |height: &Interval| floor <= height.upper && height.lower <= top;
@@ -68,7 +67,7 @@ impl Surface {
             if from.1.lower >= *cut || *cut >= to.1.upper || is_at(&from.1) && is_at(&to.1) {
                 return None;
             }
-            // By rounding it may seem to be beyond an end, where it is not.
+            // The crossing is on the edge, even if rounding puts it beyond an end.
             let share = (&Interval::exactly(cut.clone()) - &from.1).divided(&(&to.1 - &from.1));
             let one = BigInt::from(1) << BITS;
             let share = Interval { lower: share.lower.max(BigInt::ZERO), upper: share.upper.min(one) };

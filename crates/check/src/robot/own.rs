@@ -1,4 +1,4 @@
-//! The robot's own body: which of its links are in the way of which others.
+//! The robot's own body: pairs of its links that must not collide.
 
 use super::layers::cuts;
 use super::shapes::{Counted, Placed};
@@ -15,18 +15,18 @@ use crate::world::{Obstacle, World};
 use num_bigint::BigInt;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Links whose heights overlap by less than this lie on one another, metres: `10^-9`.
+/// Least overlap of the heights of two links that can collide, metres: `10^-9`. Links often lie on one another.
 const TOUCHING: u32 = 9;
 
 impl<'a> Tree<'a> {
-    /// The links from the root to a link.
+    /// Returns the links from the root to this one.
     fn chain(&self, link: &'a str) -> Read<Vec<&'a str>> {
         let parents = self.above(link)?.into_iter().rev().map(|joint| self.parent(joint));
         parents.chain([Ok(link)]).collect()
     }
 }
 
-/// Whether no solid link is between the last links of two chains from the root.
+/// Whether no solid link lies between the ends of two chains that begin at the root.
 fn are_neighbours(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool) -> bool {
     let common = left.iter().zip(right).take_while(|(a, b)| a == b).count();
     let mut between = left[common.saturating_sub(1)..].iter().chain(&right[common..]);
@@ -35,7 +35,9 @@ fn are_neighbours(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool
 }
 
 impl<'a> Arm<'a> {
-    /// The last of the two joints that moves a link, or none of them if it stands still; nothing if it is not known where it is.
+    /// Finds the last of the two joints that moves a link; `Some(None)` if neither does.
+    ///
+    /// Returns `None` below a joint of the rest of the robot, where the place of the link is unknown.
     pub(super) fn group(&self, link: &'a str) -> Read<Option<Option<usize>>> {
         if let Some(last) = self.moved_by(link)? {
             return Ok(Some(Some(last)));
@@ -46,10 +48,10 @@ impl<'a> Arm<'a> {
         Ok(is_held.then_some(None))
     }
 
-    /// Takes shapes for the arm's, or for those that stand still; cuts meshes at the heights where links begin and end that theirs is kept apart from.
+    /// Cuts meshes in layers, and sorts all shapes into those that move and those that stand still.
     ///
     /// # Errors
-    /// Names of links in the world that are none.
+    /// When the world names a link that the robot does not have.
     pub(super) fn arrange(&mut self, all: Vec<Placed<'a>>, world: &World) -> Read<()> {
         let ignored = &world.ignore_contact;
         if let Some(odd) = ignored.iter().flatten().find(|link| !self.tree.links.contains_key(link.as_str())) {
@@ -76,7 +78,7 @@ impl<'a> Arm<'a> {
             whole.ignored = still.map(|(other, _)| (*other).to_owned()).collect();
             let others = ends.iter().filter(|(other, _)| apart.contains(&(link, *other)));
             let cuts = cuts(others.flat_map(|(_, ends)| ends.clone()).collect());
-            // What the wrist turns is covered all round as a whole.
+            // A link below the wrist is replaced by a disc, and stays in one piece.
             let turns = self.tree.above(link)?.iter().any(|joint| wrist.is_some() && joint.attribute("name") == wrist);
             let layers = surface.filter(|_| !turns).map_or_else(Vec::new, |surface| surface.layers(&cuts));
             let layer = |(number, (points, heights)): (usize, (Vec<Point>, [Interval; 2]))| {
@@ -102,10 +104,10 @@ impl<'a> Arm<'a> {
         Ok(())
     }
 
-    /// Lets links meet that a certificate says to meet in every configuration: where its motion begins they do.
+    /// Lets the pairs of links collide that the certificate ignores.
     ///
     /// # Errors
-    /// Links that are not seen to.
+    /// When a pair does not overlap where the motion begins.
     pub fn ignore(&mut self, certificate: &Certificate) -> Read<()> {
         let first = certificate.motion.as_ref().and_then(|motion| motion.knots.first()?.get(1..3));
         let cell = first.map(|q| Cell::from(&[0, 1].map(|k| [q[k].clone(), q[k].clone()])));
@@ -122,7 +124,7 @@ impl<'a> Arm<'a> {
             let pairs = self.shapes.iter().flat_map(|own| self.still.iter().map(move |other| (own, other)));
             if !pairs.filter(|(own, other)| is_pair(own, other)).any(|(own, other)| meet(own, other)) {
                 let why = format!(
-                    "links \"{a}\" and \"{b}\" are not seen to meet where the motion begins: they are kept apart"
+                    "links \"{a}\" and \"{b}\" do not overlap where the motion begins, so their contact counts"
                 );
                 return CheckError::fails(why);
             }
@@ -130,14 +132,16 @@ impl<'a> Arm<'a> {
                 let other = [(a, b), (b, a)].into_iter().find(|(moving, _)| own.link == **moving);
                 own.ignored.extend(other.map(|(_, still)| still.clone()));
             }
-            self.notes += &format!("; contact of links \"{a}\" and \"{b}\" is taken to be meant");
+            self.notes += &format!(
+                "; contact of links \"{a}\" and \"{b}\" is ignored, as the certificate says that they always overlap"
+            );
         }
         Ok(())
     }
 }
 
 impl Counted {
-    /// Whether it may meet an obstacle and is not free to, as a body at these heights.
+    /// Whether a body, which is this shape or its sweep by the tool, must keep off an obstacle.
     pub fn meets(&self, body: &Body, obstacle: &Obstacle) -> bool {
         let is_free = obstacle.own.as_ref().is_some_and(|link| self.ignored.contains(link));
         !is_free && !body.passes(obstacle.heights.as_ref())
@@ -145,7 +149,8 @@ impl Counted {
 }
 
 impl Body {
-    /// Heights of a link that stands still at which others meet it: those that may, or that surely do.
+    /// Returns the heights at which other links can collide with a link that stands still: at least those with
+    /// [`Outline::Around`], at most those with [`Outline::Within`].
     pub fn kept(&self, outline: Outline) -> Option<Range> {
         let by = Interval::from(&Decimal::power_of_ten(TOUCHING));
         let [low, high] = self.heights.as_ref()?;

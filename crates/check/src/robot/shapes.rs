@@ -1,4 +1,4 @@
-//! The shapes of the robot that count: of the links that the two joints move, and of those that stand still.
+//! Shapes of the robot that can collide.
 
 use super::solid::{Outline, Solid, Surface};
 use super::tree::{Read, child, children};
@@ -19,13 +19,13 @@ pub struct Counted {
     pub kind: &'static str,
     /// ... and its number among those of its kind that the link has, without those that have no size.
     pub number: usize,
-    /// The number of the layer, from the lowest, if the shape is cut in several.
+    /// Number of the layer, counted from the lowest, if the shape is cut.
     pub layer: Option<usize>,
     /// At least what it covers, ...
     pub around: Body,
     /// ... and at most.
     pub within: Body,
-    /// Links that stand still that it may meet.
+    /// Links that stand still and that it may touch.
     pub ignored: BTreeSet<String>,
 }
 
@@ -40,20 +40,20 @@ impl fmt::Display for Counted {
     }
 }
 
-/// A shape as a whole, in its place.
+/// A whole shape in its place.
 pub struct Placed<'a> {
     pub link: &'a str,
     /// The last of the two joints that moves it; none if it stands still.
     pub last: Option<usize>,
     pub whole: Counted,
-    /// What a mesh is cut in layers by.
+    /// Its points and edges, if layers can be cut.
     pub surface: Option<Surface>,
 }
 
-/// The one of some shapes that has these names; of one in several layers the layer at a height.
+/// Finds a shape by its link, kind and number; if it is cut, the layer that contains a height.
 ///
 /// # Errors
-/// When there is none that counts, or several layers.
+/// When there is none, or several layers and no height.
 pub fn named<'s>(
     all: &'s [Counted],
     (link, kind, number): (&str, &str, usize),
@@ -75,8 +75,8 @@ pub fn named<'s>(
 }
 
 impl<'a> Arm<'a> {
-    /// Finds them: the collision shapes of each link, or the visual ones of one that has none. Where a part of the arm has neither, or some that
-    /// are meshes which are not read, the bar that the world has for it.
+    /// Finds all shapes: the collision shapes of each link, or its visual shapes if it has none. If a part of the arm has neither, or a mesh cannot be
+    /// read, the bar of the world stands in for it.
     ///
     /// # Errors
     /// Shapes that the checker does not know. It is no matter here what the certificate says: nothing is left out but what is not read of links that
@@ -115,7 +115,7 @@ impl<'a> Arm<'a> {
         Ok(())
     }
 
-    /// Adds the shapes of a link, and those that are not read, and why.
+    /// Adds the shapes of a link; for each that cannot be read, the reason.
     fn gather(
         &self,
         link: &'a str,

@@ -11,7 +11,7 @@ use crate::overlap::{Shape, hull};
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
-/// Points, and edges of faces between them, by their numbers, if they are known.
+/// Points of a solid. If its faces are known, their edges as pairs of indices.
 pub struct Mesh {
     pub points: Vec<Vector>,
     pub edges: Vec<[usize; 2]>,
@@ -82,14 +82,14 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Points in the plane, as seen from a joint, each with its height, and edges between them.
+/// Points in the plane, relative to a joint, each with its height; and the edges of faces.
 pub struct Surface {
     pub points: Vec<(Point, Interval)>,
     pub edges: Vec<[usize; 2]>,
 }
 
 impl Surface {
-    /// Its extent along the normal.
+    /// Computes its extent along the normal.
     pub fn heights(&self) -> [Interval; 2] {
         [Ord::min, Ord::max].map(|outer: fn(BigInt, BigInt) -> BigInt| {
             let of = |end: fn(&Interval) -> &BigInt| {
@@ -100,14 +100,14 @@ impl Surface {
         })
     }
 
-    /// The hull of all of it: at least, and at most.
+    /// Computes the convex hull: at least that of all points, and at most.
     pub fn whole(&self, last: Option<usize>) -> [Body; 2] {
         bodies(last, self.points.iter().map(|(at, _)| at.clone()), &self.heights())
     }
 }
 
 impl Arm<'_> {
-    /// The origin of the joint that moves something last, in the plane; that of the plane for what stands still.
+    /// Returns the origin of the joint that moves a link last; the plane's own for a link that stands still.
     fn origin(&self, last: Option<usize>) -> Point {
         match last {
             None => [0, 0].map(Interval::whole),
@@ -116,7 +116,7 @@ impl Arm<'_> {
         }
     }
 
-    /// What points are in the plane.
+    /// Places a mesh in the plane.
     pub fn surface(&self, last: Option<usize>, pose: &Pose, mesh: &Mesh) -> Surface {
         let [across, beside] = &self.plane.across;
         let column = |k: usize| [0, 1, 2].map(|i| pose.rows[i][k].clone());

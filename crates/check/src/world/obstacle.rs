@@ -16,7 +16,7 @@ use std::rc::Rc;
 #[derive(Clone)]
 pub struct Obstacle {
     pub name: Option<String>,
-    /// The link that it is a shape of, if it is part of the robot.
+    /// Name of the link, if it is part of the robot.
     pub own: Option<String>,
     pub(super) outline: Outline,
     /// Where its frame's origin lies, and sine and cosine of how it is turned.

@@ -1,4 +1,4 @@
-//! Links of the robot as obstacles for its other links.
+//! Links of the robot that are obstacles for its other links.
 
 use super::Obstacle;
 use super::obstacle::Outline;
@@ -7,13 +7,13 @@ use crate::interval::Interval;
 use crate::overlap::Shape;
 
 impl Obstacle {
-    /// A link of the robot that stands still, in its place.
+    /// Makes an obstacle of a link that stands still.
     pub fn link(name: String, link: String, shape: Shape, heights: Option<Range>) -> Self {
         let [at, turn] = [[0, 0], [0, 1]].map(|of| of.map(Interval::whole));
         Self { name: Some(name), own: Some(link), outline: Outline::Own(shape), at, turn, heights, course: None }
     }
 
-    /// What it is called in messages.
+    /// Returns its name for messages.
     pub fn called(&self, number: usize) -> String {
         match (&self.own, &self.name) {
             (Some(_), Some(name)) => name.clone(),
