@@ -41,6 +41,9 @@ pub struct Certificate {
     pub motion: Option<Motion>,
     /// Of a task: which part of it does which step.
     pub steps: Option<Vec<Done>>,
+    /// Pairs of links that overlap in every configuration.
+    #[serde(default)]
+    pub ignored: Vec<[String; 2]>,
     /// What evidence names.
     #[serde(default)]
     pub shapes: Vec<ShapeName>,

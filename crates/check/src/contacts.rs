@@ -7,12 +7,14 @@ use crate::domain::{Range, Rectangle};
 use crate::error::{CheckError, Input};
 use crate::interval::Interval;
 use crate::overlap::Shape;
-use crate::robot::{Arm, Body, Counted};
+use crate::robot::{Arm, Body, named as named_shape};
 use crate::world::{Obstacle, World};
 use carried::Hung;
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 mod carried;
+mod own;
 
 pub use carried::Carried;
 
@@ -37,45 +39,72 @@ impl<'a> Among<'a> {
             lowered: None,
         }
     }
+
+    /// Finds a convex part of an obstacle.
+    fn part(&self, number: usize, obstacle: usize, name: &PartName) -> Result<Evident, CheckError> {
+        let fails = |why: &str| CheckError::Fails(format!("part {number}, of obstacle {obstacle}: {why}"));
+        if name.own.is_some() || name.collision.is_some() || name.visual.is_some() || name.height.is_some() {
+            return Err(CheckError::in_file(Input::Certificate, PART));
+        }
+        let Some(standing) = self.standing.get(obstacle) else {
+            return CheckError::fails(format!("part {number}: there is no obstacle {obstacle}"));
+        };
+        let Some(standing) = standing else { return Err(fails("it is carried, or not known to stand anywhere")) };
+        let shape = standing.part(name.corners.as_deref().unwrap_or_default()).map_err(|why| match why {
+            CheckError::Fails(why) => fails(&why),
+            input => input,
+        })?;
+        Ok((Whole::Obstacle(obstacle), shape, standing.heights.clone()))
+    }
 }
+
+/// The owner of a part, its shape and its heights.
+type Evident = (Whole, Shape, Option<Range>);
+
+/// Hint for parts that name nothing, or too much.
+const PART: &str = "a part names an obstacle, or by \"own\" a link of the robot and one of its shapes";
 
 /// A shape that evidence names.
 enum Named {
-    Own(Body),
+    /// A shape of the arm, and the links that it may touch.
+    Own(Body, BTreeSet<String>),
     Carried(Hung),
 }
 
-/// A part of an obstacle that evidence names, grown by the clearance.
-pub struct Part<'a> {
-    obstacle: usize,
+/// A part of an obstacle, or a link that stands still, that evidence names, grown by the clearance.
+pub struct Part {
+    of: Whole,
     shape: Shape,
     /// Its radius without the clearance.
     radius: Interval,
-    heights: Option<&'a Range>,
+    heights: Option<Range>,
+}
+
+/// The owner of a part.
+enum Whole {
+    /// The obstacle with this number.
+    Obstacle(usize),
+    /// The link of the robot with this name.
+    Link(String),
 }
 
 /// All that evidence may name, or why it may not.
 pub struct Contacts<'a> {
     among: &'a Among<'a>,
     shapes: Vec<Result<Named, CheckError>>,
-    parts: Vec<Result<Part<'a>, CheckError>>,
+    parts: Vec<Result<Part, CheckError>>,
 }
 
 impl<'a> Contacts<'a> {
     pub fn new(arm: &Arm, among: &'a Among, certificate: &Certificate, clearance: &Decimal) -> Self {
         let shapes = certificate.shapes.iter().map(|name| named(arm, among, name)).collect();
         let part = |(number, name): (usize, &PartName)| {
-            let fails = |why: &str| CheckError::Fails(format!("part {number}, of obstacle {}: {why}", name.obstacle));
-            let Some(obstacle) = among.standing.get(name.obstacle) else {
-                return CheckError::fails(format!("part {number}: there is no obstacle {}", name.obstacle));
+            let (of, Shape { points, radius }, heights) = match name.obstacle {
+                Some(obstacle) => among.part(number, obstacle, name)?,
+                None => own::part(arm, name)?,
             };
-            let Some(obstacle) = obstacle else { return Err(fails("it is carried, or not known to stand anywhere")) };
-            let Shape { points, radius } = obstacle.part(&name.corners).map_err(|why| match why {
-                CheckError::Fails(why) => fails(&why),
-                input => input,
-            })?;
             let shape = Shape { points, radius: &radius + &Interval::from(clearance) };
-            Ok(Part { obstacle: name.obstacle, shape, radius, heights: obstacle.heights.as_ref() })
+            Ok(Part { of, shape, radius, heights })
         };
         Self { among, shapes, parts: certificate.parts.iter().enumerate().map(part).collect() }
     }
@@ -113,36 +142,41 @@ impl<'a> Contacts<'a> {
             return fails(" names a shape or a part that is not there");
         };
         let (shape, part) = (shape.as_ref().map_err(Clone::clone)?, part.as_ref().map_err(Clone::clone)?);
-        let (Named::Own(body) | Named::Carried(Hung { body, .. })) = shape;
-        if !body.is_at(part.heights) {
+        let (Named::Own(body, _) | Named::Carried(Hung { body, .. })) = shape;
+        if !body.is_at(part.heights.as_ref()) {
             return fails(": the shape passes over or under the obstacle");
         }
-        match shape {
-            Named::Own(body) if body.link == 1 && self.among.allowed.contains(&part.obstacle) => {
+        let is_among = |all: &[usize]| matches!(part.of, Whole::Obstacle(number) if all.contains(&number));
+        match (shape, &part.of) {
+            (Named::Own(_, ignored), Whole::Link(link)) if ignored.contains(link) => {
+                fails(&format!(": the shape may meet link \"{link}\""))
+            }
+            (Named::Own(body, _), _) if body.link == 1 && is_among(&self.among.allowed) => {
                 fails(": the shape may meet the obstacle")
             }
-            Named::Own(body) => Ok((Cow::Borrowed(body), Cow::Borrowed(&part.shape))),
-            Named::Carried(hung) => {
+            (Named::Own(body, _), _) => Ok((Cow::Borrowed(body), Cow::Borrowed(&part.shape))),
+            (Named::Carried(hung), _) => {
                 let supports = self.among.carried.as_ref().map(|carried| &carried.supports);
-                hung.against(part, supports.is_some_and(|supports| supports.contains(&part.obstacle)))
+                hung.against(part, supports.is_some_and(|supports| is_among(supports)))
             }
         }
     }
 }
 
+/// Finds a shape by the name that evidence gives it.
 fn named(arm: &Arm, among: &Among, name: &ShapeName) -> Result<Named, CheckError> {
-    let own = |shape: Result<&Counted, CheckError>| {
-        let shape = shape?;
+    let own = |link: &str, kind: &str, number: usize| {
+        let shape = named_shape(&arm.shapes, (link, kind, number), name.height.as_ref())?;
         let body = match &among.lowered {
             Some((joint, by)) if arm.lowers(joint, shape)? => shape.within.lowered(by),
             _ => shape.within.clone(),
         };
-        Ok(Named::Own(body))
+        Ok(Named::Own(body, shape.ignored.clone()))
     };
     match (&name.link, name.collision, name.visual, name.bar, &name.carried) {
-        (Some(link), Some(number), None, None, None) => own(arm.shape(link, "collision", number)),
-        (Some(link), None, Some(number), None, None) => own(arm.shape(link, "visual", number)),
-        (Some(link), None, None, Some(0), None) => own(arm.shape(link, "bar", 0)),
+        (Some(link), Some(number), None, None, None) => own(link, "collision", number),
+        (Some(link), None, Some(number), None, None) => own(link, "visual", number),
+        (Some(link), None, None, Some(0), None) => own(link, "bar", 0),
         (None, None, None, None, Some(corners)) => {
             let Some(carried) = &among.carried else { return CheckError::fails("a shape is carried where nothing is") };
             carried.hung(arm, corners).map(Named::Carried)

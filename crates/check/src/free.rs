@@ -65,7 +65,7 @@ pub struct Solid {
     ring: Vec<usize>,
 }
 
-/// A side of an obstacle, as seen from the plane and from either link.
+/// A side of an obstacle, or a convex shape that is one as a whole, its corners in order, as seen from the plane and from either link.
 #[derive(Clone)]
 pub struct Side {
     shape: Shape,
@@ -526,13 +526,13 @@ fn direction(here: &[[f64; 2]], there: &[[f64; 2]], apart: f64) -> Option<[f64; 
             nearest = (way, dot(way, way));
         }
     };
-    let (c, d) = (there[0], there[there.len() - 1]);
-    for (i, a) in here.iter().enumerate() {
-        let b = here[(i + 1) % here.len()];
-        see(to_segment(*a, c, d));
-        for p in [c, d] {
-            see(to_segment(p, *a, b).map(|c| -c));
-        }
+    let sides = |ring: &[[f64; 2]]| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]).collect::<Vec<_>>();
+    let (ours, theirs) = (sides(here), sides(there));
+    for [a, _] in &ours {
+        theirs.iter().for_each(|[c, d]| see(to_segment(*a, *c, *d)));
+    }
+    for [c, _] in &theirs {
+        ours.iter().for_each(|[a, b]| see(to_segment(*c, *a, *b).map(|c| -c)));
     }
     let length = nearest.1.sqrt();
     (length > apart && length.is_finite()).then(|| nearest.0.map(|c| c / length))

@@ -99,7 +99,8 @@ fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) ->
         line: Some(error.pos().row as usize),
         message: error.to_string(),
     })?;
-    let arm = Arm::read(&document, &world, &files, certificate.joints.as_ref())?;
+    let mut arm = Arm::read(&document, &world, &files, certificate.joints.as_ref())?;
+    arm.ignore(&certificate)?;
     let proven = match (&certificate.answer, &certificate.steps, &certificate.cases) {
         (Answer::Found, Some(steps), _) => task::found(&arm, &world, &certificate, steps),
         (Answer::Found, None, _) if certificate.bound.is_some() => {

@@ -77,7 +77,7 @@ impl Motion {
     }
 }
 
-/// That a motion leads from the start to the goal within the limits, and keeps farther than the clearance from all obstacles.
+/// That a motion leads from the start to the goal within the limits, and keeps farther than the clearance from all obstacles, its own links among them.
 pub fn found(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let clearance = certificate.clearance(world)?;
     let Some(motion) = &certificate.motion else {
@@ -185,13 +185,14 @@ fn stays_off(
 ) -> Result<(), CheckError> {
     let chain = Chain::from(arm);
     let present = |obstacle: &Obstacle| Present::new(&chain, obstacle.clone()).map(Some);
-    let obstacles = world.all().map(present).collect::<Result<Vec<_>, _>>()?;
+    let all = || world.all().chain(&arm.own);
+    let obstacles = all().map(present).collect::<Result<Vec<_>, _>>()?;
     let kept = Interval::from(clearance).upper + guard();
     let solid = |Counted { around, .. }: &Counted| Solid::new(&chain, On::Link(around.link), &around.shape, &kept);
     let solids: Vec<Solid> = arm.shapes.iter().map(solid).collect();
     let keeps = format!("farther than {clearance} from");
     let part = |(shape, solid): (&Counted, _)| {
-        let meets = world.all().map(|obstacle| !shape.around.passes(obstacle.heights.as_ref())).collect();
+        let meets = all().map(|obstacle| shape.meets(&shape.around, obstacle)).collect();
         Part { name: shape.to_string(), keeps: &keeps, solid, meets }
     };
     let parts: Vec<Part> = arm.shapes.iter().zip(&solids).map(part).collect();

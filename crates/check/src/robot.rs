@@ -5,19 +5,21 @@ use crate::error::{CheckError, Input};
 use crate::files::Files;
 use crate::interval::{Interval, Point, minus};
 use crate::overlap::Shape;
-use crate::world::World;
+use crate::world::{Obstacle, World};
 use num_bigint::Sign;
 use plane::Plane;
 use pose::{Pose, Vector, dot};
 use roxmltree::{Document, Node};
-use solid::{Outline, Solid};
+use solid::Solid;
 use tree::{Read, Tree, child, moves};
 
 mod bar;
 mod collada;
+mod layers;
 mod mesh;
 mod mimic;
 mod oblique;
+mod own;
 mod plane;
 mod pose;
 mod quaternion;
@@ -26,7 +28,8 @@ mod solid;
 mod tool;
 mod tree;
 
-pub use shapes::Counted;
+pub use shapes::{Counted, named};
+pub use solid::Outline;
 
 /// How a joint moves what it carries, in the plane.
 #[derive(Debug, Clone)]
@@ -58,8 +61,12 @@ pub struct Arm<'a> {
     /// The link whose origin is the tip, and that as a body without extent.
     pub tip_link: &'a str,
     pub tip: Body,
-    /// All that can collide.
+    /// All that can collide, ...
     pub shapes: Vec<Counted>,
+    /// ... shapes of the robot that stand still, ...
+    pub still: Vec<Counted>,
+    /// ... and the obstacles that they make.
+    pub own: Vec<Obstacle>,
     /// What is taken to be otherwise than the URDF has it, in words.
     pub notes: String,
     tree: Tree<'a>,
@@ -71,7 +78,7 @@ pub struct Arm<'a> {
 /// A collision shape in the plane, as seen from the origin of its joint.
 #[derive(Clone)]
 pub struct Body {
-    /// 0 or 1: the last joint that moves it.
+    /// 0 or 1: the last joint that moves it. No matter of what stands still.
     pub link: usize,
     pub shape: Shape,
     /// Its extent along the normal; none: everywhere.
@@ -173,13 +180,14 @@ impl<'a> Arm<'a> {
         let offset = minus(&second, &base);
         let nowhere = Shape { points: Vec::new(), radius: Interval::whole(0) };
         let (tip_link, tip) = (children[1], Body { link: 1, shape: nowhere, heights: None });
-        let (shapes, notes) = (Vec::new(), String::new());
+        let (shapes, still, own, notes) = Default::default();
         let domain = Domain::new(joints.each_ref().map(|joint| &joint.axis));
-        let mut arm = Self { joints, domain, base, offset, tip_link, tip, shapes, notes, tree, children, plane };
+        let mut arm =
+            Self { joints, domain, base, offset, tip_link, tip, shapes, still, own, notes, tree, children, plane };
         arm.tip_link = arm.tip(world.tip.as_deref())?;
         let at = arm.tree.pose(arm.tip_link)?;
-        arm.tip = arm.project(1, &at, &Solid::point(), Outline::Within);
-        arm.count(world.bar.as_ref())?;
+        arm.tip = arm.project(Some(1), &at, &Solid::point(), Outline::Within);
+        arm.count(world)?;
         arm.move_alone(&nodes)?;
         world.task.as_ref().map_or(Ok(()), |task| arm.with_tool(task))?;
         arm.notes.insert_str(0, &arm.plane.idealized());

@@ -62,12 +62,16 @@ pub fn stay_off(
     for (number, part) in parts.iter().enumerate() {
         pairs.extend((0..edges.len()).filter(|edge| part.meets[owners[*edge]]).map(|edge| [number, edge]));
     }
+    let called = |number: usize| match &obstacles[number] {
+        Some(present) => present.obstacle.called(number),
+        None => format!("obstacle {number}"),
+    };
     let solids: Vec<&Solid> = parts.iter().map(|part| part.solid).collect();
     keep_off(chain, pieces, (&solids, &edges), pairs).map_err(|Open { knot, solid, edge }| {
         let Part { name, keeps, .. } = &parts[solid];
         CheckError::Fails(format!(
-            "from knot {knot} to the next {name} is not shown to stay {keeps} obstacle {}",
-            owners[edge]
+            "from knot {knot} to the next {name} is not shown to stay {keeps} {}",
+            called(owners[edge])
         ))
     })?;
     // Off all borders all the time, it is inside an obstacle if it is at first.
@@ -77,7 +81,7 @@ pub fn stay_off(
         for (number, present) in obstacles.iter().enumerate().filter(|(number, _)| part.meets[*number]) {
             let surrounds = |present: &Present| present.obstacle.at_time(time).surrounds(&corner, &guard());
             if present.as_ref().is_some_and(|present| surrounds(present) != Some(false)) {
-                return CheckError::fails(format!("{} is inside obstacle {number}", part.name));
+                return CheckError::fails(format!("{} is inside {}", part.name, called(number)));
             }
         }
     }

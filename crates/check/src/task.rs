@@ -177,7 +177,7 @@ struct Replay<'a> {
     keeps: String,
     /// By how much what is carried may press into its supports.
     pressed: Interval,
-    /// Obstacles and objects where they lie or as they move, then obstacles that move; none while they are carried.
+    /// Obstacles and objects where they lie or as they move, then obstacles that move, then links of the robot; none while they are carried.
     present: Vec<Option<Present>>,
     /// All of them as they are at first.
     all: Vec<&'a Obstacle>,
@@ -214,7 +214,7 @@ impl<'a> Replay<'a> {
             Ok((shape, Solid::new(&chain, On::Link(around.link), &around.shape, &kept), is_lowered))
         };
         let shapes = arm.shapes.iter().map(shape).collect::<Result<_, CheckError>>()?;
-        let present = world.all().map(|obstacle| Present::new(&chain, obstacle.clone()).map(Some));
+        let present = world.all().chain(&arm.own).map(|obstacle| Present::new(&chain, obstacle.clone()).map(Some));
         let present = present.collect::<Result<_, _>>()?;
         Ok(Self {
             arm,
@@ -227,7 +227,7 @@ impl<'a> Replay<'a> {
             shapes,
             kept,
             present,
-            all: world.all().collect(),
+            all: world.all().chain(&arm.own).collect(),
             knot: 0,
             held: None,
             released: None,
@@ -351,7 +351,10 @@ impl<'a> Replay<'a> {
                     let mut edges = present.iter().flat_map(|present| &present.edges);
                     let side = |edge: &Edge| edge.during(&self.chain, [time, time]).point().clone();
                     if edges.any(|edge| lying.surrounds(&side(edge), &guard()) != Some(false)) {
-                        return CheckError::fails(format!("obstacle {number} is inside what is carried"));
+                        return CheckError::fails(format!(
+                            "{} is inside what is carried",
+                            self.all[number].called(number)
+                        ));
                     }
                 }
             }
@@ -379,7 +382,7 @@ impl<'a> Replay<'a> {
             let heights = lowered.as_ref().unwrap_or(body);
             let meets = |(number, obstacle): (usize, &&Obstacle)| {
                 let is_allowed = body.link == 1 && [self.released, also].contains(&Some(number));
-                !is_allowed && !heights.passes(obstacle.heights.as_ref())
+                !is_allowed && counted.meets(heights, obstacle)
             };
             let meets = self.all.iter().enumerate().map(meets).collect();
             Part { name: counted.to_string(), keeps: &self.keeps, solid, meets }

@@ -19,6 +19,7 @@ mod course;
 mod hung;
 mod map;
 mod obstacle;
+mod own;
 mod picture;
 pub mod task;
 
@@ -47,6 +48,10 @@ pub struct World {
     pub bar: Option<Decimal>,
     /// The link whose origin is the tip, if it says one.
     pub tip: Option<String>,
+    /// Whether links of the robot must not collide with its other links, ...
+    pub own_body: bool,
+    /// ... and pairs that may.
+    pub ignore_contact: Vec<[String; 2]>,
     pub clearance: Decimal,
     /// Those of the file that stand, then the map's walls, then the objects where they lie at first, or move.
     pub obstacles: Vec<Obstacle>,
@@ -124,7 +129,7 @@ impl Reader<'_> {
     fn two<T>(&self, value: &Value, read: impl Fn(&Value) -> Read<T>) -> Read<[T; 2]> {
         match self.list(value)?[..] {
             [a, b] => Ok([read(a)?, read(b)?]),
-            _ => self.error(value, "expected two numbers"),
+            _ => self.error(value, "expected a list of two"),
         }
     }
 
@@ -177,6 +182,14 @@ impl Reader<'_> {
                 // What concerns tasks alone.
                 "wrist" | "stroke" | "payload" => {}
                 "bar" => world.bar = Some(self.number(value)?),
+                "own_body" => match value.get_ref().as_bool() {
+                    Some(own_body) => world.own_body = own_body,
+                    None => return self.error(value, "expected true or false"),
+                },
+                "ignore_contact" => {
+                    let pairs = self.list(value)?.into_iter().map(|pair| self.two(pair, |name| self.text(name)));
+                    world.ignore_contact = pairs.collect::<Read<_>>()?;
+                }
                 other => return self.error(value, &format!("the checker does not know [robot] {other}")),
             }
         }
@@ -242,7 +255,7 @@ impl Reader<'_> {
             other => other,
         };
         let course = motion.map(|motion| self.course(motion, &at, &angle)).transpose()?.map(Rc::new);
-        Ok(Obstacle { name, outline, at, turn: angle.sin_cos(), heights, course })
+        Ok(Obstacle { name, own: None, outline, at, turn: angle.sin_cos(), heights, course })
     }
 
     /// All obstacles.
@@ -291,6 +304,8 @@ impl World {
             goal: None,
             bar: None,
             tip: None,
+            own_body: true,
+            ignore_contact: Vec::new(),
             clearance: Decimal::whole(0),
             obstacles: Vec::new(),
             movers: Vec::new(),

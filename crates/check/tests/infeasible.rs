@@ -246,7 +246,7 @@ fn a_robot_stands_where_the_world_puts_it() {
     assert_eq!(code(&arm, &format!("{ENDS}{place}"), &certificate("", UPPER, disc, &boxes)), 0);
 }
 
-/// Visual shapes stand in for collision shapes where a link has none, fixed children included.
+/// Visual shapes stand in for collision shapes where a link has none.
 #[test]
 fn visual_shapes_count_where_there_are_no_others() {
     let arm = robot("revolute", "revolute");
@@ -256,13 +256,15 @@ fn visual_shapes_count_where_there_are_no_others() {
     let at = |arm: &str, shape: &str| code(arm, &world(WALL), &certificate("", shape, WALL_PART, &wall));
     assert_eq!((at(&arm, UPPER), at(&seen, &visual)), (0, 0));
     assert_eq!((at(&arm, &visual), at(&seen, UPPER)), (3, 3));
-    // The second link's are another matter; what is fixed to the first is not.
+    // Each link by itself: those of others are another matter.
     let fore = "<collision> <geometry> <sphere radius=\"0.01\"/> </geometry> </collision>";
     assert_eq!(at(&seen.replace("<link name=\"tool\"/>", &format!("<link name=\"tool\">{fore}</link>")), &visual), 0);
     let fixed =
         r#"<joint name="u" type="fixed"> <parent link="upper"/> <child link="rod"/> </joint> <link name="rod">"#;
     let both = seen.replace("</robot>", &format!("{fixed}{fore}</link></robot>"));
-    assert_eq!(at(&both, &visual), 3);
+    assert_eq!(at(&both, &visual), 0);
+    let own = seen.replace("<link name=\"upper\">", &format!("<link name=\"upper\">{fore}"));
+    assert_eq!(at(&own, &visual), 3);
     // Bars stand in for what has neither.
     let bare = arm.replace("collision", "lamp");
     let bars = |arm: &str, robot: &str, shape: &str, obstacle: &str, part: &str| {
@@ -327,7 +329,7 @@ fn bad_input_is_named() {
     urdf("type=\"revolute\"", "type=\"fixed\"", None, "0 joints can move");
     let worlds = |text: &str, at, part| bad(&arm, text, &good, Input::World, at, part);
     worlds("start = 3", Some(1), "table");
-    worlds("start.joints = [1]", Some(1), "two numbers");
+    worlds("start.joints = [1]", Some(1), "list of two");
     worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "from a start that is a place");
     worlds("start = { joints = [1, 2], near = 3 }", Some(1), "joints");
     worlds("goal.tip = [1, 2]\ngoal.joints = [1, 2]", Some(1), "joints");

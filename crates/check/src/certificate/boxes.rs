@@ -14,19 +14,25 @@ pub struct ShapeName {
     pub collision: Option<usize>,
     pub visual: Option<usize>,
     pub bar: Option<usize>,
+    /// A height in the layer, if the shape has several.
+    pub height: Option<Decimal>,
     /// Corners of a convex part of what is carried, in its own frame; none of a disc.
     pub carried: Option<Vec<Corner>>,
 }
 
-/// A convex part of an obstacle.
+/// A convex part of an obstacle, or a shape of a link that stands still.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartName {
-    /// The obstacle's number in the world file.
-    pub obstacle: usize,
+    /// Number of the obstacle in the world file.
+    pub obstacle: Option<usize>,
     /// Corners of the obstacle; none of a circle.
-    #[serde(default)]
-    pub corners: Vec<Corner>,
+    pub corners: Option<Vec<Corner>>,
+    /// Link of the robot that stands still.
+    pub own: Option<String>,
+    pub collision: Option<usize>,
+    pub visual: Option<usize>,
+    pub height: Option<Decimal>,
 }
 
 /// Configurations in all of which a shape and a part overlap.

@@ -8,6 +8,7 @@ use crate::error::{CheckError, Input};
 use crate::interval::Interval;
 use crate::overlap::Shape;
 use num_bigint::Sign;
+use std::collections::BTreeSet;
 
 impl Arm<'_> {
     /// All within a radius of the segment from a joint to the next, or to the tip.
@@ -27,6 +28,7 @@ impl Arm<'_> {
         let heights = Some([&least - &radius, &most + &radius]);
         let body =
             Body { link: last, shape: Shape { points: vec![[0, 0].map(Interval::whole), end], radius }, heights };
-        Ok(Counted { link: link.to_owned(), kind: "bar", number: 0, around: body.clone(), within: body })
+        let (link, around, within) = (link.to_owned(), body.clone(), body);
+        Ok(Counted { link, kind: "bar", number: 0, layer: None, around, within, ignored: BTreeSet::new() })
     }
 }

@@ -1,12 +1,13 @@
-//! Meshes: the corners of their triangles, whose convex hull stands for them.
+//! Meshes: the corners of their faces, whose convex hull stands for them, and the edges between these.
 
 use super::collada;
 use super::pose::Vector;
+use super::solid::Mesh;
 use super::tree::{Read, Tree};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::files::Files;
-use crate::interval::Interval;
+use crate::interval::{BITS, Interval};
 use num_bigint::BigInt;
 use roxmltree::Node;
 use std::collections::BTreeSet;
@@ -21,54 +22,70 @@ const NORMAL: usize = 12;
 type Single = [u32; 3];
 
 impl<'a> Tree<'a> {
-    /// The corners of a `<mesh>`, or why it is not read.
-    pub(super) fn mesh(&self, node: Node<'a, 'a>) -> Read<Read<Vec<Vector>>> {
+    /// The surface of a `<mesh>`, or why it is not read.
+    pub(super) fn mesh(&self, node: Node<'a, 'a>) -> Read<Read<Mesh>> {
         let is_scaled = node.has_attribute("scale");
         let scale = if is_scaled { self.vector(node, "scale")? } else { [1; 3].map(Interval::whole) };
-        let points = match vertices(self.files, self.text(node, "filename")?) {
+        let Mesh { points, edges } = match read(self.files, self.text(node, "filename")?) {
             Err(CheckError::Input { message, .. }) => return Ok(self.error(node, message)),
-            points => points?,
+            mesh => mesh?,
         };
-        Ok(Ok(points.into_iter().map(|p| [0, 1, 2].map(|k| &p[k] * &scale[k])).collect()))
+        Ok(Ok(Mesh { points: points.into_iter().map(|p| [0, 1, 2].map(|k| &p[k] * &scale[k])).collect(), edges }))
     }
 }
 
-/// The corners of a mesh.
+/// A mesh of faces, each by its corners: what these corners are, each once, and the edges all round them.
+fn of_faces<T: Ord + Copy>(faces: &[Vec<T>]) -> (Vec<T>, Vec<[usize; 2]>) {
+    let corners: BTreeSet<T> = faces.iter().flatten().copied().collect();
+    let corners: Vec<T> = corners.into_iter().collect();
+    let mut edges = BTreeSet::new();
+    for face in faces {
+        let numbers: Vec<usize> = face.iter().map(|corner| corners.partition_point(|other| other < corner)).collect();
+        edges.extend((0..face.len()).map(|k| {
+            let [a, b] = [numbers[k], numbers[(k + 1) % face.len()]];
+            [a.min(b), a.max(b)]
+        }));
+    }
+    (corners, edges.into_iter().collect())
+}
+
+/// A mesh as its file has it.
 ///
 /// # Errors
 /// A file that is not found or not read, or of another format.
-fn vertices(files: &Files, name: &str) -> Result<Vec<Vector>, CheckError> {
+fn read(files: &Files, name: &str) -> Result<Mesh, CheckError> {
     let wrong = |why: &str| CheckError::in_file(Input::Urdf, format!("mesh \"{name}\": {why}"));
-    let read: fn(&[u8]) -> Result<Vec<Vector>, String> = match name.to_lowercase().rsplit_once('.') {
+    let read: fn(&[u8]) -> Result<Mesh, String> = match name.to_lowercase().rsplit_once('.') {
         Some((_, "stl")) => stl,
         Some((_, "obj")) => obj,
-        Some((_, "dae")) => collada::vertices,
+        Some((_, "dae")) => |bytes| Ok(Mesh { points: collada::vertices(bytes)?, edges: Vec::new() }),
         _ => return Err(wrong("the checker knows meshes as STL, OBJ and Collada (.dae)")),
     };
     let path = candidates(name, files.path(Input::Urdf)?).into_iter().find(|path| path.is_file());
     let bytes = files.bytes(Input::Urdf, &path.ok_or_else(|| wrong("it is not there"))?)?;
     match read(&bytes) {
-        Ok(points) if points.is_empty() => Err(wrong("it has no corners")),
+        Ok(mesh) if mesh.points.is_empty() => Err(wrong("it has no corners")),
         read => read.map_err(|why| wrong(&why)),
     }
 }
 
-/// Those of the triangles of an STL, as text or in bytes, each once.
-fn stl(bytes: &[u8]) -> Result<Vec<Vector>, String> {
+/// The triangles of an STL, as text or in bytes.
+fn stl(bytes: &[u8]) -> Result<Mesh, String> {
     let count =
         bytes.get(HEADER - 4..HEADER).map(|count| count.iter().rev().fold(0, |sum, b| sum << 8 | usize::from(*b)));
-    let corners = match count {
+    let triangles = match count {
         Some(count) if bytes.len() == HEADER + TRIANGLE * count => in_bytes(&bytes[HEADER..]),
         _ => std::str::from_utf8(bytes).ok().and_then(as_text).ok_or("it is no STL")?,
     };
+    let (corners, edges) = of_faces(&triangles);
     let points: Option<Vec<Vector>> = corners.into_iter().map(exactly).collect();
-    points.ok_or_else(|| "a corner is not finite".into())
+    Ok(Mesh { points: points.ok_or("a corner is not finite")?, edges })
 }
 
-/// Those of the faces of an OBJ, each once. A line that ends in a backslash goes on in the next, if it is no comment.
-fn obj(bytes: &[u8]) -> Result<Vec<Vector>, String> {
+/// The faces of an OBJ. A line that ends in a backslash goes on in the next, if it is no comment.
+fn obj(bytes: &[u8]) -> Result<Mesh, String> {
     let text = String::from_utf8_lossy(bytes);
-    let (mut vertices, mut shown, mut lines) = (Vec::<Vector>::new(), BTreeSet::new(), text.split('\n'));
+    let (mut vertices, mut faces, mut lines) = (Vec::<Vector>::new(), Vec::new(), text.split('\n'));
     while let Some(mut piece) = lines.next() {
         let mut line = String::new();
         while let Some(begun) = piece.trim_end().strip_suffix('\\').filter(|begun| !begun.trim_start().starts_with('#'))
@@ -87,12 +104,14 @@ fn obj(bytes: &[u8]) -> Result<Vec<Vector>, String> {
             }
             // Numbers of textures and normals follow after slashes; negative numbers count from the end.
             Some("f") => {
+                let mut face = Vec::new();
                 for word in words {
                     let number = word.split('/').next().and_then(|number| number.parse::<i64>().ok());
                     let at = number.map(|n| if n < 0 { n.saturating_add(vertices.len() as i64) } else { n - 1 });
                     let at = at.and_then(|at| usize::try_from(at).ok()).filter(|at| *at < vertices.len());
-                    shown.insert(at.ok_or("a face has a vertex that is not there before it")?);
+                    face.push(at.ok_or("a face has a vertex that is not there before it")?);
                 }
+                faces.push(face);
             }
             // What is said of looks, and names.
             None
@@ -101,20 +120,22 @@ fn obj(bytes: &[u8]) -> Result<Vec<Vector>, String> {
             Some(word) => return Err(format!("the checker does not know \"{word}\" in an OBJ")),
         }
     }
-    Ok(shown.into_iter().map(|at| vertices[at].clone()).collect())
+    let (shown, edges) = of_faces(&faces);
+    Ok(Mesh { points: shown.into_iter().map(|at| vertices[at].clone()).collect(), edges })
 }
 
-fn in_bytes(triangles: &[u8]) -> BTreeSet<Single> {
-    let corners = triangles.chunks_exact(TRIANGLE).flat_map(|triangle| triangle[NORMAL..NORMAL + 36].chunks_exact(12));
+fn in_bytes(triangles: &[u8]) -> Vec<Vec<Single>> {
     let number = |bytes: &[u8]| bytes.iter().rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte));
-    corners.map(|corner| [0, 4, 8].map(|at| number(&corner[at..at + 4]))).collect()
+    let corner = |bytes: &[u8]| [0, 4, 8].map(|at| number(&bytes[at..at + 4]));
+    let triangle = |bytes: &[u8]| bytes[NORMAL..NORMAL + 36].chunks_exact(12).map(corner).collect();
+    triangles.chunks_exact(TRIANGLE).map(triangle).collect()
 }
 
 /// Solids one after the other, in the words of the format.
-fn as_text(text: &str) -> Option<BTreeSet<Single>> {
+fn as_text(text: &str) -> Option<Vec<Vec<Single>>> {
     let lines = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
     let mut lines = lines.filter(|words| !words.is_empty());
-    let mut corners = BTreeSet::new();
+    let mut triangles = Vec::new();
     while let Some(words) = lines.next() {
         (words[0] == "solid").then_some(())?;
         loop {
@@ -124,16 +145,18 @@ fn as_text(text: &str) -> Option<BTreeSet<Single>> {
                 _ => return None,
             }
             (lines.next()?[..] == ["outer", "loop"]).then_some(())?;
+            let mut triangle = Vec::new();
             for _ in 0..3 {
                 let ["vertex", x, y, z] = lines.next()?[..] else { return None };
                 let number = |word: &str| Some(word.parse::<f32>().ok()?.to_bits());
-                corners.insert([number(x)?, number(y)?, number(z)?]);
+                triangle.push([number(x)?, number(y)?, number(z)?]);
             }
+            triangles.push(triangle);
             (lines.next()?[..] == ["endloop"]).then_some(())?;
             (lines.next()?[..] == ["endfacet"]).then_some(())?;
         }
     }
-    Some(corners)
+    Some(triangles)
 }
 
 /// The numbers that these bits stand for, which are dyadic.
@@ -143,11 +166,9 @@ fn exactly(corner: Single) -> Option<Vector> {
         let digits = BigInt::from(if exponent == 0 { fraction } else { fraction | 1 << 23 });
         let signed = if bits >> 31 == 1 { -digits } else { digits };
         // A unit of the last digit is 2^(exponent - 150).
-        let exponent = exponent.max(1);
-        (exponent < 0xff)
-            .then(|| Decimal::dyadic(&(signed << exponent.saturating_sub(150)), 150_u32.saturating_sub(exponent)))
+        (exponent < 0xff).then(|| Interval::exactly(signed << (exponent.max(1) + BITS - 150)))
     };
-    let [x, y, z] = corner.map(|bits| number(bits).as_ref().map(Interval::from));
+    let [x, y, z] = corner.map(number);
     Some([x?, y?, z?])
 }
 

@@ -1,14 +1,17 @@
-//! The shapes of the arm that count: all that its joints move and that can collide.
+//! Shapes of the robot that can collide.
 
-use super::solid::Outline;
+use super::solid::{Outline, Solid, Surface};
 use super::tree::{Read, child, children};
 use super::{Arm, Body};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
+use crate::interval::Interval;
+use crate::world::World;
 use roxmltree::Node;
+use std::collections::BTreeSet;
 use std::fmt;
 
-/// A shape of the arm that counts.
+/// A shape that counts, or a layer of one.
 pub struct Counted {
     /// The link that it belongs to.
     pub link: String,
@@ -16,55 +19,114 @@ pub struct Counted {
     pub kind: &'static str,
     /// ... and its number among those of its kind that the link has, without those that have no size.
     pub number: usize,
+    /// Number of the layer, counted from the lowest, if the shape is cut.
+    pub layer: Option<usize>,
     /// At least what it covers, ...
     pub around: Body,
     /// ... and at most.
     pub within: Body,
+    /// Links that stand still and that it may touch.
+    pub ignored: BTreeSet<String>,
 }
 
 impl fmt::Display for Counted {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Self { link, kind, number, .. } = self;
+        let Self { link, kind, number, layer, .. } = self;
         match *kind {
-            "bar" => write!(f, "the bar of link \"{link}\""),
-            _ => write!(f, "link \"{link}\", {kind} {number}"),
+            "bar" => write!(f, "the bar of link \"{link}\"")?,
+            _ => write!(f, "link \"{link}\", {kind} {number}")?,
         }
+        layer.map_or(Ok(()), |layer| write!(f, ", layer {layer}"))
+    }
+}
+
+/// A whole shape in its place.
+pub struct Placed<'a> {
+    pub link: &'a str,
+    /// The last of the two joints that moves it; none if it stands still.
+    pub last: Option<usize>,
+    pub whole: Counted,
+    /// Its points and edges, if layers can be cut.
+    pub surface: Option<Surface>,
+}
+
+/// Finds a shape by its link, kind and number; if it is cut, the layer that contains a height.
+///
+/// # Errors
+/// When there is none, or several layers and no height.
+pub fn named<'s>(
+    all: &'s [Counted],
+    (link, kind, number): (&str, &str, usize),
+    height: Option<&Decimal>,
+) -> Read<&'s Counted> {
+    let is_at = |own: &Counted| match (height.map(Interval::from), &own.around.heights) {
+        (Some(at), Some([low, high])) => low.lower <= at.upper && at.lower <= high.upper,
+        _ => true,
+    };
+    let is_named = |own: &&Counted| own.link == link && own.kind == kind && own.number == number && is_at(own);
+    let mut found = all.iter().filter(is_named);
+    match (found.next(), found.next()) {
+        (Some(_), Some(_)) if height.is_none() => {
+            CheckError::fails(format!("{kind} {number} of link \"{link}\" has several layers: it needs a height"))
+        }
+        (Some(one), _) => Ok(one),
+        (None, _) => CheckError::fails(format!("link \"{link}\" has no {kind} shape number {number} that counts")),
     }
 }
 
 impl<'a> Arm<'a> {
-    /// Finds them: collision shapes, or where one of the two parts of the arm has none, its visual ones. Where it has none either, or some
-    /// that are meshes which are not read, the bar that the world has for it.
+    /// Finds all shapes: the collision shapes of each link, or its visual shapes if it has none. If a part of the arm has neither, or a mesh cannot be
+    /// read, the bar of the world stands in for it.
     ///
     /// # Errors
-    /// Shapes that the checker does not know. It is no matter here what the certificate says: nothing is left out.
-    pub(super) fn count(&mut self, bar: Option<&Decimal>) -> Read<()> {
-        for last in [0, 1] {
-            let (mut found, mut unread) = self.gathered(last, "collision")?;
-            if found.is_empty() && unread.is_empty() {
-                (found, unread) = self.gathered(last, "visual")?;
+    /// Shapes that the checker does not know. It is no matter here what the certificate says: nothing is left out but what is not read of links that
+    /// stand still, and visual shapes that are not read where other links of the part have collision shapes.
+    pub(super) fn count(&mut self, world: &World) -> Read<()> {
+        let mut all = Vec::new();
+        let still = world.own_body.then_some(None);
+        for last in [Some(0), Some(1)].into_iter().chain(still) {
+            let (mut found, mut unread) = (Vec::new(), Vec::new());
+            for &link in &self.tree.order {
+                if self.group(link)? == Some(last) {
+                    self.gather(link, last, &mut found, &mut unread)?;
+                }
             }
-            match (bar, unread.first()) {
-                (Some(bar), _) if found.is_empty() || !unread.is_empty() => found.push(self.bar(last, bar)?),
-                (None, Some(unread)) => return Err(unread.clone()),
+            let has_collision = found.iter().any(|placed: &Placed| placed.whole.kind == "collision");
+            let is_no_matter = |kind: &str| last.is_none() || kind == "visual" && has_collision;
+            let (left, unread): (Vec<_>, Vec<_>) = unread.into_iter().partition(|(_, kind, _)| is_no_matter(kind));
+            self.notes.extend(
+                left.iter().map(|(link, kind, why)| format!("; a {kind} of link \"{link}\" is left out: {why}")),
+            );
+            self.notes.extend(unread.iter().map(|(.., why)| format!("; {why}: a bar stands in for it")));
+            match (last, &world.bar, unread.into_iter().next()) {
+                (Some(last), Some(bar), unread) if found.is_empty() || unread.is_some() => {
+                    let (link, whole) = (self.children[last], self.bar(last, bar)?);
+                    found.push(Placed { link, last: Some(last), whole, surface: None });
+                }
+                (_, None, Some((.., unread))) => return Err(unread),
                 _ => {}
             }
-            self.notes.extend(unread.iter().map(|why| format!("; {why}: a bar stands in for it")));
-            self.shapes.append(&mut found);
+            all.append(&mut found);
         }
+        self.arrange(all, world)?;
         if self.shapes.is_empty() {
             return Err(CheckError::in_file(Input::Urdf, "the arm has no shape that could collide"));
         }
         Ok(())
     }
 
-    /// Shapes of one kind of all links whose last joint of the two this one is, and why others are not read.
-    fn gathered(&self, last: usize, kind: &'static str) -> Read<(Vec<Counted>, Vec<CheckError>)> {
-        let (mut found, mut unread) = (Vec::new(), Vec::new());
-        for &link in &self.tree.order {
+    /// Adds the shapes of a link; for each that cannot be read, the reason.
+    fn gather(
+        &self,
+        link: &'a str,
+        last: Option<usize>,
+        found: &mut Vec<Placed<'a>>,
+        unread: &mut Vec<(&'a str, &'static str, CheckError)>,
+    ) -> Read<()> {
+        let before = found.len() + unread.len();
+        for kind in ["collision", "visual"] {
             let mut number = 0;
-            let nodes = children(self.tree.links[link], kind);
-            for node in if self.moved_by(link)? == Some(last) { nodes.collect() } else { Vec::new() } {
+            for node in children(self.tree.links[link], kind) {
                 let mut geometry = child(node, "geometry").into_iter().flat_map(|all| all.children());
                 let mut next = || geometry.by_ref().find(Node::is_element);
                 let (Some(geometry), None) = (next(), next()) else {
@@ -73,28 +135,31 @@ impl<'a> Arm<'a> {
                 let solid = match self.tree.solid(geometry)? {
                     Some(Ok(solid)) => solid,
                     Some(Err(why)) => {
-                        unread.push(why);
+                        unread.push((link, kind, why));
                         continue;
                     }
                     None => continue,
                 };
                 let pose = self.tree.pose(link)?.after(&self.tree.origin(node)?);
-                let [around, within] =
-                    [Outline::Around, Outline::Within].map(|outline| self.project(last, &pose, &solid, outline));
-                found.push(Counted { link: link.to_owned(), kind, number, around, within });
+                let surface = match solid {
+                    Solid::Hull(ref mesh) => Some(self.surface(last, &pose, mesh)),
+                    _ => None,
+                };
+                let [around, within] = match &surface {
+                    Some(surface) => surface.whole(last),
+                    None => {
+                        [Outline::Around, Outline::Within].map(|outline| self.project(last, &pose, &solid, outline))
+                    }
+                };
+                let (layer, ignored) = (None, BTreeSet::new());
+                let whole = Counted { link: link.to_owned(), kind, number, layer, around, within, ignored };
+                found.push(Placed { link, last, whole, surface });
                 number += 1;
             }
+            if found.len() + unread.len() > before {
+                break;
+            }
         }
-        Ok((found, unread))
-    }
-
-    /// A shape by its link, its kind and its number.
-    ///
-    /// # Errors
-    /// When there is none that counts.
-    pub fn shape(&self, link: &str, kind: &str, number: usize) -> Read<&Counted> {
-        let found = self.shapes.iter().find(|own| own.link == link && own.kind == kind && own.number == number);
-        let none = || CheckError::Fails(format!("link \"{link}\" has no {kind} shape number {number} that counts"));
-        found.ok_or_else(none)
+        Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! Solids, and what they cover in the plane.
 
 use super::oblique::oblique;
-use super::pose::{Pose, Vector};
+use super::pose::{Pose, Vector, dot};
 use super::tree::{Read, Tree};
 use super::{Arm, Body};
 use crate::decimal::Decimal;
@@ -11,10 +11,16 @@ use crate::overlap::{Shape, hull};
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
+/// Points of a solid. If its faces are known, their edges as pairs of indices.
+pub struct Mesh {
+    pub points: Vec<Vector>,
+    pub edges: Vec<[usize; 2]>,
+}
+
 /// A solid about its origin; cylinders and capsules along z.
 pub enum Solid {
     /// The convex hull of points.
-    Hull(Vec<Vector>),
+    Hull(Mesh),
     Cylinder {
         radius: Interval,
         half: Interval,
@@ -51,7 +57,8 @@ impl<'a> Tree<'a> {
                 let size = self.numbers::<3>(node, "size")?;
                 let half = size.each_ref().map(half);
                 let signed = |i: usize, k: usize| if i >> k & 1 == 0 { half[k].clone() } else { -&half[k] };
-                (size.to_vec(), Solid::Hull((0..8).map(|i| [0, 1, 2].map(|k| signed(i, k))).collect()))
+                let points = (0..8).map(|i| [0, 1, 2].map(|k| signed(i, k))).collect();
+                (size.to_vec(), Solid::Hull(Mesh { points, edges: Vec::new() }))
             }
             "sphere" => {
                 let radius = read("radius")?;
@@ -75,31 +82,65 @@ impl<'a> Tree<'a> {
     }
 }
 
+/// Points in the plane, relative to a joint, each with its height; and the edges of faces.
+pub struct Surface {
+    pub points: Vec<(Point, Interval)>,
+    pub edges: Vec<[usize; 2]>,
+}
+
+impl Surface {
+    /// Computes its extent along the normal.
+    pub fn heights(&self) -> [Interval; 2] {
+        [Ord::min, Ord::max].map(|outer: fn(BigInt, BigInt) -> BigInt| {
+            let of = |end: fn(&Interval) -> &BigInt| {
+                let all = self.points.iter().map(|(_, height)| end(height).clone());
+                all.reduce(outer).expect("a hull has points")
+            };
+            Interval { lower: of(|h| &h.lower), upper: of(|h| &h.upper) }
+        })
+    }
+
+    /// Computes the convex hull: at least that of all points, and at most.
+    pub fn whole(&self, last: Option<usize>) -> [Body; 2] {
+        bodies(last, self.points.iter().map(|(at, _)| at.clone()), &self.heights())
+    }
+}
+
 impl Arm<'_> {
-    /// What a solid covers in the plane.
-    pub fn project(&self, link: usize, pose: &Pose, solid: &Solid, outline: Outline) -> Body {
+    /// Returns the origin of the joint that moves a link last; the plane's own for a link that stands still.
+    fn origin(&self, last: Option<usize>) -> Point {
+        match last {
+            None => [0, 0].map(Interval::whole),
+            Some(0) => self.base.clone(),
+            Some(_) => sum(&self.base, &self.offset),
+        }
+    }
+
+    /// Places a mesh in the plane.
+    pub fn surface(&self, last: Option<usize>, pose: &Pose, mesh: &Mesh) -> Surface {
+        let [across, beside] = &self.plane.across;
+        let column = |k: usize| [0, 1, 2].map(|i| pose.rows[i][k].clone());
+        let columns = [column(0), column(1), column(2)];
+        let [x, y, z] = [across, beside, &self.plane.normal].map(|along| columns.each_ref().map(|c| dot(along, c)));
+        let center = minus(&self.plane.flat(&pose.at), &self.origin(last));
+        let height = self.plane.height(&pose.at);
+        let place = |p: &Vector| ([&center[0] + &dot(&x, p), &center[1] + &dot(&y, p)], &height + &dot(&z, p));
+        Surface { points: mesh.points.iter().map(place).collect(), edges: mesh.edges.clone() }
+    }
+
+    /// What a solid covers in the plane, as seen from the joint that moves it last.
+    pub fn project(&self, last: Option<usize>, pose: &Pose, solid: &Solid, outline: Outline) -> Body {
         let plane = &self.plane;
-        let joint = if link == 0 { self.base.clone() } else { [0, 1].map(|k| &self.base[k] + &self.offset[k]) };
-        let origin = plane.flat(&pose.at);
-        let center = minus(&origin, &joint);
+        let center = minus(&plane.flat(&pose.at), &self.origin(last));
         let unit = pose.direction(&[0, 0, 1].map(Interval::whole));
         let (along, tilt) = (plane.flat(&unit), plane.height(&unit).abs());
         let beside = |by: &Point| [sum(&center, by), minus(&center, by)];
         let height = &plane.height(&pose.at);
         let about = |reach: &Interval| [height - reach, height + reach];
         let (shape, heights) = match solid {
-            Solid::Hull(points) => {
-                let placed: Vec<Vector> = points.iter().map(|p| pose.direction(p)).collect();
-                let offsets = placed.iter().map(|p| plane.flat(p));
-                let flat = offsets.map(|p| [0, 1].map(|k| &center[k] + &p[k]));
-                let heights: Vec<Interval> = placed.iter().map(|p| plane.height(p)).collect();
-                let [least, most] = [Ord::min, Ord::max].map(|outer: fn(BigInt, BigInt) -> BigInt| {
-                    let of = |end: fn(&Interval) -> &BigInt| {
-                        heights.iter().map(end).cloned().reduce(outer).expect("a hull has points")
-                    };
-                    height + &Interval { lower: of(|h| &h.lower), upper: of(|h| &h.upper) }
-                });
-                (hull_of(flat, outline), [least, most])
+            Solid::Hull(mesh) => {
+                let [around, within] = self.surface(last, pose, mesh).whole(last);
+                return if outline == Outline::Around { around } else { within };
             }
             Solid::Capsule { radius, half } => {
                 let points =
@@ -111,17 +152,20 @@ impl Arm<'_> {
             }
             Solid::Cylinder { radius, half } => {
                 let (offsets, round) = oblique(&along, &tilt, radius, half, outline);
-                let points = offsets.iter().flat_map(beside).collect();
+                // In order all round.
+                let (onward, back) =
+                    (offsets.iter().map(|by| sum(&center, by)), offsets.iter().map(|by| minus(&center, by)));
+                let points = onward.chain(back).collect();
                 (Shape { points, radius: round }, about(&(&(half * &tilt) + &(radius * &length(&along)))))
             }
         };
-        Body { link, shape, heights: Some(heights) }
+        Body { link: last.unwrap_or(0), shape, heights: Some(heights) }
     }
 }
 
-/// The hull of points, by those of its corners: of the middles of their enclosures it is found without rounding, and each point is as
-/// far from there as that of any enclosure.
-fn hull_of(points: impl Iterator<Item = Point>, outline: Outline) -> Shape {
+/// The hull of points, at least and at most, by those of its corners: of the middles of their enclosures it is found without rounding, and each point is
+/// as far from there as that of any enclosure.
+pub fn bodies(last: Option<usize>, points: impl Iterator<Item = Point>, heights: &[Interval; 2]) -> [Body; 2] {
     let mut error = BigInt::ZERO;
     let middles = points.map(|p| {
         p.map(|c| {
@@ -132,10 +176,12 @@ fn hull_of(points: impl Iterator<Item = Point>, outline: Outline) -> Shape {
     });
     let ring = hull(middles.collect());
     let widened = |middle: BigInt| Interval { lower: &middle - &error, upper: middle + &error };
-    let points = ring.into_iter().map(|p| p.map(widened)).collect();
+    let points: Vec<Point> = ring.into_iter().map(|p| p.map(widened)).collect();
     // A point is off its middle, and a corner off its own, by less than two errors across and along together.
-    let room = if outline == Outline::Around { Interval::exactly(&error * 4) } else { Interval::whole(0) };
-    Shape { points, radius: room }
+    [Interval::exactly(&error * 4), Interval::whole(0)].map(|radius| {
+        let shape = Shape { points: points.clone(), radius };
+        Body { link: last.unwrap_or(0), shape, heights: Some(heights.clone()) }
+    })
 }
 
 impl Body {

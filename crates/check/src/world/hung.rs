@@ -51,7 +51,9 @@ impl Obstacle {
                     || wrong("an object on supports is too thin for what it may press into them, or too pointed");
                 Outline::Polygon(within.ok_or_else(thin)?)
             }
-            Outline::Polyline(_) | Outline::Cells(_) => return Err(wrong("an object is a polygon or a circle")),
+            Outline::Polyline(_) | Outline::Cells(_) | Outline::Own(_) => {
+                return Err(wrong("an object is a polygon or a circle"));
+            }
         };
         Ok(Self { outline, ..self.clone() })
     }
@@ -84,7 +86,7 @@ impl Obstacle {
                 }
                 is_convex(&ring).then_some(ring)
             }
-            Outline::Polyline(_) | Outline::Cells(_) => None,
+            Outline::Polyline(_) | Outline::Cells(_) | Outline::Own(_) => None,
         }
     }
 }

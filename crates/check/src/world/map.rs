@@ -42,7 +42,7 @@ impl Reader<'_> {
         for (own, outline) in walls(self.files, &file, &unit, is_framed)? {
             let (at, turn) = (point(&origin()), [0, 1].map(Interval::whole));
             let (name, heights) = (Some(format!("{stem}, {own}")), heights.clone());
-            world.obstacles.push(Obstacle { name, outline, at, turn, heights, course: None });
+            world.obstacles.push(Obstacle { name, own: None, outline, at, turn, heights, course: None });
         }
         if let (None, Some(path), false) = (&world.goal, wishes, has_steps) {
             world.goal = Some(Goal::Tip(goal(self.files, &path, &unit)?));

@@ -16,6 +16,8 @@ use std::rc::Rc;
 #[derive(Clone)]
 pub struct Obstacle {
     pub name: Option<String>,
+    /// Name of the link, if it is part of the robot.
+    pub own: Option<String>,
     pub(super) outline: Outline,
     /// Where its frame's origin lies, and sine and cosine of how it is turned.
     pub at: Point,
@@ -35,6 +37,8 @@ pub enum Outline {
     Circle(Corner, Decimal),
     /// Squares of a picture, or why they are not known.
     Cells(Result<Rc<Cells>, CheckError>),
+    /// A link of the robot.
+    Own(Shape),
 }
 
 impl Obstacle {
@@ -89,6 +93,7 @@ impl Obstacle {
                     false => CheckError::fails("its corners are not those of a convex polygon within the obstacle"),
                 }
             }
+            Outline::Own(_) => CheckError::fails("it is a link of the robot"),
             Outline::Cells(cells) => {
                 let cells = cells.as_ref().map_err(Clone::clone)?;
                 let given: Vec<Point> = given.iter().map(|p| self.own(&point(p))).collect();
@@ -100,7 +105,7 @@ impl Obstacle {
         }
     }
 
-    /// The segments of its border, or its disc, in their places; of what moves in its own frame. What is connected, touches none of them and is not inside is off
+    /// The segments of its border, or its disc, or a link's shape, in their places; of what moves in its own frame. What is connected, touches none of them and is not inside is off
     /// the obstacle.
     ///
     /// # Errors
@@ -123,6 +128,7 @@ impl Obstacle {
                 let cells = cells.as_ref().map_err(Clone::clone)?;
                 Ok(cells.border()?.iter().map(|ends| side(ends, Interval::whole(0))).collect())
             }
+            Outline::Own(shape) => Ok(vec![shape.clone()]),
             _ => Err(CheckError::in_file(Input::World, "an obstacle has too few points, or no radius")),
         }
     }
@@ -137,7 +143,7 @@ impl Obstacle {
         is_near.then(|| match &self.outline {
             Outline::Polygon(rings) => surrounds(rings, &own.map(|middle| Decimal::dyadic(&middle, BITS))),
             Outline::Cells(Ok(cells)) => cells.holds(&own.map(Interval::exactly)),
-            Outline::Cells(Err(_)) | Outline::Polyline(_) | Outline::Circle(..) => false,
+            Outline::Cells(Err(_)) | Outline::Polyline(_) | Outline::Circle(..) | Outline::Own(_) => false,
         })
     }
 }

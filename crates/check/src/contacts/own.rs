@@ -1,0 +1,20 @@
+//! Parts of proofs that are links of the robot.
+
+use super::{Evident, PART, Whole};
+use crate::certificate::PartName;
+use crate::error::{CheckError, Input};
+use crate::robot::{Arm, Outline, named};
+
+/// Finds the shape of a link that stands still, or a layer of it.
+///
+/// # Errors
+/// When the name is incomplete, or no such shape counts.
+pub fn part(arm: &Arm, name: &PartName) -> Result<Evident, CheckError> {
+    let (link, kind, number) = match (&name.own, name.collision, name.visual, &name.corners) {
+        (Some(link), Some(number), None, None) => (link, "collision", number),
+        (Some(link), None, Some(number), None) => (link, "visual", number),
+        _ => return Err(CheckError::in_file(Input::Certificate, PART)),
+    };
+    let within = &named(&arm.still, (link, kind, number), name.height.as_ref())?.within;
+    Ok((Whole::Link(link.clone()), within.shape.clone(), within.kept(Outline::Within)))
+}

@@ -1,0 +1,160 @@
+//! The robot's own body: pairs of its links that must not collide.
+
+use super::layers::cuts;
+use super::shapes::{Counted, Placed};
+use super::solid::{Outline, bodies};
+use super::tree::{Read, Tree};
+use super::{Arm, Body};
+use crate::arm::{Cell, Mover};
+use crate::certificate::Certificate;
+use crate::decimal::Decimal;
+use crate::domain::Range;
+use crate::error::{CheckError, Input};
+use crate::interval::{Interval, Point};
+use crate::world::{Obstacle, World};
+use num_bigint::BigInt;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Least overlap of the heights of two links that can collide, metres: `10^-9`. Links often lie on one another.
+const TOUCHING: u32 = 9;
+
+impl<'a> Tree<'a> {
+    /// Returns the links from the root to this one.
+    fn chain(&self, link: &'a str) -> Read<Vec<&'a str>> {
+        let parents = self.above(link)?.into_iter().rev().map(|joint| self.parent(joint));
+        parents.chain([Ok(link)]).collect()
+    }
+}
+
+/// Whether no solid link lies between the ends of two chains that begin at the root.
+fn are_neighbours(left: &[&str], right: &[&str], is_solid: impl Fn(&str) -> bool) -> bool {
+    let common = left.iter().zip(right).take_while(|(a, b)| a == b).count();
+    let mut between = left[common.saturating_sub(1)..].iter().chain(&right[common..]);
+    let is_end = |link: &str| [left.last(), right.last()].contains(&Some(&link));
+    between.all(|link| is_end(link) || !is_solid(link))
+}
+
+impl<'a> Arm<'a> {
+    /// Finds the last of the two joints that moves a link; `Some(None)` if neither does.
+    ///
+    /// Returns `None` below a joint of the rest of the robot, where the place of the link is unknown.
+    pub(super) fn group(&self, link: &'a str) -> Read<Option<Option<usize>>> {
+        if let Some(last) = self.moved_by(link)? {
+            return Ok(Some(Some(last)));
+        }
+        let carrying = self.tree.above(self.children[0])?;
+        let above = self.tree.above(link)?;
+        let is_held = above.iter().all(|joint| joint.attribute("type") == Some("fixed") || carrying.contains(joint));
+        Ok(is_held.then_some(None))
+    }
+
+    /// Cuts meshes in layers, and sorts all shapes into those that move and those that stand still.
+    ///
+    /// # Errors
+    /// When the world names a link that the robot does not have.
+    pub(super) fn arrange(&mut self, all: Vec<Placed<'a>>, world: &World) -> Read<()> {
+        let ignored = &world.ignore_contact;
+        if let Some(odd) = ignored.iter().flatten().find(|link| !self.tree.links.contains_key(link.as_str())) {
+            let message = format!("[robot] ignore_contact: the robot has no link \"{odd}\"");
+            return Err(CheckError::in_file(Input::World, message));
+        }
+        let groups: BTreeMap<&'a str, Option<usize>> = all.iter().map(|placed| (placed.link, placed.last)).collect();
+        let chain = |link: &&'a str| Ok((*link, self.tree.chain(link)?));
+        let chains = groups.keys().map(chain).collect::<Read<BTreeMap<&str, Vec<&str>>>>()?;
+        let mut apart = BTreeSet::new();
+        for (a, of_a) in &groups {
+            for (b, _) in groups.iter().filter(|(_, of_b)| world.own_body && *of_b != of_a) {
+                let may_meet = ignored.iter().any(|[c, d]| [c, d] == [a, b] || [d, c] == [a, b]);
+                if !may_meet && !are_neighbours(&chains[a], &chains[b], |link| groups.contains_key(link)) {
+                    apart.insert((*a, *b));
+                }
+            }
+        }
+        let ends = |placed: &Placed| placed.whole.around.heights.iter().flatten().map(|h| h.middle().0).collect();
+        let ends: Vec<(&str, Vec<BigInt>)> = all.iter().map(|placed| (placed.link, ends(placed))).collect();
+        let wrist = world.task.as_ref().and_then(|task| task.wrist.as_ref()?.joint.as_deref());
+        for Placed { link, last, mut whole, surface } in all {
+            let still = groups.iter().filter(|(other, of)| of.is_none() && !apart.contains(&(link, **other)));
+            whole.ignored = still.map(|(other, _)| (*other).to_owned()).collect();
+            let others = ends.iter().filter(|(other, _)| apart.contains(&(link, *other)));
+            let cuts = cuts(others.flat_map(|(_, ends)| ends.clone()).collect());
+            // A link below the wrist is replaced by a disc, and stays in one piece.
+            let turns = self.tree.above(link)?.iter().any(|joint| wrist.is_some() && joint.attribute("name") == wrist);
+            let layers = surface.filter(|_| !turns).map_or_else(Vec::new, |surface| surface.layers(&cuts));
+            let layer = |(number, (points, heights)): (usize, (Vec<Point>, [Interval; 2]))| {
+                let (link, ignored, layer) = (whole.link.clone(), whole.ignored.clone(), Some(number));
+                let [around, within] = bodies(last, points.into_iter(), &heights);
+                Counted { link, layer, around, within, ignored, ..whole }
+            };
+            let mut layers: Vec<Counted> = layers.into_iter().enumerate().map(layer).collect();
+            if layers.is_empty() {
+                layers.push(whole);
+            }
+            if last.is_some() {
+                self.shapes.append(&mut layers);
+            } else {
+                self.still.append(&mut layers);
+            }
+        }
+        let obstacle = |own: &Counted| {
+            let heights = own.around.kept(Outline::Around);
+            Obstacle::link(own.to_string(), own.link.clone(), own.around.shape.clone(), heights)
+        };
+        self.own = self.still.iter().map(obstacle).collect();
+        Ok(())
+    }
+
+    /// Lets the pairs of links collide that the certificate ignores.
+    ///
+    /// # Errors
+    /// When a pair does not overlap where the motion begins.
+    pub fn ignore(&mut self, certificate: &Certificate) -> Read<()> {
+        let first = certificate.motion.as_ref().and_then(|motion| motion.knots.first()?.get(1..3));
+        let cell = first.map(|q| Cell::from(&[0, 1].map(|k| [q[k].clone(), q[k].clone()])));
+        for [a, b] in &certificate.ignored {
+            let is_pair = |own: &Counted, other: &Counted| {
+                [a, b] == [&own.link, &other.link] || [b, a] == [&own.link, &other.link]
+            };
+            let meet = |own: &Counted, other: &Counted| {
+                let heights = other.within.kept(Outline::Within);
+                let mover = Mover::new(self, &own.within);
+                own.within.is_at(heights.as_ref())
+                    && cell.as_ref().is_none_or(|cell| mover.overlaps(&other.within.shape, cell))
+            };
+            let pairs = self.shapes.iter().flat_map(|own| self.still.iter().map(move |other| (own, other)));
+            if !pairs.filter(|(own, other)| is_pair(own, other)).any(|(own, other)| meet(own, other)) {
+                let why = format!(
+                    "links \"{a}\" and \"{b}\" do not overlap where the motion begins, so their contact counts"
+                );
+                return CheckError::fails(why);
+            }
+            for own in &mut self.shapes {
+                let other = [(a, b), (b, a)].into_iter().find(|(moving, _)| own.link == **moving);
+                own.ignored.extend(other.map(|(_, still)| still.clone()));
+            }
+            self.notes += &format!(
+                "; contact of links \"{a}\" and \"{b}\" is ignored, as the certificate says that they always overlap"
+            );
+        }
+        Ok(())
+    }
+}
+
+impl Counted {
+    /// Whether a body, which is this shape or its sweep by the tool, must keep off an obstacle.
+    pub fn meets(&self, body: &Body, obstacle: &Obstacle) -> bool {
+        let is_free = obstacle.own.as_ref().is_some_and(|link| self.ignored.contains(link));
+        !is_free && !body.passes(obstacle.heights.as_ref())
+    }
+}
+
+impl Body {
+    /// Returns the heights at which other links can collide with a link that stands still: at least those with
+    /// [`Outline::Around`], at most those with [`Outline::Within`].
+    pub fn kept(&self, outline: Outline) -> Option<Range> {
+        let by = Interval::from(&Decimal::power_of_ten(TOUCHING));
+        let [low, high] = self.heights.as_ref()?;
+        let ([least, low], [high, most]) = ((low + &by).ends(), (high - &by).ends());
+        Some(if outline == Outline::Around { [least, most] } else { [low, high] })
+    }
+}
