@@ -194,9 +194,9 @@ impl Scene {
                     None => reading.meet.holds(p.heights, o.heights),
                     // Links of a robot lie on each other.
                     Some(number) => {
-                        let SelfObstacle { carrier, ignored, .. } = &arm.self_obstacles[number];
-                        let can_hit = link == 1 || *carrier == Carrier::Base;
-                        can_hit && Meet::Surely.holds(p.heights, o.heights) && !(is_own && ignored.contains(&p.body))
+                        let own = &arm.self_obstacles[number];
+                        let can_hit = link == 1 || own.carrier == Carrier::Base;
+                        can_hit && Meet::Surely.holds(p.heights, o.heights) && !(is_own && own.ignores(&p.body))
                     }
                 };
                 for (obstacle, o) in obstacles(&arm, &workspace).enumerate().filter(can_meet) {

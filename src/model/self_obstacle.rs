@@ -27,6 +27,17 @@ pub struct SelfObstacle {
     pub number: usize,
     /// Whether that is `<visual>` geometry.
     pub is_visual: bool,
-    /// URDF links that are free to meet it: its neighbours in the chain, and those that it meets in every configuration.
+    /// URDF links that are free to meet it: its neighbours in the chain, and those that the world lets meet it.
     pub ignored: Vec<String>,
+    /// URDF links that it meets in every configuration, which are free to meet it, too.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub permanent: Vec<String>,
+}
+
+impl SelfObstacle {
+    /// Whether a URDF link is free to meet it.
+    #[must_use]
+    pub fn ignores(&self, link: &str) -> bool {
+        self.ignored.iter().chain(&self.permanent).any(|ignored| ignored == link)
+    }
 }

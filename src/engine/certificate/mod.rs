@@ -20,6 +20,7 @@ use bound::{LeastLength, Ways};
 use contacts::Contacts;
 use serde::Serialize;
 use serde_json::json;
+use std::collections::BTreeSet;
 use thiserror::Error;
 
 /// Why an answer has no certificate.
@@ -243,12 +244,17 @@ fn lines(entries: &[impl Serialize]) -> String {
     format!("[\n{}\n  ]", entries.join(",\n"))
 }
 
-/// The files and the joints that it is about.
+/// The files and the joints that it is about, and links of the robot that meet in every configuration.
 fn about(files: Option<&Digests>, arm: &Arm) -> Said {
     let joints = ("joints", json!(arm.joints.each_ref().map(|joint| &joint.name)));
-    let Some(Digests { urdf, world, others }) = files else { return vec![joints] };
+    let permanent =
+        arm.self_obstacles.iter().flat_map(|own| own.permanent.iter().map(|link| [&own.obstacle.name, link]));
+    let permanent: BTreeSet<[&String; 2]> = permanent.collect();
+    let ignored = (!permanent.is_empty()).then(|| ("ignored", json!(permanent)));
+    let joints = [joints].into_iter().chain(ignored);
+    let Some(Digests { urdf, world, others }) = files else { return joints.collect() };
     let others = (!others.is_empty()).then(|| ("others", json!(others)));
-    [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain([joints]).collect()
+    [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain(joints).collect()
 }
 
 /// What was said in place of the world file.

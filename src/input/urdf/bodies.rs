@@ -13,6 +13,7 @@ use crate::input::world::World;
 use crate::model::{Heights, Link, OutlineSource, Part, Plane, SelfObstacle};
 use crate::text::counted;
 use nalgebra::{Isometry3, Translation2};
+use std::collections::BTreeSet;
 
 /// Corners of the largest outline that stays one shape: what is asked of it takes time that grows with them.
 const MOST_CORNERS: usize = 1024;
@@ -79,7 +80,13 @@ impl Bodies<'_> {
         let mut fixed = self.gather(self.fixed_links());
         let mut all = std::mem::take(&mut fixed.shapes);
         all.extend(gathered.iter_mut().flat_map(|of_link| std::mem::take(&mut of_link.shapes)));
-        let solid = all.iter().map(|shape| shape.link).collect();
+        let mut solid: BTreeSet<usize> = all.iter().map(|shape| shape.link).collect();
+        for (index, of_link) in gathered.iter().enumerate().filter(|_| bar.is_some()) {
+            let links = self.bodies(index);
+            if !of_link.unread.is_empty() || !links.iter().any(|link| solid.contains(link)) {
+                solid.insert(self.tree.child[self.chain.joints[index]]);
+            }
+        }
         let own = SelfCollision::new(self, solid)?;
         let mut links = Vec::new();
         for (index, gathered) in gathered.into_iter().enumerate() {

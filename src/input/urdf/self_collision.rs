@@ -4,7 +4,7 @@
 //! it meet, and for those that it meets in every configuration.
 
 use super::bodies::Bodies;
-use super::chain::{Chain, is_movable};
+use super::chain::Chain;
 use super::document::Document;
 use super::shapes::PlacedShape;
 use super::solid::THINNEST;
@@ -14,6 +14,7 @@ use crate::input::error::{Diagnostic, quoted};
 use crate::model::{Arm, Carrier, Obstacle, Scene, SelfObstacle, Shape, Workspace};
 use crate::space::Configuration;
 use std::collections::BTreeSet;
+use urdf_rs::JointType;
 
 /// Values of each joint at which links are placed to find those that meet in every configuration.
 const SAMPLES: usize = 32;
@@ -120,7 +121,8 @@ impl<'a> SelfCollision<'a> {
                 let name = self.bodies.document.robot.links[link].name.clone();
                 let obstacle = Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights };
                 let ignored = self.ignored(link);
-                obstacles.push(SelfObstacle { carrier, obstacle, number, is_visual, ignored });
+                let permanent = Vec::new();
+                obstacles.push(SelfObstacle { carrier, obstacle, number, is_visual, ignored, permanent });
             }
         }
         obstacles
@@ -190,7 +192,7 @@ pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     }
     for own in &mut arm.self_obstacles {
         let of_this = permanent.iter().filter(|(fixed, _)| *fixed == own.obstacle.name);
-        own.ignored.extend(of_this.map(|(_, moving)| moving.clone()));
+        own.permanent.extend(of_this.map(|(_, moving)| moving.clone()));
     }
     let named: Vec<String> = permanent.iter().map(|(fixed, moving)| format!("\"{fixed}\" and \"{moving}\"")).collect();
     Some(format!("contact of links that meet in every configuration is ignored: {}", named.join(", ")))
@@ -205,7 +207,7 @@ pub(super) fn group(document: &Document, tree: &Tree, chain: &Chain, link: usize
     if tree.carries(first, link) {
         return Some(Group::First);
     }
-    let moves = |joint: usize| is_movable(&document.robot.joints[joint]);
+    let moves = |joint: usize| document.robot.joints[joint].joint_type != JointType::Fixed;
     let is_beside =
         |&above: &usize| tree.above[above].is_some_and(|joint| moves(joint) && !tree.carries(joint, tree.child[first]));
     (!tree.ancestors(link).iter().any(is_beside)).then_some(Group::Fixed)

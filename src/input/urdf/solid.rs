@@ -101,8 +101,9 @@ impl Solid {
             points.iter().map(|p| (pose * p).coords).map(|p| (project(plane, &p), p.dot(&plane.normal))).collect();
         let ends = || std::iter::once(heights.lower).chain(cuts.iter().copied()).chain([heights.upper]);
         let layer = |(lower, upper): (f64, f64)| {
+            let is_in = |height: f64| lower - CORNER_ROUNDING <= height && height <= upper + CORNER_ROUNDING;
             let mut corners: Vec<Point> =
-                placed.iter().filter(|(_, height)| (lower..=upper).contains(height)).map(|(at, _)| *at).collect();
+                placed.iter().filter(|(_, height)| is_in(*height)).map(|(at, _)| *at).collect();
             for edge in edges {
                 let [(from, low), (to, high)] = edge.map(|end| placed[end as usize]);
                 let crossed = [lower, upper].into_iter().filter(|cut| (low - cut) * (high - cut) < 0.0);

@@ -271,7 +271,7 @@ fn self_obstacle(own: &SelfObstacle) -> SelfObstacleEntry {
         link: own.obstacle.name.clone(),
         moves: own.carrier == Carrier::FirstJoint,
         heights: [own.obstacle.heights.lower, own.obstacle.heights.upper],
-        ignored: own.ignored.clone(),
+        ignored: own.ignored.iter().chain(&own.permanent).cloned().collect(),
     }
 }
 

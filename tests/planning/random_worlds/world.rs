@@ -134,8 +134,14 @@ fn self_obstacles(dice: &mut Dice, arm: &Arm) -> Vec<SelfObstacle> {
         };
         let near = center + Vector::new(dice.within(-0.3, 0.3), dice.within(-0.3, 0.3));
         let ignored = if dice.chance(0.3) { vec!["first".to_owned()] } else { Vec::new() };
-        let obstacle =
-            |obstacle| SelfObstacle { carrier, obstacle, number, is_visual: false, ignored: ignored.clone() };
+        let obstacle = |obstacle| SelfObstacle {
+            carrier,
+            obstacle,
+            number,
+            is_visual: false,
+            ignored: ignored.clone(),
+            permanent: vec![],
+        };
         let shapes = self::obstacle(dice, 0.0, near).into_iter().flat_map(|o| split(&o));
         all.extend(shapes.map(obstacle));
     }
