@@ -69,4 +69,4 @@ pub use stroke::{Stroke, ToolJoint};
 pub use stuck_along::BlockedStretch;
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
 pub use task_error::TaskError;
-pub use workspace::{Heights, Obstacle, Shape, Workspace};
+pub use workspace::{Heights, Obstacle, RESTING_TOLERANCE, Shape, Workspace};

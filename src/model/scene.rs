@@ -64,10 +64,13 @@ enum Meet {
 }
 
 impl Meet {
-    fn holds(self, a: Heights, b: Heights) -> bool {
-        match self {
-            Self::Perhaps => a.meet(b),
-            Self::Surely => a.surely_meet(b),
+    /// Of a part of the arm, or of an object that it carries, and an obstacle.
+    fn holds(self, is_carried: bool, part: Heights, obstacle: Heights) -> bool {
+        match (self, is_carried) {
+            (Self::Perhaps, false) => part.meet(obstacle),
+            (Self::Perhaps, true) => part.object_meets(obstacle),
+            (Self::Surely, false) => part.surely_meet(obstacle),
+            (Self::Surely, true) => part.object_surely_meets(obstacle),
         }
     }
 }
@@ -174,7 +177,8 @@ impl Scene {
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
                 let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
-                let as_high = |(_, o): &(usize, &Obstacle)| reading.meet.holds(p.heights, o.heights);
+                let as_high =
+                    |(_, o): &(usize, &Obstacle)| reading.meet.holds(meetable.is_some(), p.heights, o.heights);
                 for (obstacle, o) in workspace.all().enumerate().filter(as_high) {
                     let pieces = match meetable {
                         Some(meetable) => meetable[obstacle].clone(),
@@ -195,8 +199,15 @@ impl Scene {
     #[must_use]
     pub(crate) fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
-        let heights = || parts().flat_map(|part| self.workspace.all().map(|obstacle| (part.heights, obstacle.heights)));
-        let is_exact = self.reading.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
+        let is_known = |is_carried: bool, part: &Part| {
+            let meets = |meet: Meet, obstacle: &Obstacle| meet.holds(is_carried, part.heights, obstacle.heights);
+            self.workspace.all().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
+        };
+        let is_exact = self.reading.meet == Meet::Surely
+            || (0..2).all(|link| {
+                let (own, carried) = (self.own_parts(link), &self.arm.links[link].parts[self.own_parts(link).len()..]);
+                own.iter().all(|part| is_known(false, part)) && carried.iter().all(|part| is_known(true, part))
+            });
         let carried = self.payload.iter().flat_map(|payload| &payload.pieces);
         let mut pieces = self.workspace.all().flat_map(|obstacle| &obstacle.pieces).chain(carried);
         let is_whole = self.reading.meet == Meet::Surely || !pieces.any(Convex::is_sliver);

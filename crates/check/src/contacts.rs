@@ -117,6 +117,9 @@ impl<'a> Contacts<'a> {
         if !body.is_at(part.heights) {
             return fails(": the shape passes over or under the obstacle");
         }
+        if matches!(shape, Named::Carried(_)) && !body.is_below_top(part.heights) {
+            return fails(": the shape rests on the obstacle");
+        }
         match shape {
             Named::Own(body) if body.link == 1 && self.among.allowed.contains(&part.obstacle) => {
                 fails(": the shape may meet the obstacle")

@@ -31,6 +31,7 @@ mod path_kind;
 mod pressed;
 mod proof_sizes;
 mod reach;
+mod resting;
 mod results;
 #[cfg(feature = "study")]
 mod study;
