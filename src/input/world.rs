@@ -238,6 +238,13 @@ pub(super) struct GoalTable {
 /// that large.
 pub const LARGEST: f64 = 1e6;
 
+/// What to do about a number beyond [`LARGEST`].
+pub(super) fn bound_hint() -> String {
+    format!(
+        "lengths are in metres, angles in radians, from -{LARGEST:e} to {LARGEST:e}: put the origin of all coordinates near the arm"
+    )
+}
+
 /// Reads a world.
 ///
 /// # Errors
@@ -371,10 +378,7 @@ impl Reader<'_> {
         }
         if value.abs() > LARGEST {
             let message = format!("{what}: {value} is too large (at most {LARGEST:e})");
-            return Err(self
-                .source
-                .diagnostic_at(number.span(), message)
-                .help("lengths are in metres, angles in radians"));
+            return Err(self.source.diagnostic_at(number.span(), message).help(bound_hint()));
         }
         Ok(value)
     }
