@@ -43,7 +43,7 @@ mod workspace;
 
 pub use arm::{Arm, Plane};
 pub use assumed::AssumedLimits;
-pub(crate) use assumed::{SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
+pub(crate) use assumed::{SLIDING_SPEED, TURNING_SPEED, assumed_acceleration, assumed_acceleration_note};
 pub use carried::Carried;
 pub(crate) use carried::on_axis;
 use carried::swept;

@@ -52,8 +52,10 @@ impl Cell {
 fn planned(place: &Place, world: &str) -> Done {
     place.write("world.toml", world);
     let urdf = shipped("robots/scara.urdf");
+    let _ = std::fs::remove_file(place.path("c.json"));
     let done = place.run(&[&urdf, "world.toml"], "--certificate c.json --output plan.json");
-    if [0, 3].contains(&done.code) {
+    // Some proofs about what a turning arm holds have no certificate.
+    if done.code == 0 || place.path("c.json").exists() {
         let said = check(&std::fs::read_to_string(&urdf).unwrap(), world, &place.read("c.json"));
         assert!(said.is_ok(), "{said:?}\n{world}");
     }
