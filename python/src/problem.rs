@@ -277,5 +277,7 @@ impl Problem {
 
 /// What the user should know of how a problem was read, line by line.
 pub fn noted(problem: &cplan::Problem) -> Vec<String> {
-    problem.robot().warnings.iter().chain(problem.notes()).cloned().collect()
+    let robot = problem.robot();
+    let assumptions = robot.assumptions(problem.scene().arm());
+    robot.warnings.iter().chain(problem.notes()).cloned().chain(assumptions).collect()
 }

@@ -89,7 +89,7 @@ impl Turning {
             payload.parts(arm).map(|(shape, kind)| (Features::new(&shape.at(&about.into())), kind)).collect();
         let mut pairs = Vec::new();
         for (number, obstacle) in workspace.obstacles.iter().enumerate() {
-            if !payload.heights.meet(obstacle.heights) {
+            if !payload.heights.object_meets(obstacle.heights) {
                 continue;
             }
             for (part, kind) in parts.iter().filter(|(_, kind)| payload.meets(*kind, number)) {

@@ -9,8 +9,8 @@ use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding
 use crate::input::{self, LoadedScene, RobotReport};
 use crate::model::Scene;
 use crate::output::{configuration, contours, range};
-use crate::space::Configuration;
-use crate::text::Columns;
+use crate::space::{Configuration, JointRange};
+use crate::text::{Columns, at_least, fixed, told_apart};
 
 /// Checks and reports.
 ///
@@ -54,10 +54,20 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
     let mut line = |key: &str, value: String| columns.add(key, &value);
     line("result", if findings.free { "free".into() } else { "not free".into() });
     line("at", configuration(arm, q));
-    line("tip", format!("({:.4}, {:.4}) m", findings.tip[0], findings.tip[1]));
+    let [x, y] = findings.tip.map(|c| fixed(c, 4));
+    line("tip", format!("({x}, {y}) m"));
     for (k, joint) in arm.joints.iter().enumerate() {
-        let verdict = if findings.within_limits[k] { "within" } else { "OUTSIDE" };
-        line("limits", format!("{}: {} is {verdict} {}", joint.name, joint.shown(q[k]), range(joint)));
+        let (name, value) = (&joint.name, joint.shown(q[k]));
+        line(
+            "limits",
+            match joint.range {
+                JointRange::Interval { lower, upper } if !findings.within_limits[k] => {
+                    let [value, lower, upper] = joint.told_apart([q[k], lower, upper]);
+                    format!("{name}: {value} is OUTSIDE {lower} to {upper}")
+                }
+                _ => format!("{name}: {value} is within {}", range(joint)),
+            },
+        );
     }
     for contact in &findings.contacts {
         let PairFinding { link, body, obstacle, touching, depth, .. } = contact;
@@ -65,7 +75,10 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
         let how = match (touching, *depth > 0.0) {
             (true, true) => format!("penetrates by {depth:.6} m"),
             (true, false) => "touches".into(),
-            (false, _) => format!("is {:.6} m away, less than the clearance of {} m", -depth, findings.required),
+            (false, _) => {
+                let [distance, _] = told_apart([-depth, findings.required], 6);
+                format!("is {distance} m away, less than the clearance of {} m", findings.required)
+            }
         };
         line("contact", format!("link {link}, obstacle \"{obstacle}\": {how}"));
         for (whose, corners) in [("link", &contact.link_corners_inside), ("obstacle", &contact.obstacle_corners_inside)]
@@ -81,7 +94,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
     }
     if let Some(clearance) = findings.clearance.filter(|c| *c > 0.0) {
         let nearest = scene.closest(q).map(|c| scene.describe(c.pair)).unwrap_or_default();
-        line("distance", format!("{clearance:.6} m to the nearest obstacle: {nearest}"));
+        line("distance", format!("{} m to the nearest obstacle: {nearest}", at_least(clearance, 6)));
     }
     match &findings.nearest_free {
         Some(NearestFinding { configuration: at, distance, resolution, .. }) => {
@@ -95,7 +108,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings
         None => {}
     }
     line("arm", format!("{} ({})", arm.name, arm.kind()));
-    let axis = |v: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", v[0], v[1], v[2]);
+    let axis = |v: [f64; 3]| format!("({})", v.map(|c| fixed(c, 4)).join(", "));
     let BasisFinding { u, v, normal } = &findings.plane;
     line("plane", format!("u = {}, v = {}, heights along {}; root frame", axis(*u), axis(*v), axis(*normal)));
     let RobotReport { geometry, notes, .. } = &loaded.robot;

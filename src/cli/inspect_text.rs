@@ -146,7 +146,7 @@ fn rate(joint: &JointEntry, what: &str, per: &str, rate: Option<RateEntry>) -> S
     let source = match source {
         RateSource::Urdf => "URDF",
         RateSource::World => "world file",
-        RateSource::Default => "default: nobody gives one",
+        RateSource::Default => "default; not specified",
     };
     format!("{what} {value} {}{per} ({source})", unit(joint))
 }

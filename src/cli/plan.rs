@@ -45,13 +45,14 @@ pub fn answer(
     }
     let asked = args.query.overrides();
     let said = loaded.said_ends();
+    // They may be why start or goal is refused.
+    loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let problem = Problem::of_scene(loaded, &asked)?.read_since(begun);
     if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
         return Err(Failure::Usage(lack));
     }
     let steps = problem.task().map_or(1, |task| task.steps().count());
     let files = ResultFiles::new(&sinks, args.per_step, steps)?;
-    problem.robot().warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
     let begun = Instant::now();
     // Where ends were found from a place of the tip, or put at a limit, the certificate says them.

@@ -93,6 +93,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let journal = files.first().map(|(path, _)| part(path));
     sinks::spare_inputs(journal.iter().map(PathBuf::as_path))?;
     let opened = journal.map(|path| Journal::open(&path, &study, args.fresh)).transpose()?;
+    study.remarks().iter().for_each(|remark| args.print.say(remark));
     let (journal, mut rows) = opened.map_or((None, Vec::new()), |(journal, rows)| (Some(journal), rows));
     if !rows.is_empty() {
         args.print.say(&format!("goes on after {} that are known already", counted(rows.len(), "layout")));

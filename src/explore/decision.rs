@@ -13,7 +13,7 @@ use crate::field::{Component, Lattice, harmonic_way};
 use crate::interrupt::checkpoint;
 use crate::model::{MotionProblem, Scene};
 use crate::space::{Configuration, GoalSet, Path, Segment};
-use crate::text::counted;
+use crate::text::{counted, listed};
 use std::collections::{BTreeSet, HashSet};
 
 /// Places ahead on an optimistic path whose unknown cells are looked for.
@@ -359,7 +359,7 @@ fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<Motion
     let (blocked, open): (Vec<&Segment>, Vec<&Segment>) = goals.pieces().iter().partition(is_blocked);
     if let (true, Some(first)) = (open.is_empty(), blocked.first()) {
         let why = scene.obstructions(first.ends()[0]).iter().map(|o| scene.explain(o)).collect::<Vec<_>>();
-        return Err(Ending::Unknown(format!("the goal meets cells that are not known to be free: {}", why.join("; "))));
+        return Err(Ending::Unknown(format!("the goal meets cells that are not known to be free: {}", listed(&why))));
     }
     let open: GoalSet = open.into_iter().copied().collect();
     MotionProblem::new(scene, start, open).map_err(|error| Ending::Unknown(error.to_string()))

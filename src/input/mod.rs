@@ -110,6 +110,21 @@ pub struct RobotReport {
     pub no_dynamics: Option<String>,
 }
 
+impl RobotReport {
+    /// What may surprise and what is assumed, for programs that print no summary: lines that begin with `warning:` or `note:`.
+    #[must_use]
+    pub fn remarks(&self, arm: &Arm) -> Vec<String> {
+        let warnings = self.warnings.iter().map(|warning| format!("warning: {warning}"));
+        warnings.chain(self.assumptions(arm).iter().map(|assumption| format!("note: {assumption}"))).collect()
+    }
+
+    /// Limits of an arm that nobody gives, in words: the same wherever they matter.
+    #[must_use]
+    pub fn assumptions(&self, arm: &Arm) -> Vec<String> {
+        self.assumed.notes(arm.joints.each_ref().map(|joint| (joint.name.as_str(), joint.unit())))
+    }
+}
+
 /// Arm, obstacles and objects as the files have them, without start, goal and steps.
 #[derive(Debug, Clone)]
 pub struct LoadedScene {

@@ -3,6 +3,7 @@
 use crate::geometry::{Convex, separation};
 use crate::model::Scene;
 use crate::space::JointRange;
+use crate::text::told_apart;
 
 /// What to say of a world with obstacles none of which the arm can reach. The first that it may reach ends the search.
 pub(super) fn warning(scene: &Scene) -> Option<String> {
@@ -16,14 +17,15 @@ pub(super) fn warning(scene: &Scene) -> Option<String> {
     let mut nearest = f64::INFINITY;
     for piece in scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces) {
         nearest = nearest.min(separation(&base, piece).distance);
-        if nearest <= reach {
+        if nearest <= reach + scene.workspace().clearance {
             return None;
         }
     }
     nearest.is_finite().then(|| {
+        let [nearest, reach] = told_apart([nearest, reach], 4);
         format!(
-            "no obstacle is within the arm's reach: the nearest is {nearest:.4} m from joint 1, no part of the arm comes farther than \
-             {reach:.4} m; is the world in metres, and [robot] `at` where the arm stands?"
+            "no obstacle is within the arm's reach: the nearest is {nearest} m from joint 1, no part of the arm comes farther than \
+             {reach} m; is the world in metres, and [robot] `at` where the arm stands?"
         )
     })
 }

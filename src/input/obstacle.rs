@@ -175,7 +175,7 @@ pub(super) fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Resul
         return Err(reader
             .source
             .diagnostic_at(circle.radius.span(), message)
-            .help("a radius is in metres; leave out what has none"));
+            .help("give a radius above 0, in metres, or leave the obstacle out"));
     }
     Ok((Shape::Circle { center, radius }, vec![Convex::trusted(vec![center], radius)]))
 }

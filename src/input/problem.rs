@@ -2,13 +2,14 @@
 
 use super::error::{Diagnostic, DiagnosticKind, InputError};
 use super::reasons::{
-    HELP_FOR_LIMITS, HELP_FOR_REACH, beyond_limits, describe, describe_segment, help_for_contact, obstructions,
-    out_of_reach, within_limits,
+    HELP_FOR_LIMITS, beyond_limits, describe, describe_segment, help_for_contact, help_for_ik_solutions,
+    help_for_reach, obstructions, out_of_reach, within_limits,
 };
 use super::{Loaded, LoadedScene, Overrides};
 use crate::geometry::Point;
 use crate::model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, inverse};
 use crate::space::{Configuration, GoalSet, Segment};
+use crate::text::{first_lines, listed};
 use std::ops::Range;
 
 /// Where a value was given: on the command line, or in the world file.
@@ -106,7 +107,7 @@ impl LoadedScene {
         }
         let hits = obstructions(&self.scene, q);
         if !hits.is_empty() {
-            let message = format!("{what} ({}) is not free: {}", describe(&self.scene, q), hits.join("; "));
+            let message = format!("{what} ({}) is not free: {}", describe(&self.scene, q), listed(&hits));
             return Err(place.diagnostic(message).help(help_for_contact(&self.scene)));
         }
         Ok(())
@@ -138,7 +139,7 @@ impl LoadedScene {
         let message = format!(
             "the start ({}) is not free when the motion begins: {}",
             describe(&self.scene, start),
-            hits.join("; ")
+            listed(&hits)
         );
         Err(place.diagnostic(message).help("let the motion of the obstacle begin elsewhere, or choose another start"))
     }
@@ -155,11 +156,11 @@ impl LoadedScene {
         let solved = inverse(scene.arm(), tip, start);
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
-            return Err(place.diagnostic(out_of_reach(scene, "the goal", tip)).help(HELP_FOR_REACH));
+            return Err(place.diagnostic(out_of_reach(scene, "the goal", tip)).help(help_for_reach(scene, tip)));
         }
         notes.extend(solved.free.map(|free| freedom(scene, &at, free)));
-        let (allowed, mut blocked) = within_limits(scene, &solved);
-        let mut goals = Vec::new();
+        let (allowed, outside) = within_limits(scene, &solved);
+        let (mut goals, mut blocked) = (Vec::new(), Vec::new());
         for piece in allowed {
             match blocked_all_along(scene, &piece) {
                 Some(reasons) => blocked.extend(reasons),
@@ -167,11 +168,14 @@ impl LoadedScene {
             }
         }
         if goals.is_empty() {
-            let message =
-                format!("no IK solution that puts the tip at {at} is allowed and free: {}", blocked.join("; "));
-            return Err(place.diagnostic(message).help(help_for_contact(scene)));
+            let help = help_for_ik_solutions(scene, !outside.is_empty(), !blocked.is_empty());
+            let reasons = listed(&[outside, blocked].concat());
+            let message = format!("no IK solution that puts the tip at {at} is allowed and free: {reasons}");
+            return Err(place.diagnostic(message).help(help));
         }
-        notes.extend(blocked.into_iter().map(|b| format!("an IK solution with the tip at {at} is ruled out: {b}")));
+        let ruled_out = |reason: String| format!("an IK solution with the tip at {at} is ruled out: {reason}");
+        let reasons = outside.into_iter().chain(blocked).map(ruled_out).collect();
+        notes.extend(first_lines(reasons, |more| format!("and so are {more} more")));
         Ok(goals.into_iter().collect())
     }
 }
@@ -198,7 +202,7 @@ fn blocked_all_along(scene: &Scene, piece: &Segment) -> Option<Vec<String>> {
     if piece.is_point() {
         let [q, _] = piece.ends();
         let hits = obstructions(scene, q);
-        return (!hits.is_empty()).then(|| vec![format!("({}): {}", describe(scene, q), hits.join("; "))]);
+        return (!hits.is_empty()).then(|| vec![format!("({}): {}", describe(scene, q), listed(&hits))]);
     }
     let reason = |blocked: &BlockedStretch| {
         format!("({}): {}", describe_segment(scene, &blocked.stretch), scene.explain(&blocked.obstruction))

@@ -3,6 +3,7 @@
 use crate::geometry::Point;
 use crate::model::{Freedom, Inverse, Scene, within};
 use crate::space::{Configuration, JointRange, Segment};
+use crate::text::{fixed, told_apart};
 
 /// Which IK solutions of `solved` the joint limits allow, turns of circles and long ranges included; and of each branch that
 /// they rule out, why.
@@ -69,6 +70,9 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
 /// What to do about a configuration outside the limits.
 pub(super) const HELP_FOR_LIMITS: &str = "choose values within, or override [robot] limits in the world file";
 
+/// The same about a place of the tip.
+pub(super) const HELP_FOR_TIP: &str = "choose another point, or override [robot] limits in the world file";
+
 /// Why `q` is not free, in words, the worst pair of shapes for each link and obstacle.
 pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
     scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
@@ -83,29 +87,39 @@ pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
     }
 }
 
+/// What to do where no IK solution is allowed and free: some of them are `outside` the limits, others `blocked`.
+pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool) -> String {
+    let contact = help_for_contact(scene);
+    match (outside, blocked) {
+        (true, false) => HELP_FOR_TIP.to_owned(),
+        (true, true) => format!("{contact}, or {HELP_FOR_TIP}"),
+        (false, _) => contact.to_owned(),
+    }
+}
+
 /// That no IK solution reaches `point`, in words; `what` it is begins the sentence.
 pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     let arm = scene.arm();
+    let from_joint = (point - arm.base).norm();
+    let [distance, reach] = match arm.kind() {
+        "RR" => {
+            let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
+            let [distance, least, most] = told_apart([from_joint, (upper - lower).abs(), upper + lower], 4);
+            [distance, format!(", the tip reaches from {least} to {most} m")]
+        }
+        _ => [fixed(from_joint, 4), String::new()],
+    };
     format!(
-        "{what} ({}, {}) m is out of reach of the tip \"{}\", whatever the joint limits: it is {:.4} m from joint \"{}\"{}",
-        point.x,
-        point.y,
-        arm.tip_name,
-        (point - arm.base).norm(),
-        arm.joints[0].name,
-        reach(scene)
+        "{what} ({}, {}) m is out of reach of the tip \"{}\", whatever the joint limits: it is {distance} m from joint \"{}\"{reach}",
+        point.x, point.y, arm.tip_name, arm.joints[0].name,
     )
 }
 
 /// What to do about a point out of reach.
-pub(super) const HELP_FOR_REACH: &str = "choose a point nearer by; coordinates are metres in the arm's plane";
-
-/// What an arm with two revolute joints reaches, for messages.
-fn reach(scene: &Scene) -> String {
+pub(super) fn help_for_reach(scene: &Scene, point: Point) -> String {
     let arm = scene.arm();
-    if arm.kind() != "RR" {
-        return String::new();
-    }
     let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
-    format!(", the tip reaches from {:.4} to {:.4} m", (upper - lower).abs(), upper + lower)
+    let is_inside = arm.kind() == "RR" && (point - arm.base).norm() < (upper - lower).abs();
+    let place = if is_inside { "farther from joint 1" } else { "nearer by" };
+    format!("choose a point {place}; coordinates are metres in the arm's plane")
 }

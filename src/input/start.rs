@@ -2,13 +2,12 @@
 
 use super::error::{Diagnostic, DiagnosticKind, InputError};
 use super::problem::Place;
-use super::reasons::{
-    HELP_FOR_LIMITS, HELP_FOR_REACH, describe, help_for_contact, obstructions, out_of_reach, within_limits,
-};
+use super::reasons::{describe, help_for_ik_solutions, help_for_reach, obstructions, out_of_reach, within_limits};
 use super::{LoadedScene, Overrides};
 use crate::geometry::Point;
 use crate::model::{Goal, inverse};
 use crate::space::{Configuration, JointRange};
+use crate::text::listed;
 
 /// Values beyond a limit by no more than this, radians or metres, are the limit: what is left of it after it was written
 /// with nine digits, and far below what any drive can do.
@@ -85,7 +84,7 @@ impl LoadedScene {
         let solved = inverse(scene.arm(), tip, Configuration::zeros());
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
-            return Err(place.diagnostic(out_of_reach(scene, "the start", tip)).help(HELP_FOR_REACH));
+            return Err(place.diagnostic(out_of_reach(scene, "the start", tip)).help(help_for_reach(scene, tip)));
         }
         if solved.free.is_some() {
             let message = format!("the start puts the tip at {at}, which leaves a joint free: many IK solutions do");
@@ -103,11 +102,10 @@ impl LoadedScene {
             }
             [] => {
                 let hits =
-                    |q: &Configuration| format!("({}): {}", describe(scene, *q), obstructions(scene, *q).join("; "));
-                let help = if blocked.is_empty() { HELP_FOR_LIMITS } else { help_for_contact(scene) };
+                    |q: &Configuration| format!("({}): {}", describe(scene, *q), listed(&obstructions(scene, *q)));
+                let help = help_for_ik_solutions(scene, !outside.is_empty(), !blocked.is_empty());
                 let why: Vec<String> = outside.into_iter().chain(blocked.iter().map(hits)).collect();
-                let message =
-                    format!("no IK solution that puts the tip at {at} is allowed and free: {}", why.join("; "));
+                let message = format!("no IK solution that puts the tip at {at} is allowed and free: {}", listed(&why));
                 Err(place.diagnostic(message).help(help))
             }
             _ => {

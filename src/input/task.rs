@@ -1,12 +1,13 @@
 //! The steps of a world as a task for its arm.
 
 use super::error::{Diagnostic, DiagnosticKind, InputError};
-use super::reasons::{HELP_FOR_LIMITS, HELP_FOR_REACH, beyond_limits, out_of_reach, within_limits};
+use super::reasons::{HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, help_for_reach, out_of_reach, within_limits};
 use super::requirement::{Required, Requirement};
 use super::{LoadedScene, Overrides, RobotReport, World};
 use crate::geometry::Point;
 use crate::model::{Payload, Scene, Stroke, Task, Workspace, inverse};
 use crate::space::{Configuration, JointRange};
+use crate::text::listed;
 
 /// A task and how it was read.
 #[derive(Debug, Clone)]
@@ -92,16 +93,16 @@ impl LoadedScene {
         Some(self.world.source.diagnostic_at(requirement.at.clone(), message).help(help))
     }
 
-    fn beyond_limits(&self, step: &str, q: Configuration) -> Option<(String, &'static str)> {
+    fn beyond_limits(&self, step: &str, q: Configuration) -> Option<(String, String)> {
         let outside = beyond_limits(&self.scene, q);
         (!outside.is_empty())
-            .then(|| (format!("{step} is outside the joint limits: {}", outside.join("; ")), HELP_FOR_LIMITS))
+            .then(|| (format!("{step} is outside the joint limits: {}", outside.join("; ")), HELP_FOR_LIMITS.into()))
     }
 
-    fn beyond_reach(&self, step: &str, tip: Point, start: Configuration) -> Option<(String, &'static str)> {
+    fn beyond_reach(&self, step: &str, tip: Point, start: Configuration) -> Option<(String, String)> {
         let solved = inverse(self.scene.arm(), tip, start);
         if solved.branches.is_empty() {
-            return Some((out_of_reach(&self.scene, &format!("{step}:"), tip), HELP_FOR_REACH));
+            return Some((out_of_reach(&self.scene, &format!("{step}:"), tip), help_for_reach(&self.scene, tip)));
         }
         // Where a joint's value does not matter, others of its values may be within the limits.
         let (allowed, outside) = within_limits(&self.scene, &solved);
@@ -110,13 +111,13 @@ impl LoadedScene {
                 "{step}: no IK solution that puts the tip at ({}, {}) m is within the joint limits: {}",
                 tip.x,
                 tip.y,
-                outside.join("; ")
+                listed(&outside)
             );
-            (message, "choose another point, or override [robot] limits in the world file")
+            (message, HELP_FOR_TIP.into())
         })
     }
 
-    fn too_thin(&self, step: &str, object: usize) -> Option<(String, &'static str)> {
+    fn too_thin(&self, step: &str, object: usize) -> Option<(String, String)> {
         let object = &self.world.objects[object];
         let arm = self.scene.arm();
         if object.can_rest(arm) {
@@ -127,7 +128,7 @@ impl LoadedScene {
             "{step}: object \"{}\" is too thin to rest on anything: nothing of it lies {by:.2e} m deep, which is what it may press into its supports",
             object.name
         );
-        Some((message, "make it thicker, or remove its supports"))
+        Some((message, "make it thicker, or remove its supports".into()))
     }
 }
 

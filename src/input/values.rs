@@ -48,6 +48,8 @@ impl LoadedScene {
                 .into());
         }
         self.scene.arm_mut().keep_efforts();
+        // Efforts take the place of accelerations that nobody gives.
+        self.robot.assumed.acceleration.clear();
         Ok(self)
     }
 }

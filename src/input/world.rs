@@ -243,9 +243,12 @@ pub(super) struct GoalTable {
 /// that large.
 pub const LARGEST: f64 = 1e6;
 
-/// The hint for numbers beyond [`LARGEST`].
-pub const TOO_FAR: &str =
-    "numbers go up to 1e6, metres or radians: move robot and world nearer to the origin, or convert other units";
+/// What to do about a number beyond [`LARGEST`].
+pub(super) fn bound_hint() -> String {
+    format!(
+        "lengths are in metres, angles in radians, from -{LARGEST:e} to {LARGEST:e}: put the origin of all coordinates near the arm"
+    )
+}
 
 /// Reads a world.
 ///
@@ -380,7 +383,7 @@ impl Reader<'_> {
         }
         if value.abs() > LARGEST {
             let message = format!("{what}: {value} is too large (at most {LARGEST:e})");
-            return Err(self.source.diagnostic_at(number.span(), message).help(TOO_FAR));
+            return Err(self.source.diagnostic_at(number.span(), message).help(bound_hint()));
         }
         Ok(value)
     }

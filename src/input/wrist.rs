@@ -4,7 +4,7 @@ use super::error::Diagnostic;
 use super::schema::Positive;
 use super::world::{Number, Reader};
 use crate::model::Wrist;
-use crate::model::{TIME_TO_TOP_SPEED, assumed_acceleration};
+use crate::model::{assumed_acceleration, assumed_acceleration_note};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -38,12 +38,7 @@ impl WristTable {
 
     /// What is to be said of a limit that was not given.
     pub fn note(&self, wrist: &Wrist) -> Option<String> {
-        self.acceleration.is_none().then(|| {
-            format!(
-                "wrist: no acceleration limit given; taken as {:.3} rad/s^2 (top speed in {TIME_TO_TOP_SPEED} s)",
-                wrist.acceleration
-            )
-        })
+        self.acceleration.is_none().then(|| assumed_acceleration_note("wrist", wrist.acceleration, "rad"))
     }
 }
 

@@ -1,5 +1,6 @@
-//! Limits that a motion keeps although nobody gives them.
+//! Limits that a motion keeps although nobody gives them, and the words for them.
 
+use crate::text::short;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -10,7 +11,7 @@ pub(crate) const TURNING_SPEED: f64 = 1.0;
 pub(crate) const SLIDING_SPEED: f64 = 0.25;
 
 /// Seconds to top speed, without a limit on the acceleration.
-pub(crate) const TIME_TO_TOP_SPEED: f64 = 0.25;
+const TIME_TO_TOP_SPEED: f64 = 0.25;
 
 /// The greatest acceleration of a joint that has none, of its top speed.
 pub(crate) fn assumed_acceleration(velocity: f64) -> f64 {
@@ -36,4 +37,29 @@ impl AssumedLimits {
     pub fn is_empty(&self) -> bool {
         self.velocity.is_empty() && self.acceleration.is_empty()
     }
+
+    /// All of them in words, for joints with these names and units of their values.
+    #[must_use]
+    pub fn notes(&self, joints: [(&str, &str); 2]) -> Vec<String> {
+        let of_joint = |(name, unit): (&str, &str)| {
+            let whose = format!("joint \"{name}\"");
+            let speed = self.velocity.get(name).map(|value| assumed_speed_note(&whose, *value, unit));
+            let acceleration = self.acceleration.get(name).map(|value| assumed_acceleration_note(&whose, *value, unit));
+            speed.into_iter().chain(acceleration)
+        };
+        joints.into_iter().flat_map(of_joint).collect()
+    }
+}
+
+/// The words for a top speed that nobody gives.
+fn assumed_speed_note(whose: &str, value: f64, unit: &str) -> String {
+    format!("{whose}: no top speed given; assumed {} {unit}/s, for the timing alone", short(value))
+}
+
+/// The words for an acceleration that nobody gives.
+pub(crate) fn assumed_acceleration_note(whose: &str, value: f64, unit: &str) -> String {
+    let value = short(value);
+    format!(
+        "{whose}: no acceleration limit given; assumed {value} {unit}/s2, top speed in {TIME_TO_TOP_SPEED} s, for the timing alone"
+    )
 }

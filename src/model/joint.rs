@@ -3,6 +3,7 @@
 use super::{SLIDING_SPEED, TURNING_SPEED, assumed_acceleration};
 use crate::geometry::Vector;
 use crate::space::JointRange;
+use crate::text::told_apart;
 use serde::{Deserialize, Serialize};
 
 /// How a joint moves its link in the plane.
@@ -99,10 +100,20 @@ impl Joint {
     /// A value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
     #[must_use]
     pub fn shown(&self, value: f64) -> String {
+        let [shown] = self.told_apart([value]);
+        shown
+    }
+
+    /// The same of several values: those that differ look different.
+    #[must_use]
+    pub fn told_apart<const N: usize>(&self, values: [f64; N]) -> [String; N] {
+        let mut texts = told_apart(values, 4);
         if self.joint_type.is_revolute() {
-            format!("{value:.4} rad ({:.2} deg)", value.to_degrees())
+            let degrees = told_apart(values.map(f64::to_degrees), 2);
+            texts.iter_mut().zip(degrees).for_each(|(text, degrees)| *text += &format!(" rad ({degrees} deg)"));
         } else {
-            format!("{value:.4} m")
+            texts.iter_mut().for_each(|text| *text += " m");
         }
+        texts
     }
 }

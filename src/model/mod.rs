@@ -44,7 +44,7 @@ mod workspace;
 
 pub use arm::{Arm, Plane};
 pub use assumed::AssumedLimits;
-pub(crate) use assumed::{SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
+pub(crate) use assumed::{SLIDING_SPEED, TURNING_SPEED, assumed_acceleration, assumed_acceleration_note};
 pub use carried::Carried;
 pub(crate) use carried::on_axis;
 use carried::swept;
@@ -71,4 +71,4 @@ pub use stroke::{Stroke, ToolJoint};
 pub use stuck_along::BlockedStretch;
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
 pub use task_error::TaskError;
-pub use workspace::{Heights, Obstacle, Shape, Workspace};
+pub use workspace::{Heights, Obstacle, RESTING_TOLERANCE, Shape, Workspace};

@@ -3,6 +3,7 @@
 use super::{Contact, Pair, Scene};
 use crate::geometry::{Convex, separation, shapes_meet};
 use crate::space::Configuration;
+use crate::text::told_apart;
 use std::borrow::Cow;
 
 /// A contact, or a distance below the clearance.
@@ -72,7 +73,8 @@ impl Scene {
         let distance = separation.distance;
         if !obstruction.touches {
             let clearance = self.workspace().clearance;
-            return format!("{part} is {distance:.6} m from {obstacle}, nearer than the clearance of {clearance} m");
+            let [distance, _] = told_apart([distance, clearance], 6);
+            return format!("{part} is {distance} m from {obstacle}, nearer than the clearance of {clearance} m");
         }
         let depth = (-distance).max(0.0);
         let how = match depth {

@@ -68,10 +68,13 @@ enum Meet {
 }
 
 impl Meet {
-    fn holds(self, a: Heights, b: Heights) -> bool {
-        match self {
-            Self::Perhaps => a.meet(b),
-            Self::Surely => a.surely_meet(b),
+    /// Of a part of the arm, or of an object that it carries, and an obstacle.
+    fn holds(self, is_carried: bool, part: Heights, obstacle: Heights) -> bool {
+        match (self, is_carried) {
+            (Self::Perhaps, false) => part.meet(obstacle),
+            (Self::Perhaps, true) => part.object_meets(obstacle),
+            (Self::Surely, false) => part.surely_meet(obstacle),
+            (Self::Surely, true) => part.object_surely_meets(obstacle),
         }
     }
 }
@@ -189,14 +192,14 @@ impl Scene {
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
                 let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
-                let is_own = link == 0 || part < own_parts;
+                let is_own = meetable.is_none();
                 let can_meet = |(number, o): &(usize, &Obstacle)| match number.checked_sub(movers.end) {
-                    None => reading.meet.holds(p.heights, o.heights),
+                    None => reading.meet.holds(meetable.is_some(), p.heights, o.heights),
                     // Links of a robot lie on each other.
                     Some(number) => {
                         let own = &arm.self_obstacles[number];
                         let can_hit = link == 1 || own.carrier == Carrier::Base;
-                        can_hit && Meet::Surely.holds(p.heights, o.heights) && !(is_own && own.ignores(&p.body))
+                        can_hit && p.heights.surely_meet(o.heights) && !(is_own && own.ignores(&p.body))
                     }
                 };
                 for (obstacle, o) in obstacles(&arm, &workspace).enumerate().filter(can_meet) {
@@ -226,10 +229,18 @@ impl Scene {
     pub(crate) fn inner(&self) -> Cow<'_, Self> {
         let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
         let all = || obstacles(&self.arm, &self.workspace);
-        let heights = || parts().flat_map(|part| all().map(|obstacle| (part.heights, obstacle.heights)));
-        let is_exact = self.reading.meet == Meet::Surely || heights().all(|(a, b)| a.meet(b) == a.surely_meet(b));
         let is_level = self.payload.as_ref().is_some_and(|payload| matches!(payload.grip, Grip::Level { .. }));
         let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
+        // Whether links of the robot meet is always known.
+        let is_known = |is_carried: bool, part: &Part| {
+            let meets = |meet: Meet, obstacle: &Obstacle| meet.holds(is_carried, part.heights, obstacle.heights);
+            self.workspace.all().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
+        };
+        let is_exact = self.reading.meet == Meet::Surely
+            || (0..2).all(|link| {
+                let (own, carried) = (self.own_parts(link), &self.arm.links[link].parts[self.own_parts(link).len()..]);
+                own.iter().all(|part| is_known(false, part)) && carried.iter().all(|part| is_known(true, part))
+            });
         let carried = self.payload.iter().flat_map(|payload| &payload.pieces);
         let mut pieces = all().flat_map(|obstacle| &obstacle.pieces).chain(carried);
         let is_whole = self.reading.meet == Meet::Surely || !pieces.any(Convex::is_sliver);

@@ -20,6 +20,10 @@ pub struct Heights {
 /// Heights are sums of products of what the files say: they are known to this, metres, at least.
 const ROUNDING: f64 = 1e-9;
 
+/// Depth along the plane's normal to which an object may reach into what it rests on without a contact, metres: above the rounding of
+/// heights that drawings state and stacks add up, far below what any gripper yields.
+pub const RESTING_TOLERANCE: f64 = 1e-6;
+
 impl Heights {
     /// The extent that holds all heights.
     pub const ALL: Heights = Heights { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
@@ -40,6 +44,25 @@ impl Heights {
     #[must_use]
     pub fn surely_meet(self, other: Heights) -> bool {
         self.meet_within(other, -ROUNDING)
+    }
+
+    /// Whether an object at these heights may be in contact with something at others: as [`Heights::meet`], but it rests on what its
+    /// bottom touches to within [`RESTING_TOLERANCE`].
+    #[must_use]
+    pub fn object_meets(self, other: Heights) -> bool {
+        self.meet(other) && !self.is_above(other, RESTING_TOLERANCE - ROUNDING)
+    }
+
+    /// Whether an object at these heights shares a height with something at others for certain, by more than rounding, and does not rest
+    /// on it.
+    #[must_use]
+    pub fn object_surely_meets(self, other: Heights) -> bool {
+        self.surely_meet(other) && !self.is_above(other, RESTING_TOLERANCE + ROUNDING)
+    }
+
+    /// Whether these heights begin where the others end, or less than `into` below that.
+    fn is_above(self, other: Heights, into: f64) -> bool {
+        other.upper - self.lower <= into
     }
 
     fn meet_within(self, other: Heights, apart: f64) -> bool {

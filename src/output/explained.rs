@@ -1,7 +1,7 @@
 //! An explanation for people: in words, and as a picture.
 
 use super::picture::{contours, title_of};
-use super::summary::{Line, configuration, laid_out, segment};
+use super::summary::{Line, configuration, goal_lines, laid_out};
 use crate::draw::{Picture, Stuck, View};
 use crate::engine::Verdict;
 use crate::engine::explain::{
@@ -9,7 +9,7 @@ use crate::engine::explain::{
     TIME_LIMIT, Target,
 };
 use crate::model::{Outcome, Scene};
-use crate::text::{at_least, at_most, percent, short};
+use crate::text::{at_least, at_most, fixed, listed, nonzero, percent, short};
 
 /// How many times as long an explanation that was stopped is advised to take.
 const MORE_TIME: f64 = 12.0;
@@ -23,9 +23,7 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
     lines.extend(stopped(explanation).map(|words| ("stopped", words)));
     lines.push(("start", configuration(scene.arm(), explanation.question.start())));
     match explanation.question.target() {
-        Target::Goals(goals) => {
-            lines.extend(goals.pieces().iter().map(|goal| ("goal", segment(scene.arm(), goal))));
-        }
+        Target::Goals(goals) => lines.extend(goal_lines(scene.arm(), goals)),
         Target::Tip(tip) => lines.push(("goal", format!("tip at ({}, {}) m", tip.x, tip.y))),
     }
     lines.extend(notes.iter().map(|note| ("note", note.clone())));
@@ -169,7 +167,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
         format!("joint \"{}\" is {} beyond its limits", arm.joints[k].name, arm.joints[k].shown(blocked.beyond[k]))
     });
     let reasons: Vec<String> = beyond.chain(blocked.hits.iter().map(|hit| scene.explain(hit))).collect();
-    let mut lines = vec![(key, format!("{}: {}", configuration(arm, blocked.at), reasons.join("; ")))];
+    let mut lines = vec![(key, format!("{}: {}", configuration(arm, blocked.at), listed(&reasons)))];
     lines.push(match (&blocked.nearest, blocked.tip_moves(arm)) {
         (Some(nearest), Some(tip)) => {
             let (at, far) = (configuration(arm, nearest.configuration), nearest.distance);
@@ -221,11 +219,13 @@ fn stuck(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let at = configuration(scene.arm(), bottleneck.at);
     let point = bottleneck.point;
     let between: Vec<String> = bottleneck.hits.iter().map(|hit| scene.describe(hit.contact.pair)).collect();
-    let between = between.join("; ");
+    let between = listed(&between);
     let (open, shut) = (at_most(bottleneck.by.opens, 4), at_least(bottleneck.by.closed, 4));
     format!(
-        "at {at}, near ({:.4}, {:.4}) m: too narrow by {lacking:.4} m ({between}); a way opens when everything gives way by {open} m, not yet by \
+        "at {at}, near ({}, {}) m: too narrow by {} m ({between}); a way opens when everything gives way by {open} m, not yet by \
          {shut} m",
-        point.x, point.y
+        fixed(point.x, 4),
+        fixed(point.y, 4),
+        nonzero(lacking, 4)
     )
 }

@@ -1,6 +1,6 @@
 //! The summary of a single motion for people.
 
-use super::summary::{Line, Told, configuration, field, non_empty, segment, torque};
+use super::summary::{Line, Told, configuration, field, goal_lines, non_empty, torque};
 use crate::check::CertifiedCurve;
 use crate::engine::explain::{BlockingSet, Question, blocking_set};
 use crate::engine::{Bound, MotionPlan, Plan, Timing, Verdict, Wait};
@@ -21,7 +21,7 @@ pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
         ("world", format!("{}, {obstacles}", non_empty(&scene.workspace().name))),
         ("start", configuration(arm, plan.problem.start())),
     ];
-    asked.extend(plan.problem.goals().pieces().iter().map(|goals| ("goal", segment(arm, goals))));
+    asked.extend(goal_lines(arm, plan.problem.goals()));
     Told { found: found(whole, plan), asked }
 }
 

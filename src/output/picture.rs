@@ -4,7 +4,7 @@ use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, DrawError, Moments, Picture, TaskPicture, View};
 use crate::engine::{Kind, MotionPlan, Plan, TaskPlan, Verdict};
 use crate::model::{Scene, Status};
-use crate::text::counted;
+use crate::text::{at_least, counted};
 use std::path::Path;
 use thiserror::Error;
 
@@ -230,7 +230,7 @@ pub(crate) fn status(verdict: &Verdict) -> &'static str {
 
 /// How far from obstacles a motion is known to stay.
 fn kept(clearance: Option<f64>) -> String {
-    clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.6} m"))
+    clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {} m", at_least(c, 6)))
 }
 
 /// Workspace and robot, as a title.

@@ -4,8 +4,8 @@ use super::{motion_summary, task_summary};
 use crate::engine::{Kind, Options, Plan};
 use crate::model::{Arm, Joint};
 use crate::motion::Trajectory;
-use crate::space::{Configuration, JointRange, Segment};
-use crate::text::Columns;
+use crate::space::{Configuration, GoalSet, JointRange, Segment};
+use crate::text::{Columns, first_lines};
 use std::time::Duration;
 
 /// Both joints' values by name.
@@ -25,6 +25,12 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
         }
     };
     format!("{}, {}", shown(0), shown(1))
+}
+
+/// A line for each goal, as long as they are few.
+pub(super) fn goal_lines(arm: &Arm, goals: &GoalSet) -> Vec<Line> {
+    let lines = goals.pieces().iter().map(|goal| segment(arm, goal)).collect();
+    first_lines(lines, |more| format!("and {more} more")).into_iter().map(|line| ("goal", line)).collect()
 }
 
 /// A joint's range.

@@ -6,7 +6,7 @@ use super::summary::{Line, Told, configuration, field, non_empty, torque};
 use crate::engine::task::{Leg, TaskAnswer};
 use crate::engine::{Plan, Report, TaskPlan};
 use crate::model::{Arm, Task};
-use crate::text::{at_least, counted, percent};
+use crate::text::{at_least, counted, nonzero, percent};
 
 /// What came of the steps; start and steps.
 pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
@@ -45,7 +45,7 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
     let seconds = leg.timed.trajectory.duration();
     let turn = leg.turn.map_or(String::new(), |(_, seconds)| format!(", turn in {seconds:.3} s"));
     let clearance = match leg.clearance() {
-        clearance if clearance.is_finite() => format!("clearance {clearance:.4} m"),
+        clearance if clearance.is_finite() => format!("clearance {} m", nonzero(clearance, 4)),
         _ => "nothing can be hit".into(),
     };
     let number = format!("{}{cycle}", leg.step.number);

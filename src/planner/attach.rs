@@ -4,6 +4,7 @@ use super::Query;
 use super::grid_path::place;
 use crate::cspace::Grid;
 use crate::space::{Configuration, Segment};
+use crate::text::listed;
 
 /// How many rings of cells around a blocked one are searched for a free one. An outer grid blocks some cells whose
 /// configurations are free; farther than this a straight piece to the grid is a guess not worth a try.
@@ -39,7 +40,7 @@ impl Joined {
             }
         }
         if goals.is_empty() {
-            return Err(if reasons.is_empty() { "there is no goal".into() } else { reasons.join("; ") });
+            return Err(if reasons.is_empty() { "there is no goal".into() } else { listed(&reasons) });
         }
         Ok(Self { start, goals })
     }

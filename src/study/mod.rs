@@ -78,6 +78,12 @@ pub struct Study {
 }
 
 impl Study {
+    /// What may surprise about the robot, and what is assumed of it: [`crate::input::RobotReport::remarks`].
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        self.base.robot.remarks(self.base.scene.arm())
+    }
+
     /// Reads a study file, and robot and world that it names.
     ///
     /// # Errors

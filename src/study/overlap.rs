@@ -26,9 +26,9 @@ pub(super) fn overlap(files: &Workspace, layout: &Workspace) -> Option<String> {
     None
 }
 
-/// Whether two obstacles share more than their boundaries, at some height.
+/// Whether two obstacles share more than their boundaries, at some height, and neither rests on the other.
 fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
-    if a.heights.lower >= b.heights.upper || b.heights.lower >= a.heights.upper {
+    if !(a.heights.object_surely_meets(b.heights) && b.heights.object_surely_meets(a.heights)) {
         return false;
     }
     // Maps have many pieces.

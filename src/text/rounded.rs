@@ -1,4 +1,32 @@
-//! Numbers for people: short, and if they are proven no more than what is proven.
+//! Numbers for people: short, told apart where they differ, and if they are proven no more than what is proven.
+
+/// With more decimals than this numbers are written as they are.
+const MOST_DECIMALS: usize = 12;
+
+/// A number with some decimals, whose zero has no sign.
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if !rest.contains(|c: char| ('1'..='9').contains(&c)) && value.is_finite() => rest.to_owned(),
+        _ => text,
+    }
+}
+
+/// A number with some decimals; one that would look like zero, and is none, with two digits that count: `5.6e-7`.
+#[must_use]
+pub fn nonzero(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    if value != 0.0 && text.parse() == Ok(0.0) { format!("{value:.1e}") } else { text }
+}
+
+/// Numbers with these decimals, or with as many more as it takes for numbers that differ to look different.
+#[must_use]
+pub fn told_apart<const N: usize>(values: [f64; N], decimals: usize) -> [String; N] {
+    let are_told = |texts: &[String; N]| (0..N).all(|i| (0..i).all(|j| values[i] == values[j] || texts[i] != texts[j]));
+    let with = |decimals: usize| values.map(|value| fixed(value, decimals));
+    (decimals..=MOST_DECIMALS).map(with).find(are_told).unwrap_or_else(|| values.map(|value| (value + 0.0).to_string()))
+}
 
 /// A number to six digits that count, without zeros at its end.
 #[must_use]
@@ -6,16 +34,30 @@ pub fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// A number with some decimals that is no more than this one, so that what is proven of it is proven of what is shown.
+/// A number with some decimals that is no more than this one, so that what is proven of it is proven of what is shown. One above zero
+/// that would look like zero has two digits that count: `5.6e-7`.
 #[must_use]
 pub fn at_least(value: f64, decimals: usize) -> String {
-    shown(value, decimals, |shown| shown <= value, -1.0)
+    let text = shown(value, decimals, |shown| shown <= value, -1.0);
+    if value > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text }
 }
 
 /// The same, no less than this one.
 #[must_use]
 pub fn at_most(value: f64, decimals: usize) -> String {
     shown(value, decimals, |shown| shown >= value, 1.0)
+}
+
+/// Two digits of a positive number that are no more than it.
+fn two_digits_below(value: f64) -> String {
+    let nearest = format!("{value:.1e}");
+    let is_below = |text: &str| text.parse().is_ok_and(|shown: f64| shown <= value);
+    if is_below(&nearest) {
+        return nearest;
+    }
+    // A twentieth less is a unit of the second digit or half of one.
+    let less = format!("{:.1e}", value * 0.95);
+    if is_below(&less) { less } else { format!("{:.1e}", value * 0.9) }
 }
 
 /// A share in words, rounded up: `0.04 %`, `8.5e-3 %`. That a quotient was rounded makes it no more.
@@ -33,10 +75,10 @@ pub fn percent(share: f64) -> String {
 
 /// The nearest, or the next one in a direction.
 fn shown(value: f64, decimals: usize, holds: impl Fn(f64) -> bool, towards: f64) -> String {
-    let nearest = format!("{value:.decimals$}");
+    let nearest = fixed(value, decimals);
     match nearest.parse::<f64>() {
         Ok(number) if value.is_finite() && !holds(number) => {
-            format!("{:.decimals$}", value + towards * 0.1_f64.powi(decimals as i32))
+            fixed(value + towards * 0.1_f64.powi(decimals as i32), decimals)
         }
         _ => nearest,
     }
@@ -67,8 +109,34 @@ mod tests {
         assert_eq!(shown, asked);
     }
 
+    #[test]
+    fn zero_has_no_sign_and_no_proven_distance_looks_like_it() {
+        assert_eq!([fixed(-1e-9, 4), fixed(-0.0, 2), fixed(-0.1, 0), fixed(-0.1, 1)], ["0.0000", "0.00", "0", "-0.1"]);
+        assert_eq!([nonzero(5.64e-7, 6), nonzero(-5.6e-7, 4), nonzero(-0.0, 2)], ["5.6e-7", "-5.6e-7", "0.00"]);
+        assert_eq!([fixed(f64::NEG_INFINITY, 2), fixed(-20.0, 1)], ["-inf", "-20.0"]);
+        assert_eq!([at_least(5.6e-7, 6), at_least(5.68e-7, 6), at_least(9.96e-9, 6)], ["5.6e-7", "5.6e-7", "9.9e-9"]);
+        assert_eq!([at_least(1e-300, 4), at_least(0.0, 6), at_most(-1e-9, 6)], ["1.0e-300", "0.000000", "0.000000"]);
+    }
+
+    #[test]
+    fn numbers_that_differ_look_different() {
+        assert_eq!(told_apart([-1e-6, 0.0, 1.0], 4), ["-0.000001", "0.000000", "1.000000"]);
+        assert_eq!(told_apart([0.4, 0.0, 0.4], 4), ["0.4000", "0.0000", "0.4000"]);
+        assert_eq!(told_apart([0.400_000_1, 0.0, 0.4], 4), ["0.4000001", "0.0000000", "0.4000000"]);
+        assert_eq!(told_apart([0.4_f64.next_up(), 0.4], 4), ["0.4000000000000001", "0.4"]);
+        assert_eq!(told_apart([-0.0, 0.0], 1), ["0.0", "0.0"]);
+    }
+
     proptest! {
         #![proptest_config(crate::random::cases(500))]
+
+        #[test]
+        fn two_digits_are_below_by_a_unit_of_the_second_at_most(exponent in -30.0..0.0_f64, decimals in 0..7_usize) {
+            let value = 10_f64.powf(exponent);
+            let shown: f64 = at_least(value, decimals).parse().unwrap();
+            prop_assert!(0.0 < shown && shown <= value, "{value} {shown}");
+            prop_assert!(value - shown <= 0.1001 * value || value >= 0.1_f64.powi(decimals as i32), "{value} {shown}");
+        }
 
         #[test]
         fn shares_are_no_less(exponent in -14.0..0.5_f64) {

@@ -5,7 +5,7 @@ use cplan::model::Region;
 use std::fs;
 
 /// A healthy two-link arm in the (x, y) plane.
-const ARM: &str = r#"<robot name="arm">
+pub const ARM: &str = r#"<robot name="arm">
   <link name="base"/>
   <joint name="j1" type="revolute">
     <parent link="base"/> <child link="upper"/>
@@ -30,7 +30,7 @@ const ARM: &str = r#"<robot name="arm">
 "#;
 
 /// A healthy world.
-const WORLD: &str = r#"name = "test"
+pub const WORLD: &str = r#"name = "test"
 [start]
 joints = [0.0, 0.5]
 [goal]
@@ -40,7 +40,7 @@ name = "post"
 circle = { center = [-1.5, 0], radius = 0.2 }
 "#;
 
-fn load_files(urdf_name: &str, urdf: &str, world: &str, overrides: &Overrides) -> Result<Loaded, InputError> {
+pub fn load_files(urdf_name: &str, urdf: &str, world: &str, overrides: &Overrides) -> Result<Loaded, InputError> {
     let folder = tempfile::tempdir().unwrap();
     let (u, w) = (folder.path().join(urdf_name), folder.path().join("world.toml"));
     fs::write(&u, urdf).unwrap();

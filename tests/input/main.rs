@@ -4,6 +4,7 @@ mod arms;
 #[path = "../common/mod.rs"]
 mod common;
 mod errors;
+mod hints;
 mod inspect;
 mod mutations;
 mod maps;

@@ -146,6 +146,9 @@ impl<'a> Contacts<'a> {
         if !body.is_at(part.heights.as_ref()) {
             return fails(": the shape passes over or under the obstacle");
         }
+        if matches!(shape, Named::Carried(_)) && !body.is_below_top(part.heights.as_ref()) {
+            return fails(": the shape rests on the obstacle");
+        }
         let is_among = |all: &[usize]| matches!(part.of, Whole::Obstacle(number) if all.contains(&number));
         match (shape, &part.of) {
             (Named::Own(_, ignored), Whole::Link(link)) if ignored.contains(link) => {

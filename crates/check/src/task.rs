@@ -11,7 +11,7 @@ use crate::motion::{SIXTY, fine, piece, well_formed};
 use crate::polygon::Corner;
 use crate::robot::{Arm, Counted};
 use crate::scene::{Part, Present, stay_off};
-use crate::world::task::{Action, Carrying, Group, Node, Passing, Step, Stroke, Task};
+use crate::world::task::{Action, Carrying, Group, Node, Passing, RESTING, Step, Stroke, Task};
 use crate::world::{Obstacle, World};
 use num_bigint::{BigInt, Sign};
 use std::iter::{self, Enumerate, Peekable};
@@ -318,7 +318,7 @@ impl<'a> Replay<'a> {
                 Tool::Lying => lying.clone(),
                 Tool::Swept => [lying[0].clone().min(carried[0].clone()), lying[1].clone().max(carried[1].clone())],
             };
-            if most < *low || *high < least {
+            if most < *low || *high <= &least + &Decimal::power_of_ten(RESTING) {
                 return None;
             }
         }

@@ -7,6 +7,7 @@ use super::DONE;
 use super::args::time_limit;
 use super::error_json::ErrorJson;
 use super::failure::Failure;
+use super::sinks;
 use crate::engine::Report;
 use crate::model::Status;
 use crate::text::plain_json;
@@ -15,10 +16,12 @@ use clap::{Args, ValueHint};
 use reader::{Answer, Planned, Reader};
 use serde::Serialize;
 use serde_json::value::RawValue;
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::PathBuf;
 use std::time::Duration;
+use std::sync::{Mutex, PoisonError};
 use turns::Turns;
 
 /// Arguments of `batch`.
@@ -77,10 +80,15 @@ struct Stopped {
 pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     let input = args.problems.as_ref().map_or_else(|| "stdin".into(), |path| path.display().to_string());
     let turns = Turns::new(BufReader::new(opened(args)?), &input, io::stdout(), args.jobs.into());
+    let warnings = Mutex::new(BTreeSet::new());
     let work = || {
         let mut reader = Reader::default();
         turns.work(|line| {
             let answer = reader.answer(line, &input, args.time.map(Duration::from_secs_f64));
+            if let Ok(Planned::Done(plan)) = &answer.plan {
+                let said = plan.problem().robot().warnings.iter().cloned();
+                warnings.lock().unwrap_or_else(PoisonError::into_inner).extend(said);
+            }
             row(answer, &args.fields)
         });
     };
@@ -88,6 +96,9 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
         (1..args.jobs).for_each(|_| drop(scope.spawn(work)));
         work();
     });
+    // Each once, in an order that does not depend on the jobs.
+    let warnings = warnings.into_inner().unwrap_or_else(PoisonError::into_inner);
+    warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
     let count = turns.end()?;
     if count.lines > 0 && count.objects == 0 {
         let cure = r#"give each problem a line, such as {"urdf": "arm.urdf", "world": "world.toml"}"#;

@@ -7,7 +7,10 @@ use crate::engine::findings::{
 use crate::model::Arm;
 use crate::output::{Line, StepLine, configuration, laid_out, step_lines};
 use crate::space::Recording;
-use crate::text::{at_least, counted};
+use crate::text::{at_least, counted, nonzero, told_apart};
+
+/// Depths below this, metres, are rounding.
+const TOUCHING: f64 = 1e-9;
 
 /// The findings for people.
 pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFindings) -> String {
@@ -15,6 +18,9 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFinding
     lines.extend(way(arm, &findings.way, findings.verdict));
     lines.extend(findings.steps.iter().flatten().filter_map(turn));
     lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
+    let exceeds =
+        |limit| ("assumed", format!("{}; the files give no such limit, so it does not decide", broken(arm, limit)));
+    lines.extend(findings.assumed_exceeded.iter().map(exceeds));
     let of = if findings.steps.is_some() { "task" } else { "fault" };
     lines.extend(findings.faults.iter().map(|fault| (of, fault.clone())));
     if !findings.not_judged.is_empty() {
@@ -45,14 +51,19 @@ fn way(arm: &Arm, way: &WayFinding, verdict: Verdict) -> Vec<Line> {
         format!("{} {}, {}", e.pair, when(&e.moment), configuration(arm, e.moment.configuration.into()))
     };
     let depth = |e: &EncounterFinding| match e.depth {
-        d if d >= 0.0 => format!("{d:.6} m deep"),
-        d => format!("{:.6} m apart", -d),
+        d if (0.0..TOUCHING).contains(&d) => "just touching".into(),
+        d if d >= 0.0 => format!("{} m deep", nonzero(d, 6)),
+        d => format!("{} m apart", nonzero(-d, 6)),
     };
     let mut lines = Vec::new();
     match (way.clearance, &way.nearest) {
         (Some(proven), Some(nearest)) => {
-            let seen =
-                format!("{} m proven; least seen {:.6} m: {}", at_least(proven, 6), -nearest.depth, place(nearest));
+            let seen = format!(
+                "{} m proven; least seen {} m: {}",
+                at_least(proven, 6),
+                nonzero(-nearest.depth, 6),
+                place(nearest)
+            );
             lines.push(("clearance", seen));
         }
         (Some(clearance), None) => lines.push(("clearance", format!("{} m proven", at_least(clearance, 6)))),
@@ -70,7 +81,8 @@ fn way(arm: &Arm, way: &WayFinding, verdict: Verdict) -> Vec<Line> {
     }
     lines.extend(way.deepest.iter().map(|deepest| ("deepest", format!("{}, {}", place(deepest), depth(deepest)))));
     lines.extend(way.undecided.iter().map(|nearest| {
-        ("undecided", format!("{}: {:.6} m, too near to be told apart", place(nearest), -nearest.depth))
+        let distance = nonzero(-nearest.depth, 6);
+        ("undecided", format!("{}: {distance} m, too near to be told apart", place(nearest)))
     }));
     lines
 }
@@ -80,19 +92,21 @@ fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     let excess = &limit.excess;
     let joint = &arm.joints[excess.joint];
     let unit = joint.unit();
+    // What is allowed has no sign.
+    let [size, allowed] = told_apart([excess.value.abs(), excess.allowed], 6);
+    let value = if excess.value < 0.0 { format!("-{size}") } else { size };
     let what = match excess.limit {
         Limit::Position => {
-            format!("position {} beyond {}", joint.shown(excess.value), joint.shown(excess.allowed))
+            let [value, allowed] = joint.told_apart([excess.value, excess.allowed]);
+            format!("position {value} beyond {allowed}")
         }
-        Limit::Velocity => format!("velocity {:.6} {unit}/s, at most {:.6}", excess.value, excess.allowed),
-        Limit::Acceleration => format!("acceleration {:.6} {unit}/s2, at most {:.6}", excess.value, excess.allowed),
-        Limit::Jerk => format!("jerk {:.6} {unit}/s3, at most {:.6}", excess.value, excess.allowed),
-        Limit::Torque => {
-            format!("torque {:.6} {}, at most {:.6}", excess.value, joint.effort_unit(), excess.allowed)
-        }
-        Limit::AccelerationJump => format!("acceleration jumps by {:.6} {unit}/s2", excess.value),
-        Limit::RestAtStart => format!("starts at {:.6} {unit}/s, not at rest", excess.value),
-        Limit::RestAtEnd => format!("ends at {:.6} {unit}/s, not at rest", excess.value),
+        Limit::Velocity => format!("velocity {value} {unit}/s, at most {allowed}"),
+        Limit::Acceleration => format!("acceleration {value} {unit}/s2, at most {allowed}"),
+        Limit::Jerk => format!("jerk {value} {unit}/s3, at most {allowed}"),
+        Limit::Torque => format!("torque {value} {}, at most {allowed}", joint.effort_unit()),
+        Limit::AccelerationJump => format!("acceleration jumps by {value} {unit}/s2"),
+        Limit::RestAtStart => format!("starts at {value} {unit}/s, not at rest"),
+        Limit::RestAtEnd => format!("ends at {value} {unit}/s, not at rest"),
     };
     format!("{}: {what}, {}", limit.joint, when(&limit.moment))
 }
@@ -113,7 +127,7 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
         let carried = step.carried.as_ref().map_or("empty-handed".into(), |object| format!("carrying \"{object}\""));
         let turn = step.turn.as_ref().map_or(String::new(), |turn| format!(", turn in {:.3} s", turn.seconds));
         let found = match (step.verdict, step.clearance()) {
-            (Verdict::Free, Some(clearance)) => format!("clearance {clearance:.4} m"),
+            (Verdict::Free, Some(clearance)) => format!("clearance {} m", nonzero(clearance, 4)),
             (Verdict::Free, None) => "nothing can be hit".into(),
             (Verdict::Collision, _) => "collides".into(),
             (Verdict::Task | Verdict::Ends | Verdict::Claims, _) => "not as asked for".into(),

@@ -6,6 +6,7 @@ mod motion;
 mod task;
 
 pub use configuration::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
+use motion::Broken;
 pub use motion::{EncounterFinding, LimitFinding, MomentFinding, MotionFindings, Verdict, WayFinding};
 pub use task::{StepFinding, TurnContactFinding, TurnFinding};
 
@@ -29,7 +30,8 @@ pub fn verify(
     let nothing = Claims::default();
     let claims = claims.as_ref().unwrap_or(&nothing);
     let turns = turns(&loaded.scene, recording);
-    let notes = loaded.world.notes.iter().chain(read).cloned().chain(turns).collect();
+    let assumed = recording.times().map(|_| loaded.robot.assumptions(loaded.scene.arm())).unwrap_or_default();
+    let notes = loaded.world.notes.iter().chain(read).cloned().chain(turns).chain(assumed).collect();
     let findings = match steps {
         Some(steps) => judge_task(loaded, recording, steps, claims, overrides, notes)?,
         None => judge_motion(loaded, recording, claims, overrides, anywhere, notes)?,
@@ -78,7 +80,8 @@ fn judge_motion(
     let collision_check = check_collision(scene, recording, scene.workspace().clearance);
     let mut broken = limits_kept(&scene.arm().joints, recording);
     broken.extend(torques_kept(scene, recording));
-    let findings = MotionFindings::new(scene, recording, &collision_check, &broken, notes);
+    let broken = Broken::new(&scene.arm().joints, &broken, &loaded.robot.assumed);
+    let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);
     let misses = ends_kept(scene.arm(), recording, start, goal);
     let false_claims = claims_kept(scene, recording, claims, &collision_check);
     let findings = findings.but(Verdict::Undecided, untold.into_iter().flatten().collect());
@@ -100,7 +103,8 @@ fn judge_task(
          objects where they lie then, limits, grasps, places, turns and rests; and what the file says of steps and events"
             .into(),
     );
-    Ok(task::judged(&task, &scene, recording, steps, replay(&task, recording, steps), claims, notes))
+    let replay = replay(&task, recording, steps);
+    Ok(task::judged(&task, &scene, &loaded.robot.assumed, recording, steps, replay, claims, notes))
 }
 
 /// Steps that look like a seam in wrapped angles.

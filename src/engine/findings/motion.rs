@@ -2,7 +2,7 @@
 
 use super::StepFinding;
 use crate::check::{CollisionCheck, Encounter, Excess, Limit, Moment};
-use crate::model::{Claims, Joint, Scene};
+use crate::model::{AssumedLimits, Claims, Joint, Scene};
 use crate::space::Recording;
 use serde::Serialize;
 
@@ -63,6 +63,9 @@ pub struct MotionFindings {
     pub way: WayFinding,
     /// Limits that are broken, each once.
     pub limits_broken: Vec<LimitFinding>,
+    /// Limits that nobody gives and that the motion exceeds as cplan assumes them, each once. They do not decide.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub assumed_exceeded: Vec<LimitFinding>,
     /// In what a motion or a task is not the one asked for, and what the file says of it that is false.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<String>,
@@ -152,20 +155,46 @@ pub struct LimitFinding {
     pub excess: Excess,
 }
 
+/// Limits that a motion exceeds, by where they come from.
+pub(super) struct Broken {
+    /// Limits that the files give.
+    pub given: Vec<Excess>,
+    /// Limits that cplan assumes.
+    pub assumed: Vec<Excess>,
+}
+
+impl Broken {
+    /// Tells given limits from assumed ones.
+    pub fn new(joints: &[Joint; 2], broken: &[Excess], assumed: &AssumedLimits) -> Self {
+        let is_assumed = |excess: &Excess| {
+            let name = &joints[excess.joint].name;
+            match excess.limit {
+                Limit::Velocity => assumed.velocity.contains_key(name),
+                Limit::Acceleration => assumed.acceleration.contains_key(name),
+                _ => false,
+            }
+        };
+        let (assumed, given) = broken.iter().partition(|excess| is_assumed(excess));
+        Self { given, assumed }
+    }
+}
+
 impl MotionFindings {
     /// Collects what the checks found of one motion.
     pub(super) fn new(
         scene: &Scene,
         recording: &Recording,
         collision_check: &CollisionCheck,
-        broken: &[Excess],
+        broken: Broken,
         notes: Vec<String>,
     ) -> Self {
         let timed = recording.times().is_some();
+        let of = |excesses: &[Excess]| limits(&scene.arm().joints, excesses, timed);
         Self {
-            verdict: verdict(collision_check, broken),
+            verdict: verdict(collision_check, &broken.given),
             way: WayFinding::new(scene, collision_check, timed),
-            limits_broken: limits(&scene.arm().joints, broken, timed),
+            limits_broken: of(&broken.given),
+            assumed_exceeded: of(&broken.assumed),
             notes,
             ..Self::of_nothing(scene, recording)
         }
@@ -183,6 +212,7 @@ impl MotionFindings {
             required: scene.workspace().clearance,
             way: WayFinding::default(),
             limits_broken: Vec::new(),
+            assumed_exceeded: Vec::new(),
             faults: Vec::new(),
             not_judged: Vec::new(),
             steps: None,

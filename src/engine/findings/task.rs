@@ -1,8 +1,8 @@
 //! What is found of a task, step by step.
 
-use super::motion::{LimitFinding, MotionFindings, Verdict, WayFinding, limits, verdict};
+use super::motion::{Broken, LimitFinding, MotionFindings, Verdict, WayFinding, limits, verdict};
 use crate::check::{Departure, Replay, ReplayedStep, ReplayedTurn, step_claims_kept, task_claims_kept};
-use crate::model::{Claims, RecordedStep, Scene, Task};
+use crate::model::{AssumedLimits, Claims, RecordedStep, Scene, Task};
 use crate::space::Recording;
 use serde::Serialize;
 
@@ -36,6 +36,9 @@ pub struct StepFinding {
     pub turn: Option<TurnFinding>,
     /// Limits that are broken, each once.
     pub limits_broken: Vec<LimitFinding>,
+    /// Limits that nobody gives and that its motion exceeds as cplan assumes them. They do not decide.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub assumed_exceeded: Vec<LimitFinding>,
     /// In what it is not what was asked for.
     pub faults: Vec<String>,
 }
@@ -67,7 +70,7 @@ pub struct TurnContactFinding {
 }
 
 impl StepFinding {
-    fn new(task: &Task, replayed: &ReplayedStep) -> Self {
+    fn new(task: &Task, replayed: &ReplayedStep, assumed: &AssumedLimits) -> Self {
         let ReplayedStep { step, recorded, scene, collision_check, broken, faults, .. } = replayed;
         let name = |object: usize| task.objects[object].name.clone();
         let turn = replayed.turn.map(|turn| TurnFinding::new(scene, &turn));
@@ -75,6 +78,8 @@ impl StepFinding {
             Some(TurnFinding { contact: Some(_), .. }) => Verdict::Collision,
             _ => Verdict::Free,
         };
+        let joints = &scene.arm().joints;
+        let broken = Broken::new(joints, broken, assumed);
         let of_faults = if faults.is_empty() { Verdict::Free } else { Verdict::Task };
         Self {
             step: step.number,
@@ -82,13 +87,14 @@ impl StepFinding {
             action: step.action.describe(&task.objects),
             object: replayed.object.map(name),
             carried: replayed.carried.map(name),
-            verdict: verdict(collision_check, broken).max(of_turn).max(of_faults),
+            verdict: verdict(collision_check, &broken.given).max(of_turn).max(of_faults),
             first_sample: *recorded.samples.start(),
             last_sample: *recorded.samples.end(),
             seconds: replayed.seconds,
             way: WayFinding::new(scene, collision_check, true),
             turn,
-            limits_broken: limits(&scene.arm().joints, broken, true),
+            limits_broken: limits(joints, &broken.given, true),
+            assumed_exceeded: limits(joints, &broken.assumed, true),
             faults: faults.iter().map(ToString::to_string).collect(),
         }
     }
@@ -123,6 +129,7 @@ impl TurnFinding {
 pub(super) fn judged(
     task: &Task,
     scene: &Scene,
+    assumed: &AssumedLimits,
     recording: &Recording,
     recorded: &[RecordedStep],
     mut replay: Replay,
@@ -134,7 +141,7 @@ pub(super) fn judged(
     for (index, step) in replay.by_ref().enumerate() {
         false_claims.extend(step_claims_kept(task, recording, &step, claims, index));
         happened.extend(step.event.clone());
-        steps.push(StepFinding::new(task, &step));
+        steps.push(StepFinding::new(task, &step, assumed));
     }
     // Of a task that breaks off, what is said of the whole is about another one.
     if replay.departure().is_none() {
@@ -152,6 +159,7 @@ pub(super) fn judged(
         verdict: worst.max(of_departure),
         way: way(&steps),
         limits_broken: steps.iter().flat_map(|step| step.limits_broken.iter().cloned()).collect(),
+        assumed_exceeded: steps.iter().flat_map(|step| step.assumed_exceeded.iter().cloned()).collect(),
         faults,
         steps: Some(steps),
         notes,

@@ -1,6 +1,7 @@
 //! The result as JSON: which fields, in which order.
 
 use super::Report;
+use crate::model::AssumedLimits;
 use crate::motion::{Trajectory, as_map, line_a_field};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
@@ -32,6 +33,14 @@ struct Samples<'a> {
     trajectory: &'a Trajectory,
     #[serde(skip_serializing_if = "Option::is_none")]
     step: Option<&'a [usize]>,
+}
+
+/// Limits that nobody gives, by joint and in words.
+#[derive(Serialize)]
+struct AssumedInWords<'a> {
+    #[serde(flatten)]
+    limits: &'a AssumedLimits,
+    notes: Vec<String>,
 }
 
 /// Stages with their milliseconds.
@@ -107,6 +116,13 @@ impl Report {
         Only { report: self, fields }
     }
 
+    /// The limits that nobody gives, and what is said of them everywhere.
+    fn assumed_in_words(&self) -> Option<AssumedInWords<'_>> {
+        let joints = [0, 1].map(|k| (self.joints[k].as_str(), self.units[k]));
+        let limits = Some(&self.assumed).filter(|assumed| !assumed.is_empty())?;
+        Some(AssumedInWords { limits, notes: limits.notes(joints) })
+    }
+
     /// The path of a single motion stands before what is proven of it, that of a task behind its steps.
     fn write<S: Serializer>(&self, only: &[String], serializer: S) -> Result<S::Ok, S::Error> {
         let mut fields = Fields { map: serializer.serialize_map(None)?, only };
@@ -117,7 +133,7 @@ impl Report {
         fields.some("space", self.space.as_ref())?;
         fields.put("joints", &self.joints)?;
         fields.put("units", &self.units)?;
-        fields.some("assumed", Some(&self.assumed).filter(|assumed| !assumed.is_empty()))?;
+        fields.some("assumed", self.assumed_in_words().as_ref())?;
         fields.some("reason", self.reason.as_ref())?;
         fields.some("proof", self.proof.as_ref())?;
         fields.some("failed", self.task.as_ref().and_then(|task| task.failed.as_ref()))?;

@@ -11,7 +11,7 @@ use crate::model::{Grip, MotionProblem, Scene, Step, Task};
 use crate::motion::{Timed, TorqueLimit, single};
 use crate::search::{Connectivity, slab_connectivity};
 use crate::space::{Configuration, Path};
-use crate::text::counted;
+use crate::text::{counted, listed};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -295,7 +295,7 @@ pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Resul
     let certain = scene.inner();
     let beside = [[0.0, 0.0], [BESIDE, 0.0], [-BESIDE, 0.0], [0.0, BESIDE], [0.0, -BESIDE]];
     let is_proven = beside.iter().all(|&by| !certain.obstructions(q + Configuration::from(by)).is_empty());
-    Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", words.join("; ")), is_proven) })
+    Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", listed(&words)), is_proven) })
 }
 
 /// A path that is free among all objects, found among few of them, which are those that a path among fewer hits; a proof that there is

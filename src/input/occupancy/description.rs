@@ -58,7 +58,8 @@ impl Description {
         })?;
         if let Some(bad) = origin.iter().find(|v| v.is_nan() || v.abs() > LARGEST) {
             let message = format!("origin: {bad} is not finite, or too large (at most {LARGEST:e})");
-            return Err(diagnostic(source, &file.origin, message).help("origin: [x, y, yaw], metres and radians"));
+            let help = format!("origin: [x, y, yaw], metres and radians, from -{LARGEST:e} to {LARGEST:e}");
+            return Err(diagnostic(source, &file.origin, message).help(help));
         }
         let negate = match file.negate.value {
             Negate::Word(negate) => negate,

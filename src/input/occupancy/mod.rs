@@ -83,7 +83,10 @@ impl OccupancyMap {
                 "a picture of {} x {} pixels with a resolution of {} m reaches farther than {LARGEST:e} m",
                 size[0], size[1], description.resolution
             );
-            return Err(source.diagnostic(message).help("the resolution is in metres a pixel").into());
+            return Err(source
+                .diagnostic(message)
+                .help(format!("the resolution is in metres a pixel, and a map may reach {LARGEST:e} m"))
+                .into());
         }
         let pose = Isometry2::new(Vector2::new(x, y), yaw);
         Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells })

@@ -3,7 +3,7 @@
 use super::document::{escaped, tag};
 use crate::input::error::Diagnostic;
 use crate::input::source::Source;
-use crate::input::world::{LARGEST, TOO_FAR};
+use crate::input::world::LARGEST;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
@@ -137,7 +137,10 @@ impl Attributes<'_> {
                 let is_length = ["xyz", "size", "radius", "length"].contains(&name);
                 if let Some(value) = values.iter().find(|x| is_length && x.is_finite() && x.abs() > LARGEST) {
                     let message = format!("{value:e} in {name}=\"{text}\" is too large (at most {LARGEST:e})");
-                    self.diagnostic(node, Some(name), message, TOO_FAR);
+                    let help = format!(
+                        "lengths are in metres, from -{LARGEST:e} to {LARGEST:e}: divide those in millimetres by 1000"
+                    );
+                    self.diagnostic(node, Some(name), message, &help);
                     return None;
                 }
                 values.iter().all(|x| x.is_finite()).then_some(values)
@@ -205,7 +208,7 @@ impl Attributes<'_> {
         let length = xyz.iter().fold(0.0, |l, x| f64::hypot(l, *x));
         // A shorter axis has no direction that its digits support.
         if length < 1e-9 {
-            let help = "give the axis a direction, such as xyz=\"0 0 1\", or make the joint fixed";
+            let help = "give the axis a direction, such as xyz=\"0 0 1\"; a joint that does not move is of type fixed";
             self.diagnostic(
                 axis,
                 Some("xyz"),
@@ -319,7 +322,7 @@ impl Attributes<'_> {
         let all_zero = values.iter().all(|v| *v == 0.0);
         if !all_zero && values.iter().any(|v| *v <= 0.0) {
             let message = format!("the sizes of the {} must be positive", shape.tag_name().name());
-            self.diagnostic(shape, Some(sizes[0].0), message, "lengths are in metres");
+            self.diagnostic(shape, Some(sizes[0].0), message, "give lengths in metres that are above 0");
         }
         Some(shape)
     }

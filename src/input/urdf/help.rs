@@ -3,7 +3,6 @@
 use super::limits::{Limits, key};
 use super::reduction::Reduction;
 use crate::model::Plane;
-use urdf_rs::JointType;
 
 /// Entries of `[robot]` with which the pair of joints loads, each on a line of its own: the joints, and placeholders for
 /// ranges that are missing or wrong and for geometry that cannot be used. None if `[robot]` has all.
@@ -17,13 +16,12 @@ pub(super) fn entries(reduction: &Reduction, plane: &Plane) -> Option<String> {
     if chosen != Some(chain.joints) {
         lines.push(format!("joints = [{first:?}, {second:?}]"));
     }
-    let table = |what: &str, missing: &dyn Fn(usize) -> bool, placeholder: &dyn Fn(usize) -> &'static str| {
+    let table = |what: &str, missing: &dyn Fn(usize) -> bool, placeholder: &dyn Fn(usize) -> String| {
         let entry = |j: usize| format!("{} = {}", key(&joints[j].name), placeholder(j));
         let entries: Vec<String> = chain.joints.into_iter().filter(|j| missing(*j)).map(entry).collect();
         (!entries.is_empty()).then(|| format!("{what} = {{ {} }}", entries.join(", ")))
     };
-    let range = |j: usize| if joints[j].joint_type == JointType::Prismatic { "[0.0, 0.5]" } else { "[-3.1, 3.1]" };
-    lines.extend(table("limits", &|j| limits.planned_range(j).is_err(), &range));
+    lines.extend(table("limits", &|j| limits.planned_range(j).is_err(), &|j| limits.example(j)));
     if reduction.outlines(plane).is_err() {
         lines.push("bar = 0.05".into());
     }

@@ -4,8 +4,9 @@ use super::document::Document;
 use crate::input::error::Diagnostic;
 use crate::input::quantity::Written;
 use crate::input::world::{LARGEST, World};
-use crate::model::{LONGEST_TURN, SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
+use crate::model::{LONGEST_TURN, SLIDING_SPEED, TURNING_SPEED, assumed_acceleration};
 use crate::space::JointRange;
+use std::f64::consts::{PI, TAU};
 use toml::Spanned;
 use urdf_rs::JointType;
 
@@ -15,6 +16,15 @@ const LONGEST_SLIDE: f64 = 2.0 * LARGEST;
 /// Both limits of a revolute joint beyond this many radians are none: simulators write 1e16, exporters 1e9 or infinity. No
 /// start that a world may give is so far out.
 const UNLIMITED: f64 = LARGEST;
+
+/// Limits of a revolute joint that reach this value, radians, and no farther than [`MOST_DEGREES`] look like degrees: it is four turns.
+const LEAST_DEGREES: f64 = 4.0 * TAU;
+
+/// Two turns, degrees. More is no joint's range in either unit.
+const MOST_DEGREES: f64 = 720.0;
+
+/// Limits this near to a whole number of half turns, radians, are meant as such: what three decimals leave of them.
+const HALF_TURN_ROUNDING: f64 = 1e-3;
 
 /// What is known of a joint's range.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,14 +36,13 @@ pub(super) enum Range {
     Unset(String),
 }
 
-/// Top speed, acceleration and jerk of a moving joint, and what is to be noted about them.
+/// Top speed, acceleration and jerk of a moving joint.
 pub(super) struct Rates {
     pub velocity: f64,
     pub acceleration: f64,
     pub jerk: Option<f64>,
     /// What was assumed for want of limits.
     pub assumed: Assumed,
-    pub notes: Vec<String>,
 }
 
 /// Which rates nobody gives.
@@ -80,6 +89,12 @@ impl Limits<'_> {
                 return Ok(Range::Taken(JointRange::Interval { lower, upper }, note));
             }
         }
+        if !slides && are_degrees(lower, upper) {
+            let turns = ((upper - lower) / TAU).round();
+            return Ok(Range::Unset(format!(
+                "has limits from {lower} to {upper} rad, {turns} turns: they look like degrees"
+            )));
+        }
         if upper - lower > if slides { LONGEST_SLIDE } else { LONGEST_TURN } {
             return Ok(Range::Unset(format!("has limits from {lower} to {upper}, a range too long to plan in")));
         }
@@ -92,15 +107,37 @@ impl Limits<'_> {
             Range::Known(axis) | Range::Taken(axis, _) => Ok(axis),
             Range::Unset(reason) => {
                 let joint = &self.document.robot.joints[index];
-                let example = if joint.joint_type == JointType::Prismatic { "[0.0, 0.5]" } else { "[-3.1, 3.1]" };
                 let at = self.document.joints[index].limit.as_ref().unwrap_or(&self.document.joints[index].at);
-                let mut help = format!("in the world file: [robot] limits = {{ {} = {example} }}", key(&joint.name));
-                if joint.joint_type == JointType::Revolute {
-                    help += ", or make it type=\"continuous\" in the URDF";
+                let (key, joint_type) = (key(&joint.name), &joint.joint_type);
+                let mut help = format!("in the world file: [robot] limits = {{ {key} = {} }}", self.example(index));
+                match self.degrees(index) {
+                    Some([lower, upper]) => {
+                        help += &format!("; if they are meant in radians: {{ {key} = [{lower}, {upper}] }}")
+                    }
+                    None if *joint_type == JointType::Revolute => {
+                        help += ", or make it type=\"continuous\" in the URDF"
+                    }
+                    None => {}
                 }
                 Err(self.document.diagnostic_at(at, format!("joint \"{}\" {reason}", joint.name)).help(help))
             }
         }
+    }
+
+    /// A range for the world file to give a joint that has none to plan in: the URDF's in degrees if it looks like that, else a placeholder.
+    pub fn example(&self, index: usize) -> String {
+        match self.degrees(index) {
+            Some([lower, upper]) => format!("[\"{lower}deg\", \"{upper}deg\"]"),
+            None if self.document.robot.joints[index].joint_type == JointType::Prismatic => "[0.0, 0.5]".into(),
+            None => "[-3.1, 3.1]".into(),
+        }
+    }
+
+    /// The URDF's limits of a revolute joint if they look like degrees.
+    fn degrees(&self, index: usize) -> Option<[f64; 2]> {
+        let joint = &self.document.robot.joints[index];
+        let (lower, upper) = (joint.limit.lower, joint.limit.upper);
+        (joint.joint_type == JointType::Revolute && are_degrees(lower, upper)).then_some([lower, upper])
     }
 
     fn overridden(&self, joint: &urdf_rs::Joint, limits: &Spanned<Vec<Written>>) -> Result<JointRange, Diagnostic> {
@@ -152,30 +189,21 @@ impl Limits<'_> {
         let joint = &self.document.robot.joints[index];
         let place = &self.document.joints[index];
         let name = &joint.name;
-        let mut notes = Vec::new();
         let mut assumed = Assumed::default();
         let slides = joint.joint_type == JointType::Prismatic;
-        let unit = if slides { "m" } else { "rad" };
         let given = place.limit.is_some().then_some(joint.limit.velocity).filter(|v| *v > 0.0);
         let velocity = self.positive(&self.world.robot.velocity, name, "velocity")?.or(given).unwrap_or_else(|| {
             let default = if slides { SLIDING_SPEED } else { TURNING_SPEED };
             assumed.velocity = true;
-            notes.push(format!(
-                "joint \"{name}\": no top speed given; assumed {default} {unit}/s, for the timing alone"
-            ));
             default
         });
         let jerk = self.positive(&self.world.robot.jerk, name, "jerk")?;
         let given = place.acceleration.filter(|a| *a > 0.0);
         if let Some(acceleration) = self.positive(&self.world.robot.acceleration, name, "acceleration")?.or(given) {
-            return Ok(Rates { velocity, acceleration, jerk, assumed, notes });
+            return Ok(Rates { velocity, acceleration, jerk, assumed });
         }
-        let acceleration = assumed_acceleration(velocity);
         assumed.acceleration = true;
-        notes.push(format!(
-            "joint \"{name}\": no acceleration limit given; taken as {acceleration:.3} {unit}/s^2 (top speed in {TIME_TO_TOP_SPEED} s)"
-        ));
-        Ok(Rates { velocity, acceleration, jerk, assumed, notes })
+        Ok(Rates { velocity, acceleration: assumed_acceleration(velocity), jerk, assumed })
     }
 
     fn positive(
@@ -193,10 +221,18 @@ impl Limits<'_> {
                     .world
                     .source
                     .diagnostic_at(value.span(), message)
-                    .help("limits are magnitudes, in radians or metres and seconds"))
+                    .help("give a number above 0, in radians or metres and seconds"))
             }
         }
     }
+}
+
+/// Whether limits of a revolute joint look like degrees: they go farther than any drive without end stops turns, yet no farther than
+/// two turns would in degrees, and are no multiples of half turns in radians.
+fn are_degrees(lower: f64, upper: f64) -> bool {
+    let is_half_turns = |limit: f64| ((limit / PI).round() * PI - limit).abs() < HALF_TURN_ROUNDING;
+    let farthest = lower.abs().max(upper.abs());
+    (LEAST_DEGREES..=MOST_DEGREES).contains(&farthest) && !(is_half_turns(lower) && is_half_turns(upper))
 }
 
 /// A joint's entry in one of the world's tables.

@@ -9,6 +9,7 @@
 //!
 //! [`load`] stops at the first stage that fails; [`survey`] goes on as far as it makes sense and reports everything.
 
+mod advice;
 mod attributes;
 mod bodies;
 mod chain;
@@ -56,7 +57,8 @@ pub(super) fn load(source: Source, world: &World) -> Result<(Arm, RobotReport), 
     let bounds = reduction.bounds()?;
     let outlines = reduction.outlines(&plane)?;
     let joints = reduction.robot_joints(&plane)?;
-    let (arm, report, unknown) = reduction.arm(plane, bounds, outlines);
+    let (arm, mut report, unknown) = reduction.arm(plane, bounds, outlines);
+    report.warnings.extend(advice::warnings(&reduction, &arm));
     unknown.filter(|_| world.robot.dynamics).map_or(Ok(()), Err)?;
     Ok((arm, RobotReport { joints, ..report }))
 }

@@ -1,5 +1,6 @@
 //! The planar reduction: from a chain of joints in space to an arm in the plane, in stages that can fail one by one.
 
+use super::advice;
 use super::bodies::{Bodies, Outlines};
 use super::chain::Chain;
 use super::document::Document;
@@ -58,7 +59,9 @@ impl<'a> Reduction<'a> {
                 format!("in the world file: {}", pairing::choices(self.document, &planar))
             };
             let rule = "cplan plans for two joints that turn about parallel axes or slide in one plane";
-            self.document.diagnostic_at(at, message).help(format!("{rule}: {choose}")).into()
+            let axes = self.chain.joints.iter().filter_map(|&joint| advice::missing_axis(self, joint));
+            let help: Vec<String> = axes.chain([format!("{rule}: {choose}")]).collect();
+            self.document.diagnostic_at(at, message).help(help.join("; ")).into()
         })
     }
 
@@ -123,17 +126,17 @@ impl<'a> Reduction<'a> {
             if let Ok(Range::Taken(_, note)) = limits.range(j) {
                 report.notes.push(note);
             }
-            // Efforts take the place of accelerations that nobody gives.
-            let takes = |note: &&String| !(self.world.robot.dynamics && note.contains("no acceleration limit"));
-            report.notes.extend(bounds.rates.notes.iter().filter(takes).cloned());
             let name = &self.document.robot.joints[j].name;
             if bounds.rates.assumed.velocity {
                 report.assumed.velocity.insert(name.clone(), bounds.rates.velocity);
             }
+            // Efforts take the place of accelerations that nobody gives.
             if bounds.rates.assumed.acceleration && !self.world.robot.dynamics {
                 report.assumed.acceleration.insert(name.clone(), bounds.rates.acceleration);
             }
         }
+        let units = self.axes().map(|axis| (axis.name, if axis.revolute { "rad" } else { "m" }));
+        report.notes.extend(report.assumed.notes(units));
         report.geometry.extend(outlines.geometry);
         report.notes.extend(outlines.notes);
         report.warnings.extend(outlines.warnings);

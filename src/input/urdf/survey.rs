@@ -1,5 +1,6 @@
 //! A robot examined stage by stage, as far as each makes sense.
 
+use super::advice;
 use super::bodies::Outlines;
 use super::chain::{self, Chain, is_movable};
 use super::document::Document;
@@ -139,6 +140,7 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
     report.errors.extend(unknown.filter(|_| reduction.world.robot.dynamics).map(InputError::from));
     report.ignored.extend(notes.notes.into_iter().filter(|note| note.contains("are ignored")));
     report.self_obstacles = arm.self_obstacles.iter().map(self_obstacle).collect();
+    report.warnings.extend(advice::warnings(reduction, &arm));
     report.reach = Some(reach(&arm));
     report.frames = frames(reduction, &plane);
     report.scene = Some(Scene::trusted(standing(&arm, reduction.world), reduction.world.at_first()));
@@ -323,13 +325,7 @@ fn unbounded(reduction: &Reduction) -> [Bounds; 2] {
         let rest = if slides { JointRange::Interval { lower: 0.0, upper: 0.0 } } else { JointRange::Circle };
         Bounds {
             range: limits.planned_range(j).unwrap_or(rest),
-            rates: Rates {
-                velocity: 1.0,
-                acceleration: 1.0,
-                jerk: None,
-                assumed: Assumed::default(),
-                notes: Vec::new(),
-            },
+            rates: Rates { velocity: 1.0, acceleration: 1.0, jerk: None, assumed: Assumed::default() },
         }
     })
 }

@@ -15,6 +15,9 @@ const LOOKS: usize = 300;
 /// Share of the arm's reach to which an object may press into what supports it.
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
+/// As the book says, metres.
+const RESTING_TOLERANCE: f64 = 1e-6;
+
 /// A frame: cosine and sine of its turn, and its origin.
 type Frame = (V, V);
 
@@ -275,8 +278,9 @@ impl<'a> World<'a> {
         for piece in &object.pieces {
             let body = Solid::new(piece).placed(frame.0, frame.1);
             for (number, solid, heights) in &obstacles {
-                if object.heights.lower + object.lift <= heights[1] && heights[0] <= object.heights.upper + object.lift
-                {
+                let [lower, upper] = [object.heights.lower, object.heights.upper].map(|height| height + object.lift);
+                // What it rests on it does not meet.
+                if lower + RESTING_TOLERANCE < heights[1] && heights[0] <= upper {
                     let rests = held.supports.contains(number);
                     f("the object", *number, body.distance(solid), rests.then(|| self.pressed(&body, solid)));
                 }

@@ -46,7 +46,8 @@ pub fn task(seed: u64) -> Task {
             shape,
             pieces,
             heights: if dice.chance(0.3) { Heights { lower: 0.0, upper: 0.05 } } else { Heights::ALL },
-            lift: if dice.chance(0.3) { 0.2 } else { 0.0 },
+            // Carried at just the height at which others end.
+            lift: if dice.chance(0.3) { 0.05 } else { 0.0 },
             holding,
             at: Isometry2::new(at.coords, dice.within(-PI, PI)),
             course: None,

@@ -8,6 +8,9 @@ use crate::polygon::Corner;
 use std::collections::{BTreeMap, BTreeSet};
 use toml::de::{DeTable, DeValue};
 
+/// An object rests on what its lower end reaches into by no more than this, metres: `10^-6`.
+pub const RESTING: u32 = 6;
+
 /// Places of the largest pallet.
 const MOST_PLACES: usize = 10_000;
 

@@ -1,0 +1,162 @@
+//! Robots as files have them: limits in degrees, lengths in millimetres, placeholders for speeds, limits that nobody gives.
+
+use super::{FREE, Place, shipped};
+
+/// `planar_2r` with pieces of its text replaced, wherever they are.
+fn arm(changes: &[(&str, &str)]) -> String {
+    let urdf = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
+    changes.iter().fold(urdf, |urdf, (from, to)| {
+        assert!(urdf.contains(from), "{from}");
+        urdf.replace(from, to)
+    })
+}
+
+const TO_A_TIP: &str = "[start]\njoints = [0.0, 1.0]\n[goal]\ntip = [0.5, 0.5]\n";
+
+/// The hint that the main job and `inspect` give about a robot.
+fn hinted(changes: &[(&str, &str)], world: &str, parts: &[&str]) {
+    let place = Place::new();
+    place.write("arm.urdf", arm(changes));
+    place.write("world.toml", world);
+    let planned = place.run(&["arm.urdf", "world.toml"], "");
+    let inspected = place.run(&["inspect", "arm.urdf"], "");
+    let warned: String = planned.stderr.lines().filter(|line| line.starts_with("warning: ")).collect();
+    for part in parts {
+        assert!(warned.contains(part), "{part:?} is not in: {}", planned.stderr);
+        assert!(inspected.stdout.contains(part), "{part:?} is not in: {}", inspected.stdout);
+    }
+}
+
+#[test]
+fn limits_that_look_like_degrees_are_refused_with_both_readings() {
+    let place = Place::new();
+    place.write("arm.urdf", arm(&[("lower=\"-2.9\" upper=\"2.9\"", "lower=\"-150\" upper=\"150\"")]));
+    place.write("world.toml", TO_A_TIP);
+    let parts = ["joint \"shoulder\" has limits from -150 to 150 rad, 48 turns: they look like degrees", "\"150deg\""];
+    place.run(&["arm.urdf", "world.toml"], "").refused(1, &parts);
+    place.run(&["reach", "arm.urdf", "world.toml"], "").refused(1, &parts);
+    let inspected = place.run(&["inspect", "arm.urdf"], "");
+    let remedy = "limits = { shoulder = [\"-150deg\", \"150deg\"], elbow = [\"-150deg\", \"150deg\"] }";
+    assert!(inspected.stdout.contains(remedy), "{}", inspected.stdout);
+    for range in ["[\"-150deg\", \"150deg\"]", "[-150, 150]"] {
+        place.write("world.toml", format!("[robot]\nlimits = {{ shoulder = {range}, elbow = {range} }}\n{TO_A_TIP}"));
+        let done = place.run(&["arm.urdf", "world.toml"], "");
+        assert_eq!(done.code, 0, "{range}: {}", done.stderr);
+        // The tip is there in thousands of ways if the joints turn 48 times.
+        assert!(done.stdout.lines().count() < 40, "{}", done.stdout);
+    }
+    // Whole turns are meant in radians, and so is what a wrist with a cable turns.
+    for range in ["lower=\"-31.416\" upper=\"31.416\"", "lower=\"-6.98\" upper=\"6.98\""] {
+        place.write("arm.urdf", arm(&[("lower=\"-2.9\" upper=\"2.9\"", range)]));
+        place.write("world.toml", FREE);
+        assert_eq!(place.run(&["arm.urdf", "world.toml"], "").code, 0, "{range}");
+    }
+}
+
+#[test]
+fn robots_in_millimetres_are_noticed() {
+    let lengths = [("xyz=\"1.0 0 0\"", "xyz=\"625 0 0\""), ("xyz=\"0.8 0 0\"", "xyz=\"425 0 0\"")];
+    hinted(&lengths, TO_A_TIP, &["the arm is 625 m and 425 m long", "divided by 1000"]);
+    let shapes = [("size=\"1.0 0.1 0.1\"", "size=\"1000 100 100\"")];
+    hinted(&shapes, FREE, &["the shape of link \"upper_arm\" reaches", "scale=\"0.001 0.001 0.001\""]);
+    let slides = [
+        ("type=\"revolute\"", "type=\"prismatic\""),
+        ("lower=\"-2.9\" upper=\"2.9\"", "lower=\"0\" upper=\"600\""),
+        ("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"1 0 0\"/>"),
+    ];
+    let place = Place::new();
+    place.write("arm.urdf", arm(&slides).replacen("<axis xyz=\"1 0 0\"/>", "<axis xyz=\"0 1 0\"/>", 1));
+    let inspected = place.run(&["inspect", "arm.urdf"], "").stdout;
+    assert!(inspected.contains("joint \"shoulder\" slides from 0 to 600 m: limits in millimetres"), "{inspected}");
+}
+
+#[test]
+fn speeds_that_no_drive_has_are_noticed() {
+    let fast = "joint \"shoulder\": velocity=\"1000\" in the URDF is 1000 rad/s (57295.8 deg/s), faster than any drive";
+    hinted(&[("velocity=\"2.0\"", "velocity=\"1000\"")], FREE, &[fast, "[robot] velocity = { shoulder = 2.0 }"]);
+    hinted(&[("velocity=\"3.0\"", "velocity=\"100\"")], FREE, &["velocity=\"100\" in the URDF", "times are too short"]);
+    hinted(
+        &[("velocity=\"3.0\"", "velocity=\"0.0\"")],
+        FREE,
+        &["joint \"elbow\": velocity=\"0\" in the URDF is taken as not given"],
+    );
+    // The hint helps.
+    let place = Place::new();
+    place.write("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"1000\"")]));
+    place.write("world.toml", format!("[robot]\nvelocity = {{ shoulder = 2.0 }}\n{FREE}"));
+    assert_eq!(place.run(&["arm.urdf", "world.toml"], "").stderr, "");
+}
+
+#[test]
+fn joints_without_an_axis_are_noticed() {
+    let parts = ["joint \"shoulder\" has no <axis>, which means the x axis", "joint \"elbow\" has no <axis>"];
+    hinted(&[("<axis xyz=\"0 0 1\"/>", "")], TO_A_TIP, &parts);
+    let place = Place::new();
+    place.write("arm.urdf", arm(&[]).replacen("<axis xyz=\"0 0 1\"/>", "", 1));
+    place.write("world.toml", FREE);
+    let parts = ["do not move in one common plane", "joint \"shoulder\" has no <axis>, which means the x axis"];
+    place.run(&["arm.urdf", "world.toml"], "").refused(1, &parts);
+}
+
+/// What nobody gives, in words.
+const ASSUMED: &str =
+    "joint \"elbow\": no acceleration limit given; assumed 12 rad/s2, top speed in 0.25 s, for the timing alone";
+
+const FAST: &str = "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,0,0.5,0,0\n0.2,0.4,0.9,0,0\n";
+
+#[test]
+fn verify_judges_limits_that_are_given_and_reports_the_others() {
+    let place = Place::new();
+    place.write("world.toml", FREE);
+    place.write("motion.csv", FAST);
+    place.write("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"3.0\"")]));
+    let verify = |options: &str| place.run(&["verify", "arm.urdf", "world.toml", "motion.csv"], options);
+    let said = verify("--anywhere");
+    assert_eq!(said.code, 0, "{}", said.stdout);
+    for part in ["elbow: acceleration 60.000000 rad/s2, at most 12.000000", "so it does not decide", ASSUMED] {
+        assert!(said.stdout.contains(part), "{part:?} is not in: {}", said.stdout);
+    }
+    let json = verify("--anywhere --json").json();
+    assert_eq!((&json["verdict"], json["limits_broken"].as_array().unwrap().len()), (&"free".into(), 0));
+    assert_eq!(json["assumed_exceeded"][1]["limit"], "acceleration");
+    // Given ones decide, be they of the world or of the URDF.
+    place.write("world.toml", format!("[robot]\nacceleration = {{ elbow = 12 }}\n{FREE}"));
+    let given = verify("--anywhere --json");
+    let json = given.json();
+    assert_eq!((given.code, json["limits_broken"].as_array().unwrap().len()), (3, 1), "{json:#}");
+    assert_eq!(json["assumed_exceeded"].as_array().unwrap().len(), 1);
+    place.write("world.toml", FREE);
+    place.write("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"2.0\"")]));
+    assert_eq!(verify("--anywhere").code, 3);
+    // A speed that nobody gives does not.
+    place.write("arm.urdf", arm(&[(" velocity=\"2.0\"", ""), (" velocity=\"3.0\"", "")]));
+    let said = verify("--anywhere");
+    assert_eq!(said.code, 0, "{}", said.stdout);
+    assert!(said.stdout.contains("shoulder: velocity 3.000000 rad/s, at most 1.000000"), "{}", said.stdout);
+}
+
+#[test]
+fn assumptions_have_the_same_words_everywhere() {
+    let place = Place::new();
+    place.write("world.toml", FREE);
+    place.write("arm.urdf", arm(&[]));
+    place.write("motion.csv", "time,shoulder,elbow\n0,-0.9,0.4\n9,-0.8,0.4\n");
+    place.write("problems.jsonl", "{\"urdf\": \"arm.urdf\", \"world\": \"world.toml\"}\n");
+    let run = |files: &[&str], options: &str| {
+        let done = place.run(files, options);
+        assert_eq!(done.code, 0, "{files:?}: {}", done.stderr);
+        done.stdout + &done.stderr
+    };
+    let quoted = ASSUMED.replace('"', "\\\"");
+    assert!(run(&["arm.urdf", "world.toml"], "").contains(ASSUMED));
+    assert!(run(&["arm.urdf", "world.toml"], "--json").contains(&quoted));
+    assert!(run(&["batch", "problems.jsonl"], "").contains(&quoted));
+    assert!(run(&["verify", "arm.urdf", "world.toml", "motion.csv"], "--anywhere").contains(ASSUMED));
+    assert!(run(&["check", "arm.urdf", "world.toml"], "--at 0,0").contains(ASSUMED));
+    #[cfg(feature = "study")]
+    {
+        let study = "robot = \"arm.urdf\"\nworld = \"world.toml\"\n[[parameter]]\nname = \"q\"\nsets = \"world.start.joints[0]\"\nvalues = [-0.9]\n";
+        place.write("study.toml", study);
+        assert!(run(&["study", "study.toml"], "").contains(ASSUMED));
+    }
+}

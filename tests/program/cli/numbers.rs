@@ -1,0 +1,53 @@
+//! Numbers in messages: those that differ look different, and zero has no sign.
+
+use super::{FREE, Place, shipped};
+
+/// A wall just beyond the stretched arm.
+fn wall(x: f64) -> String {
+    format!(
+        "[start]\njoints = [0.0, 0.0]\n[goal]\njoints = [0.0, 0.5]\n[[obstacle]]\npolyline = [[{x}, -0.02], [{x}, 0.0]]\n"
+    )
+}
+
+#[test]
+fn a_tiny_clearance_is_no_zero() {
+    let place = Place::new();
+    place.write("world.toml", wall(1.800_000_6));
+    place.write("motion.csv", "shoulder,elbow\n0,0\n0,0.0000001\n");
+    let robot = shipped("robots/planar_2r.urdf");
+    let said = place.run(&["verify", &robot, "world.toml", "motion.csv"], "--anywhere").stdout;
+    assert!(!said.contains("-0.0000") && !said.contains(" 0.000000 m proven"), "{said}");
+    assert!(said.contains("e-7 m proven") || said.contains("e-7 m apart"), "{said}");
+}
+
+#[test]
+fn a_value_just_beyond_its_limits_is_told_from_them() {
+    let place = Place::new();
+    place.write("world.toml", FREE);
+    let robot = shipped("robots/planar_2r.urdf");
+    let said = place.run(&["check", &robot, "world.toml"], "--at -2.900001,-0.0").stdout;
+    let limits = "shoulder: -2.900001 rad (-166.15782 deg) is OUTSIDE -2.900000 rad (-166.15776 deg) to 2.900000 rad";
+    assert!(said.contains(limits), "{said}");
+    assert!(said.contains("elbow: 0.0000 rad (0.00 deg) is within"), "{said}");
+    let sliding = std::fs::read_to_string(&robot).unwrap();
+    let sliding =
+        sliding.replace("type=\"revolute\"", "type=\"prismatic\"").replacen("xyz=\"0 0 1\"", "xyz=\"1 0 0\"", 1);
+    let sliding = sliding.replacen("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 1 0\"/>", 1);
+    place.write("gantry.urdf", sliding.replace("lower=\"-2.9\" upper=\"2.9\"", "lower=\"0\" upper=\"1\""));
+    let said = place.run(&["check", "gantry.urdf", "world.toml"], "--at -1e-6,0").stdout;
+    assert!(said.contains("-0.000001 m is OUTSIDE 0.000000 m to 1.000000 m"), "{said}");
+}
+
+#[test]
+fn a_point_just_out_of_reach_is_told_from_the_reach() {
+    let place = Place::new();
+    let done = place.plan(FREE, "--goal-tip 1.8000001,0");
+    done.refused(1, &["it is 1.8000001 m from joint", "the tip reaches from 0.2000000 to 1.8000000 m"]);
+}
+
+#[test]
+fn bounds_on_numbers_are_said() {
+    let place = Place::new();
+    let far = format!("{FREE}[[obstacle]]\ncircle = {{ center = [2e6, 0.0], radius = 1.0 }}\n");
+    place.plan(far, "").refused(1, &["2000000 is too large (at most 1e6)", "from -1e6 to 1e6"]);
+}

@@ -1,0 +1,154 @@
+//! What an object rests on: bottom and top that touch are no contact, whoever judges.
+
+use super::{Done, Place, shipped};
+use cplan_check::{CheckError, check};
+
+/// How the tool gets down, and how the part is held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Hand {
+    Lifting,
+    Stroke,
+    /// Kept level by a wrist that turns it over the table.
+    Wrist,
+}
+
+/// A part that lies from a height on, a table that ends at one, and steps.
+struct Cell {
+    hand: Hand,
+    top: f64,
+    bottom: f64,
+    lift: f64,
+    supports: &'static str,
+}
+
+impl Cell {
+    fn new(hand: Hand) -> Self {
+        Self { hand, top: 0.05, bottom: 0.05, lift: 0.1, supports: "" }
+    }
+
+    fn world(&self, steps: &str) -> String {
+        let Self { hand, top, bottom, lift, supports } = self;
+        let (robot, level) = match hand {
+            Hand::Lifting => ("", ""),
+            Hand::Stroke => ("stroke = { joint = \"axis_3\" }", ""),
+            Hand::Wrist => ("wrist = { velocity = 6.0, acceleration = 60.0 }", "payload = \"level\""),
+        };
+        format!(
+            "[robot]\n{robot}\n[start]\njoints = [0.3, 0.4]\n\
+             [[obstacle]]\nname = \"table\"\nheight = [0.0, {top}]\n\
+             polygon = [[0.25, -0.35], [0.45, -0.35], [0.45, -0.15], [0.25, -0.15]]\n\
+             [[object]]\nname = \"part\"\ncircle = {{ center = [0.0, 0.0], radius = 0.01 }}\nat = [0.1, 0.4]\n\
+             height = [{bottom}, 0.06]\nlift = {lift}\n{level}\n{supports}\n{steps}"
+        )
+    }
+
+    fn set_down(&self) -> String {
+        let angle = if self.hand == Hand::Wrist { ", angle = 1.0" } else { "" };
+        self.world(&format!("[[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [0.35, -0.25]{angle} }}\n"))
+    }
+}
+
+/// The main job with a certificate; where it has one the checker is content.
+fn planned(place: &Place, world: &str) -> Done {
+    place.write("world.toml", world);
+    let urdf = shipped("robots/scara.urdf");
+    let _ = std::fs::remove_file(place.path("c.json"));
+    let done = place.run(&[&urdf, "world.toml"], "--certificate c.json --output plan.json");
+    // Some proofs about what a turning arm holds have no certificate.
+    if done.code == 0 || place.path("c.json").exists() {
+        let said = check(&std::fs::read_to_string(&urdf).unwrap(), world, &place.read("c.json"));
+        assert!(said.is_ok(), "{said:?}\n{world}");
+    }
+    if done.code == 0 {
+        let verified = place.run(&["verify", &urdf, "world.toml", "plan.json"], "");
+        assert_eq!(verified.code, 0, "{}{world}", verified.stdout);
+    }
+    done
+}
+
+#[test]
+fn a_part_is_set_on_a_table_that_its_bottom_touches() {
+    let place = Place::new();
+    for hand in [Hand::Lifting, Hand::Stroke, Hand::Wrist] {
+        for supports in ["", "supports = [\"table\"]"] {
+            // To a micrometre, too, as stacks add up; and it may slide where nothing lifts it.
+            for (bottom, lift) in [(0.05, 0.1), (0.049_999_5, 0.1), (0.05, 0.0)] {
+                let cell = Cell { bottom, lift, supports, ..Cell::new(hand) };
+                let done = planned(&place, &cell.set_down());
+                assert_eq!(done.code, 0, "{hand:?} {supports} {bottom} {lift}: {}{}", done.stdout, done.stderr);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_lies_deeper_in_a_table_than_the_tolerance_is_a_contact() {
+    let place = Place::new();
+    for hand in [Hand::Lifting, Hand::Stroke] {
+        let cell = Cell { bottom: 0.049_998, ..Cell::new(hand) };
+        let done = planned(&place, &cell.set_down());
+        assert_eq!(done.code, 3, "{hand:?}: {}{}", done.stdout, done.stderr);
+        assert!(done.stdout.contains("payload \"part\" hits obstacle \"table\""), "{}", done.stdout);
+    }
+}
+
+#[test]
+fn the_checker_knows_the_tolerance_by_itself() {
+    let place = Place::new();
+    let urdf = std::fs::read_to_string(shipped("robots/scara.urdf")).unwrap();
+    let without = |certificate: &str| super::certificates::without_digests(certificate);
+    for hand in [Hand::Lifting, Hand::Stroke] {
+        let cell = Cell::new(hand);
+        assert_eq!(planned(&place, &cell.set_down()).code, 0);
+        let certificate = without(&place.read("c.json"));
+        for (top, holds) in [(0.04, true), (0.050_001, true), (0.050_001_1, false), (0.06, false)] {
+            let said = check(&urdf, &Cell { top, ..Cell::new(hand) }.set_down(), &certificate);
+            assert_eq!(said.is_ok(), holds, "{hand:?}, table up to {top}: {said:?}");
+        }
+        // A proof that the table is in the way holds for no table that the part rests on.
+        let deep = Cell { top: 0.06, ..Cell::new(hand) };
+        assert_eq!(planned(&place, &deep.set_down()).code, 3);
+        let proof = without(&place.read("c.json"));
+        for top in [0.05, 0.050_001] {
+            let said = check(&urdf, &Cell { top, ..Cell::new(hand) }.set_down(), &proof);
+            assert!(matches!(said, Err(CheckError::Fails(_))), "{hand:?}, table up to {top}: {said:?}");
+        }
+    }
+}
+
+#[test]
+fn parts_are_stacked_and_taken_off_again() {
+    let place = Place::new();
+    for hand in [Hand::Lifting, Hand::Stroke] {
+        let upper = "[[object]]\nname = \"lid\"\ncircle = { center = [0.0, 0.0], radius = 0.01 }\nat = [0.0, 0.45]\n\
+                     height = [0.06, 0.07]\nlift = 0.1\n";
+        let steps = "[[step]]\npick = \"part\"\n[[step]]\nplace = { at = [0.35, -0.25] }\n\
+                     [[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.35, -0.25] }\n\
+                     [[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.0, 0.45] }\n\
+                     [[step]]\npick = \"part\"\n[[step]]\nplace = { at = [0.1, 0.4] }\n";
+        let done = planned(&place, &Cell::new(hand).world(&format!("{upper}{steps}")));
+        assert_eq!(done.code, 0, "{hand:?}: {}{}", done.stdout, done.stderr);
+        // What another one lies on is neither lifted nor pulled out from under it.
+        let (first, _) = steps.split_at(steps.find("[[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.0").unwrap());
+        let taken = format!("{upper}{first}[[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [0.1, 0.4] }}\n");
+        let lift = if hand == Hand::Stroke { 0.1 } else { 0.0 };
+        let done = planned(&place, &Cell { lift, ..Cell::new(hand) }.world(&taken));
+        // Where top and bottom just touch nothing is proven either way.
+        let code = if hand == Hand::Stroke { 3 } else { 4 };
+        assert_eq!(done.code, code, "{hand:?}: {}{}", done.stdout, done.stderr);
+        assert!(done.stdout.contains("hits obstacle \"lid\""), "{}", done.stdout);
+    }
+}
+
+#[test]
+fn the_arm_itself_rests_on_nothing() {
+    let place = Place::new();
+    // The flange ends at 0.18 m.
+    for (top, is_free) in [(0.18, false), (0.179_999, true)] {
+        let cell = Cell { top, ..Cell::new(Hand::Lifting) };
+        place.write("world.toml", cell.set_down());
+        let urdf = shipped("robots/scara.urdf");
+        let done = place.run(&["check", &urdf, "world.toml"], "--at -0.0169,-1.3524");
+        assert_eq!(done.stdout.starts_with("result     free"), is_free, "{top}: {}{}", done.stdout, done.stderr);
+    }
+}
