@@ -1,9 +1,10 @@
 //! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
 
 use super::deviation::{Bounded, Deviation, Posture};
+use super::tool::ToolMotion;
 use crate::geometry::Separation;
 use crate::interrupt::checkpoint;
-use crate::model::{Contact, Drift, Pair, Scene};
+use crate::model::{Contact, Drift, HeldMotion, Pair, Scene};
 use crate::space::{Configuration, Piece, Recording};
 use std::borrow::Cow;
 
@@ -97,9 +98,32 @@ pub enum CollisionCheck {
 /// Obstacles that move do so on the recording's clock, from its first sample on. Without a clock nothing is said of them.
 #[must_use]
 pub fn check_collision(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
+    check_pairs(scene, all_pairs(scene, recording), recording, clearance)
+}
+
+/// The same while joints move that the scene holds still: parts are at the heights that these give them at each moment, and what
+/// a wrist turns counts as the disc that it sweeps. Pairs are those of the scene's parts. What is carried must not be among what they move.
+#[must_use]
+pub fn check_collision_with(
+    scene: &Scene,
+    recording: &Recording,
+    held: &[HeldMotion],
+    clearance: f64,
+) -> CollisionCheck {
+    let tool = ToolMotion::new(scene, held);
+    let pieces = recording.pieces();
+    let pairs = all_pairs(tool.scene(), recording);
+    let mut search = Search::new(tool.scene(), &pairs, &pieces, clearance);
+    search.tool = Some(&tool);
+    search.look_around();
+    search.run();
+    search.verdict()
+}
+
+/// The pairs with what stands, and with what moves if there is a clock.
+fn all_pairs<'a>(scene: &'a Scene, recording: &Recording) -> Cow<'a, [Pair]> {
     let moving = if recording.times().is_some() { scene.moving_pairs() } else { &[] };
-    let pairs = if moving.is_empty() { scene.pairs().into() } else { [scene.pairs(), moving].concat().into() };
-    check_pairs(scene, pairs, recording, clearance)
+    if moving.is_empty() { scene.pairs().into() } else { [scene.pairs(), moving].concat().into() }
 }
 
 /// The same of what moves alone, on the recording's clock from its first sample on: the arm's motion in time is certified if it is known to be
@@ -207,6 +231,8 @@ struct Search<'a> {
     pairs: &'a [Pair],
     pieces: &'a [Piece],
     required: f64,
+    /// What changes heights and shapes on the way.
+    tool: Option<&'a ToolMotion<'a>>,
     /// A bound is accepted if it is at least this share of the least distance seen.
     tightness: f64,
     /// Least of the bounds that were accepted.
@@ -229,6 +255,7 @@ impl<'a> Search<'a> {
             pairs,
             pieces,
             required,
+            tool: None,
             tightness: TIGHTNESS,
             proven: f64::INFINITY,
             least: None,
@@ -257,6 +284,7 @@ impl<'a> Search<'a> {
             }
             let span = Span::between(place(from), place(to - 1));
             let (middle, deviation) = span.deviation(self.pieces);
+            self.keep_meeting(span, &mut pairs);
             let posture = Posture::new(self.scene, middle);
             let [begins, ends] = span.ends();
             pairs.retain(|&pair| {
@@ -277,6 +305,9 @@ impl<'a> Search<'a> {
     fn look(&mut self, place: Place, pairs: &[Pair]) {
         let posture = Posture::new(self.scene, self.pieces[place.0].at(place.1));
         for &pair in pairs {
+            if !self.is_there(pair, place) {
+                continue;
+            }
             let drift = self.drift(pair, place, place);
             if self.is_of_interest(apart(&posture, pair, STILL, drift.as_ref())) {
                 self.see(place, Contact { pair, separation: here(&posture, pair, drift.as_ref()) });
@@ -287,6 +318,19 @@ impl<'a> Search<'a> {
     /// Whether a pair that comes no nearer than this may be in contact, or nearer than any before.
     fn is_of_interest(&self, apart: f64) -> bool {
         apart <= 0.0 || apart < self.required || apart < self.seen()
+    }
+
+    /// Drops pairs whose heights do not meet during a span.
+    fn keep_meeting(&self, span: Span, pairs: &mut Vec<Pair>) {
+        if let Some(tool) = self.tool {
+            let extents = tool.extents(span);
+            pairs.retain(|pair| tool.may_meet(*pair, &extents));
+        }
+    }
+
+    /// Whether the shapes of a pair are at a place what they are taken for, and can meet there.
+    fn is_there(&self, pair: Pair, place: Place) -> bool {
+        self.tool.is_none_or(|tool| tool.is_there(pair, place))
     }
 
     /// Least distance seen.
@@ -345,24 +389,33 @@ impl<'a> Search<'a> {
 
     /// Drops the pairs that are proven to keep their distance all over the span.
     fn judge(&mut self, span: Span, pairs: &mut Vec<Pair>) {
+        self.keep_meeting(span, pairs);
         let (middle, deviation) = span.deviation(self.pieces);
         let posture = Posture::new(self.scene, middle);
         let [from, to] = span.ends();
         pairs.retain(|&pair| {
+            let is_there = self.is_there(pair, span.middle());
+            // The least distance seen is no measure for what is not there to be seen.
+            let suffices = |search: &Self, bound: f64| match is_there {
+                true => search.suffices(bound),
+                false => bound > 0.0 && bound >= search.required,
+            };
             let drift = self.drift(pair, from, to);
             self.evaluations += 1;
             if let Some(drift) = &drift {
                 let apart = posture.apart_moving(pair, deviation, drift);
-                if self.suffices(apart) {
+                if suffices(self, apart) {
                     self.proven = self.proven.min(apart);
                     return false;
                 }
             }
             let bounded = bound(&posture, pair, deviation, drift.as_ref(), |_| f64::INFINITY);
-            if let Span::Part(index, from, to) = span {
+            if let Span::Part(index, from, to) = span
+                && is_there
+            {
                 self.see((index, (from + to) / 2.0), Contact { pair, separation: bounded.here });
             }
-            let free = self.suffices(bounded.least);
+            let free = suffices(self, bounded.least);
             if free {
                 self.proven = self.proven.min(bounded.least);
             }
@@ -380,7 +433,9 @@ impl<'a> Search<'a> {
                 let drift = self.drift(pair, place, place);
                 let separation = here(&posture, pair, drift.as_ref());
                 let contact = Contact { pair, separation };
-                self.see(place, contact);
+                if self.is_there(pair, place) {
+                    self.see(place, contact);
+                }
                 if nearest.is_none_or(|n| separation.distance < n.contact.separation.distance) {
                     nearest = Some(Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact });
                 }

@@ -336,6 +336,9 @@ pub struct VerifyArgs {
     /// The motion: .json (a result of cplan), .csv, .yaml (ROS 2 JointTrajectory) or .mcap (ROS 2 recording).
     #[arg(value_name = "TRAJECTORY", value_hint = ValueHint::FilePath)]
     pub trajectory: PathBuf,
+    /// Topic of an .mcap recording that is judged, if several have both of the arm's joints.
+    #[arg(long, value_name = "NAME")]
+    pub topic: Option<String>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub clearance: Option<f64>,

@@ -48,6 +48,7 @@ impl Survey {
             resolution: cell,
             pose: Isometry2::new(Vector2::from(origin), 0.0),
             cells: vec![Occupancy::Unknown; size[0] * size[1]],
+            notes: Vec::new(),
         };
         let mut survey = Self { truth: vec![None; known.cells.len()], heights, known };
         for obstacle in obstacles {

@@ -78,14 +78,14 @@ pub(crate) use schema::{AngleOrLength, toml_schema};
 pub use source::{Position, Source};
 pub use suite::{Asked, LeftOut, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
-pub use trajectory::{LoadedRecording, load_recording, read_recording};
+pub use trajectory::{LoadedRecording, load_recording, load_topic, read_recording};
 pub use values::{JointValues, Overrides, TipPoint};
 use world::RobotTable;
 #[cfg(feature = "study")]
 pub(crate) use world::in_toml_words;
 pub use world::{LARGEST, World};
 
-use crate::model::{Arm, AssumedLimits, Goal, MotionProblem, RobotJoints, Scene};
+use crate::model::{Arm, AssumedLimits, Goal, HeldJoint, MotionProblem, RobotJoints, Scene};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -103,6 +103,9 @@ pub struct RobotReport {
     pub assumed: AssumedLimits,
     /// Joints that could move but are held, and whose value matters to the arm: names and values, radians or metres.
     pub held: Vec<(String, f64)>,
+    /// The same joints with what they would do if they moved.
+    #[serde(default)]
+    pub held_joints: Vec<HeldJoint>,
     /// All joints that can move, for messages that name them.
     pub joints: RobotJoints,
     /// Why torques are not known, unless they are.

@@ -1,6 +1,7 @@
 //! What was taken as it must be meant, though it was not written so: counted by kind, so that a thousand exported shapes
 //! make one line.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 
 /// More names than this are counted.
@@ -8,11 +9,12 @@ const NAMED: usize = 3;
 
 /// What was taken, and of whom.
 #[derive(Debug, Default)]
-pub(super) struct Taken(RefCell<Vec<(&'static str, Vec<String>)>>);
+pub(super) struct Taken(RefCell<Vec<(Cow<'static, str>, Vec<String>)>>);
 
 impl Taken {
     /// Notes that of `whom` something was taken as `what` says.
-    pub fn note(&self, whom: &str, what: &'static str) {
+    pub fn note(&self, whom: &str, what: impl Into<Cow<'static, str>>) {
+        let what = what.into();
         let mut kinds = self.0.borrow_mut();
         let kind = kinds.iter().position(|(kind, _)| *kind == what).unwrap_or_else(|| {
             kinds.push((what, Vec::new()));
@@ -25,7 +27,7 @@ impl Taken {
 
     /// A line a kind, in the order in which they came up.
     pub fn lines(self) -> Vec<String> {
-        let line = |(what, names): (&str, Vec<String>)| {
+        let line = |(what, names): (Cow<str>, Vec<String>)| {
             let more = names.len().saturating_sub(NAMED);
             let names: Vec<String> = names.into_iter().take(NAMED).collect();
             let names = names.join(", ");

@@ -158,7 +158,9 @@ fn image(
         let help = "name the YAML; it names the picture";
         return Err(reader.source.diagnostic_at(image.span(), message).help(help).into());
     }
-    let pieces = OccupancyMap::read(&path)?.pieces(unknown_is_free, MOST_PIECES).ok_or_else(|| {
+    let map = OccupancyMap::read(&path)?;
+    map.notes.iter().for_each(|note| reader.taken.note(what, note.clone()));
+    let pieces = map.pieces(unknown_is_free, MOST_PIECES).ok_or_else(|| {
         let message = format!("{what}: its pixels make more than {MOST_PIECES} rectangles");
         let help = "remove single pixels from the picture, or make its pixels larger";
         reader.source.diagnostic_at(image.span(), message).help(help)

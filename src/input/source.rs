@@ -76,14 +76,23 @@ const LARGEST_FILE: u64 = 256 << 20;
 /// # Errors
 /// I/O, and a file larger than [`LARGEST_FILE`].
 pub(super) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+    read_at_most(path, LARGEST_FILE)
+}
+
+fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     note_read(path);
-    File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(io::Error::other(format!("it is larger than {} MiB", LARGEST_FILE >> 20)));
+    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let message = format!("it is larger than {} MiB", most >> 20);
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
     }
     Ok(bytes)
 }
+
+/// Bytes of the largest recording that is read: cplan itself writes hours at a thousand samples a second in as many. Its values take up to
+/// three times as much memory.
+const LARGEST_RECORDING: u64 = 2 << 30;
 
 /// Bytes from one place whose line and column are known to the next.
 const MILE: usize = 4096;
@@ -94,8 +103,26 @@ const MILE: usize = 4096;
 /// As [`read_bounded`].
 pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Diagnostic> {
     read_bounded(path).map_err(|error| {
-        Diagnostic::new(path.display().to_string(), format!("cannot be read: {error}"))
-            .help("check the path and the file's permissions")
+        unreadable(path, &error, "it is larger than what it should be: look whether it is the right file")
+    })
+}
+
+/// The same of a recording, which may be larger.
+///
+/// # Errors
+/// I/O, and a recording larger than [`LARGEST_RECORDING`].
+pub(super) fn read_recorded(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+    let help = "record fewer samples (cplan's --step SECONDS sets the time between them), or cut the recording into parts and verify \
+                each with --anywhere";
+    read_at_most(path, LARGEST_RECORDING).map_err(|error| unreadable(path, &error, help))
+}
+
+fn unreadable(path: &Path, error: &io::Error, too_large: &str) -> Diagnostic {
+    let is_too_large = error.kind() == io::ErrorKind::FileTooLarge;
+    Diagnostic::new(path.display().to_string(), format!("cannot be read: {error}")).help(if is_too_large {
+        too_large
+    } else {
+        "check the path and the file's permissions"
     })
 }
 
@@ -128,7 +155,18 @@ impl Source {
     /// # Errors
     /// A file that cannot be read, is larger than 256 MiB, or is no UTF-8.
     pub fn read(path: &Path) -> Result<Self, InputError> {
-        let bytes = read_bytes(path)?;
+        Self::decoded(path, read_bytes(path)?)
+    }
+
+    /// Reads a recording as UTF-8.
+    ///
+    /// # Errors
+    /// As [`Source::read`], but up to 2 GiB.
+    pub(super) fn read_recording(path: &Path) -> Result<Self, InputError> {
+        Self::decoded(path, read_recorded(path)?)
+    }
+
+    fn decoded(path: &Path, bytes: Vec<u8>) -> Result<Self, InputError> {
         let text = String::from_utf8(bytes).map_err(|error| {
             Diagnostic::new(
                 path.display().to_string(),

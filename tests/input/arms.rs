@@ -313,11 +313,36 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
         ("t.dae", spoilt("0 1 0 0 -1", "0 1 0 0"), "make no positions"),
         ("t.dae", spoilt("url=\"#g\"", "url=\"#none\""), "a geometry that the file does not have"),
         ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#inner\"/>"), "hold themselves"),
-        ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", ""), "no mesh"),
+        ("t.dae", "<COLLADA/>".to_owned(), "no mesh"),
         ("t.3ds", String::new(), "neither STL, Collada (.dae) nor OBJ"),
     ] {
         let error = load(mesh, &text).unwrap_err().to_string();
         assert!(error.contains(message) && error.contains("cure: "), "{message}: {error}");
+    }
+}
+
+/// What exporters leave out, and what they put first: without a scene that shows anything geometries are where they are, in centimetres.
+#[test]
+fn collada_without_a_scene_and_with_a_comment_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
+    fs::write(&world, "").unwrap();
+    fs::write(&urdf, urdf_with("<geometry><mesh filename=\"t.dae\"/></geometry>")).unwrap();
+    let area = |text: String| {
+        fs::write(folder.path().join("t.dae"), text).unwrap();
+        load_scene(&urdf, &world).unwrap_or_else(|e| panic!("{e}")).scene.arm().links[0].parts[0].shape.area()
+    };
+    let whole = area(COLLADA.to_owned());
+    assert!((whole - 1.0).abs() < 1e-12, "{whole}");
+    let comment = format!("<!-- made by -->\n<!-- a program -->\n{COLLADA}");
+    assert_eq!(area(comment), whole);
+    for nothing in [
+        COLLADA.replace("<instance_node url=\"#inner\"/>", ""),
+        COLLADA
+            .replace("<scene><instance_visual_scene url=\"#s\"/></scene>", "")
+            .replace("visual_scene", "hidden_scene"),
+    ] {
+        assert!((area(nothing) - 1e-4).abs() < 1e-16);
     }
 }
 

@@ -152,6 +152,24 @@ fn a_picture_is_its_dark_squares() {
     assert!((random::times(8)..random::times(76)).contains(&free), "{free}");
 }
 
+/// Map savers write 205 for what nobody has seen, and a threshold beside it by which it would be free; and keys of their own.
+#[test]
+fn the_shade_of_unseen_cells_is_solid_whatever_free_thresh() {
+    let place = Place::new("unseen");
+    let yaml = YAML.replace("0.196", "0.25").replace("0.4", "10").replace("[-1.2, -1, 0.3]", "[-5, -5, 0]");
+    let motion = straight([0.0, 0.5], [0.5, 1.0]);
+    for (shade, most, negate, is_solid) in
+        [(205, 255, 0, true), (206, 255, 0, false), (52_685, 65_535, 0, true), (50, 255, 1, true), (49, 255, 1, false)]
+    {
+        let negate = format!("negate: {negate}\nmap_type: occupancy");
+        place.write("map.yaml", yaml.replace("negate: 0", &negate));
+        place.write("map.pgm", format!("P2 1 1 {most} {shade}"));
+        let free =
+            |unknown| place.is_free(&format!("[[obstacle]]\nimage = \"map.yaml\"\nunknown = \"{unknown}\"\n"), &motion);
+        assert_eq!([free("solid"), free("free")], [!is_solid, true], "{shade} of {most}");
+    }
+}
+
 /// Boxes among pictures: parts are rectangles of solid squares.
 #[test]
 fn a_part_of_a_picture_is_a_rectangle_of_solid_squares() {
@@ -443,7 +461,7 @@ fn a_mesh_is_its_hull() {
         ("fore.obj", b"v 1 2 3\nf 1 -2", "not there before it"),
         ("fore.obj", b"v 1 2 3\n", "no corners"),
         ("fore.dae", b"<html/>", "no Collada"),
-        ("fore.dae", b"<COLLADA/>", "no visual scene"),
+        ("fore.dae", b"<COLLADA/>", "no mesh"),
         ("fore.dae", b"<COLLADA><asset><unit meter=\"0\"/></asset></COLLADA>", "no length"),
         (
             "fore.dae",
@@ -488,7 +506,7 @@ fn pictures_that_are_none_are_refused() {
         ("negate: 0\n", "", "negate"),
         ("negate: 0", "negate: 0\nmode: raw", "trinary and scale"),
         ("negate: 0", "negate: 0\nnegate: 0", "duplicate mapping key: negate"),
-        ("negate: 0", "colour: 0", "colour"),
+        ("negate: 0", "colour: 0", "negate"),
     ] {
         place.write("map.yaml", YAML.replace(from, to));
         assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));

@@ -155,7 +155,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     };
     layers.check(&found)?;
     let taken = layers.chosen(found, &mut notes);
-    obstacles::within_reach(&taken).map_err(|diagnostic| refused(args, diagnostic))?;
+    obstacles::within_reach(&taken, placement.shift).map_err(|diagnostic| refused(args, diagnostic))?;
     advice::note(&taken, &mut notes);
     let known: HashSet<Vec<String>> = taken.iter().map(|taken| taken.shape.called()).collect();
     let is_told = |names: &[String]| layers.asks_for(names) || known.contains(names);

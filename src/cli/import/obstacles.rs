@@ -125,16 +125,16 @@ fn is_sound(outer: &[[f64; 2]], holes: &[Ring]) -> bool {
     Polygon::new(points(outer), holes.iter().map(|hole| points(hole)).collect()).is_ok()
 }
 
-/// Refuses what lies where no arm can be.
-pub(super) fn within_reach(taken: &[Taken]) -> Result<(), Diagnostic> {
+/// Refuses what lies where no arm can be; the drawing has been moved by `shift`.
+pub(super) fn within_reach(taken: &[Taken], shift: [f64; 2]) -> Result<(), Diagnostic> {
     taken.iter().try_for_each(|Taken { shape, .. }| {
         let greatest = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(f64::abs).fold(0.0, f64::max);
         let farthest = greatest(&mut coordinates(shape).flatten());
         let highest = greatest(&mut shape.height.into_iter().flatten());
         let (what, value, help) = if farthest > LARGEST {
-            ("a coordinate", farthest, "bring the drawing to the arm by --move, or say its --unit")
+            ("a coordinate", farthest, far_off(taken, shift))
         } else {
-            ("a height", highest, "say where it is by --height, or the drawing's --unit")
+            ("a height", highest, "say where it is by --height, or the drawing's --unit".into())
         };
         if value <= LARGEST {
             return Ok(());
@@ -143,6 +143,24 @@ pub(super) fn within_reach(taken: &[Taken]) -> Result<(), Diagnostic> {
         let position = shape.line.map(|line| Position { line, column: 1 });
         Err(Diagnostic { position, ..Diagnostic::new("", message).help(help) })
     })
+}
+
+/// What to do about a drawing that lies far off: the move that brings its middle to the arm, in whole metres, if it is not too large
+/// altogether.
+fn far_off(taken: &[Taken], shift: [f64; 2]) -> String {
+    let points: Vec<[f64; 2]> = taken.iter().flat_map(|taken| coordinates(&taken.shape)).collect();
+    let ends = |k: usize| {
+        let values = || points.iter().map(|p| p[k]);
+        [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
+    };
+    let [x, y] = [0, 1].map(|k| {
+        let [low, high] = ends(k);
+        (shift[k] - low.midpoint(high)).round()
+    });
+    match [0, 1].iter().all(|&k| (ends(k)[1] - ends(k)[0]) / 2.0 + 1.0 <= LARGEST) {
+        true => format!("bring the drawing to the arm by --move {x},{y} or so, or say its --unit"),
+        false => "say the drawing's --unit, or --scale it: it is larger than that altogether".into(),
+    }
 }
 
 /// Points of the world that are as far out as the shape.

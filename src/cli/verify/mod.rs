@@ -26,7 +26,10 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let mut loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
     let about = Digests::of(&args.files.urdf, &args.files.world)?;
     loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
-    let mut recorded = input::load_recording(&args.trajectory, &loaded)?;
+    let mut recorded = match &args.topic {
+        None => input::load_recording(&args.trajectory, &loaded)?,
+        Some(topic) => input::load_topic(&args.trajectory, topic, &loaded)?,
+    };
     if args.torque || recorded.has_torques {
         loaded = loaded.keeping_efforts()?;
     }
@@ -47,6 +50,11 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     for sink in &sinks {
         match sink {
             Sink::Picture(format, path) => draw(scene, recording, &findings, *format, path)?,
+            Sink::Certificate(path) if !recorded.held.is_empty() => {
+                let joint = &recorded.held[0].joint.name;
+                let why = format!("joint \"{joint}\" moves, and certificates are about the arm's two joints");
+                sinks::say(&format!("warning: {} is not written: {why}", path.display()));
+            }
             Sink::Certificate(path) if matches!(findings.verdict, Verdict::Free) => {
                 let (start, goal) = if args.anywhere { (None, None) } else { loaded.ends(&overrides(args))? };
                 let (steps, asked) = (recorded.steps.as_deref(), (&overrides(args), &about));

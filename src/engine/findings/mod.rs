@@ -10,9 +10,11 @@ use motion::Broken;
 pub use motion::{EncounterFinding, LimitFinding, MomentFinding, MotionFindings, Verdict, WayFinding};
 pub use task::{StepFinding, TurnContactFinding, TurnFinding};
 
-use crate::check::{ENDS_WITHIN, check_collision, claims_kept, ends_kept, limits_kept, replay, torques_kept};
+use crate::check::{
+    ENDS_WITHIN, check_collision, check_collision_with, claims_kept, ends_kept, limits_kept, replay, torques_kept,
+};
 use crate::input::{InputError, LoadedRecording, LoadedScene, LoadedTask, Overrides};
-use crate::model::{Claims, RecordedStep, Scene};
+use crate::model::{Claims, HeldMotion, RecordedStep, Scene};
 use crate::space::Recording;
 
 /// Judges what was recorded: a motion from the world's start to its goal, or those of `overrides`; `anywhere` it may begin and end
@@ -26,7 +28,7 @@ pub fn verify(
     overrides: &Overrides,
     anywhere: bool,
 ) -> Result<MotionFindings, InputError> {
-    let LoadedRecording { recording, steps, claims, has_torques: _, notes: read } = recorded;
+    let LoadedRecording { recording, held, steps, claims, has_torques: _, notes: read } = recorded;
     let nothing = Claims::default();
     let claims = claims.as_ref().unwrap_or(&nothing);
     let turns = turns(&loaded.scene, recording);
@@ -34,7 +36,7 @@ pub fn verify(
     let notes = loaded.world.notes.iter().chain(read).cloned().chain(turns).chain(assumed).collect();
     let findings = match steps {
         Some(steps) => judge_task(loaded, recording, steps, claims, overrides, notes)?,
-        None => judge_motion(loaded, recording, claims, overrides, anywhere, notes)?,
+        None => judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?,
     };
     Ok(findings.leaving(claims))
 }
@@ -42,7 +44,7 @@ pub fn verify(
 /// Judges the recording as one motion.
 fn judge_motion(
     loaded: &LoadedScene,
-    recording: &Recording,
+    (recording, held): (&Recording, &[HeldMotion]),
     claims: &Claims,
     overrides: &Overrides,
     anywhere: bool,
@@ -76,8 +78,14 @@ fn judge_motion(
             .then_some("obstacles move, and the file has no times: it cannot be told whether the motion meets them"),
         (scene.limiting_dynamics().is_some() && recording.velocities().is_none())
             .then_some("motions have to keep within efforts, and the file has no velocities: torques cannot be told"),
+        (scene.limiting_dynamics().is_some() && !held.is_empty())
+            .then_some("motions have to keep within efforts, and joints of the tool move: torques cannot be told"),
     ];
-    let collision_check = check_collision(scene, recording, scene.workspace().clearance);
+    let clearance = scene.workspace().clearance;
+    let collision_check = match held {
+        [] => check_collision(scene, recording, clearance),
+        held => check_collision_with(scene, recording, held, clearance),
+    };
     let mut broken = limits_kept(&scene.arm().joints, recording);
     broken.extend(torques_kept(scene, recording));
     let broken = Broken::new(&scene.arm().joints, &broken, &loaded.robot.assumed);

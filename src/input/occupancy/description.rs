@@ -2,15 +2,16 @@
 
 use super::Occupancy;
 use super::picture::Shade;
-use crate::input::error::Diagnostic;
+use crate::input::error::{Diagnostic, quoted};
 use crate::input::source::Source;
 use crate::input::world::LARGEST;
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use serde_saphyr::Spanned;
+use std::collections::BTreeMap;
 
 /// As the file has it.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct File {
     image: Spanned<String>,
     resolution: Spanned<f64>,
@@ -20,6 +21,13 @@ struct File {
     free_thresh: Spanned<f64>,
     mode: Option<Spanned<String>>,
 }
+
+/// The keys that are read; other programs add their own.
+const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
+
+/// Darkness that ROS's map savers give to cells that nobody has seen, of 255: the shade 205. They write it whatever
+/// `free_thresh` is, and write `free_thresh: 0.25` beside it, by which it would be free.
+const UNSEEN: f64 = 50.0;
 
 /// ROS writes 0 or 1, people also false or true.
 #[derive(Deserialize)]
@@ -38,6 +46,8 @@ pub(super) struct Description {
     negate: bool,
     occupied: f64,
     free: f64,
+    /// Keys that are not read.
+    unused: Vec<String>,
 }
 
 impl Description {
@@ -47,6 +57,8 @@ impl Description {
                 .yaml_diagnostic(&error)
                 .help("a map of ROS's map server needs image, resolution, origin, negate, occupied_thresh, free_thresh")
         })?;
+        let keys: BTreeMap<String, IgnoredAny> = serde_saphyr::from_str(&source.text).unwrap_or_default();
+        let unused = keys.into_keys().filter(|key| !KEYS.contains(&key.as_str())).collect();
         let resolution = file.resolution.value;
         if !(resolution > 0.0 && resolution <= LARGEST) {
             let message = format!("resolution: {resolution} is no length of a pixel's side");
@@ -88,7 +100,7 @@ impl Description {
                     mode,
                     "mode: raw has costs for values, which do not say what is occupied",
                 )
-                .help("use trinary or scale, whose shades do"));
+                .help("save the map with mode trinary or scale, whose shades do (map_saver_cli --mode trinary)"));
             }
             Some(mode) if mode.value != "trinary" && mode.value != "scale" => {
                 return Err(diagnostic(source, mode, format!("mode: \"{}\" is unknown", mode.value))
@@ -96,21 +108,44 @@ impl Description {
             }
             _ => {}
         }
-        Ok(Self { image: file.image, resolution, origin, negate, occupied, free })
+        Ok(Self { image: file.image, resolution, origin, negate, occupied, free, unused })
+    }
+
+    /// Darkness of a shade, from 0 to that of white.
+    fn dark(&self, Shade { value, white }: Shade) -> f64 {
+        if self.negate { value } else { white - value }
+    }
+
+    /// Whether a shade is the one of cells that nobody has seen. Whole numbers, without rounding.
+    fn is_unseen(&self, shade: Shade) -> bool {
+        self.dark(shade) * 255.0 == UNSEEN * shade.white
     }
 
     /// What a shade, from 0 for black to that of white, says of its cell; none is of a pixel that one can see through. Of whole numbers the
     /// quotient that is held against the thresholds is rounded as they are, so that it is no less than one that it equals.
     pub fn judge(&self, shade: Option<Shade>) -> Occupancy {
-        let dark = |Shade { value, white }| {
-            let dark = if self.negate { value } else { white - value };
-            dark / white
-        };
-        match shade.map(dark) {
-            Some(p) if p > self.occupied => Occupancy::Occupied,
-            Some(p) if p < self.free => Occupancy::Free,
+        match shade.map(|shade| (self.dark(shade) / shade.white, self.is_unseen(shade))) {
+            Some((p, _)) if p > self.occupied => Occupancy::Occupied,
+            Some((p, false)) if p < self.free => Occupancy::Free,
             _ => Occupancy::Unknown,
         }
+    }
+
+    /// What to say of a map, which has unknown cells or not.
+    pub fn notes(&self, has_unknown: bool) -> Vec<String> {
+        let mut notes = Vec::new();
+        if !self.unused.is_empty() {
+            notes.push(format!("keys that are not used: {}", quoted(&self.unused)));
+        }
+        if has_unknown && self.free > UNSEEN / 255.0 {
+            notes.push(format!(
+                "shade {} counts as unknown, as ROS's map savers mean it, though free_thresh {} would make it free; to take what \
+                 is unknown for free, write unknown = \"free\" in the world file",
+                if self.negate { 50 } else { 205 },
+                self.free
+            ));
+        }
+        notes
     }
 }
 

@@ -48,6 +48,8 @@ pub struct OccupancyMap {
     pub pose: Pose,
     /// Row by row as in the picture: from the top, from the left.
     pub cells: Vec<Occupancy>,
+    /// What the user should know of how the description was read.
+    pub notes: Vec<String>,
 }
 
 impl OccupancyMap {
@@ -55,7 +57,8 @@ impl OccupancyMap {
     ///
     /// With `p = 1 - shade` (`p = shade` with `negate`), where black is 0 and white is 1, a cell is occupied if `p >
     /// occupied_thresh`, free if `p < free_thresh`, and else unknown, in the modes `trinary` and `scale`, which for an obstacle
-    /// are the same. The mode `raw` is refused: its values are costs. Colours are averaged; what is not opaque is unknown.
+    /// are the same. Except the shade that ROS's map savers give to cells that nobody has seen, 205 of 255 (50 with `negate`): it is
+    /// unknown also where `free_thresh` is above its `p` of 0.196. The mode `raw` is refused: its values are costs. Colours are averaged; what is not opaque is unknown.
     ///
     /// # Errors
     /// For a description that is not as above, a picture that is broken, of another format or of more than [`MOST_CELLS`], and
@@ -89,7 +92,8 @@ impl OccupancyMap {
                 .into());
         }
         let pose = Isometry2::new(Vector2::new(x, y), yaw);
-        Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells })
+        let notes = description.notes(picture.cells.contains(&Occupancy::Unknown));
+        Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells, notes })
     }
 
     /// What the map says of a place; none beyond the picture. A cell has its lower and left side, not the others.

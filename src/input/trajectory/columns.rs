@@ -20,7 +20,7 @@ pub(super) enum Quantity {
 }
 
 /// Names of columns that hold times, in lower case.
-const TIMES: [&str; 4] = ["time", "t", "time_from_start", "time_s"];
+const TIMES: [&str; 5] = ["time", "t", "time_from_start", "time_s", "__time"];
 
 /// Words that go with a joint's name.
 const WORDS: [(Quantity, &[&str]); 4] = [
@@ -73,6 +73,7 @@ mod tests {
             ("Time", Meaning::Time),
             ("t", Meaning::Time),
             ("time_from_start", Meaning::Time),
+            ("__time", Meaning::Time),
         ] {
             assert_eq!(meanings(column, &joints), [expected], "{column}");
         }

@@ -114,7 +114,7 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
         }
         if let (Some(time), Some(position)) = (inner.time, inner.position) {
             let names = named(source, joints, "joints")?;
-            let mut samples = Samples { time: Some(time), what: "trajectory.position", ..Samples::default() };
+            let mut samples = Samples { time: Some(time), what: "trajectory.position".into(), ..Samples::default() };
             samples.joints = series(source, names, &position, "trajectory.position")?;
             samples.add(source, inner.velocity, "trajectory.velocity", |joint| &mut joint.velocity)?;
             samples.add(source, inner.acceleration, "trajectory.acceleration", |joint| &mut joint.acceleration)?;
@@ -126,7 +126,7 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
     if let Some(path) = path {
         let names = named(source, joints, "joints")?;
         let joints = series(source, names, &path, "path")?;
-        return Ok(Samples { joints, what: "path", ..Samples::default() });
+        return Ok(Samples { joints, what: "path".into(), ..Samples::default() });
     }
     Err(match status {
         Some(status) => source
@@ -200,7 +200,7 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
             .diagnostic(format!("{found} of {count} points have {what}"))
             .help(format!("give all points their {what}, or none")));
     }
-    let mut samples = Samples { what: "points", joined: Some(Interpolation::Quintic), ..Samples::default() };
+    let mut samples = Samples { what: "points".into(), joined: Some(Interpolation::Quintic), ..Samples::default() };
     // The controller goes to the first point from wherever the arm is.
     if let Some(first) = time.first().filter(|first| **first > 0.0) {
         samples

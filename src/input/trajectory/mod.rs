@@ -1,30 +1,27 @@
 //! Joint paths and trajectories from files: cplan's own JSON and CSV, anyone's CSV, and ROS 2 messages in YAML.
 //!
 //! Names decide which column is which joint, not their order. Every reader makes [`Samples`]; what holds for all of
-//! them (the arm's joints are there, the held joints stand still, times increase) is checked once, here.
+//! them (the arm's joints are there, what the held joints do can be judged, times increase) is checked once, here.
 
-#[cfg(feature = "mcap")]
-mod cdr;
 mod claims;
 mod columns;
 mod csv;
 mod document;
 #[cfg(feature = "mcap")]
 mod mcap;
+mod other_joints;
 mod records;
 mod steps;
+mod units;
 
 use super::LoadedScene;
 use super::error::{Diagnostic, InputError, quoted};
 use super::source::Source;
-use crate::model::{Claims, RecordedStep};
+use crate::model::{Claims, HeldJoint, HeldMotion, JointType, RecordedStep};
 use crate::space::{Configuration, Interpolation, Recording, RecordingError};
+use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
-
-/// By how much a held joint's recorded value may differ from the value that it is held at, radians or metres: more than
-/// a controller's jitter or six printed digits, less than what could matter to a collision.
-const STILL: f64 = 1e-4;
 
 /// What to say of accelerations that do not join samples.
 const STATED: &str = "accelerations in the file are held to the limits, but do not change the motion: positions and velocities \
@@ -35,6 +32,8 @@ const STATED: &str = "accelerations in the file are held to the limits, but do n
 pub struct LoadedRecording {
     /// The arm's two joints, base to tip.
     pub recording: Recording,
+    /// What other joints do that the world holds still, if they move.
+    pub held: Vec<HeldMotion>,
     /// The steps of a task: of a result of cplan's for a world that has steps.
     pub steps: Option<Vec<RecordedStep>>,
     /// What a result of cplan's says besides the samples.
@@ -59,13 +58,15 @@ struct Series {
 struct Samples {
     time: Option<Vec<f64>>,
     joints: Vec<Series>,
+    /// What the file holds of joints at other times than the samples', with positions alone.
+    aside: Vec<Series>,
     /// How samples are joined that have accelerations, if these do it; see [`Interpolation`].
     joined: Option<Interpolation>,
     /// Samples after which nothing is joined: the arm stands until the next.
     rests: Vec<usize>,
     has_torques: bool,
     /// How the file calls sample `k`: this, with `k` in brackets.
-    what: &'static str,
+    what: Cow<'static, str>,
     /// Where in the text each sample is, if the reader knows.
     places: Vec<Range<usize>>,
     notes: Vec<String>,
@@ -76,14 +77,28 @@ struct Samples {
 /// - JSON: a result of cplan's own (its trajectory, else its path), with the steps if it and the world have any; or a ROS 2
 ///   message;
 /// - CSV: a header of names, then a sample a line. A column is a joint's position if its name is the joint's, or the
-///   joint's with `position` before or after it; velocities likewise; `time`, `t` or `time_from_start` are seconds;
-/// - MCAP (a feature): what ROS 2 recorded on `/joint_trajectory`, else on `/joint_states`;
+///   joint's with `position` before or after it; velocities likewise; `time`, `t`, `time_from_start` or `__time` are seconds. A unit may
+///   follow in brackets: `elbow [deg]`;
+/// - MCAP (a feature): what ROS 2 recorded on the one topic of type `trajectory_msgs/msg/JointTrajectory` that has both of the
+///   arm's joints, else on the one of type `sensor_msgs/msg/JointState`; see [`load_topic`] for recordings with several;
 /// - YAML: `trajectory_msgs/msg/JointTrajectory`, also as a member `joint_trajectory` or `trajectory`.
 ///
 /// # Errors
-/// Files that cannot be read, are no such format, have steps that are none, lack a joint, move a joint that the arm holds still, or whose samples
+/// Files that cannot be read, are no such format, have steps that are none, lack a joint, move a held joint otherwise than along the plane's normal or about it, or whose samples
 /// are no motion; with the place in the file and what to do about it.
 pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
+    load(path, None, scene)
+}
+
+/// Reads what was recorded on one topic of an MCAP file.
+///
+/// # Errors
+/// As for [`load_recording`], and for files of other formats, which have no topics.
+pub fn load_topic(path: &Path, topic: &str, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
+    load(path, Some(topic), scene)
+}
+
+fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml" | "mcap")) {
         return Err(Diagnostic::new(path.display().to_string(), "cannot tell the format of this file")
@@ -91,9 +106,14 @@ pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecordin
             .into());
     }
     if extension.as_deref() == Some("mcap") {
-        return recorded(path, &Names::of(scene));
+        return recorded(path, topic, &Names::of(scene));
     }
-    read_recording(&Source::read(path)?, scene)
+    if topic.is_some() {
+        let diagnostic =
+            Diagnostic::new(path.display().to_string(), "has no topics: only recordings of ROS 2 (.mcap) have");
+        return Err(diagnostic.help("leave --topic out").into());
+    }
+    read_recording(&Source::read_recording(path)?, scene)
 }
 
 /// The same from a text: its name's extension tells the format, JSON where it is none of the others.
@@ -117,15 +137,15 @@ pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedReco
 
 /// A recording of topics.
 #[cfg(feature = "mcap")]
-fn recorded(path: &Path, names: &Names) -> Result<LoadedRecording, InputError> {
-    let bytes = super::source::read_bytes(path)?;
+fn recorded(path: &Path, topic: Option<&str>, names: &Names) -> Result<LoadedRecording, InputError> {
+    let bytes = super::source::read_recorded(path)?;
     let source = Source::in_memory(path, "");
-    Ok(names.recording(&source, mcap::read(&source, &bytes)?)?)
+    Ok(names.recording(&source, mcap::read(&source, &bytes, topic, names)?)?)
 }
 
 /// A recording of topics.
 #[cfg(not(feature = "mcap"))]
-fn recorded(path: &Path, _: &Names) -> Result<LoadedRecording, InputError> {
+fn recorded(path: &Path, _: Option<&str>, _: &Names) -> Result<LoadedRecording, InputError> {
     let diagnostic = Diagnostic::new(path.display().to_string(), "this program was built without MCAP");
     Err(diagnostic.help("verify a .json, .csv or .yaml, or build with --features mcap").into())
 }
@@ -133,7 +153,11 @@ fn recorded(path: &Path, _: &Names) -> Result<LoadedRecording, InputError> {
 /// The joints that a file can speak of.
 struct Names<'a> {
     arm: [&'a str; 2],
-    held: Vec<(&'a str, f64)>,
+    /// Whether each of the arm's joints turns, or slides.
+    turns: [bool; 2],
+    held: &'a [HeldJoint],
+    /// Why no motion of the held joints can be judged, if so.
+    rigid: Option<&'static str>,
     /// Whether the world has steps, in which a wrist turns and a quill goes up and down.
     has_steps: bool,
 }
@@ -142,13 +166,15 @@ impl<'a> Names<'a> {
     fn of(scene: &'a LoadedScene) -> Self {
         Self {
             arm: scene.scene.arm().joints.each_ref().map(|j| j.name.as_str()),
-            held: scene.robot.held.iter().map(|(name, value)| (name.as_str(), *value)).collect(),
+            turns: scene.scene.arm().joints.each_ref().map(|j| matches!(j.joint_type, JointType::Revolute { .. })),
+            held: &scene.robot.held_joints,
+            rigid: other_joints::rigid(&scene.scene),
             has_steps: scene.has_steps(),
         }
     }
 
     fn all(&self) -> impl Iterator<Item = &str> {
-        self.arm.iter().copied().chain(self.held.iter().map(|(name, _)| *name))
+        self.arm.iter().copied().chain(self.held.iter().map(|joint| joint.name.as_str()))
     }
 
     /// The arm's two joints of what was read.
@@ -165,9 +191,6 @@ impl<'a> Names<'a> {
                     return Err(source.diagnostic(message).help(help));
                 }
             }
-        }
-        for other in &samples.joints {
-            notes.push(self.stands_still(source, &samples, other)?);
         }
         let Ok([one, two]) = <[Series; 2]>::try_from(chosen) else {
             return Err(source.diagnostic("two joints are needed").help("name the positions of both"));
@@ -193,33 +216,10 @@ impl<'a> Names<'a> {
             Ok(recording.resting_after(&samples.rests))
         });
         let recording = recording.map_err(|d| misplaced(source, &samples, &d))?;
+        let held = self.moved(source, &samples, &recording, &mut notes)?;
         notes.push(rule(&recording).into());
         notes.extend((recording.accelerations().is_some() && samples.joined.is_none()).then(|| STATED.into()));
-        Ok(LoadedRecording { recording, steps: None, claims: None, has_torques: samples.has_torques, notes })
-    }
-
-    /// Checks a joint that is none of the arm's two.
-    fn stands_still(&self, source: &Source, samples: &Samples, other: &Series) -> Result<String, Diagnostic> {
-        let name = &other.name;
-        let Some((_, held)) = self.held.iter().find(|(held, _)| held == name) else {
-            return Ok(format!("joint \"{name}\" is ignored: the arm does not depend on it"));
-        };
-        let moves = |v: &f64| v.is_nan() || (v - held).abs() > STILL;
-        match other.position.iter().position(moves) {
-            None => Ok(format!("joint \"{name}\" stands still at {held}, as it should: ignored")),
-            Some(_) if self.has_steps => Ok(format!(
-                "joint \"{name}\" moves in the steps: judged as if it stayed at {held}; its own motion is not judged"
-            )),
-            Some(sample) => {
-                let value = other.position[sample];
-                let message = format!("joint \"{name}\" is at {value}, but the workspace holds it at {held}");
-                let help = format!(
-                    "a joint that stands still elsewhere: [robot] fixed = {{ {name} = {value} }} in the \
-                                    world file; one that moves cannot be checked with the arm's two"
-                );
-                Err(samples.diagnostic(source, sample, &message).help(help))
-            }
-        }
+        Ok(LoadedRecording { recording, held, steps: None, claims: None, has_torques: samples.has_torques, notes })
     }
 }
 

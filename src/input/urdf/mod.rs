@@ -14,6 +14,7 @@ mod attributes;
 mod bodies;
 mod chain;
 mod document;
+mod effects;
 mod foreign;
 mod held;
 mod ignored;

@@ -121,6 +121,7 @@ impl<'a> Reduction<'a> {
         report.notes.extend(self.chain.notes.iter().cloned());
         let held = |&j: &usize| (self.document.robot.joints[j].name.clone(), self.chain.values[j]);
         report.held = self.chain.held.iter().map(held).collect();
+        report.held_joints = self.held_joints(&plane);
         let limits = Limits { document: self.document, world: self.world };
         for (j, bounds) in self.chain.joints.into_iter().zip(&bounds) {
             if let Ok(Range::Taken(_, note)) = limits.range(j) {

@@ -13,7 +13,7 @@ use toml::Spanned;
 use urdf_rs::JointType;
 
 /// How far an axis may be from the plane's normal: the cosine falls short of 1 by no more than rounding.
-const PARALLEL: f64 = 1e-9;
+pub(super) const PARALLEL: f64 = 1e-9;
 
 /// How far the tip may be off the wrist's axis, metres: rounding.
 const ON_AXIS: f64 = 1e-6;

@@ -368,3 +368,28 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
     assert_eq!((&error["file"], &error["line"]), (&"nan.dxf".into(), &20.into()));
     place.run(&["import", "broken.svg"], "--picture broken.svg").refused(1, &["the output broken.svg is the input"]);
 }
+
+/// A map in projected coordinates, as surveys and GIS have them: the hint is followed, and the world can be planned in.
+#[test]
+fn projected_coordinates_are_moved_as_the_hint_says() {
+    let place = Place::new();
+    let square = "[[[500123.5, 5400456.25], [500124.5, 5400456.25], [500124.5, 5400457.25], [500123.5, 5400456.25]]]";
+    place.write("site.geojson", &format!(r#"{{"type": "Polygon", "coordinates": {square}}}"#));
+    for before in ["", " --turn 30deg", " --move 3,4"] {
+        let refused = place.run(&["import", "site.geojson"], &format!("--json{before}")).json();
+        let cure = refused["cure"].as_str().unwrap();
+        let hint = cure.split("--move ").nth(1).unwrap().split(' ').next().unwrap().to_owned();
+        let turn = before.trim().strip_prefix("--turn").map_or(String::new(), |turn| format!(" --turn{turn}"));
+        let options = format!("--output w.toml --move {hint}{turn}");
+        let done = place.run(&["import", "site.geojson"], &options);
+        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+        let made = world(&place, "w.toml");
+        let corner = made["obstacle"][0]["polygon"][0].as_array().unwrap();
+        assert!(corner.iter().all(|x| x.as_float().unwrap().abs() < 2.0), "{corner:?}");
+        std::fs::remove_file(place.path("w.toml")).unwrap();
+    }
+    // What is too large altogether cannot be moved near.
+    place.write("site.geojson", r#"{"type": "LineString", "coordinates": [[0, 0], [5e6, 0]]}"#);
+    let cure = place.run(&["import", "site.geojson"], "--json").json()["cure"].to_string();
+    assert!(cure.contains("--unit") && !cure.contains("--move"), "{cure}");
+}

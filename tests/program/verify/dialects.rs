@@ -56,12 +56,61 @@ fn what_is_taken_is_said_and_what_is_not_clear_is_refused() {
     for (table, part) in [
         (PLAIN.replace("2,-0.7", "1,-0.7"), "line 4"),
         (PLAIN.replace(',', ";").replace('.', ","), "no number"),
-        (PLAIN.replacen(',', ";", 1), "line 2"),
+        (PLAIN.replacen(',', ";", 1), "time;shoulder"),
     ] {
         let (code, json) = verify(&table);
         assert_eq!(code, 1, "{table}: {json}");
         let error: serde_json::Value = serde_json::from_str(&json).unwrap();
         let whole = format!("line {}: {} {}", error["line"], error["message"], error["cure"]);
         assert!(whole.contains(part) && error["cure"].is_string(), "{part:?} is not in {whole}");
+    }
+}
+
+/// Headers as PlotJuggler and loggers write them; dates keep their nanoseconds.
+#[test]
+fn names_of_topics_and_units_make_no_difference() {
+    let plain = findings(PLAIN);
+    let header = |header: &str| PLAIN.replacen("time,shoulder,elbow", header, 1);
+    let dated = |header: &str| {
+        let rows = [
+            ("1764225000.123456789", "-0.9,0.4"),
+            ("1764225001.123456789", "-0.8,0.4"),
+            ("1764225002.123456789", "-0.7,0.5"),
+        ];
+        rows.iter().fold(format!("{header}\n"), |table, (time, row)| format!("{table}{time},{row}\n"))
+    };
+    for table in [
+        header("__time,/joint_states/shoulder/position,/joint_states/elbow/position"),
+        header("time [s],shoulder [rad],elbow(rad)"),
+        header("time [s],/joint_states/shoulder/position [rad],elbow_position [rad]"),
+        "time [ms],shoulder,elbow\n0,-0.9,0.4\n1000,-0.8,0.4\n2000,-0.7,0.5\n".into(),
+        // Two sources in one table, which log at different moments.
+        "__time,/a/shoulder/position,/a/elbow/position,/b/load\n0,-0.9,0.4,\n0.5,,,7\n1,-0.8,0.4,\n2,-0.7,0.5,\n2,,,7\n".into(),
+    ] {
+        assert_eq!(findings(&table), plain, "{table}");
+    }
+    let mut late = findings(&dated("__time,shoulder,elbow"));
+    late["nearest"]["time"] = plain["nearest"]["time"].clone();
+    assert_eq!((&late["duration"], &late["samples"]), (&plain["duration"], &plain["samples"]), "{late:#}");
+    let degrees = "time,shoulder [deg],elbow [deg]\n0,-51.56620156177409,22.918311805232928\n2,-40.1070456591576,28.64788975654116\n";
+    let (code, json) = verify(degrees);
+    assert!(code == 0 && json.contains("converted to radians, metres and seconds"), "{json}");
+}
+
+#[test]
+fn units_and_columns_that_do_not_fit_are_named() {
+    for (header, part) in [
+        ("time,shoulder [m],elbow", "column \"shoulder [m]\" cannot have the unit \"m\""),
+        ("time,shoulder [turns],elbow", "the unit \"turns\" of column \"shoulder [turns]\" is unknown"),
+        ("time [rad],shoulder,elbow", "cannot have the unit \"rad\""),
+        (
+            "__time,/joint_states/position[0],/tool",
+            "its columns are \"__time\", \"/joint_states/position[0]\", \"/tool\"",
+        ),
+    ] {
+        let (code, json) = verify(&PLAIN.replacen("time,shoulder,elbow", header, 1));
+        let error: serde_json::Value = serde_json::from_str(&json).unwrap();
+        let message = error["message"].as_str().unwrap();
+        assert!(code == 1 && message.contains(part) && error["line"] == 1, "{part:?} is not in {error:#}");
     }
 }

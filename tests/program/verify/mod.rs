@@ -6,6 +6,7 @@ mod command;
 mod controller;
 mod dialects;
 mod files;
+mod held_joints;
 mod limits;
 mod motion;
 mod recordings;

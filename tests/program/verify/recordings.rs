@@ -37,38 +37,76 @@ fn a_recording_is_judged_as_the_message_in_it() {
     }
 }
 
-/// A message of states, with positions alone, of joints named in any order.
-fn state(seconds: i32, values: [f64; 2]) -> Vec<u8> {
-    let mut bytes = vec![0, 1, 0, 0];
-    let put = |bytes: &mut Vec<u8>, size: usize, value: &[u8]| {
-        let content = (bytes.len() - 4).next_multiple_of(size);
-        bytes.resize(4 + content, 0);
-        bytes.extend_from_slice(value);
-    };
-    let word = |bytes: &mut Vec<u8>, value: i32| put(bytes, 4, &value.to_le_bytes());
-    word(&mut bytes, seconds);
-    word(&mut bytes, 500_000_000);
-    word(&mut bytes, 1);
-    bytes.push(0);
-    word(&mut bytes, 2);
-    for name in ["elbow", "shoulder"] {
-        word(&mut bytes, name.len() as i32 + 1);
-        bytes.extend(name.as_bytes());
-        bytes.push(0);
+/// Writes values as CDR has them, for tests.
+struct Message(Vec<u8>);
+
+impl Message {
+    /// A message whose header has this stamp.
+    fn stamped(seconds: i32, nanoseconds: i32) -> Self {
+        Self(vec![0, 1, 0, 0]).word(seconds).word(nanoseconds).word(1).byte(0)
     }
-    word(&mut bytes, 2);
-    values.iter().for_each(|value| put(&mut bytes, 8, &value.to_le_bytes()));
-    word(&mut bytes, 0);
-    word(&mut bytes, 0);
-    bytes
+
+    fn put(mut self, size: usize, value: &[u8]) -> Self {
+        let content = (self.0.len() - 4).next_multiple_of(size);
+        self.0.resize(4 + content, 0);
+        self.0.extend_from_slice(value);
+        self
+    }
+
+    fn byte(self, value: u8) -> Self {
+        self.put(1, &[value])
+    }
+
+    fn word(self, value: i32) -> Self {
+        self.put(4, &value.to_le_bytes())
+    }
+
+    fn names(self, names: &[&str]) -> Self {
+        let name =
+            |message: Self, name: &&str| name.bytes().fold(message.word(name.len() as i32 + 1), Self::byte).byte(0);
+        names.iter().fold(self.word(names.len() as i32), name)
+    }
+
+    fn values(self, values: &[f64]) -> Self {
+        values.iter().fold(self.word(values.len() as i32), |message, value| message.put(8, &value.to_le_bytes()))
+    }
 }
 
+/// A state with positions alone.
+fn state_of(seconds: i32, names: &[&str], values: &[f64]) -> Vec<u8> {
+    Message::stamped(seconds, 500_000_000).names(names).values(values).word(0).word(0).0
+}
+
+/// A state of the planar arm.
+fn state(seconds: i32, values: [f64; 2]) -> Vec<u8> {
+    state_of(seconds, &["elbow", "shoulder"], &values)
+}
+
+/// A motion without a stamp, of points with their seconds from the start.
+fn motion(names: &[&str], points: &[(i32, [f64; 2])]) -> Vec<u8> {
+    let start = Message::stamped(0, 0).names(names).word(points.len() as i32);
+    let point = |message: Message, (seconds, values): &(i32, [f64; 2])| {
+        message.values(values).values(&[0.0; 2]).word(0).word(0).word(*seconds).word(0)
+    };
+    points.iter().fold(start, point).0
+}
+
+const STATES: &str = "sensor_msgs/msg/JointState";
+const MOTIONS: &str = "trajectory_msgs/msg/JointTrajectory";
+
+/// A recording of messages: topic, log time and content, all of them of one type.
 fn recording(messages: &[(&str, u64, Vec<u8>)]) -> Vec<u8> {
+    let typed: Vec<_> = messages.iter().map(|(topic, time, data)| (*topic, STATES, *time, data.clone())).collect();
+    recording_of(&typed)
+}
+
+/// A recording of messages: topic, type, log time and content.
+fn recording_of(messages: &[(&str, &str, u64, Vec<u8>)]) -> Vec<u8> {
     let options = mcap::WriteOptions::new().compression(None);
     let mut writer = options.create(std::io::Cursor::new(Vec::new())).unwrap();
     let none = Default::default();
-    let schema = writer.add_schema("sensor_msgs/msg/JointState", "ros2msg", b"").unwrap();
-    for (topic, time, data) in messages {
+    for (topic, kind, time, data) in messages {
+        let schema = writer.add_schema(kind, "ros2msg", b"").unwrap();
         let channel_id = writer.add_channel(schema, topic, "cdr", &none).unwrap();
         let header = mcap::records::MessageHeader { channel_id, sequence: 0, log_time: *time, publish_time: *time };
         writer.write_to_known_channel(&header, data).unwrap();
@@ -82,21 +120,25 @@ fn states_that_somebody_recorded() {
     let folder = tempfile::tempdir().unwrap();
     let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
     let states = |last: [f64; 2]| {
-        [("/joint_states", 7, state(10, [0.4, -0.9])), ("/rosout", 8, vec![1]), ("/joint_states", 9, state(12, last))]
+        [
+            ("/joint_states", STATES, 7, state(10, [0.4, -0.9])),
+            ("/rosout", "rcl_interfaces/msg/Log", 8, vec![1]),
+            ("/joint_states", STATES, 9, state(12, last)),
+        ]
     };
     let judged = |bytes: &[u8]| {
         std::fs::write(folder.path().join("m.mcap"), bytes).unwrap();
         run(folder.path(), &["verify", &robot, &world, "m.mcap", "--json", "--anywhere"])
     };
-    let (code, json, errors) = judged(&recording(&states([0.5, -0.8])));
+    let (code, json, errors) = judged(&recording_of(&states([0.5, -0.8])));
     assert_eq!(code, 0, "{errors}{json}");
     let found: Value = serde_json::from_str(&json).unwrap();
     assert_eq!((&found["samples"], &found["duration"]), (&json!(2), &json!(2.0)));
     assert!(found["notes"].to_string().contains("topics that are not used: \\\"/rosout\\\""), "{found:#}");
     // Straight to the goal goes through the shelf, faster than the elbow can.
-    assert_eq!(judged(&recording(&states([-0.35, 1.55]))).0, 3);
+    assert_eq!(judged(&recording_of(&states([-0.35, 1.55]))).0, 3);
 
-    let whole = recording(&states([0.5, -0.8]));
+    let whole = recording_of(&states([0.5, -0.8]));
     for (bytes, part) in [
         (whole[..whole.len() / 2].to_vec(), "cure: it is damaged, cut off, or no recording"),
         (b"no recording".to_vec(), "cure: it is damaged, cut off, or no recording"),
@@ -104,10 +146,162 @@ fn states_that_somebody_recorded() {
             recording(&[("/joint_states", 7, state(10, [0.4, -0.9])[..40].to_vec())]),
             "a message on /joint_states at 7 ns",
         ),
-        (recording(&[("/rosout", 7, vec![1])]), "holds no joint values"),
+        (
+            recording_of(&[("/rosout", "rcl_interfaces/msg/Log", 7, vec![1]), ("/camera", "", 7, vec![1])]),
+            "holds no positions of \"shoulder\", \"elbow\"; it holds /camera (no type), /rosout (rcl_interfaces/msg/Log)",
+        ),
     ] {
         let (code, _, errors) = judged(&bytes);
         assert_eq!(code, 1, "{errors}");
         assert!(errors.contains(part) && errors.contains("cure:"), "{part}: {errors}");
     }
+}
+
+/// Judges a recording of the planar arm, wherever it begins and ends: exit code, JSON and errors.
+fn judged(bytes: &[u8], options: &[&str]) -> (i32, Value, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
+    std::fs::write(folder.path().join("m.mcap"), bytes).unwrap();
+    let arguments = ["verify", &robot, &world, "m.mcap", "--json", "--anywhere"];
+    let (code, json, errors) = run(folder.path(), &[&arguments, options].concat());
+    (code, serde_json::from_str(&json).unwrap(), errors)
+}
+
+fn message_of(error: &Value) -> String {
+    format!("{}; {}", error["message"].as_str().unwrap(), error["cure"].as_str().unwrap())
+}
+
+/// `write.py` beside the files has written them with the format's Python package: the same motion as a table.
+#[test]
+fn compressed_chunks_of_a_topic_in_a_namespace_out_of_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
+    let row = |k: i32| {
+        let [time, shoulder, elbow] = [k * 50, -900 + 10 * k, 400 + 10 * k].map(|n| f64::from(n) / 1000.0);
+        format!("{time},{shoulder},{elbow}\n")
+    };
+    let table = "time,shoulder,elbow\n".to_owned() + &(0..40).map(row).collect::<String>();
+    std::fs::write(folder.path().join("m.csv"), table).unwrap();
+    let judged = |file: &str| {
+        let (code, json, errors) = run(folder.path(), &["verify", &robot, &world, file, "--json", "--anywhere"]);
+        let found: Value = serde_json::from_str(&json).unwrap();
+        assert!(code == 0 && found["samples"] == json!(40), "{file}: {errors}{found:#}");
+        ["clearance", "duration", "nearest"].map(|key| found[key].to_string())
+    };
+    for file in ["zstd", "lz4"] {
+        let file = shipped(&format!("tests/program/verify/recorded/{file}.mcap"));
+        let [found, expected] = [&file, "m.csv"].map(judged);
+        assert_eq!((&found[1..], &found[0][..8]), (&expected[1..], &expected[0][..8]), "{file}");
+    }
+}
+
+#[test]
+fn damaged_compressed_chunks_are_refused() {
+    for file in ["zstd", "lz4"] {
+        let mut bytes = std::fs::read(shipped(&format!("tests/program/verify/recorded/{file}.mcap"))).unwrap();
+        for at in (200..bytes.len() - 200).step_by(97) {
+            bytes[at] ^= 0x55;
+            // Whatever a changed byte does, it is never a crash.
+            let (code, found, _) = judged(&bytes, &[]);
+            assert!([0, 1, 3].contains(&code), "{file}, {at}: {found:#}");
+            bytes[at] ^= 0x55;
+        }
+    }
+}
+
+/// Of several topics none is chosen silently, and the hint works.
+#[test]
+fn several_topics_with_the_arms_joints() {
+    let bytes = recording(&[
+        ("/real/joint_states", 7, state(10, [0.4, -0.9])),
+        ("/sim/joint_states", 8, state(10, [0.4, -0.8])),
+        ("/real/joint_states", 9, state(11, [0.41, -0.9])),
+        ("/sim/joint_states", 10, state(12, [0.41, -0.8])),
+        ("/gripper/joint_states", 10, state_of(12, &["finger"], &[0.1])),
+    ]);
+    let (code, error, _) = judged(&bytes, &[]);
+    let message = message_of(&error);
+    assert_eq!(code, 1);
+    assert!(
+        message.contains("/real/joint_states (sensor_msgs/msg/JointState, joints \"elbow\", \"shoulder\")"),
+        "{message}"
+    );
+    assert!(message.ends_with("--topic /real/joint_states") && !message.contains("/gripper"), "{message}");
+    for (topic, duration) in [("/real/joint_states", 1.0), ("/sim/joint_states", 2.0)] {
+        let (code, found, errors) = judged(&bytes, &["--topic", topic]);
+        assert_eq!((code, &found["duration"]), (0, &json!(duration)), "{errors}");
+        let other = if topic.starts_with("/real") { "/sim" } else { "/real" };
+        assert!(found["notes"].to_string().contains(&format!("{other}/joint_states are not judged")), "{found:#}");
+    }
+    for (topic, part) in
+        [("/joint_states", "has no topic /joint_states"), ("/gripper/joint_states", "has no positions of")]
+    {
+        let message = message_of(&judged(&bytes, &["--topic", topic]).1);
+        assert!(
+            message.contains(part)
+                && message.contains("/gripper/joint_states (sensor_msgs/msg/JointState, joints \"finger\")"),
+            "{message}"
+        );
+    }
+}
+
+/// Several nodes publish on one topic: the arm's messages count, the others only say what else there is.
+#[test]
+fn several_publishers_on_one_topic() {
+    let bytes = recording(&[
+        ("/joint_states", 7, state(10, [0.4, -0.9])),
+        ("/joint_states", 8, state_of(10, &["lid"], &[0.1])),
+        ("/joint_states", 9, state_of(11, &["shoulder", "lid", "elbow"], &[-0.9, 0.0, 0.41])),
+        ("/joint_states", 9, state_of(11, &["shoulder", "lid", "elbow"], &[-0.9, 0.0, 0.41])),
+        ("/joint_states", 11, state_of(12, &["elbow"], &[1.0])),
+    ]);
+    let (code, found, errors) = judged(&bytes, &[]);
+    assert_eq!((code, &found["samples"], &found["duration"]), (0, &json!(2), &json!(1.0)), "{errors}{found:#}");
+    let notes = found["notes"].to_string();
+    assert!(notes.contains("2 of 4 messages on /joint_states do not name both"), "{notes}");
+    assert!(notes.contains("1 messages repeat") && notes.contains("joint \\\"lid\\\" is ignored"), "{notes}");
+
+    // A joint of the arm that is in no message with the other one is not put together of two clocks.
+    let halves = recording(&[
+        ("/joint_states", 7, state_of(10, &["elbow"], &[0.4])),
+        ("/joint_states", 8, state_of(10, &["shoulder"], &[-0.9])),
+    ]);
+    let message = message_of(&judged(&halves, &[]).1);
+    assert!(message.contains("holds no positions of") && message.contains("both of the arm's joints"), "{message}");
+}
+
+/// What a controller is sent: motions in a namespace, whose first point is not where the arm stands.
+#[test]
+fn motions_of_a_controller_in_a_namespace() {
+    let topic = "/arm_controller/joint_trajectory";
+    let joints = ["elbow", "shoulder"];
+    let bytes = recording_of(&[
+        (topic, MOTIONS, 8_000_000_000, motion(&joints, &[(1, [0.42, -0.9]), (2, [0.43, -0.9])])),
+        (topic, MOTIONS, 1_000_000_000, motion(&["shoulder", "elbow"], &[(0, [-0.9, 0.4]), (2, [-0.9, 0.41])])),
+        ("/joint_states", STATES, 9, state(10, [0.4, -0.9])),
+    ]);
+    let (code, found, errors) = judged(&bytes, &[]);
+    assert_eq!(code, 0, "{errors}{found:#}");
+    // Two points, where the arm waits, where it starts again, two points.
+    assert_eq!((&found["samples"], &found["duration"]), (&json!(5), &json!(9.0)), "{found:#}");
+    assert!(found["notes"].to_string().contains("2 motions, one after the other"), "{found:#}");
+
+    let jumps = recording_of(&[
+        (topic, MOTIONS, 1_000_000_000, motion(&joints, &[(0, [0.4, -0.9]), (2, [0.41, -0.9])])),
+        (topic, MOTIONS, 8_000_000_000, motion(&joints, &[(0, [0.42, -0.9]), (2, [0.43, -0.9])])),
+        ("/joint_states", STATES, 9, state(10, [0.4, -0.9])),
+        ("/joint_states", STATES, 10, state(11, [0.43, -0.9])),
+    ]);
+    let message = message_of(&judged(&jumps, &[]).1);
+    assert!(message.contains("stands elsewhere when a motion begins") && message.contains("--topic"), "{message}");
+    assert_eq!(judged(&jumps, &["--topic", "/joint_states"]).0, 0);
+}
+
+#[test]
+fn topics_are_those_of_recordings() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("m.csv"), "time,shoulder,elbow\n0,-0.9,0.4\n").unwrap();
+    let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
+    let (code, _, errors) = run(folder.path(), &["verify", &robot, &world, "m.csv", "--topic", "/joint_states"]);
+    assert!(code == 1 && errors.contains("has no topics") && errors.contains("leave --topic out"), "{errors}");
 }

@@ -35,6 +35,9 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is no text")?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let text = text.trim_start_matches('\u{feff}');
+    // What stands before the declaration is left out, if it is nothing but comments.
+    let before = text.find("<?xml").filter(|at| is_comment(&text[..*at]));
+    let text = &text[before.unwrap_or(0)..];
     let document = Document::parse_with_options(text, options).map_err(|error| error.to_string())?;
     let root = document.root_element();
     if root.tag_name().name() != "COLLADA" {
@@ -49,8 +52,24 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     let mut scene = Scene { ids, nodes: 0, numbers: 0, points: Vec::new() };
     let shown = child(root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
     let shown = shown.and_then(|instance| scene.target(instance)).or_else(|| named(root, "visual_scene").next());
-    scene.show(shown.ok_or("it has no visual scene")?, &scaled([(); 3].map(|()| Interval::from(&metres))), 0)?;
-    Ok(scene.points)
+    let to_file = scaled([(); 3].map(|()| Interval::from(&metres)));
+    if let Some(shown) = shown {
+        scene.show(shown, &to_file, 0)?;
+    }
+    // Without a scene that shows anything all meshes count, as they are.
+    if scene.points.is_empty() {
+        let meshes = named(root, "geometry").filter_map(|geometry| child(geometry, "mesh"));
+        meshes.collect::<Vec<_>>().into_iter().try_for_each(|mesh| scene.positions(mesh, &to_file))?;
+    }
+    if scene.points.is_empty() { Err("it has no mesh".into()) } else { Ok(scene.points) }
+}
+
+/// Whether a text is comments and white space alone.
+fn is_comment(text: &str) -> bool {
+    match text.trim().strip_prefix("<!--") {
+        Some(comment) => comment.split_once("-->").is_some_and(|(_, after)| is_comment(after)),
+        None => text.trim().is_empty(),
+    }
 }
 
 fn child<'a>(node: Node<'a, 'a>, name: &str) -> Option<Node<'a, 'a>> {

@@ -24,9 +24,11 @@ pub struct Cells {
 /// Pieces of the longest border: they take some gigabyte.
 const MOST_PIECES: usize = 1 << 18;
 
-/// What a description says, the YAML of ROS's map server. Numbers as they are written.
+/// Darkness, of 255, that is unknown whatever the thresholds: ROS's map savers write it for what nobody has seen.
+const UNSEEN: i32 = 50;
+
+/// What a description says, the YAML of ROS's map server. Numbers as they are written; keys of other programs say nothing.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct Description {
     image: String,
     resolution: String,
@@ -78,7 +80,8 @@ impl Cells {
         let is_solid = |shade: u32| {
             let dark = whole(if is_light { shade } else { white - shade });
             let above = |share: &Decimal| dark > share * &whole(white);
-            above(&occupied) || unknown_is_solid && dark >= &free * &whole(white)
+            let is_unseen = &dark * &Decimal::whole(255) == &whole(white) * &Decimal::whole(UNSEEN);
+            above(&occupied) || unknown_is_solid && (is_unseen || dark >= &free * &whole(white))
         };
         let table: Vec<bool> = (0..=white).map(is_solid).collect();
         let is_solid = |shade: &Option<u32>| shade.map_or(unknown_is_solid, |shade| table[shade as usize]);

@@ -2,7 +2,7 @@
 
 use super::tags::{Record, Tag};
 use crate::{Error, Point, Unit};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// An entity, with the records that belong to it: vertices of a polyline, attributes of an insertion.
 #[derive(Debug)]
@@ -29,6 +29,10 @@ pub(super) struct Document<'a> {
     /// By name in capitals.
     pub blocks: HashMap<String, Block<'a>>,
     pub entities: Vec<Entity<'a>>,
+    /// What dictionaries hold: handles by the dictionary's handle and the entry's name.
+    entries: HashMap<(&'a str, &'a str), &'a str>,
+    /// Handles of clips that are on.
+    clips: HashSet<&'a str>,
 }
 
 /// Why a layer is not seen.
@@ -69,6 +73,7 @@ impl<'a> Document<'a> {
                     document.entities = entities(&inside);
                     has_entities = true;
                 }
+                Some("OBJECTS") => document.objects(&inside)?,
                 _ => {}
             }
         }
@@ -77,6 +82,31 @@ impl<'a> Document<'a> {
             return Err(Error::new(None, message, "export the drawing again, as an ASCII DXF"));
         }
         Ok(document)
+    }
+
+    /// Takes note of dictionaries and clips.
+    fn objects(&mut self, records: &[Record<'a>]) -> Result<(), Error> {
+        for record in records {
+            let Some(handle) = record.text(5) else { continue };
+            match record.kind {
+                "SPATIAL_FILTER" if record.integer_or(71, 1)? != 0 => _ = self.clips.insert(handle),
+                "DICTIONARY" => {
+                    // Each entry is a name and the handle of what it names.
+                    let pairs =
+                        record.tags.windows(2).filter(|pair| pair[0].code == 3 && [350, 360].contains(&pair[1].code));
+                    self.entries.extend(pairs.map(|pair| ((handle, pair[0].value), pair[1].value)));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether an insertion is clipped: its own dictionary leads to the clip.
+    pub fn clips(&self, insertion: Record<'a>) -> bool {
+        let entry = |dictionary, name| self.entries.get(&(dictionary, name)).copied();
+        let filters = insertion.text(360).and_then(|own| entry(own, "ACAD_FILTER"));
+        filters.and_then(|filters| entry(filters, "SPATIAL")).is_some_and(|clip| self.clips.contains(clip))
     }
 
     /// Whether what lies on a layer is hidden.

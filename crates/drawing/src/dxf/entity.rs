@@ -35,6 +35,10 @@ impl<'a> Reader<'_, 'a> {
             }
             "LWPOLYLINE" => self.polyline(&corners(&record)?, record.flag(1)?, &own, place, origin),
             "POLYLINE" => self.old_polyline(entity, &own, place, origin),
+            "CIRCLE" | "ARC" if record.needed(40)? == 0.0 => {
+                self.sheet.leave_out(&format!("{} of radius 0", record.kind), origin);
+                Ok(())
+            }
             "CIRCLE" => self.sheet.circle(record.point(10)?, size(&record, 40)?, &own, origin),
             "ARC" => {
                 let circle = Ellipse::circle(record.point(10)?, size(&record, 40)?).mapped(&own);

@@ -1,5 +1,6 @@
-//! DXF, as text: what lies in the plane of model space.
+//! DXF, as text or binary: what lies in the plane of model space.
 
+mod binary;
 mod document;
 mod entity;
 mod tags;
@@ -21,11 +22,15 @@ const MOST_ENTITIES: usize = 1 << 20;
 /// # Errors
 /// Text that is none, or is cut; numbers that are none; blocks that hold themselves.
 pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> {
-    let text = tags::decoded(bytes)?;
-    let tags = tags::tags(&text)?;
+    let binary = binary::as_text(bytes)?;
+    let text = tags::decoded(binary.as_deref().unwrap_or(bytes))?;
+    let (tags, surplus) = tags::tags(&text)?;
     let records = tags::records(&tags);
     let document = Document::read(&records)?;
     let mut sheet = Sheet::new(settings);
+    if surplus.is_some() {
+        sheet.notes.add("what follows EOF is left out", surplus);
+    }
     let unit = settings.unit.or(document.unit).unwrap_or_else(|| {
         match document.unread_unit {
             Some(Tag { value, line, .. }) => {
@@ -134,6 +139,10 @@ impl<'d, 'a> Reader<'d, 'a> {
         if !entity.parts.is_empty() {
             let origin = Origin { line: Some(entity.parts[0].line), ..self.origin(entity, place)? };
             self.sheet.leave_out("ATTRIB", &origin);
+        }
+        if self.document.clips(record) {
+            let origin = self.origin(entity, place)?;
+            self.sheet.note("INSERT with a clip (XCLIP): taken whole, not clipped", &origin);
         }
         let name = record.text(2).unwrap_or_default();
         let key = name.to_uppercase();

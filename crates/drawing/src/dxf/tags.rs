@@ -92,15 +92,8 @@ impl<'a> Record<'a> {
     }
 }
 
-/// What the binary form begins with.
-const BINARY: &[u8] = b"AutoCAD Binary DXF";
-
 /// The text: UTF-8 or, as older programs write it, with a byte a character.
 pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Error> {
-    if bytes.starts_with(BINARY) {
-        let message = "this is a binary DXF, and only text is read";
-        return Err(Error::new(None, message, "save it as an ASCII DXF"));
-    }
     if bytes.starts_with(b"AC10") {
         let message = "this is a DWG, AutoCAD's own format, not a DXF";
         return Err(Error::new(None, message, "save it as an ASCII DXF, e.g. with `dwg2dxf` or ODA File Converter"));
@@ -114,13 +107,17 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Error> {
     })
 }
 
-/// The pairs, comments left out.
-pub(super) fn tags(text: &str) -> Result<Vec<Tag<'_>>, Error> {
+/// The pairs up to EOF, comments left out; and the line of whatever follows that.
+pub(super) fn tags(text: &str) -> Result<(Vec<Tag<'_>>, Option<usize>), Error> {
     let mut tags = Vec::new();
     let mut lines = text.lines().zip(1..);
     while let Some((code, line)) = lines.next() {
-        if code.trim().is_empty() && tags.last().is_some_and(is_end) {
-            continue;
+        if tags.last().is_some_and(is_end) {
+            // Mail programs and editors leave blanks and the Ctrl-Z of old systems there.
+            if code.trim_matches(|c: char| c.is_whitespace() || c == '\u{1a}').is_empty() {
+                continue;
+            }
+            return Ok((tags, Some(line)));
         }
         let Ok(code) = code.trim().parse() else {
             let message = match tags.is_empty() {
@@ -135,7 +132,7 @@ pub(super) fn tags(text: &str) -> Result<Vec<Tag<'_>>, Error> {
         }
     }
     match tags.last() {
-        Some(tag) if is_end(tag) => Ok(tags),
+        Some(tag) if is_end(tag) => Ok((tags, None)),
         last => Err(cut(last.map_or(1, |tag| tag.line))),
     }
 }
@@ -144,7 +141,7 @@ fn is_end(tag: &Tag) -> bool {
     tag.code == 0 && tag.value == "EOF"
 }
 
-fn cut(line: usize) -> Error {
+pub(super) fn cut(line: usize) -> Error {
     let message = "the file ends in the middle: there is no EOF, and shapes may be missing";
     Error::new(line, message, "copy or export the drawing again")
 }

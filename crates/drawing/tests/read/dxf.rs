@@ -375,3 +375,76 @@ fn what_is_not_taken_is_told() {
     assert_eq!(notes(&given), expected);
     assert_eq!(given.shapes.len(), 1);
 }
+
+/// The same file in the binary form: of codes of two bytes, or of one.
+fn binary(text: &str, is_wide: bool) -> Vec<u8> {
+    let mut bytes = b"AutoCAD Binary DXF\r\n\x1a\0".to_vec();
+    let lines: Vec<&str> = text.lines().collect();
+    for pair in lines.chunks(2) {
+        let code: i16 = pair[0].parse().unwrap();
+        match u8::try_from(code) {
+            Ok(code) if !is_wide => bytes.push(code),
+            _ => {
+                bytes.extend(if is_wide { &[][..] } else { &[255] });
+                bytes.extend(code.to_le_bytes());
+            }
+        }
+        match code {
+            10..=59 | 210..=239 => bytes.extend(pair[1].parse::<f64>().unwrap().to_le_bytes()),
+            60..=79 => bytes.extend(pair[1].parse::<i16>().unwrap().to_le_bytes()),
+            90..=99 | 1071 => bytes.extend(pair[1].parse::<i32>().unwrap().to_le_bytes()),
+            _ => bytes.extend(pair[1].bytes().chain([0])),
+        }
+    }
+    bytes
+}
+
+#[test]
+fn a_binary_file_is_the_text_that_it_stands_for() {
+    let text = file(
+        "0 BLOCK 2 plate 10 0 20 0 0 CIRCLE 8 0 10 5.25 20 -3 40 2.5 0 ENDBLK",
+        "0 INSERT 8 jig 2 plate 10 100 20 50 50 30 1071 7 0 LWPOLYLINE 8 belt 90 3 70 1 10 0 20 0 10 40 20 0 10 0 20 30.5",
+    );
+    let expected = drawing(&text, Format::Dxf);
+    for is_wide in [true, false] {
+        let read = read(&binary(&text, is_wide), Format::Dxf, &Settings::default()).unwrap();
+        assert_eq!(read.shapes, expected.shapes);
+        // Cut anywhere it is refused.
+        let whole = binary(&text, is_wide);
+        for end in 0..whole.len() - 2 {
+            assert!(cplan_drawing::read(&whole[..end], Format::Dxf, &Settings::default()).is_err(), "{end}");
+        }
+    }
+}
+
+#[test]
+fn what_follows_the_end_and_circles_of_no_radius_are_notes() {
+    let text = file("", "0 CIRCLE 8 a 10 1 20 0 40 0 0 CIRCLE 8 a 10 1 20 0 40 5");
+    let found = drawing(&(text.clone() + "sent by mail\nyours\n"), Format::Dxf);
+    assert_eq!(found.shapes.len(), 1);
+    let said = notes(&found);
+    assert!(said.iter().any(|note| note.contains("CIRCLE of radius 0: left out")), "{said:?}");
+    assert!(said.iter().any(|note| note.contains("what follows EOF is left out")), "{said:?}");
+    assert!(!notes(&drawing(&(text + "\n\u{1a}\n"), Format::Dxf)).iter().any(|note| note.contains("EOF")));
+}
+
+/// An insertion with a clip, one whose clip is off, and one without.
+#[test]
+fn clipped_blocks_are_said_to_be_taken_whole() {
+    let insert = |dictionary: &str| format!("0 INSERT 8 a 2 b {dictionary} 10 0 20 0 ");
+    let own = |handle: &str| format!("102 {{ACAD_XDICTIONARY 360 {handle} 102 }}");
+    let inserts = insert(&own("A1")) + &insert(&own("B1")) + &insert("");
+    let chain = |name: &str, is_on: u8| {
+        format!(
+            "0 DICTIONARY 5 {name}1 3 ACAD_FILTER 360 {name}2 0 DICTIONARY 5 {name}2 3 SPATIAL 360 {name}3 \
+             0 SPATIAL_FILTER 5 {name}3 71 {is_on} "
+        )
+    };
+    let objects = format!(" 0 SECTION 2 OBJECTS {}{} 0 ENDSEC 0 EOF", chain("A", 1), chain("B", 0));
+    let objects: String = objects.split_whitespace().map(|word| format!("{word}\n")).collect();
+    let text = file("0 BLOCK 2 b 0 CIRCLE 8 0 10 5 20 0 40 2 0 ENDBLK", &inserts).replace("0\nEOF\n", &objects);
+    let found = drawing(&text, Format::Dxf);
+    assert_eq!(found.shapes.len(), 3);
+    let clipped: Vec<String> = notes(&found).into_iter().filter(|note| note.contains("not clipped")).collect();
+    assert!(clipped.len() == 1 && !clipped[0].contains("times"), "{clipped:?}");
+}

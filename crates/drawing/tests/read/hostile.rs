@@ -28,7 +28,8 @@ fn broken_dxf_files() {
     let cases = [
         ("".to_owned(), "the file is empty", None),
         ("  \n\n".to_owned(), "the file is empty", None),
-        ("AutoCAD Binary DXF\r\n\u{1a}\0".to_owned(), "binary DXF", None),
+        ("AutoCAD Binary DXF\r\n\u{1a}\0".to_owned(), "the file is empty", None),
+        ("AutoCAD Binary DXF\r\n\u{1a}\0\0SECTION\0\u{28}".to_owned(), "ends in the middle", None),
         ("AC1032\0\0".to_owned(), "DWG", None),
         ("<svg/>\n".to_owned(), "no DXF", Some(1)),
         ("0\nSECTION\n2\nENTITIES\nx\ny\n".to_owned(), "expected the code of a group", Some(5)),

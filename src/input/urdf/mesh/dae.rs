@@ -16,7 +16,7 @@ const MOST_POINTS: usize = 1 << 24;
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "the file is no UTF-8 text".to_owned())?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text.trim_start_matches('\u{feff}'), options)
+    let document = Document::parse_with_options(from_declaration(text), options)
         .map_err(|error| format!("the file is no well-formed XML: {error}"))?;
     let root = document.root_element();
     if root.tag_name().name() != "COLLADA" {
@@ -35,12 +35,28 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     let shown = child(root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
     let shown = shown.and_then(|instance| scene.target(instance));
     let shown = shown.or_else(|| named(document.root_element(), "visual_scene").next());
-    let shown = shown.ok_or("the file has no visual scene")?;
-    scene.children(shown, &Matrix4::new_scaling(metres), 0)?;
+    let pose = Matrix4::new_scaling(metres);
+    if let Some(shown) = shown {
+        scene.children(shown, &pose, 0)?;
+    }
+    // Some programs write geometries and no scene: they lie where their own coordinates say.
     if scene.points.is_empty() {
-        return Err("the scene has no mesh".into());
+        named(root, "geometry").try_for_each(|geometry| scene.geometry(geometry, &pose))?;
+    }
+    if scene.points.is_empty() {
+        return Err("the file has no mesh".into());
     }
     Ok(scene.points)
+}
+
+/// The text from its XML declaration on, if only comments stand before that: XML forbids them there, and some programs write them.
+fn from_declaration(text: &str) -> &str {
+    let text = text.trim_start_matches('\u{feff}');
+    let mut rest = text.trim_start();
+    while let Some((_, after)) = rest.strip_prefix("<!--").and_then(|comment| comment.split_once("-->")) {
+        rest = after.trim_start();
+    }
+    if rest.starts_with("<?xml") { rest } else { text }
 }
 
 /// The first child of that name.

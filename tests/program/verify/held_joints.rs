@@ -1,0 +1,177 @@
+//! Motions of joints beside the arm's two: a quill that goes up and down, a wrist that turns.
+
+use crate::common::random;
+use cplan::input::{Source, scene_from};
+use cplan::space::Configuration;
+use serde_json::Value;
+use std::fmt::Write;
+use std::process::Command;
+
+/// Two arms of a metre each at a height of 1 m, a quill of 0.6 m at their end, a finger of 0.2 m beside its axis.
+const ROBOT: &str = r#"<robot name="scara">
+  <link name="base"/>
+  <joint name="j1" type="revolute">
+    <parent link="base"/> <child link="upper"/> <origin xyz="0 0 1"/> <axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="9"/>
+  </joint>
+  <link name="upper"><collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision></link>
+  <joint name="j2" type="revolute">
+    <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="9"/>
+  </joint>
+  <link name="fore"><collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision></link>
+  <joint name="quill" type="prismatic">
+    <parent link="fore"/> <child link="rod"/> <origin xyz="1 0 0"/> <axis xyz="0 0 -1"/>
+    <limit lower="0" upper="0.6" effort="1" velocity="9"/>
+  </joint>
+  <link name="rod"><collision><geometry><cylinder radius="0.05" length="0.6"/></geometry></collision></link>
+  <joint name="wrist" type="revolute">
+    <parent link="rod"/> <child link="tool"/> <origin xyz="0 0 -0.3"/> <axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" effort="1" velocity="9"/>
+  </joint>
+  <link name="tool">FINGER</link>
+</robot>
+"#;
+
+const FINGER: &str =
+    r#"<collision><origin xyz="0.1 0 0"/><geometry><box size="0.2 0.02 0.02"/></geometry></collision>"#;
+
+/// A low block beside the stretched arm.
+const WORLD: &str = "[robot]\njoints = [\"j1\", \"j2\"]\n[[obstacle]]\nname = \"block\"\n\
+                     polygon = [[1.5, 0.5], [1.9, 0.5], [1.9, 0.9], [1.5, 0.9]]\nheight = [0.0, 0.5]\n";
+
+/// What `verify` makes of a table: exit code, JSON.
+fn verify(finger: &str, world: &str, table: &str, options: &[&str]) -> (i32, Value) {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("arm.urdf", &ROBOT.replace("FINGER", finger));
+    write("world.toml", world);
+    write("m.csv", table);
+    let run = Command::new(env!("CARGO_BIN_EXE_cplan"))
+        .current_dir(folder.path())
+        .args(["verify", "arm.urdf", "world.toml", "m.csv", "--json", "--anywhere"])
+        .args(options)
+        .output()
+        .unwrap();
+    let json = serde_json::from_slice(&run.stdout).unwrap_or_else(|e| panic!("{e}: {run:?}"));
+    (run.status.code().unwrap(), json)
+}
+
+/// Over the block and back: the rod is above it while it is raised.
+#[test]
+fn a_quill_is_judged_at_the_heights_that_it_has() {
+    let table = |depths: [f64; 4]| {
+        let joints = [0.0, 0.38, 0.38, 0.0];
+        let row = |k: usize| format!("{k},{},0,{}\n", joints[k], depths[k]);
+        "time,j1,j2,quill\n".to_owned() + &(0..4).map(row).collect::<String>()
+    };
+    // The rod ends at 0.7 m less its depth.
+    for (depths, code) in [
+        ([0.0; 4], 0),
+        ([0.6, 0.0, 0.0, 0.6], 3),
+        ([0.19; 4], 0),
+        ([0.19, 0.19, 0.21, 0.0], 3),
+        ([0.6, 0.6, 0.6, 0.6], 3),
+    ] {
+        let (found, json) = verify("", WORLD, &table(depths), &[]);
+        assert_eq!(found, code, "{depths:?}: {json:#}");
+        if code == 3 {
+            assert_eq!(json["first_contact"]["body"], "rod", "{json:#}");
+        }
+    }
+    let (code, json) = verify("", WORLD, &table([0.19, 0.19, 0.21, 0.0]), &[]);
+    let time = json["first_contact"]["time"].as_f64().unwrap();
+    // Halfway down over the block its heights are those of the block.
+    assert!(code == 3 && (1.5 - 1e-6..1.6).contains(&time), "{json:#}");
+    let notes = json["notes"].to_string();
+    assert!(notes.contains("moves, from 0 to 0.21 m") && notes.contains("at the heights that it has"), "{notes}");
+}
+
+/// Down beside the block, up before it: the cubic between samples goes deeper than they.
+#[test]
+fn between_samples_a_quill_goes_where_its_velocities_lead_it() {
+    let table = |speed: f64| {
+        format!(
+            "time,j1,j2,quill,j1_velocity,j2_velocity,quill_velocity\n0,0.38,0,0.1,0,0,{speed}\n1,0.38,0,0.1,0,0,-{speed}\n"
+        )
+    };
+    assert_eq!(verify("", WORLD, &table(0.39), &[]).0, 0);
+    // A quarter of the speed more, halfway.
+    let (code, json) = verify("", WORLD, &table(0.41), &[]);
+    assert_eq!((code, &json["first_contact"]["body"]), (3, &"rod".into()), "{json:#}");
+}
+
+#[test]
+fn a_wrist_sweeps_a_disc() {
+    let table = |turn: f64, j1: f64| format!("time,j1,j2,quill,wrist\n0,{j1},0,0.5,0\n1,{j1},0,0.5,{turn}\n");
+    // The tip is 0.2 m and 0.05 m beside the block, the finger 0.2 m long.
+    for (finger, turn, j1, code) in
+        [(FINGER, 1.0, 0.0, 0), (FINGER, 1.0, 0.2, 4), (FINGER, 0.0, 0.2, 0), ("", 1.0, 0.2, 0), (FINGER, 1.0, 0.38, 3)]
+    {
+        let (found, json) = verify(finger, WORLD, &table(turn, j1), &[]);
+        assert_eq!(found, code, "{turn} {j1}: {json:#}");
+        assert!(turn == 0.0 || json["notes"].to_string().contains("the disc that it sweeps"), "{json:#}");
+        // The rod is round, so that its contacts are certain; those of the disc are not.
+        let certain = json["first_contact"]["body"].as_str();
+        assert_eq!(certain, (code == 3).then_some("rod"), "{json:#}");
+    }
+}
+
+/// What is written about two joints is not written about four; and what is not judged says why.
+#[test]
+fn motions_that_cannot_be_judged_say_why() {
+    let table = "time,j1,j2,quill\n0,0,0,0\n1,0.1,0,0.1\n";
+    let (code, _) = verify("", WORLD, table, &["--certificate", "c.json"]);
+    assert_eq!(code, 0);
+    let mimic = FINGER.to_owned()
+        + "</link><joint name=\"twin\" type=\"prismatic\"><parent link=\"tool\"/><child link=\"pad\"/><axis xyz=\"0 0 1\"/>\
+           <limit lower=\"0\" upper=\"1\" effort=\"1\" velocity=\"1\"/><mimic joint=\"quill\"/></joint><link name=\"pad\">";
+    let (code, error) = verify(&mimic, WORLD, table, &[]);
+    assert!(code == 1 && error["message"].as_str().unwrap().contains("moves joint \"twin\" with it"), "{error:#}");
+    let slanted = FINGER.to_owned()
+        + "</link><joint name=\"tilt\" type=\"revolute\"><parent link=\"tool\"/><child link=\"pad\"/><axis xyz=\"1 0 0\"/>\
+           <limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint><link name=\"pad\">";
+    let (code, error) = verify(&slanted, WORLD, &table.replace("quill", "tilt"), &[]);
+    assert!(code == 1 && error["message"].as_str().unwrap().contains("not along the normal"), "{error:#}");
+}
+
+/// Motions drawn at random, held to the scenes of their moments, in each of which the quill is held where it is then.
+#[test]
+fn motions_of_a_quill_agree_with_the_scenes_of_their_moments() {
+    let mut verdicts = [0; 2];
+    for seed in random::seeds(12) {
+        let mut dice = crate::common::dice::Dice::new(seed);
+        let samples: Vec<[f64; 3]> =
+            (0..5).map(|_| [dice.within(-0.8, 1.2), dice.within(-1.5, 1.5), dice.within(0.0, 0.6)]).collect();
+        let mut table = "time,j1,j2,quill\n".to_owned();
+        for (k, [j1, j2, quill]) in samples.iter().enumerate() {
+            writeln!(table, "{k},{j1},{j2},{quill}").unwrap();
+        }
+        let (code, json) = verify(FINGER, WORLD, &table, &[]);
+        let at = |time: f64| {
+            let (k, share) = ((time.floor() as usize).min(3), time - time.floor().min(3.0));
+            [0, 1, 2].map(|j| samples[k][j] + share * (samples[k + 1][j] - samples[k][j]))
+        };
+        let distance = |time: f64| {
+            let [j1, j2, quill] = at(time);
+            let world = format!("{WORLD}").replace("[robot]", &format!("[robot]\nfixed = {{ quill = {quill:?} }}"));
+            let robot = Source::in_memory("arm.urdf", ROBOT.replace("FINGER", FINGER));
+            let scene =
+                scene_from(robot, Source::in_memory("world.toml", world)).unwrap_or_else(|e| panic!("{e}")).scene;
+            scene.closest(Configuration::new(j1, j2)).map_or(f64::INFINITY, |contact| contact.separation.distance)
+        };
+        match code {
+            0 => {
+                let least = (0..=160).map(|k| distance(f64::from(k) / 40.0)).fold(f64::INFINITY, f64::min);
+                assert!(least > 0.0, "seed {seed}: {least} {json:#}");
+            }
+            3 => {
+                let time = json["first_contact"]["time"].as_f64().unwrap();
+                assert!(distance(time) <= 1e-9, "seed {seed}: {} {json:#}", distance(time));
+            }
+            other => panic!("seed {seed}: {other} {json:#}"),
+        }
+        verdicts[usize::from(code == 3)] += 1;
+    }
+    assert!(verdicts.iter().all(|count| *count > 0), "{verdicts:?}");
+}
