@@ -20,10 +20,10 @@ use super::serve::ServeArgs;
 use super::study::StudyArgs;
 use crate::engine::Method;
 use crate::grammar::{MotionArgs, PlannerArgs, PlannerWords, number_in};
-use crate::input::{JointValues, Overrides, TipPoint};
+use crate::input::{JointValues, Overrides, RobotFile, TipPoint};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueHint};
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Plans motions of a planar two-joint arm among polygonal obstacles: a path that is certified free of collision,
 /// a proof that there is none, or "unknown".
@@ -129,12 +129,42 @@ pub enum Command {
 /// The two files.
 #[derive(Debug, Args)]
 pub struct Files {
-    /// The arm.
+    /// The arm: a URDF, or xacro.
     #[arg(value_name = "URDF", value_hint = ValueHint::FilePath)]
     pub urdf: PathBuf,
     /// The workspace, TOML.
     #[arg(value_name = "WORLD", value_hint = ValueHint::FilePath)]
     pub world: PathBuf,
+    #[command(flatten)]
+    pub xacro: XacroArgs,
+}
+
+impl Files {
+    /// The arm's file with its arguments.
+    pub fn robot(&self) -> RobotFile {
+        self.xacro.robot(&self.urdf)
+    }
+}
+
+/// Arguments of robots that are xacro.
+#[derive(Debug, Default, Args)]
+pub struct XacroArgs {
+    /// Argument of a robot that is xacro, in place of its default. Can be repeated.
+    #[arg(long = "xacro-arg", value_name = "NAME=VALUE", value_parser = xacro_argument)]
+    pub xacro_args: Vec<(String, String)>,
+}
+
+impl XacroArgs {
+    /// A robot's file with the arguments.
+    pub fn robot(&self, path: &Path) -> RobotFile {
+        RobotFile { path: path.to_owned(), xacro_args: self.xacro_args.clone() }
+    }
+}
+
+/// `NAME=VALUE`, or `NAME:=VALUE` as ROS has it.
+fn xacro_argument(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("an argument of xacro is written NAME=VALUE")?;
+    Ok((name.strip_suffix(':').unwrap_or(name).to_owned(), value.to_owned()))
 }
 
 /// What can be said instead of the world file.
@@ -277,15 +307,22 @@ pub struct CheckArgs {
 Examples:
   cplan inspect robots/planar_2r.urdf
   cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
+  cplan inspect robots/scara.urdf.xacro --xacro-arg reach=0.6 --expanded scara_expanded.urdf
 
 Exit codes: 0 the robot can be planned with, 1 it cannot (the report is printed all the same), or I/O, 2 wrong command line.")]
 pub struct InspectArgs {
-    /// The robot, which may be broken or no planar arm at all.
+    /// The robot: a URDF or xacro, which may be broken or no planar arm at all.
     #[arg(value_name = "URDF", value_hint = ValueHint::FilePath)]
     pub urdf: PathBuf,
     /// The workspace, TOML: its [robot] table decides what the URDF leaves open.
     #[arg(value_name = "WORLD", value_hint = ValueHint::FilePath)]
     pub world: Option<PathBuf>,
+    #[command(flatten)]
+    pub xacro: XacroArgs,
+    /// Write the URDF that a robot in xacro expands to, for `cplan-check` and other programs: .urdf. Beside the xacro file it finds the
+    /// same meshes.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub expanded: Option<PathBuf>,
     /// Draw the arm at zero with the frames of its joints: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,

@@ -18,7 +18,7 @@ use crate::text::{Columns, at_least, fixed, told_apart};
 /// Bad input and I/O. A configuration that is not free is no error: saying why is the job.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
-    let mut loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
+    let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;
     loaded.scene = loaded.scene.frozen(args.time);
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));

@@ -79,7 +79,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let pictures = sinks::sinks(&[], &args.picture)?;
     let files = || outputs.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
     sinks::distinct(files())?;
-    let loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
+    let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     sinks::spare_inputs(files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     loaded.require_standing("fields are of what stands")?;

@@ -58,7 +58,7 @@ pub struct ExplainArgs {
 /// Bad input and I/O. That there is no motion is no error: saying why is the job.
 pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
-    let loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
+    let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.say(&format!("warning: {warning}")));
     let explained = Explained::of(loaded, &args.query.overrides(), Duration::from_secs_f64(args.time))?;

@@ -94,7 +94,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     let map = args.map.as_deref().map(map_files).transpose()?;
     let files = || sinks.iter().map(Sink::path).chain(map.iter().flatten().map(PathBuf::as_path));
     sinks::distinct(files())?;
-    let world = input::load_scene(&args.files.urdf, &args.files.world)?.explorable(&args.query.overrides())?;
+    let world = input::load_scene(args.files.robot(), &args.files.world)?.explorable(&args.query.overrides())?;
     world.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let settings = args.settings(world.goals.is_some())?;
     sinks::spare_inputs(files())?;

@@ -6,9 +6,11 @@ use super::inspect_text::text;
 use super::sinks::{self, Sink};
 use super::{DONE, REFUTED};
 use crate::draw::{AxesFrame, Picture, View};
-use crate::input::{self, Diagnostic, Inspection};
+use crate::input::{self, Diagnostic, InputError, Inspection, RobotFile};
+use crate::motion::write_whole;
 use crate::space::Configuration;
 use serde::Serialize;
+use std::path::Path;
 
 /// The report as JSON.
 #[derive(Serialize)]
@@ -38,8 +40,12 @@ struct DiagnosticEntry<'a> {
 /// I/O; and, after the report, the first diagnostic of a robot that cannot be planned with.
 pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
-    let inspection = input::inspect(&args.urdf, args.world.as_deref());
-    sinks::spare_inputs(sinks.iter().map(Sink::path))?;
+    let robot = args.xacro.robot(&args.urdf);
+    let inspection = input::inspect(&robot, args.world.as_deref());
+    sinks::spare_inputs(sinks.iter().map(Sink::path).chain(args.expanded.as_deref()))?;
+    if let Some(path) = &args.expanded {
+        write_expanded(&robot, path)?;
+    }
     for sink in &sinks {
         let Sink::Picture(format, path) = sink else { continue };
         match view(&inspection) {
@@ -59,6 +65,21 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
         Some(error) if args.json => Err(Failure::Reported(error)),
         Some(error) => Err(error.into()),
     }
+}
+
+/// Writes the URDF that a robot in xacro expands to, and warns of meshes that it does not find from there.
+fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
+    let source = robot.read()?;
+    if !source.is_expanded() {
+        let message = "this is a plain URDF: there is nothing to expand";
+        return Err(InputError::from(source.diagnostic(message).help("leave --expanded out")).into());
+    }
+    write_whole(path, source.text().as_bytes())?;
+    for mesh in input::meshes_elsewhere(&source, path) {
+        let [file, robot] = [path, &robot.path].map(|path| path.display().to_string());
+        sinks::say(&format!("warning: mesh \"{mesh}\" is not found from {file}; write that beside {robot}"));
+    }
+    Ok(())
 }
 
 fn entry(diagnostic: &Diagnostic) -> DiagnosticEntry<'_> {

@@ -18,7 +18,7 @@ use std::time::Instant;
 /// # Errors
 /// Bad input and I/O.
 pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
-    answer(args, Some(files), || input::load_scene(&files.urdf, &files.world))
+    answer(args, Some(files), || input::load_scene(files.robot(), &files.world))
 }
 
 /// The same for a scene from anywhere, if need be from no files. Nothing is loaded if the command line is wrong.
@@ -38,7 +38,7 @@ pub fn answer(
     let begun = Instant::now();
     let loaded = load()?;
     let given = given.filter(|_| certificate.is_some());
-    let about = given.map(|files| Digests::of(&files.urdf, &files.world)).transpose()?;
+    let about = given.map(|files| Digests::of(&files.robot(), &files.world)).transpose()?;
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     if args.per_step && !loaded.has_steps() {
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));

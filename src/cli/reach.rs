@@ -71,7 +71,7 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     pictures.iter().try_for_each(|(path, _)| check_writable(path))?;
     sinks::distinct(files())?;
     let overrides = Overrides { start: args.home, clearance: args.clearance, ..Overrides::default() };
-    let world = input::load_scene(&args.files.urdf, &args.files.world)?.explorable(&overrides);
+    let world = input::load_scene(args.files.robot(), &args.files.world)?.explorable(&overrides);
     let world = world.map_err(|error| error.with_option("--start", "--home"))?;
     world.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
     sinks::spare_inputs(files())?;

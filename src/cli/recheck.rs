@@ -18,7 +18,7 @@ const UNSEEN: f64 = 1e-6;
 /// # Errors
 /// Bad input, a file without anything to check, and what does not hold.
 pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
-    let loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
+    let loaded = input::load(args.files.robot(), &args.files.world, &args.query.overrides())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let failed = |why: String| Failure::Option(format!("{}: {why}", args.proof.display()));
     let source = Source::read(&args.proof)?;
@@ -46,7 +46,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
 
 /// The bound in the result file.
 fn stated(args: &RecheckArgs, problem: &MotionProblem) -> Result<Option<Bound>, Failure> {
-    let scene = input::load_scene(&args.files.urdf, &args.files.world)?;
+    let scene = input::load_scene(args.files.robot(), &args.files.world)?;
     let claims = input::load_recording(&args.proof, &scene)?.claims.unwrap_or_default();
     let speeds = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
     Ok(claims.optimum.and_then(|optimum| {

@@ -1,5 +1,6 @@
 //! `cplan serve`: the live page.
 
+use super::args::XacroArgs;
 use super::failure::Failure;
 use super::{DONE, demo, sinks};
 use crate::grammar::number_in;
@@ -33,6 +34,8 @@ pub struct ServeArgs {
     /// The workspace, TOML.
     #[arg(value_name = "WORLD")]
     pub world: Option<PathBuf>,
+    #[command(flatten)]
+    pub xacro: XacroArgs,
     /// Planner and options to begin with, such as "harmonic --field oriented --epsilon 0.5 --direction 0,-1".
     #[arg(long, value_name = "PLANNER OPTIONS", default_value = "shortest")]
     pub with: String,
@@ -65,7 +68,7 @@ fn time_limit(text: &str) -> Result<Duration, String> {
 pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     Options::parse(&args.with).map_err(|error| Failure::Usage(format!("--with: {error}")))?;
     let (urdf, world) = match (&args.urdf, &args.world) {
-        (Some(urdf), Some(world)) => (Source::read(urdf)?, Source::read(world)?),
+        (Some(urdf), Some(world)) => (args.xacro.robot(urdf).read()?, Source::read(world)?),
         _ => (
             Source::in_memory("built-in scara.urdf", demo::ROBOT),
             Source::in_memory("built-in scara_cell.toml", demo::WORLD),

@@ -1,7 +1,7 @@
 //! What is asked: a motion, or a sequence of steps, of a robot in a world.
 
 use super::Kind;
-use crate::input::{self, InputError, Loaded, LoadedScene, LoadedTask, Overrides, RobotReport};
+use crate::input::{self, InputError, Loaded, LoadedScene, LoadedTask, Overrides, RobotFile, RobotReport};
 use crate::interrupt::Instant;
 use crate::model::{Arm, MotionProblem, MotionProblemError, RobotJoints, Scene, SceneError, Task, Workspace};
 use crate::space::{Configuration, GoalSet};
@@ -40,8 +40,8 @@ impl Problem {
     ///
     /// # Errors
     /// Everything that is wrong with the files, with line, column and cure; a start or goal that is out of reach or not free.
-    pub fn load(urdf: impl AsRef<Path>, world: impl AsRef<Path>) -> Result<Self, InputError> {
-        Self::load_with(urdf, world, &Overrides::default())
+    pub fn load(robot: impl Into<RobotFile>, world: impl AsRef<Path>) -> Result<Self, InputError> {
+        Self::load_with(robot, world, &Overrides::default())
     }
 
     /// The same with start, goal and clearance in place of the world's.
@@ -49,12 +49,12 @@ impl Problem {
     /// # Errors
     /// As [`Problem::load`].
     pub fn load_with(
-        urdf: impl AsRef<Path>,
+        robot: impl Into<RobotFile>,
         world: impl AsRef<Path>,
         overrides: &Overrides,
     ) -> Result<Self, InputError> {
         let begun = Instant::now();
-        let problem = Self::of_scene(input::load_scene(urdf.as_ref(), world.as_ref())?, overrides)?;
+        let problem = Self::of_scene(input::load_scene(robot, world.as_ref())?, overrides)?;
         Ok(problem.read_since(begun))
     }
 

@@ -2,14 +2,14 @@
 
 use super::identity::{FileIdentity, files_read};
 use super::source::read_bytes;
-use super::{Diagnostic, InputError};
+use super::{Diagnostic, InputError, RobotFile};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
 /// SHA-256 of files, in hex.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Digests {
-    /// The URDF.
+    /// The URDF; of xacro the one that it expands to, as `cplan inspect --expanded` writes it.
     pub urdf: String,
     /// The world file.
     pub world: String,
@@ -22,17 +22,26 @@ impl Digests {
     ///
     /// # Errors
     /// A file that can no longer be read.
-    pub fn of(urdf: &Path, world: &Path) -> Result<Self, InputError> {
-        let given: Vec<FileIdentity> = [urdf, world].into_iter().filter_map(FileIdentity::of).collect();
+    pub fn of(robot: &RobotFile, world: &Path) -> Result<Self, InputError> {
+        let given: Vec<FileIdentity> = [&robot.path, world].into_iter().filter_map(FileIdentity::of).collect();
         let is_other =
             |path: &Path| FileIdentity::of(path).is_some_and(|other| !given.iter().any(|one| one.is(&other)));
         let others = files_read().into_iter().filter(|path| is_other(path)).map(|path| digest(&path));
         let mut others: Vec<String> = others.collect::<Result<_, _>>()?;
         others.sort();
-        Ok(Self { urdf: digest(urdf)?, world: digest(world)?, others })
+        let expanded = robot.read()?;
+        let urdf = match expanded.is_expanded() {
+            true => digest_of(expanded.text().as_bytes()),
+            false => digest(&robot.path)?,
+        };
+        Ok(Self { urdf, world: digest(world)?, others })
     }
 }
 
 fn digest(path: &Path) -> Result<String, Diagnostic> {
-    Ok(Sha256::digest(read_bytes(path)?).iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(digest_of(&read_bytes(path)?))
+}
+
+fn digest_of(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

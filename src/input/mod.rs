@@ -41,6 +41,7 @@ mod problem;
 mod quantity;
 mod query;
 mod requirement;
+mod robot_file;
 mod schema;
 mod sensor;
 mod sequence;
@@ -72,6 +73,7 @@ pub use preference_map::{PreferenceMap, PreferenceRectangle};
 #[cfg(feature = "study")]
 pub(crate) use quantity::Quantity;
 pub use query::Query;
+pub use robot_file::RobotFile;
 pub use schema::world_schema;
 #[cfg(feature = "study")]
 pub(crate) use schema::{AngleOrLength, toml_schema};
@@ -158,9 +160,9 @@ pub struct Loaded {
 ///
 /// # Errors
 /// [`InputError`] for everything that is wrong with the files themselves.
-pub fn load_scene(urdf: &Path, world: &Path) -> Result<LoadedScene, InputError> {
+pub fn load_scene(robot: impl Into<RobotFile>, world: &Path) -> Result<LoadedScene, InputError> {
     let world = world::read(Source::read(world)?)?;
-    among(world, Source::read(urdf)?)
+    among(world, robot.into().read()?)
 }
 
 /// The same from texts, which need not be files.
@@ -251,7 +253,7 @@ fn standing(arm: &Arm, world: &World) -> Arm {
 /// Examines a robot without stopping at the first thing that is wrong. Without a world file nothing is chosen, held or
 /// overridden; what a world would have to decide is then among the diagnostics and in [`Inspection::help`].
 #[must_use]
-pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
+pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection {
     let mut unread = None;
     let file = match world.map(|path| Source::read(path).and_then(world::read)) {
         None => World::silent(),
@@ -261,7 +263,8 @@ pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
             World::silent()
         }
     };
-    let mut inspection = Inspection { world: world.map(|p| p.display().to_string()), ..urdf::survey(urdf, &file) };
+    let mut inspection =
+        Inspection { world: world.map(|p| p.display().to_string()), ..urdf::survey(&robot.into(), &file) };
     if let Some(error) = unread {
         inspection.errors.insert(0, error);
     }
@@ -283,10 +286,16 @@ pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
     inspection
 }
 
+/// The meshes that a robot finds where it is, but not if its text were the file `other`.
+#[must_use]
+pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
+    urdf::meshes_elsewhere(robot, other)
+}
+
 /// Reads a planning problem: [`load_scene`], then [`LoadedScene::problem`].
 ///
 /// # Errors
 /// [`InputError`], for the files or for start and goal.
-pub fn load(urdf: &Path, world: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
-    load_scene(urdf, world)?.problem(overrides)
+pub fn load(robot: impl Into<RobotFile>, world: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
+    load_scene(robot, world)?.problem(overrides)
 }

@@ -2,13 +2,14 @@
 
 use super::error::{Diagnostic, InputError};
 use super::identity::note_read;
+use cplan_xacro::Expansion;
 use serde::{Deserialize, Serialize};
 use serde_saphyr::{MessageFormatter, UserMessageFormatter};
 use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// A place in a text file, counted from 1; columns count characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,6 +28,9 @@ pub struct Source {
     pub(super) text: String,
     /// Whether there is such a file, beside which others may lie.
     is_file: bool,
+    /// The xacro files that the text was expanded from. Places in the text are reported as places in them.
+    #[serde(skip)]
+    expansion: Option<Arc<Expansion>>,
     /// The position of every [`MILE`]th byte, once it is asked for.
     #[serde(skip)]
     milestones: OnceLock<Vec<Position>>,
@@ -134,7 +138,7 @@ impl Source {
     /// other files (meshes, maps), so nothing is ever read for it.
     #[must_use]
     pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
-        Self { path: name.into(), text: text.into(), is_file: false, milestones: OnceLock::new() }
+        Self { path: name.into(), text: text.into(), is_file: false, expansion: None, milestones: OnceLock::new() }
     }
 
     /// The whole text of the file.
@@ -147,7 +151,26 @@ impl Source {
     /// same file.
     #[must_use]
     pub fn with_text(&self, text: impl Into<String>) -> Self {
-        Self { path: self.path.clone(), text: text.into(), is_file: self.is_file, milestones: OnceLock::new() }
+        Self { is_file: self.is_file, ..Self::in_memory(self.path.clone(), text) }
+    }
+
+    /// The same with the URDF that its xacro expands to.
+    pub(super) fn expanded(&self, expansion: Expansion) -> Self {
+        Self { expansion: Some(Arc::new(expansion.clone())), ..self.with_text(expansion.text) }
+    }
+
+    /// Whether the text is what xacro was expanded to.
+    #[must_use]
+    pub fn is_expanded(&self) -> bool {
+        self.expansion.is_some()
+    }
+
+    /// The xacro file and the part of it that a byte of the text comes from.
+    fn origin(&self, offset: usize) -> Option<(Self, Range<usize>)> {
+        let expansion = self.expansion.as_ref()?;
+        let place = expansion.place(offset)?;
+        let file = &expansion.files[place.file];
+        Some((Self::in_memory(file.path.clone(), &*file.text), place.range.clone()))
     }
 
     /// Reads a file as UTF-8, without a byte order mark.
@@ -175,7 +198,7 @@ impl Source {
             .help("save it as UTF-8")
         })?;
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        Ok(Self { path: path.to_owned(), text, is_file: true, milestones: OnceLock::new() })
+        Ok(Self { is_file: true, ..Self::in_memory(path, text) })
     }
 
     /// The path against which the names of other files are resolved.
@@ -196,8 +219,11 @@ impl Source {
         self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned())
     }
 
-    /// Line and column of a byte offset. `O(1)` but for the first, which takes note of places on the way through the text.
+    /// Line and column of a byte offset, in the xacro file that it comes from, if any. `O(1)` but for the first, which takes note of places on the way through the text.
     pub(super) fn position(&self, offset: usize) -> Position {
+        if let Some((file, range)) = self.origin(offset) {
+            return file.position(range.start);
+        }
         let offset = offset.min(self.text.len());
         let milestones = self.milestones.get_or_init(|| {
             let mut cursor = self.cursor();
@@ -220,6 +246,9 @@ impl Source {
 
     /// A diagnostic at a range of bytes, with the source line and carets below it.
     pub(crate) fn diagnostic_at(&self, range: Range<usize>, message: impl Into<String>) -> Diagnostic {
+        if let Some((file, range)) = self.origin(range.start) {
+            return file.diagnostic_at(range, message);
+        }
         let position = self.position(range.start);
         Diagnostic {
             position: Some(position),

@@ -3,7 +3,7 @@
 use super::error::{Diagnostic, InputError};
 use super::source::Source;
 use super::world::in_toml_words;
-use super::{Loaded, LoadedScene, Overrides, load_scene};
+use super::{Loaded, LoadedScene, Overrides, RobotFile, load_scene};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -70,7 +70,7 @@ struct ProblemTable {
 /// A pair of files, before they are read.
 struct Pair {
     name: Option<String>,
-    robot: PathBuf,
+    robot: RobotFile,
     world: PathBuf,
 }
 
@@ -122,7 +122,7 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
         let paths = [(&problem.robot, "robot"), (&problem.world, "world")].map(|(name, what)| beside(name, what));
         match paths {
             [Ok(robot), Ok(world)] => {
-                pairs.push(Pair { name: problem.name.map(Spanned::into_inner), robot, world });
+                pairs.push(Pair { name: problem.name.map(Spanned::into_inner), robot: robot.into(), world });
             }
             paths => {
                 let name = problem.name.map_or_else(|| stem(Path::new(problem.world.get_ref())), Spanned::into_inner);
@@ -144,7 +144,7 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
 /// # Errors
 /// [`InputError`] for a folder without worlds, and with every diagnostic of all files if none of them can be read. If some can,
 /// the others are in [`Suite::refused`].
-pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
+pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, InputError> {
     let whole = |message: String| Diagnostic::new(folder.display().to_string(), message);
     let entries = std::fs::read_dir(folder).map_err(|error| {
         whole(format!("cannot be read as a folder: {error}")).help("give a folder with world files (.toml)")
@@ -159,7 +159,8 @@ pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
     if worlds.is_empty() {
         return Err(whole("there is no world in it".into()).help("give a folder with world files (.toml)").into());
     }
-    let pairs = worlds.into_iter().map(|world| Pair { name: None, robot: urdf.to_owned(), world }).collect();
+    let robot = robot.into();
+    let pairs = worlds.into_iter().map(|world| Pair { name: None, robot: robot.clone(), world }).collect();
     read(folder_name(folder), pairs, Vec::new())
 }
 
@@ -172,7 +173,7 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
             Ok(scene) if scene.has_movers() => left_out.push(LeftOut { world, why: "something moves in it" }),
             Ok(scene) => {
                 let name = name.unwrap_or_else(|| stem(&world));
-                let name = distinct(&name, &stem(&robot), |name| members.iter().any(|member| member.name == name));
+                let name = distinct(&name, &stem(&robot.path), |name| members.iter().any(|member| member.name == name));
                 members.push(Member { name, scene });
             }
             Err(error) => refused.push(Refused { name: name.unwrap_or_else(|| stem(&world)), error }),

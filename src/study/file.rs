@@ -7,7 +7,7 @@ use super::parameter::{Design, Parameter, Values};
 use super::schema::{ParameterTable, StudyFile, Text};
 use super::template::{Place, Setting, Template, place};
 use crate::engine::Options;
-use crate::input::{Diagnostic, InputError, Overrides, Quantity, Source, in_toml_words, scene_from};
+use crate::input::{Diagnostic, InputError, Overrides, Quantity, RobotFile, Source, in_toml_words, scene_from};
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -39,7 +39,11 @@ pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, Inpu
                 .diagnostic(format!("the study names no {key}"))
                 .help(format!("write {key} = \"{example}\" at its beginning"))
         };
-        Source::read(&path.with_file_name(name.ok_or_else(missing)?))
+        let path = path.with_file_name(name.ok_or_else(missing)?);
+        match which {
+            Named::Robot => RobotFile::from(path).read(),
+            Named::World => Source::read(&path),
+        }
     };
     read(&study, read_options, &beside)
 }

@@ -11,19 +11,20 @@ const EVERYWHERE: [&str; 3] = ["cplan_interrupt", "text", "parallel"];
 const CRATE: &str = "cplan_";
 
 /// Who may import whom, besides [`EVERYWHERE`].
-const MAY_IMPORT: [(&str, &[&str]); 28] = [
+const MAY_IMPORT: [(&str, &[&str]); 29] = [
     (EVERYWHERE[0], &[]),
     ("cplan_check", &[]),
     ("cplan_drawing", &[]),
     ("cplan_multigrid", &[]),
     ("cplan_gpu", &[]),
     ("cplan_harmonic", &["cplan_multigrid"]),
+    ("cplan_xacro", &[]),
     (EVERYWHERE[1], &[]),
     (EVERYWHERE[2], &[]),
     ("geometry", &[]),
     ("space", &["geometry"]),
     ("model", &["geometry", "space"]),
-    ("input", &["geometry", "space", "model"]),
+    ("input", &["cplan_xacro", "geometry", "space", "model"]),
     ("cspace", &["geometry", "space", "model"]),
     ("field", &["cplan_multigrid", "cplan_gpu", "cplan_harmonic", "geometry", "space", "cspace"]),
     ("planner", &["geometry", "space", "cspace", "field"]),

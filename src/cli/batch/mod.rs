@@ -27,7 +27,7 @@ use turns::Turns;
 /// Arguments of `batch`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A line is an object: `urdf` (a path) or `urdf_text`; `world` (a path, or the keys of a world file as an object) or `world_text`
+A line is an object: `urdf` (a path; of xacro with `xacro_args`, an object) or `urdf_text`; `world` (a path, or the keys of a world file as an object) or `world_text`
 (TOML); `options`, the words of the main job, as a list or by name; and `id`, anything, which comes back. Such as
   {\"id\": 7, \"urdf\": \"arm.urdf\", \"world\": \"world.toml\", \"options\": [\"--planner=wavefront\", \"--cells=80\"]}
   {\"urdf\": \"arm.urdf\", \"world\": \"world.toml\", \"options\": {\"goal\": [1.2, -0.3], \"clearance\": 0.01}}

@@ -4,7 +4,7 @@ use super::turns::Line;
 use crate::cli::failure::Failure;
 use crate::cli::words::{self, Asked};
 use crate::engine::{Plan, Problem, plan};
-use crate::input::{Diagnostic, InputError, LoadedScene, Position, Source, scene_from};
+use crate::input::{Diagnostic, InputError, LoadedScene, Position, RobotFile, Source, scene_from};
 use crate::interrupt::{Instant, Interrupt};
 use crate::parallel::caught;
 use serde::Deserialize;
@@ -12,7 +12,7 @@ use serde::de::IgnoredAny;
 use serde_json::error::Category;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -28,6 +28,8 @@ struct Given {
     _id: Option<IgnoredAny>,
     urdf: Option<PathBuf>,
     urdf_text: Option<String>,
+    #[serde(default)]
+    xacro_args: BTreeMap<String, String>,
     world: Option<World>,
     world_text: Option<String>,
     #[serde(default)]
@@ -58,6 +60,7 @@ impl Default for Options {
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum Named {
     File(PathBuf),
+    Robot(RobotFile),
     Text(String),
 }
 
@@ -136,7 +139,7 @@ impl Reader {
         let one =
             |what: &str| refused(format!("give `{what}` or `{what}_text`, one of them"), "see `cplan batch --help`");
         let robot = match (given.urdf, given.urdf_text) {
-            (Some(path), None) => Named::File(path),
+            (Some(path), None) => Named::Robot(RobotFile { path, xacro_args: given.xacro_args.into_iter().collect() }),
             (None, Some(text)) => Named::Text(text),
             _ => return Err(one("urdf")),
         };
@@ -195,6 +198,7 @@ impl Named {
     fn source(&self, name: &str) -> Result<Source, InputError> {
         match self {
             Self::File(path) => Source::read(path),
+            Self::Robot(robot) => robot.read(),
             Self::Text(text) => Ok(Source::in_memory(Path::new(name), text.clone())),
         }
     }

@@ -1,6 +1,6 @@
 //! Arguments of `compare`.
 
-use crate::cli::args::QueryArgs;
+use crate::cli::args::{QueryArgs, XacroArgs};
 use crate::cli::variant::Variant;
 use crate::engine::Method;
 use crate::grammar::{EffortArgs, MotionArgs};
@@ -40,6 +40,8 @@ pub struct CompareArgs {
     /// The workspace, TOML.
     #[arg(value_name = "WORLD", required_unless_present = "suite", conflicts_with = "suite")]
     pub world: Option<PathBuf>,
+    #[command(flatten)]
+    pub xacro: XacroArgs,
     /// Many problems: those that DIR/suite.toml lists; or, after an URDF, all worlds of DIR with that robot.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, conflicts_with_all = ["start", "goal", "goal_tip"])]
     pub suite: Option<PathBuf>,

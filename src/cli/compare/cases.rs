@@ -65,8 +65,8 @@ impl Cases {
     /// Every diagnostic of all files at once.
     pub fn load(args: &CompareArgs) -> Result<Self, Failure> {
         let suite = match (&args.urdf, &args.world, &args.suite) {
-            (Some(urdf), Some(world), _) => one(input::load_scene(urdf, world)?),
-            (Some(urdf), None, Some(folder)) => input::load_folder(urdf, folder)?,
+            (Some(urdf), Some(world), _) => one(input::load_scene(args.xacro.robot(urdf), world)?),
+            (Some(urdf), None, Some(folder)) => input::load_folder(args.xacro.robot(urdf), folder)?,
             (_, _, Some(place)) => input::load_suite(place)?,
             _ => return Err(Failure::Usage("URDF and WORLD are required, or --suite".into())),
         };

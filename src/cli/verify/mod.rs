@@ -23,8 +23,8 @@ use crate::space::Recording;
 /// is the job.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
-    let mut loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
-    let about = Digests::of(&args.files.urdf, &args.files.world)?;
+    let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.keeping(args.clearance)?;
+    let about = Digests::of(&args.files.robot(), &args.files.world)?;
     loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let mut recorded = match &args.topic {
         None => input::load_recording(&args.trajectory, &loaded)?,

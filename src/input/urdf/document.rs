@@ -61,7 +61,6 @@ impl Document {
     /// When it is no XML, is xacro or SDF, or so defective that nothing is left to work with. Diagnostics that
     /// can be seen without the tree of links are all collected in [`Document::diagnostics`].
     pub fn read(source: Source) -> Result<Self, InputError> {
-        foreign::recognise_by_name(&source)?;
         foreign::without_entities(&source)?;
         let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
         let xml = roxmltree::Document::parse_with_options(&source.text, options);

@@ -8,20 +8,12 @@ use roxmltree::{Document, Error, Node};
 /// Namespace of xacro.
 const XACRO: &str = "ros.org/wiki/xacro";
 
-fn xacro(diagnostic: Diagnostic, source: &Source) -> Diagnostic {
-    let file = source.path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-    let plain = file.trim_end_matches(".xacro").trim_end_matches(".urdf").to_owned();
-    diagnostic.help(format!(
-        "expand it first: `xacro {file} > {plain}_expanded.urdf` (`pip install xacro`, or `ros2 run xacro xacro`)"
-    ))
-}
-
-/// Refuses `.xacro` by its name: its text is a program that writes a URDF.
-pub(super) fn recognise_by_name(source: &Source) -> Result<(), Diagnostic> {
-    if source.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xacro")) {
-        return Err(xacro(source.diagnostic("this is a xacro file, not a plain URDF"), source));
-    }
-    Ok(())
+/// What a text in xacro is refused with. Files are expanded before they come here.
+fn xacro(diagnostic: Diagnostic) -> Diagnostic {
+    diagnostic.help(
+        "save it as a file, which is expanded: `cplan robot.urdf.xacro world.toml`; \
+         `cplan inspect robot.urdf.xacro --expanded robot.urdf` writes it as a plain URDF",
+    )
 }
 
 /// Refuses document types that define entities, which can grow without end. One that does not is harmless, and ignored.
@@ -43,8 +35,8 @@ pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
 pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
     let at = error.pos();
     if matches!(error, Error::UnknownNamespace(prefix, _) if prefix == "xacro") {
-        let diagnostic = source.diagnostic(format!("line {}: this is a xacro file, not a plain URDF", at.row));
-        return xacro(diagnostic, source);
+        let diagnostic = source.diagnostic(format!("line {}: this text is xacro, not a plain URDF", at.row));
+        return xacro(diagnostic);
     }
     let (line, column) = (at.row as usize, at.col as usize);
     let line_start: usize = source.text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
@@ -76,8 +68,8 @@ pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Diagnostic> {
             return Err(at(root, &message).help("give the URDF first and the world file second"));
         }
     }
-    match xacro_trace(root.document()) {
-        Some(node) => Err(xacro(at(node, "this is a xacro file, not a plain URDF"), source)),
+    match xacro_trace(root.document()).filter(|_| !source.is_expanded()) {
+        Some(node) => Err(xacro(at(node, "this text is xacro, not a plain URDF"))),
         None => Ok(()),
     }
 }

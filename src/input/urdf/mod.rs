@@ -41,7 +41,20 @@ use super::world::World;
 use crate::model::Arm;
 use document::Document;
 use reduction::Reduction;
+use std::collections::BTreeSet;
+use std::path::Path;
 use tree::Tree;
+
+/// The meshes that a robot finds where it is, but not if its text were the file `other`.
+pub(super) fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
+    let (Ok(here), Ok(xml)) = (robot.anchor(), roxmltree::Document::parse(&robot.text)) else { return Vec::new() };
+    let named =
+        xml.descendants().filter(|node| node.has_tag_name("mesh")).filter_map(|node| node.attribute("filename"));
+    let place = |name: &str, urdf: &Path| mesh::find(name, urdf).ok().and_then(|path| path.canonicalize().ok());
+    let is_lost = |name: &&str| place(name, here).is_some_and(|path| place(name, other) != Some(path));
+    let names: BTreeSet<&str> = named.filter(is_lost).collect();
+    names.into_iter().map(str::to_owned).collect()
+}
 
 /// Reads a URDF and reduces it to the arm that the world's `[robot]` table chooses.
 ///

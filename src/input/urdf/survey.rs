@@ -15,19 +15,18 @@ use crate::input::inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
     RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry, source_name,
 };
-use crate::input::source::Source;
+use crate::input::robot_file::RobotFile;
 use crate::input::standing;
 use crate::input::world::World;
 use crate::model::{Arm, Carrier, Link, OutlineSource, Plane, Scene, SelfObstacle};
 use crate::space::{Configuration, JointRange};
 use nalgebra::Vector3;
-use std::path::Path;
 use urdf_rs::JointType;
 
 /// Everything that can be said of the robot.
-pub(in crate::input) fn survey(path: &Path, world: &World) -> Inspection {
-    let mut report = Inspection { urdf: path.display().to_string(), ..Inspection::default() };
-    let document = match Source::read(path).and_then(Document::read) {
+pub(in crate::input) fn survey(robot: &RobotFile, world: &World) -> Inspection {
+    let mut report = Inspection { urdf: robot.path.display().to_string(), ..Inspection::default() };
+    let document = match robot.read().and_then(Document::read) {
         Ok(document) => document,
         Err(error) => {
             report.errors.push(error);

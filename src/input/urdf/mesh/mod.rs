@@ -6,6 +6,7 @@ mod stl;
 
 use crate::input::source::{Source, read_bounded};
 use crate::input::world::LARGEST;
+use cplan_xacro::packages;
 use nalgebra::Point3;
 use std::path::{Path, PathBuf};
 
@@ -44,7 +45,8 @@ impl From<String> for Unread {
 
 /// A mesh, scaled, in the geometry's frame.
 ///
-/// `filename` is as in the URDF: `package://name/rest`, `file://path`, absolute, or relative to the URDF's folder.
+/// `filename` is as in the URDF: `package://name/rest` (`name` as the `package.xml` has it), `file://path`, absolute, or relative to the
+/// URDF's folder.
 ///
 /// # Errors
 /// With the places that were searched: the file is missing, the URDF is no file, of a format that is not read, broken, or too large.
@@ -85,48 +87,33 @@ fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> Unread {
     Unread { message, cure }
 }
 
-fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
-    let candidates = candidates(filename, urdf);
-    candidates.iter().find(|p| p.is_file()).cloned().ok_or_else(|| {
-        let places: Vec<String> = candidates.iter().map(|p| p.display().to_string()).collect();
-        format!("mesh \"{filename}\" is not there; looked at {}", places.join(", "))
+/// The file of a mesh.
+///
+/// # Errors
+/// With the places that were searched.
+pub(in crate::input) fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
+    if let Some(path) = candidates(filename, urdf).find(|path| path.is_file()) {
+        return Ok(path);
+    }
+    let mut places: Vec<String> = candidates(filename, urdf).map(|path| path.display().to_string()).collect();
+    places.dedup();
+    Err(match places.is_empty() {
+        false => format!("mesh \"{filename}\" is not there; looked at {}", places.join(", ")),
+        true => format!("mesh \"{filename}\" is not there: near the URDF is no package of that name"),
     })
 }
 
 /// Where a mesh may be, likeliest first.
-fn candidates(filename: &str, urdf: &Path) -> Vec<PathBuf> {
+fn candidates<'f>(filename: &'f str, urdf: &Path) -> Box<dyn Iterator<Item = PathBuf> + 'f> {
     let folder = urdf.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if let Some(path) = filename.strip_prefix("file://") {
-        return vec![folder.join(path)];
+        return Box::new(std::iter::once(folder.join(path)));
     }
-    let Some(rest) = filename.strip_prefix("package://") else {
-        return vec![folder.join(filename)];
-    };
-    let (package, inside) = rest.split_once('/').unwrap_or((rest, ""));
-    let absolute = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-    let mut places = Vec::new();
-    for ancestor in absolute.ancestors() {
-        if ancestor.file_name().is_some_and(|n| n == package) {
-            places.push(ancestor.join(inside));
-        }
-        if ancestor.join(package).is_dir() {
-            places.push(ancestor.join(package).join(inside));
+    match filename.strip_prefix("package://") {
+        None => Box::new(std::iter::once(folder.join(filename))),
+        Some(rest) => {
+            let (package, inside) = rest.split_once('/').unwrap_or((rest, ""));
+            Box::new(packages(package, urdf).map(move |folder| folder.join(inside)))
         }
     }
-    for root in search_path("ROS_PACKAGE_PATH") {
-        if root.file_name().is_some_and(|n| n == package) {
-            places.push(root.join(inside));
-        }
-        places.push(root.join(package).join(inside));
-    }
-    places.extend(search_path("AMENT_PREFIX_PATH").into_iter().map(|p| p.join("share").join(package).join(inside)));
-    if places.is_empty() {
-        places.push(absolute.join(package).join(inside));
-    }
-    places
-}
-
-fn search_path(variable: &str) -> Vec<PathBuf> {
-    let paths = std::env::var_os(variable).unwrap_or_default();
-    std::env::split_paths(&paths).filter(|p| !p.as_os_str().is_empty()).collect()
 }

@@ -1,0 +1,237 @@
+//! Walks elements and writes what they become.
+
+use crate::document::{self, Attribute, Element, File, Node, Place};
+use crate::error::{Error, Fault};
+use crate::limits::Budget;
+use crate::scope::{GLOBAL, Scopes};
+use crate::value::Value;
+use crate::{Expansion, Settings, writer};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+use std::rc::Rc;
+
+/// Directives of old xacro, which it took without the prefix.
+const OLD_DIRECTIVES: [&str; 3] = ["include", "macro", "property"];
+
+/// The state of an expansion.
+pub(crate) struct Expander<'s> {
+    pub settings: &'s Settings,
+    pub files: Vec<File>,
+    pub scopes: Scopes,
+    pub budget: Budget,
+    /// Values from outside, by name.
+    pub given: BTreeMap<String, String>,
+    /// Values of the arguments that are declared.
+    pub arguments: BTreeMap<String, String>,
+    /// Arguments that were asked for.
+    pub asked_arguments: BTreeSet<String>,
+    /// Folders of packages, by name and file.
+    pub packages: BTreeMap<(String, usize), String>,
+    /// Files that are being included.
+    pub open_files: Vec<PathBuf>,
+    /// Macros that are being called, with the place of the call.
+    pub calls: Vec<(String, Place)>,
+    pub notes: Vec<String>,
+    namespaces: Vec<(String, String)>,
+}
+
+impl<'s> Expander<'s> {
+    pub fn new(settings: &'s Settings) -> Self {
+        Self {
+            settings,
+            files: Vec::new(),
+            scopes: Scopes::new(),
+            budget: Budget::default(),
+            given: settings.arguments.iter().cloned().collect(),
+            arguments: BTreeMap::new(),
+            asked_arguments: BTreeSet::new(),
+            packages: BTreeMap::new(),
+            open_files: Vec::new(),
+            calls: Vec::new(),
+            notes: Vec::new(),
+            namespaces: Vec::new(),
+        }
+    }
+
+    /// Expands a file.
+    pub fn run(mut self, path: PathBuf) -> Result<Expansion, Error> {
+        let whole = |message: String, hint: &str| Error {
+            path: path.clone(),
+            place: None,
+            message,
+            hint: Some(hint.to_owned()),
+        };
+        let root = self.open(path.clone())?.map_err(|why| whole(why, "check the path and the file's permissions"))?;
+        self.open_files.push(path.canonicalize().unwrap_or_else(|_| path.clone()));
+        let mut children = Vec::new();
+        self.nodes(&root.children, GLOBAL, &mut children)?;
+        // After the content, so that they may name what is defined there.
+        let attributes = self.attributes(&root, GLOBAL)?;
+        let unused =
+            self.given.keys().find(|name| !self.arguments.contains_key(*name) && !self.asked_arguments.contains(*name));
+        if let Some(name) = unused {
+            let known: Vec<&str> = self.arguments.keys().map(String::as_str).collect();
+            let hint = match known.is_empty() {
+                true => "leave --xacro-arg out".to_owned(),
+                false => format!("its arguments are {}", known.join(", ")),
+            };
+            return Err(whole(format!("the robot has no argument \"{name}\""), &hint));
+        }
+        let root = Element { name: root.name.clone(), attributes, children, place: root.place.clone() };
+        let (text, spans) = writer::write(&root, &self.namespaces);
+        Ok(Expansion { text, spans, files: self.files, notes: self.notes })
+    }
+
+    /// Reads a file; the inner error says why it cannot be.
+    pub fn open(&mut self, path: PathBuf) -> Result<Result<Rc<Element>, String>, Error> {
+        let text = match document::text(&path, self.settings.read) {
+            Ok(text) => text,
+            Err(why) => return Ok(Err(why)),
+        };
+        let file = File { path, text: text.into() };
+        let tree = document::read(&file, self.files.len())?;
+        self.files.push(file);
+        for (prefix, uri) in tree.namespaces {
+            if !self.namespaces.iter().any(|(known, _)| *known == prefix) {
+                self.namespaces.push((prefix, uri));
+            }
+        }
+        Ok(Ok(tree.root))
+    }
+
+    /// A fault at its place.
+    pub fn error(&self, place: &Place, fault: Fault) -> Error {
+        let (message, hint) = match fault {
+            Fault::Elsewhere(error) => return *error,
+            Fault::Here(message, hint) => (message, hint),
+        };
+        let file = &self.files[place.file];
+        let message = match self.calls.last() {
+            None => message,
+            Some((name, at)) => {
+                let caller = &self.files[at.file];
+                let line = caller.line(at.range.start);
+                format!("{message} (in macro \"{name}\", called at {}:{line})", caller.path.display())
+            }
+        };
+        Error { path: file.path.clone(), place: Some((file.clone(), place.clone())), message, hint }
+    }
+
+    /// The value of an attribute.
+    pub fn value(&mut self, attribute: &Attribute, scope: usize) -> Result<Value, Error> {
+        let value = self.text(&attribute.value, Self::context(scope, &attribute.place));
+        value.map_err(|fault| self.error(&attribute.place, fault))
+    }
+
+    /// The attributes of an element, evaluated. Declarations of xacro's namespace are not among them.
+    fn attributes(&mut self, element: &Element, scope: usize) -> Result<Vec<Attribute>, Error> {
+        let mut attributes = Vec::new();
+        for attribute in &element.attributes {
+            let value = self.value(attribute, scope)?.printed();
+            attributes.push(Attribute { value, ..attribute.clone() });
+        }
+        Ok(attributes)
+    }
+
+    /// Expands content.
+    pub fn nodes(&mut self, nodes: &[Node], scope: usize, out: &mut Vec<Node>) -> Result<(), Error> {
+        for node in nodes {
+            match node {
+                Node::Element(element) => self.element(element, scope, out)?,
+                Node::Text(text, place) if !text.trim().is_empty() => {
+                    let text = self.text(text.trim(), Self::context(scope, place));
+                    let text = text.map_err(|fault| self.error(place, fault))?.printed();
+                    out.push(Node::Text(text.into(), place.clone()));
+                }
+                Node::Text(..) => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn element(&mut self, element: &Rc<Element>, scope: usize, out: &mut Vec<Node>) -> Result<(), Error> {
+        let entered = self.budget.enter().and_then(|()| self.budget.spend(0));
+        entered.map_err(|fault| self.error(&element.place, fault))?;
+        match element.directive() {
+            Some(name) => self.directive(name, element, scope, out)?,
+            None => {
+                self.check_prefix(element)?;
+                let attributes = self.attributes(element, scope)?;
+                let mut children = Vec::new();
+                self.nodes(&element.children, scope, &mut children)?;
+                let (name, place) = (element.name.clone(), element.place.clone());
+                out.push(Node::Element(Rc::new(Element { name, attributes, children, place })));
+            }
+        }
+        self.budget.leave();
+        Ok(())
+    }
+
+    /// Refuses what only old versions of xacro take for directives.
+    fn check_prefix(&self, element: &Element) -> Result<(), Error> {
+        let is_old = match element.name.as_str() {
+            "include" => element.attribute("filename").is_some(),
+            "macro" => element.attribute("params").is_some(),
+            "property" => element.attribute("name").is_some() && element.attribute("value").is_some(),
+            _ => false,
+        };
+        match OLD_DIRECTIVES.into_iter().find(|name| is_old && *name == element.name) {
+            None => Ok(()),
+            Some(name) => {
+                let message = format!("<{name}> without a prefix was xacro's only in its first versions");
+                Err(self.error(&element.place, Fault::with_hint(message, format!("write <xacro:{name} ...>"))))
+            }
+        }
+    }
+
+    fn directive(&mut self, name: &str, element: &Rc<Element>, scope: usize, out: &mut Vec<Node>) -> Result<(), Error> {
+        match name {
+            "property" => self.property_element(element, scope),
+            "arg" => self.arg_element(element, scope),
+            "macro" => self.macro_element(element, scope),
+            "insert_block" => self.insert_block(element, scope, out),
+            "include" => self.include(element, scope, out),
+            "if" | "unless" => {
+                let [condition] = self.required(element, ["value"])?;
+                let value = self.value(&condition, scope)?;
+                let is_true = value.condition().ok_or_else(|| {
+                    let message = format!("'{}' is no condition", value.printed());
+                    self.error(
+                        &condition.place,
+                        Fault::with_hint(message, "write true, false, or an expression: ${a == 1}"),
+                    )
+                })?;
+                if is_true == (name == "if") { self.nodes(&element.children, scope, out) } else { Ok(()) }
+            }
+            "element" | "attribute" => {
+                let message = format!("xacro:{name} is not read");
+                Err(self.error(
+                    &element.place,
+                    Fault::with_hint(message, "write the element as it is to be, under xacro:if"),
+                ))
+            }
+            "call" => {
+                let [called] = self.required(element, ["macro"])?;
+                let name = self.value(&called, scope)?.printed();
+                self.call(&name, element, scope, out)
+            }
+            name => self.call(name, element, scope, out),
+        }
+    }
+
+    /// Attributes that an element must have.
+    pub fn required<const N: usize>(&self, element: &Element, names: [&str; N]) -> Result<[Attribute; N], Error> {
+        let missing = names.iter().find(|name| element.attribute(name).is_none());
+        if let Some(name) = missing {
+            let message = format!("<{}> has no {name}=\"...\"", element.name);
+            return Err(self.error(&element.place, message.into()));
+        }
+        Ok(names.map(|name| {
+            element.attribute(name).cloned().unwrap_or_else(|| Attribute {
+                name: name.to_owned(),
+                value: String::new(),
+                place: element.place.clone(),
+            })
+        }))
+    }
+}

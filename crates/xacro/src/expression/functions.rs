@@ -1,0 +1,240 @@
+//! The functions and constants that expressions know: those of Python's `math`, and some of its own.
+
+use crate::error::Fault;
+use crate::limits::LONGEST;
+use crate::value::{Number, Value, float};
+use std::cmp::Ordering;
+use std::f64::consts;
+
+/// Functions of one number.
+type OfOne = (&'static str, fn(f64) -> f64);
+
+const OF_ONE: [OfOne; 25] = [
+    ("acos", f64::acos),
+    ("acosh", f64::acosh),
+    ("asin", f64::asin),
+    ("asinh", f64::asinh),
+    ("atan", f64::atan),
+    ("atanh", f64::atanh),
+    ("cbrt", f64::cbrt),
+    ("cos", f64::cos),
+    ("cosh", f64::cosh),
+    ("degrees", f64::to_degrees),
+    ("exp", f64::exp),
+    ("expm1", f64::exp_m1),
+    ("fabs", f64::abs),
+    ("log", f64::ln),
+    ("log10", f64::log10),
+    ("log1p", f64::ln_1p),
+    ("log2", f64::log2),
+    ("radians", f64::to_radians),
+    ("sin", f64::sin),
+    ("sinh", f64::sinh),
+    ("sqrt", f64::sqrt),
+    ("tan", f64::tan),
+    ("tanh", f64::tanh),
+    ("ceil", f64::ceil),
+    ("floor", f64::floor),
+];
+
+type OfTwo = (&'static str, fn(f64, f64) -> f64);
+
+const OF_TWO: [OfTwo; 6] = [
+    ("atan2", f64::atan2),
+    ("copysign", f64::copysign),
+    ("fmod", |x, y| x % y),
+    ("hypot", f64::hypot),
+    ("log", |x, base| x.ln() / base.ln()),
+    ("pow", f64::powf),
+];
+
+/// The others.
+const MORE: [&str; 19] = [
+    "abs", "all", "any", "bool", "dict", "float", "int", "isinf", "isnan", "len", "list", "max", "min", "range",
+    "round", "sorted", "str", "sum", "trunc",
+];
+
+/// The constants of Python's `math`.
+pub(super) fn constant(name: &str) -> Option<Value> {
+    let value = match name {
+        "pi" => consts::PI,
+        "tau" => consts::TAU,
+        "e" => consts::E,
+        "inf" => f64::INFINITY,
+        "nan" => f64::NAN,
+        _ => return None,
+    };
+    Some(Value::Float(value))
+}
+
+pub(super) fn is_function(name: &str) -> bool {
+    MORE.contains(&name)
+        || ["load_yaml", "arg", "tuple"].contains(&name)
+        || OF_ONE.iter().any(|(known, _)| *known == name)
+        || OF_TWO.iter().any(|(known, _)| *known == name)
+}
+
+/// Calls a function.
+pub(super) fn call(name: &str, arguments: &mut Vec<Value>) -> Result<Value, Fault> {
+    if !is_function(name) {
+        let known: Vec<&str> = OF_ONE.iter().map(|f| f.0).chain(OF_TWO.iter().map(|f| f.0)).chain(MORE).collect();
+        return Err(Fault::with_hint(
+            format!("the function {name}() is not known"),
+            format!("those that are: {}", known.join(", ")),
+        ));
+    }
+    let numbers: Option<Vec<Number>> = arguments.iter().map(Value::number).collect();
+    let result = match numbers.as_deref() {
+        Some([x]) => of_one(name, *x),
+        Some([x, y]) => {
+            OF_TWO.iter().find(|(known, _)| *known == name).map(|(_, f)| finite(name, f(x.as_f64(), y.as_f64())))
+        }
+        _ => None,
+    };
+    if let Some(result) = result {
+        return result;
+    }
+    more(name, arguments)?.ok_or_else(|| {
+        let kinds: Vec<&str> = arguments.iter().map(Value::kind).collect();
+        format!("{name}() does not go with ({})", kinds.join(", ")).into()
+    })
+}
+
+fn finite(name: &str, value: f64) -> Result<Value, Fault> {
+    match value.is_nan() {
+        true => Err(format!("{name}() is not defined there").into()),
+        false => Ok(Value::Float(value)),
+    }
+}
+
+fn of_one(name: &str, x: Number) -> Option<Result<Value, Fault>> {
+    let (_, f) = OF_ONE.iter().find(|(known, _)| *known == name)?;
+    let value = finite(name, f(x.as_f64()));
+    Some(match (name, value) {
+        ("ceil" | "floor", Ok(Value::Float(x))) => whole(name, x),
+        (_, value) => value,
+    })
+}
+
+/// A float without a fraction as an integer.
+fn whole(name: &str, x: f64) -> Result<Value, Fault> {
+    /// The least power of two that is too large.
+    const BEYOND: f64 = 9.223_372_036_854_775_8e18;
+    match x.abs() < BEYOND {
+        true => Ok(Value::Int(x as i64)),
+        false => Err(format!("the result of {name}() is too large").into()),
+    }
+}
+
+fn more(name: &str, arguments: &mut Vec<Value>) -> Result<Option<Value>, Fault> {
+    let value = match (name, &arguments[..]) {
+        ("abs", [Value::Int(x)]) => Value::Int(x.checked_abs().ok_or("the result of abs() is too large")?),
+        ("abs", [Value::Float(x)]) => Value::Float(x.abs()),
+        ("bool", [x]) => Value::Bool(x.is_true()),
+        ("str", [x]) => Value::text(x.printed()),
+        ("float", [Value::Text(text)]) => Value::Float(float(text).ok_or_else(|| format!("'{text}' is no number"))?),
+        ("float", [x]) if x.number().is_some() => Value::Float(x.number().map_or(0.0, Number::as_f64)),
+        ("int", [Value::Text(text)]) => {
+            Value::Int(text.trim().parse().map_err(|_| format!("'{text}' is no whole number"))?)
+        }
+        ("int" | "trunc", [Value::Float(x)]) => whole(name, x.trunc())?,
+        ("int" | "trunc", [Value::Int(x)]) => Value::Int(*x),
+        ("int", [Value::Bool(x)]) => Value::Int(i64::from(*x)),
+        ("isnan", [x]) if x.number().is_some() => Value::Bool(x.number().is_some_and(|x| x.as_f64().is_nan())),
+        ("isinf", [x]) if x.number().is_some() => Value::Bool(x.number().is_some_and(|x| x.as_f64().is_infinite())),
+        ("round", [Value::Int(x)]) => Value::Int(*x),
+        ("round", [Value::Float(x)]) => whole(name, x.round_ties_even())?,
+        ("round", [x, Value::Int(digits)]) if x.number().is_some() => {
+            let x = x.number().map_or(0.0, Number::as_f64);
+            let digits =
+                usize::try_from(*digits).ok().filter(|digits| *digits <= 20).ok_or("round() takes 0 to 20 digits")?;
+            Value::Float(format!("{x:.digits$}").parse().unwrap_or(x))
+        }
+        ("len", [Value::Text(text)]) => Value::Int(text.chars().count() as i64),
+        ("len", [Value::List(items)]) => Value::Int(items.len() as i64),
+        ("len", [Value::Dict(items)]) => Value::Int(items.len() as i64),
+        ("list" | "tuple", [of]) => Value::list(items(of).ok_or_else(|| format!("a {} has no items", of.kind()))?),
+        ("range", [Value::Int(to)]) => range(0, *to)?,
+        ("range", [Value::Int(from), Value::Int(to)]) => range(*from, *to)?,
+        ("any" | "all", [Value::List(items)]) => Value::Bool(match name {
+            "any" => items.iter().any(Value::is_true),
+            _ => items.iter().all(Value::is_true),
+        }),
+        ("sum", [Value::List(items)]) => {
+            let numbers: Option<Vec<Number>> = items.iter().map(Value::number).collect();
+            let numbers = numbers.ok_or("sum() needs numbers")?;
+            let total = numbers.iter().try_fold(0_i64, |sum, x| match x {
+                Number::Int(x) => sum.checked_add(*x),
+                Number::Float(_) => None,
+            });
+            total.map_or_else(|| Value::Float(numbers.iter().map(|x| x.as_f64()).sum()), Value::Int)
+        }
+        ("max" | "min", [Value::List(items)]) => extreme(name, items)?,
+        ("max" | "min", [_, _, ..]) => extreme(name, arguments)?,
+        ("sorted", [Value::List(items)]) => {
+            let mut items = items.to_vec();
+            if items.windows(2).any(|pair| pair[0].compare(&pair[1]).is_none()) {
+                return Err("sorted() needs items that can be compared".into());
+            }
+            items.sort_by(|a, b| a.compare(b).unwrap_or(Ordering::Equal));
+            Value::list(items)
+        }
+        _ => return Ok(None),
+    };
+    Ok(Some(value))
+}
+
+fn range(from: i64, to: i64) -> Result<Value, Fault> {
+    if to.saturating_sub(from) > LONGEST as i64 {
+        return Err(format!("a list of more than {LONGEST} items is too long").into());
+    }
+    Ok(Value::list((from..to).map(Value::Int).collect()))
+}
+
+fn items(of: &Value) -> Option<Vec<Value>> {
+    match of {
+        Value::List(items) => Some(items.to_vec()),
+        Value::Dict(items) => Some(items.iter().map(|(key, _)| key.clone()).collect()),
+        Value::Text(text) => Some(text.chars().map(|c| Value::text(c.to_string())).collect()),
+        _ => None,
+    }
+}
+
+fn extreme(name: &str, items: &[Value]) -> Result<Value, Fault> {
+    let wanted = if name == "max" { Ordering::Greater } else { Ordering::Less };
+    let (first, others) = items.split_first().ok_or_else(|| format!("{name}() needs an item"))?;
+    let mut best = first;
+    for item in others {
+        let order = item.compare(best).ok_or_else(|| format!("{name}() needs items that can be compared"))?;
+        if order == wanted {
+            best = item;
+        }
+    }
+    Ok(best.clone())
+}
+
+/// Calls a method of a text or a dict.
+pub(super) fn method(of: &Value, name: &str, arguments: &[Value]) -> Result<Value, Fault> {
+    let text_list = |parts: Vec<&str>| Value::list(parts.into_iter().map(Value::text).collect());
+    let unknown = || Fault::from(format!("{name}() is not known for a {}", of.kind()));
+    let value = match (of, name, arguments) {
+        (Value::Text(text), "lower", []) => Value::text(text.to_lowercase()),
+        (Value::Text(text), "upper", []) => Value::text(text.to_uppercase()),
+        (Value::Text(text), "strip", []) => Value::text(text.trim()),
+        (Value::Text(text), "split", []) => text_list(text.split_whitespace().collect()),
+        (Value::Text(text), "split", [Value::Text(by)]) if !by.is_empty() => text_list(text.split(&**by).collect()),
+        (Value::Text(text), "startswith", [Value::Text(part)]) => Value::Bool(text.starts_with(&**part)),
+        (Value::Text(text), "endswith", [Value::Text(part)]) => Value::Bool(text.ends_with(&**part)),
+        (Value::Text(text), "replace", [Value::Text(from), Value::Text(to)])
+            if !from.is_empty() && text.len().saturating_mul(to.len().max(1)) <= LONGEST * 10 =>
+        {
+            Value::text(text.replace(&**from, to))
+        }
+        (Value::Dict(items), "keys", []) => Value::list(items.iter().map(|(key, _)| key.clone()).collect()),
+        (Value::Dict(items), "values", []) => Value::list(items.iter().map(|(_, value)| value.clone()).collect()),
+        (Value::Dict(_), "get", [key]) => of.item(key).cloned().unwrap_or(Value::None),
+        (Value::Dict(_), "get", [key, default]) => of.item(key).unwrap_or(default).clone(),
+        _ => return Err(unknown()),
+    };
+    Ok(value)
+}

@@ -1,0 +1,61 @@
+//! Expressions as in `${...}`: the part of Python that robot descriptions use.
+//!
+//! ```text
+//! text -> tokens -> Expression -> Value
+//! ```
+
+mod evaluate;
+mod functions;
+mod parser;
+mod tokens;
+
+pub(crate) use evaluate::insert;
+
+use crate::error::Fault;
+use crate::limits::Budget;
+use crate::value::Value;
+
+/// An expression that has been parsed.
+#[derive(Debug)]
+pub(crate) enum Expression {
+    Constant(Value),
+    Name(String),
+    List(Vec<Expression>),
+    Dict(Vec<(Expression, Expression)>),
+    /// `not`, `-` or `+`.
+    Unary(&'static str, Box<Expression>),
+    Binary(&'static str, Box<Expression>, Box<Expression>),
+    /// `a < b < c`.
+    Comparison(Box<Expression>, Vec<(&'static str, Expression)>),
+    And(Box<Expression>, Box<Expression>),
+    Or(Box<Expression>, Box<Expression>),
+    /// `a if b else c`, in the order b, a, c.
+    Choice(Box<[Expression; 3]>),
+    Index(Box<Expression>, Box<Expression>),
+    /// `a[b:c]`.
+    Slice(Box<Expression>, [Option<Box<Expression>>; 2]),
+    Member(Box<Expression>, String),
+    Call(Box<Expression>, Vec<Expression>, Vec<(String, Expression)>),
+}
+
+/// What an expression may ask for.
+pub(crate) trait Names {
+    /// The value of a property; none if there is none.
+    fn property(&mut self, name: &str) -> Result<Option<Value>, Fault>;
+    /// The value of an argument (`xacro.arg`).
+    fn argument(&mut self, name: &str) -> Result<Value, Fault>;
+    /// The content of a YAML file (`xacro.load_yaml`).
+    fn yaml(&mut self, name: &str) -> Result<Value, Fault>;
+    /// Counts what is computed.
+    fn budget(&mut self) -> &mut Budget;
+}
+
+/// Computes an expression.
+///
+/// # Errors
+/// What is no expression, or none that is known; names that nothing has; types that do not go together; what is too large.
+pub(crate) fn evaluate(text: &str, names: &mut dyn Names) -> Result<Value, Fault> {
+    let tokens = tokens::tokens(text)?;
+    let expression = parser::parse(&tokens)?;
+    evaluate::Evaluator { names }.value(&expression)
+}

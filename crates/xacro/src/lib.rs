@@ -1,0 +1,124 @@
+//! Reads xacro, the macro language in which most robot descriptions are written, and writes plain URDF.
+//!
+//! ```
+//! use cplan_xacro::{Settings, expand};
+//!
+//! # let folder = tempfile::tempdir().unwrap();
+//! let file = folder.path().join("arm.urdf.xacro");
+//! std::fs::write(&file, r#"<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+//!   <xacro:arg name="reach" default="0.8"/>
+//!   <xacro:property name="half" value="${$(arg reach) / 2}"/>
+//!   <xacro:macro name="bar" params="name"><link name="${name}"/></xacro:macro>
+//!   <xacro:bar name="upper_${half}"/>
+//! </robot>"#).unwrap();
+//! let settings = Settings { arguments: vec![("reach".into(), "1.2".into())], ..Settings::default() };
+//! let expansion = expand(&file, &settings).unwrap();
+//! assert!(expansion.text.contains(r#"<link name="upper_0.6"/>"#));
+//! ```
+//!
+//! # What is read
+//!
+//! | element or word | what it does |
+//! |---|---|
+//! | `xacro:property` | a value, or a block of elements; with `default`, `scope` (`parent` or `global`), `lazy_eval`, `remove` |
+//! | `xacro:arg` | a value that [`Settings::arguments`] may replace |
+//! | `xacro:macro`, `xacro:call` | parameters with defaults (`a:=1`, `a:=^`, `a:=^\|1`), and blocks (`*a`, `**a`) |
+//! | `xacro:insert_block` | a block, or the elements in it |
+//! | `xacro:if`, `xacro:unless` | elements under a condition |
+//! | `xacro:include` | another file, also with `ns` and `optional` |
+//! | `${...}` | Python's expressions, without comprehensions and lambdas: numbers, text, lists, dicts, the functions of `math` |
+//! | `$(arg ...)`, `$(find ...)`, `$(env ...)`, `$(optenv ...)`, `$(dirname)` | substitutions; packages are found by their `package.xml` |
+//!
+//! All else is an [`Error`] that names the place, and what to do.
+//!
+//! # What holds
+//!
+//! The same files and arguments give the same text. Every start tag and attribute of it has a [`Place`] in the file that it
+//! comes from. No file makes the expansion run for long: nesting, the number of steps and the size of the output are bounded.
+#![forbid(unsafe_code)]
+
+mod block;
+mod document;
+mod error;
+mod expander;
+mod expression;
+mod include;
+mod limits;
+mod macros;
+mod package;
+mod property;
+mod scope;
+mod substitution;
+mod value;
+mod writer;
+mod yaml;
+
+pub use document::{File, Place};
+pub use error::Error;
+pub use package::packages;
+pub use writer::Span;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What an expansion depends on, beside the files.
+#[derive(Debug, Clone)]
+pub struct Settings {
+    /// Names and values of arguments. Of two with the same name the last counts.
+    pub arguments: Vec<(String, String)>,
+    /// Reads a file: the robot itself, what it includes, YAML that it loads.
+    pub read: fn(&Path) -> io::Result<Vec<u8>>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { arguments: Vec::new(), read: |path| std::fs::read(path) }
+    }
+}
+
+/// A plain URDF, and where its parts come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Expansion {
+    /// The URDF.
+    pub text: String,
+    /// The XML files that were read, the robot's own first.
+    pub files: Vec<File>,
+    /// The parts of the text, in ascending order of their beginnings. An attribute follows the start tag that it lies in.
+    pub spans: Vec<Span>,
+    /// What a reader should know: parts that were left out.
+    pub notes: Vec<String>,
+}
+
+impl Expansion {
+    /// The place that a byte of the text comes from: that of the attribute, or else of the start tag, that it lies in or behind.
+    #[must_use]
+    pub fn place(&self, offset: usize) -> Option<&Place> {
+        let begun = self.spans.partition_point(|span| span.range.start <= offset);
+        let before = &self.spans[..begun];
+        before.iter().rev().take_while(|span| !span.is_tag).find(|span| span.range.contains(&offset)).map_or_else(
+            || before.iter().rev().find(|span| span.is_tag).map(|span| &span.place),
+            |span| Some(&span.place),
+        )
+    }
+}
+
+/// Expands a file. It need not use xacro.
+///
+/// # Errors
+/// A file that cannot be read or is no XML; what xacro itself refuses; what this reader does not know; what goes beyond its
+/// bounds.
+pub fn expand(path: &Path, settings: &Settings) -> Result<Expansion, Error> {
+    expander::Expander::new(settings).run(path.to_owned())
+}
+
+/// Whether a text uses xacro: an element or attribute in its namespace, or an expression in an attribute. A text that merely
+/// declares the namespace does not.
+#[must_use]
+pub fn is_xacro(text: &str) -> bool {
+    document::uses_xacro(text)
+}
+
+/// The path of a file beside another.
+fn beside(file: &Path, name: &str) -> PathBuf {
+    file.with_file_name("").join(name)
+}

@@ -1,0 +1,59 @@
+//! Bounds on what a file may make of itself.
+
+use crate::error::Fault;
+
+/// Levels of elements, macros, includes and properties within one another. Robots need about 20; a macro that calls itself needs two a
+/// turn.
+pub(crate) const DEEPEST: usize = 160;
+
+/// Levels of parentheses and operators in one expression.
+pub(crate) const DEEPEST_EXPRESSION: usize = 40;
+
+/// Steps of an expansion: elements, attributes and parts of expressions. The largest public robots need some 100 000.
+pub(crate) const MOST_STEPS: usize = 3_000_000;
+
+/// Bytes of the expanded text, and of all values that are computed on the way.
+pub(crate) const LARGEST: usize = 64 << 20;
+
+/// Items of a list.
+pub(crate) const LONGEST: usize = 100_000;
+
+/// What an expansion has used so far.
+#[derive(Debug, Default)]
+pub(crate) struct Budget {
+    steps: usize,
+    bytes: usize,
+    depth: usize,
+}
+
+const HINT: &str = "a macro or include that goes on without end does that; give it a condition (xacro:if) that ends it";
+
+impl Budget {
+    /// Counts a step that makes a text of so many bytes.
+    pub fn spend(&mut self, bytes: usize) -> Result<(), Fault> {
+        self.steps += 1;
+        self.bytes = self.bytes.saturating_add(bytes);
+        if self.steps > MOST_STEPS {
+            return Err(Fault::with_hint(format!("the expansion needs more than {MOST_STEPS} steps"), HINT));
+        }
+        if self.bytes > LARGEST {
+            return Err(Fault::with_hint(format!("the expansion makes more than {} MiB", LARGEST >> 20), HINT));
+        }
+        Ok(())
+    }
+
+    /// Goes one level down.
+    pub fn enter(&mut self) -> Result<(), Fault> {
+        if self.depth >= DEEPEST {
+            let message = format!("elements, macros, includes and properties are nested more than {DEEPEST} deep here");
+            return Err(Fault::with_hint(message, HINT));
+        }
+        self.depth += 1;
+        Ok(())
+    }
+
+    /// Comes back up.
+    pub fn leave(&mut self) {
+        self.depth -= 1;
+    }
+}

@@ -1,0 +1,88 @@
+//! Packages of ROS: folders with a `package.xml` that gives their name.
+
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+
+/// Folders above a file below which packages are looked for: a package, its repository, and the workspace about it.
+const LEVELS_UP: usize = 5;
+
+/// Levels of folders below each of those.
+const LEVELS_DOWN: usize = 4;
+
+/// Folders that are looked into below each.
+const MOST_FOLDERS: usize = 1_000;
+
+/// Bytes of the largest `package.xml`.
+const LARGEST_MANIFEST: u64 = 1 << 20;
+
+/// Returns the folders that a package of this name may be in, as seen from a file, likeliest first.
+///
+/// A package is a folder whose `package.xml` has the name in `<name>`. The folders about the file come first, then those that lie
+/// below them (sibling packages, others of the same repository) and below `ROS_PACKAGE_PATH`. The search ends at the root of a Git
+/// repository. Folders that are merely called so follow, about the file and in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
+pub fn packages(name: &str, file: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let above: Vec<PathBuf> = folder.ancestors().map(Path::to_owned).collect();
+    let repository = above.iter().position(|folder| folder.join(".git").exists());
+    let mut near: Vec<PathBuf> = above.iter().take(repository.map_or(LEVELS_UP, |at| at + 1)).cloned().collect();
+    let listed = search_path("ROS_PACKAGE_PATH");
+    near.extend(listed.iter().cloned());
+    let with_child = |folders: Vec<PathBuf>| {
+        let name = name.to_owned();
+        folders.into_iter().flat_map(move |folder| [folder.clone(), folder.join(&name)])
+    };
+    let has_name = |folder: &PathBuf, name: &str| manifest_name(folder).is_some_and(|found| found == name);
+    let (in_manifest, in_path, in_folder) = (name.to_owned(), name.to_owned(), name.to_owned());
+    let about = with_child(above.clone()).filter(move |folder| has_name(folder, &in_manifest));
+    let below =
+        near.into_iter().flat_map(|folder| folders_below(&folder)).filter(move |folder| has_name(folder, &in_path));
+    let called = with_child(above.into_iter().chain(listed).collect())
+        .filter(move |folder| folder.is_dir() && folder.file_name().is_some_and(|own| *own == *in_folder));
+    let name = name.to_owned();
+    let installed = search_path("AMENT_PREFIX_PATH").into_iter().map(move |path| path.join("share").join(&name));
+    about.chain(below).chain(called).chain(installed.filter(|folder| folder.is_dir()))
+}
+
+/// The folders below one, in breadth, in the order of their names. Hidden folders are left out.
+fn folders_below(folder: &Path) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> = Vec::new();
+    let mut next = VecDeque::from([(folder.to_owned(), LEVELS_DOWN)]);
+    while let Some((folder, levels)) = next.pop_front() {
+        let Ok(entries) = folder.read_dir() else { continue };
+        let mut inside: Vec<PathBuf> = entries
+            .filter_map(Result::ok)
+            .filter(|entry| !entry.file_name().to_string_lossy().starts_with('.'))
+            .filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()))
+            .map(|entry| entry.path())
+            .collect();
+        inside.sort();
+        inside.truncate(MOST_FOLDERS - found.len());
+        found.extend(inside.iter().cloned());
+        if levels > 1 {
+            next.extend(inside.into_iter().map(|folder| (folder, levels - 1)));
+        }
+        if found.len() >= MOST_FOLDERS {
+            break;
+        }
+    }
+    found
+}
+
+/// The name that a folder's `package.xml` gives the package.
+fn manifest_name(folder: &Path) -> Option<String> {
+    let path = folder.join("package.xml");
+    if path.metadata().ok()?.len() > LARGEST_MANIFEST {
+        return None;
+    }
+    let text = std::fs::read_to_string(path).ok()?;
+    let manifest = roxmltree::Document::parse(text.trim_start()).ok()?;
+    let root = manifest.root_element();
+    let name = root.children().find(|node| root.has_tag_name("package") && node.has_tag_name("name"))?;
+    name.text().map(|name| name.trim().to_owned())
+}
+
+fn search_path(variable: &str) -> Vec<PathBuf> {
+    let paths = std::env::var_os(variable).unwrap_or_default();
+    std::env::split_paths(&paths).filter(|path| !path.as_os_str().is_empty()).collect()
+}

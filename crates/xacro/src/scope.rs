@@ -1,0 +1,128 @@
+//! Names and what they stand for.
+
+use crate::document::{Node, Place};
+use crate::macros::Macro;
+use crate::value::Value;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// What a name stands for.
+#[derive(Debug, Clone)]
+pub(crate) enum Slot {
+    /// A text that is evaluated when it is asked for, and where it is written.
+    Unevaluated(Rc<str>, Place),
+    /// A text that is being evaluated.
+    Evaluating,
+    Value(Value),
+}
+
+/// Elements that go by a name.
+#[derive(Debug, Clone)]
+pub(crate) struct Block {
+    pub nodes: Vec<Node>,
+    /// Whether the nodes are to be evaluated where they are inserted: those of a property, not those of a parameter.
+    pub is_source: bool,
+}
+
+/// The names of a file, a macro's call, or a namespace.
+#[derive(Debug, Default)]
+pub(crate) struct Scope {
+    parent: Option<usize>,
+    slots: BTreeMap<String, Slot>,
+    /// By their names and stars: `*a` is an element, `**a` what is in it.
+    blocks: BTreeMap<String, Rc<Block>>,
+    macros: BTreeMap<String, Rc<Macro>>,
+    namespaces: BTreeMap<String, usize>,
+}
+
+/// All scopes. The first is the robot's own; others refer to the one in which they lie by its index.
+#[derive(Debug)]
+pub(crate) struct Scopes(Vec<Scope>);
+
+/// Index of the robot's own scope.
+pub(crate) const GLOBAL: usize = 0;
+
+impl Scopes {
+    pub fn new() -> Self {
+        Self(vec![Scope::default()])
+    }
+
+    /// A new scope in another one.
+    pub fn open(&mut self, parent: usize) -> usize {
+        self.0.push(Scope { parent: Some(parent), ..Scope::default() });
+        self.0.len() - 1
+    }
+
+    /// A new scope with a name.
+    pub fn open_namespace(&mut self, parent: usize, name: &str) -> usize {
+        let scope = self.open(parent);
+        self.0[parent].namespaces.insert(name.to_owned(), scope);
+        scope
+    }
+
+    /// The scope about one; the robot's own has none.
+    pub fn parent(&self, scope: usize) -> Option<usize> {
+        self.0[scope].parent
+    }
+
+    /// The scopes in which a name is looked for, and the name there: without the namespaces in front of it.
+    fn candidates<'n>(&self, scope: usize, name: &'n str) -> (Vec<usize>, &'n str) {
+        let mut about: Vec<usize> = std::iter::successors(Some(scope), |scope| self.0[*scope].parent).collect();
+        let mut rest = name;
+        while let Some((namespace, inside)) = rest.split_once('.') {
+            let Some(found) = about.iter().find_map(|scope| self.0[*scope].namespaces.get(namespace)) else {
+                return (Vec::new(), rest);
+            };
+            (about, rest) = (vec![*found], inside);
+        }
+        (about, rest)
+    }
+
+    /// The scope that has a property, and its name there.
+    pub fn find<'n>(&self, scope: usize, name: &'n str) -> Option<(usize, &'n str)> {
+        let (about, name) = self.candidates(scope, name);
+        about.into_iter().find(|scope| self.0[*scope].slots.contains_key(name)).map(|scope| (scope, name))
+    }
+
+    /// What a name stands for in this very scope.
+    pub fn slot(&self, scope: usize, name: &str) -> Option<&Slot> {
+        self.0[scope].slots.get(name)
+    }
+
+    pub fn set(&mut self, scope: usize, name: &str, slot: Slot) {
+        self.0[scope].slots.insert(name.to_owned(), slot);
+    }
+
+    /// Forgets a property and a block of this name.
+    pub fn remove(&mut self, scope: usize, name: &str) {
+        self.0[scope].slots.remove(name);
+        self.0[scope].blocks.remove(&format!("**{name}"));
+    }
+
+    pub fn block(&self, scope: usize, name: &str) -> Option<Rc<Block>> {
+        let (about, name) = self.candidates(scope, name);
+        about.into_iter().find_map(|scope| self.0[scope].blocks.get(name).cloned())
+    }
+
+    pub fn set_block(&mut self, scope: usize, name: String, block: Block) {
+        self.0[scope].blocks.insert(name, Rc::new(block));
+    }
+
+    pub fn find_macro(&self, scope: usize, name: &str) -> Option<Rc<Macro>> {
+        let (about, name) = self.candidates(scope, name);
+        about.into_iter().find_map(|scope| self.0[scope].macros.get(name).cloned())
+    }
+
+    pub fn set_macro(&mut self, scope: usize, name: &str, defined: Macro) {
+        self.0[scope].macros.insert(name.to_owned(), Rc::new(defined));
+    }
+
+    /// The names of all macros that can be called.
+    pub fn macro_names(&self, scope: usize) -> Vec<String> {
+        let about = std::iter::successors(Some(scope), |scope| self.0[*scope].parent);
+        let mut names: Vec<String> = about.flat_map(|scope| self.0[scope].macros.keys().cloned()).collect();
+        names.sort();
+        names.dedup();
+        names
+    }
+}

@@ -1,0 +1,98 @@
+//! Writes elements as XML, and remembers where each part comes from.
+
+use crate::document::{Element, Node, Place};
+use std::ops::Range;
+
+/// A part of the written text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Span {
+    /// Bytes of the text.
+    pub range: Range<usize>,
+    /// Whether it is a start tag; else it is an attribute.
+    pub is_tag: bool,
+    /// Where it comes from.
+    pub place: Place,
+}
+
+/// The text of an element and all that is in it, with the namespaces declared in its start tag; and its spans.
+pub(crate) fn write(root: &Element, namespaces: &[(String, String)]) -> (String, Vec<Span>) {
+    let mut writer = Writer { text: "<?xml version=\"1.0\"?>\n".to_owned(), spans: Vec::new() };
+    writer.element(root, 0, namespaces);
+    writer.text.push('\n');
+    (writer.text, writer.spans)
+}
+
+struct Writer {
+    text: String,
+    spans: Vec<Span>,
+}
+
+impl Writer {
+    fn element(&mut self, element: &Element, depth: usize, namespaces: &[(String, String)]) {
+        let begin = self.text.len();
+        let tag = self.spans.len();
+        self.spans.push(Span { range: begin..begin, is_tag: true, place: element.place.clone() });
+        self.text.push('<');
+        self.text += &element.name;
+        for (prefix, uri) in namespaces {
+            self.attribute(&format!("xmlns:{prefix}"), uri);
+        }
+        for attribute in &element.attributes {
+            let from = self.attribute(&attribute.name, &attribute.value);
+            let range = from..self.text.len();
+            self.spans.push(Span { range, is_tag: false, place: attribute.place.clone() });
+        }
+        if element.children.is_empty() {
+            self.text += "/>";
+            self.spans[tag].range.end = self.text.len();
+            return;
+        }
+        self.text.push('>');
+        self.spans[tag].range.end = self.text.len();
+        let has_text = element.children.iter().any(|child| child.element().is_none());
+        for child in &element.children {
+            if !has_text {
+                self.new_line(depth + 1);
+            }
+            match child {
+                Node::Element(child) => self.element(child, depth + 1, &[]),
+                Node::Text(text, _) => self.escaped(text),
+            }
+        }
+        if !has_text {
+            self.new_line(depth);
+        }
+        self.text += "</";
+        self.text += &element.name;
+        self.text.push('>');
+    }
+
+    fn new_line(&mut self, depth: usize) {
+        self.text.push('\n');
+        self.text.extend(std::iter::repeat_n("  ", depth));
+    }
+
+    /// Writes an attribute; returns where it begins.
+    fn attribute(&mut self, name: &str, value: &str) -> usize {
+        self.text.push(' ');
+        let from = self.text.len();
+        self.text += name;
+        self.text += "=\"";
+        self.escaped(value);
+        self.text.push('"');
+        from
+    }
+
+    fn escaped(&mut self, text: &str) {
+        for c in text.chars() {
+            match c {
+                '<' => self.text += "&lt;",
+                '>' => self.text += "&gt;",
+                '&' => self.text += "&amp;",
+                '"' => self.text += "&quot;",
+                '\n' | '\t' | '\r' => self.text.push(' '),
+                c => self.text.push(c),
+            }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The file of a robot: a URDF, or xacro that is expanded to one.
+
+use super::error::{Diagnostic, InputError};
+use super::source::{Source, read_bounded};
+use cplan_xacro::{Settings, expand, is_xacro};
+use std::path::{Path, PathBuf};
+
+/// Where a robot is read from.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct RobotFile {
+    /// A URDF, or xacro.
+    pub path: PathBuf,
+    /// Names and values of the arguments of a xacro file, in place of its defaults.
+    pub xacro_args: Vec<(String, String)>,
+}
+
+impl From<&RobotFile> for RobotFile {
+    fn from(file: &RobotFile) -> Self {
+        file.clone()
+    }
+}
+
+impl<P: AsRef<Path>> From<P> for RobotFile {
+    fn from(path: P) -> Self {
+        Self { path: path.as_ref().to_owned(), xacro_args: Vec::new() }
+    }
+}
+
+impl RobotFile {
+    /// Reads the file as a URDF. What is xacro, by its name or by its content, is expanded; messages then name the places in the xacro
+    /// files.
+    ///
+    /// # Errors
+    /// A file that cannot be read or expanded, and arguments for a file that is no xacro.
+    pub fn read(&self) -> Result<Source, InputError> {
+        let source = Source::read(&self.path)?;
+        let is_named_so = self.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xacro"));
+        if !is_named_so && !is_xacro(source.text()) {
+            return match self.xacro_args.first() {
+                None => Ok(source),
+                Some((name, _)) => {
+                    let message = format!("this is a plain URDF, which has no argument \"{name}\"");
+                    Err(source.diagnostic(message).help("leave --xacro-arg out").into())
+                }
+            };
+        }
+        let settings = Settings { arguments: self.xacro_args.clone(), read: read_bounded };
+        match expand(&self.path, &settings) {
+            Ok(expansion) => Ok(source.expanded(expansion)),
+            Err(error) => Err(diagnostic(error).into()),
+        }
+    }
+}
+
+/// The same for users, with the line.
+fn diagnostic(error: cplan_xacro::Error) -> Diagnostic {
+    let diagnostic = match error.place {
+        None => Diagnostic::new(error.path.display().to_string(), error.message),
+        Some((file, place)) => Source::in_memory(file.path, &*file.text).diagnostic_at(place.range, error.message),
+    };
+    diagnostic.help(error.hint.unwrap_or_else(|| "correct it there; docs/robots.md says what of xacro is read".into()))
+}
