@@ -20,8 +20,8 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::PathBuf;
-use std::time::Duration;
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 use turns::Turns;
 
 /// Arguments of `batch`.

@@ -13,6 +13,7 @@
 //! shortest, visibility and subdivision answer every so many worlds, 20), `CPLAN_LEVELS` (attempts of a planner, as
 //! [`Options::default`] has it), `CPLAN_THREADS`.
 
+mod body;
 mod exploring;
 mod flood;
 pub mod oracle;
@@ -233,7 +234,7 @@ fn look_at_all(kind: &str, seeds: std::ops::Range<u64>, run: &Run, threads: usiz
                     if seed >= seeds.end {
                         break;
                     }
-                    let of_body = || world::world_of_body(kind, seed);
+                    let of_body = || body::world_of_body(kind, seed);
                     let worlds = [world::world(kind, seed), run.body.then(of_body).flatten()];
                     worlds.iter().flatten().for_each(|problem| look(problem, seed, run, &tally));
                 }

@@ -5,8 +5,8 @@ use crate::common::dice::Dice;
 use crate::common::{asked, convex, disc, placed, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
-    Arm, Carrier, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene,
-    SelfObstacle, Shape, Workspace,
+    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, SelfObstacle,
+    Shape, Workspace,
 };
 use cplan::space::{Configuration, GoalSet, JointRange};
 use nalgebra::Vector3;
@@ -20,12 +20,8 @@ pub fn world(kind: &str, seed: u64) -> Option<MotionProblem> {
     drawn(kind, seed, |_, _| Vec::new())
 }
 
-/// The same of an arm whose own body is in its way.
-pub fn world_of_body(kind: &str, seed: u64) -> Option<MotionProblem> {
-    drawn(kind, seed, self_obstacles)
-}
-
-fn drawn(kind: &str, seed: u64, body: impl Fn(&mut Dice, &Arm) -> Vec<SelfObstacle>) -> Option<MotionProblem> {
+/// The same with obstacles of the robot's own.
+pub fn drawn(kind: &str, seed: u64, body: impl Fn(&mut Dice, &Arm) -> Vec<SelfObstacle>) -> Option<MotionProblem> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ u64::from(kind.as_bytes()[0]) << 8);
     let mut arm = arm(&mut dice, kind);
     arm.self_obstacles = body(&mut dice, &arm);
@@ -124,38 +120,8 @@ fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
     Link { name: name.into(), parts, source: OutlineSource::Collision }
 }
 
-/// Shapes that stand still near the base, and shapes on link 1 near its end, some of which a link is free to meet.
-fn self_obstacles(dice: &mut Dice, arm: &Arm) -> Vec<SelfObstacle> {
-    let mut all = Vec::new();
-    for number in 0..1 + dice.below(4) as usize {
-        let (carrier, center) = match dice.chance(0.5) {
-            true => (Carrier::Base, arm.base),
-            false => (Carrier::FirstJoint, arm.base + arm.offset),
-        };
-        let near = center + Vector::new(dice.within(-0.3, 0.3), dice.within(-0.3, 0.3));
-        let ignored = if dice.chance(0.3) { vec!["first".to_owned()] } else { Vec::new() };
-        let obstacle = |obstacle| SelfObstacle {
-            carrier,
-            obstacle,
-            number,
-            is_visual: false,
-            ignored: ignored.clone(),
-            permanent: vec![],
-        };
-        let shapes = self::obstacle(dice, 0.0, near).into_iter().flat_map(|o| split(&o));
-        all.extend(shapes.map(obstacle));
-    }
-    all
-}
-
-/// An obstacle for each of its pieces.
-fn split(obstacle: &Obstacle) -> Vec<Obstacle> {
-    let one = |piece: &Convex| Obstacle { pieces: vec![piece.clone()], ..obstacle.clone() };
-    obstacle.pieces.iter().map(one).collect()
-}
-
 /// One obstacle, or several that touch.
-fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
+pub fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
     let (angle, radius) = (dice.within(-PI, PI), reach * dice.within(0.02, 1.0).sqrt());
     let center = base + Vector::new(angle.cos(), angle.sin()) * radius;
     let size = dice.within(0.02, 0.3);

@@ -1,0 +1,41 @@
+//! Random worlds of arms whose own body is in their way.
+
+use super::world;
+use crate::common::dice::Dice;
+use cplan::geometry::{Convex, Vector};
+use cplan::model::{Arm, Carrier, MotionProblem, Obstacle, SelfObstacle};
+
+/// The world of a seed, of the given kind of arm; none if the draw has no two free configurations.
+pub fn world_of_body(kind: &str, seed: u64) -> Option<MotionProblem> {
+    world::drawn(kind, seed, self_obstacles)
+}
+
+/// Shapes that stand still near the base, and shapes on link 1 near its end, some of which a link is free to meet.
+fn self_obstacles(dice: &mut Dice, arm: &Arm) -> Vec<SelfObstacle> {
+    let mut all = Vec::new();
+    for number in 0..1 + dice.below(4) as usize {
+        let (carrier, center) = match dice.chance(0.5) {
+            true => (Carrier::Base, arm.base),
+            false => (Carrier::FirstJoint, arm.base + arm.offset),
+        };
+        let near = center + Vector::new(dice.within(-0.3, 0.3), dice.within(-0.3, 0.3));
+        let ignored = if dice.chance(0.3) { vec!["first".to_owned()] } else { Vec::new() };
+        let obstacle = |obstacle| SelfObstacle {
+            carrier,
+            obstacle,
+            number,
+            is_visual: false,
+            ignored: ignored.clone(),
+            permanent: vec![],
+        };
+        let shapes = world::obstacle(dice, 0.0, near).into_iter().flat_map(|o| split(&o));
+        all.extend(shapes.map(obstacle));
+    }
+    all
+}
+
+/// An obstacle for each of its pieces.
+fn split(obstacle: &Obstacle) -> Vec<Obstacle> {
+    let one = |piece: &Convex| Obstacle { pieces: vec![piece.clone()], ..obstacle.clone() };
+    obstacle.pieces.iter().map(one).collect()
+}
