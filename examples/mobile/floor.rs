@@ -24,7 +24,7 @@ impl Floor {
     /// What is wrong with it.
     pub fn load(world: &str) -> Result<Self, InputError> {
         let root = File::new(env!("CARGO_MANIFEST_DIR"));
-        let loaded = input::load_scene(&root.join("robots/mobile_robot.urdf"), &root.join("workspaces").join(world))?;
+        let loaded = input::load_scene(root.join("robots/mobile_robot.urdf"), &root.join("workspaces").join(world))?;
         Ok(Self::new(loaded.scene))
     }
 

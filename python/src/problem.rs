@@ -2,11 +2,12 @@
 
 use crate::error::{raised, refused};
 use cplan::Joint;
-use cplan::input::{InputError, LoadedScene, Overrides, Source, scene_from, scene_of};
+use cplan::input::{InputError, LoadedScene, Overrides, RobotFile, Source, scene_from, scene_of};
 use pyo3::PyClass;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A planar two-joint arm: a robot in URDF, or one that is made in code.
@@ -36,10 +37,15 @@ impl Arm {
 
 #[pymethods]
 impl Arm {
-    /// Reads a URDF file.
+    /// Reads a URDF file, or one in xacro, with `xacro_args` in place of its arguments' defaults.
     #[staticmethod]
-    fn from_urdf(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Source::read(&absolute(path)?).map(|source| Self(What::Urdf(source))).map_err(|error| raised(py, &error))
+    #[pyo3(signature = (path, *, xacro_args = None))]
+    fn from_urdf(py: Python<'_>, path: PathBuf, xacro_args: Option<BTreeMap<String, String>>) -> PyResult<Self> {
+        let xacro_args = xacro_args.unwrap_or_default().into_iter().collect();
+        RobotFile { path: absolute(path)?, xacro_args }
+            .read()
+            .map(|source| Self(What::Urdf(source)))
+            .map_err(|error| raised(py, &error))
     }
 
     /// Takes a URDF text. `name` is for messages.

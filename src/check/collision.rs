@@ -1,6 +1,7 @@
 //! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
 
 use super::deviation::{Bounded, Deviation, Posture};
+use super::span::{Place, Span};
 use super::tool::ToolMotion;
 use crate::geometry::Separation;
 use crate::interrupt::checkpoint;
@@ -17,10 +18,6 @@ const MAX_EVALUATIONS: usize = 20_000_000;
 /// Looks that are left once some span stays open: the motion cannot be proven free any more, only a contact can still
 /// decide, and a motion that slides along an obstacle leaves spans open without end.
 const MORE_EVALUATIONS: usize = 200_000;
-
-/// Spans of a piece are halved down to this share of it: a nanosecond of a long one, and still far above what rounding
-/// does to a share.
-const FINEST: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// Configurations, evenly spread over the pieces, that are looked at beforehand: they show how near the motion comes, and so
 /// how fine it pays to look.
@@ -152,77 +149,6 @@ fn check_pairs(scene: &Scene, pairs: Cow<[Pair]>, recording: &Recording, clearan
     search.look_around();
     search.run();
     search.verdict()
-}
-
-/// A place on the motion: a piece, and a share of it.
-pub(crate) type Place = (usize, f64);
-
-/// A stretch of the motion.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Span {
-    /// Whole pieces, from one to before another.
-    Pieces(usize, usize),
-    /// From one share of a piece to another.
-    Part(usize, f64, f64),
-}
-
-impl Span {
-    fn start(self) -> Place {
-        self.ends()[0]
-    }
-
-    /// All of a motion of so many pieces.
-    pub(crate) fn all(pieces: usize) -> Self {
-        if pieces == 1 { Span::Part(0, 0.0, 1.0) } else { Span::Pieces(0, pieces) }
-    }
-
-    /// From one place to a later one, or more.
-    fn between(from: Place, to: Place) -> Self {
-        if from.0 == to.0 { Span::Part(from.0, from.1, to.1) } else { Span::Pieces(from.0, to.0 + 1) }
-    }
-
-    /// The configuration in the middle of it, and how far it deviates from that.
-    pub(crate) fn deviation(self, pieces: &[Piece]) -> (Configuration, Deviation) {
-        match self {
-            Span::Pieces(first, end) => around(&pieces[first..end]),
-            Span::Part(index, from, to) => along(&pieces[index], from, to, 0.0),
-        }
-    }
-
-    /// The place halfway along it.
-    pub(crate) fn middle(self) -> Place {
-        match self {
-            Span::Pieces(first, end) => (first + (end - first) / 2, 0.0),
-            Span::Part(piece, from, to) => (piece, (from + to) / 2.0),
-        }
-    }
-
-    /// Where it begins, and where it ends.
-    pub(crate) fn ends(self) -> [Place; 2] {
-        match self {
-            Span::Pieces(first, end) => [(first, 0.0), (end - 1, 1.0)],
-            Span::Part(piece, from, to) => [(piece, from), (piece, to)],
-        }
-    }
-
-    /// Both halves, in order; none of a span that is as fine as can be.
-    pub(crate) fn halves(self) -> Option<[Span; 2]> {
-        let whole = |from: usize, to: usize| match to - from {
-            1 => Span::Part(from, 0.0, 1.0),
-            _ => Span::Pieces(from, to),
-        };
-        match self {
-            Span::Pieces(from, to) => {
-                let middle = from + (to - from) / 2;
-                Some([whole(from, middle), whole(middle, to)])
-            }
-            Span::Part(_, from, to) if to - from <= FINEST => None,
-            Span::Part(piece, from, to) => {
-                let middle = (from + to) / 2.0;
-                Some([Span::Part(piece, from, middle), Span::Part(piece, middle, to)])
-            }
-        }
-    }
 }
 
 struct Search<'a> {
@@ -485,38 +411,4 @@ fn apart(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Dri
         Some(drift) => posture.apart_moving(pair, deviation, drift),
         None => posture.apart(pair, deviation),
     }
-}
-
-/// Rounding of a configuration that is computed from control points, for each degree of the piece and relative to the
-/// largest of them: three operations a step, and some for the control points themselves.
-const ROUNDING: f64 = 6.0 * f64::EPSILON;
-
-/// The rounding of a piece's configurations in one joint.
-fn rounding(piece: &Piece, joint: usize) -> f64 {
-    let largest = piece.control().iter().map(|p| p[joint].abs()).fold(0.0, f64::max);
-    ROUNDING * piece.degree() as f64 * largest
-}
-
-/// The box about several pieces.
-fn around(pieces: &[Piece]) -> (Configuration, Deviation) {
-    let points = || pieces.iter().flat_map(|p| p.control());
-    let mut middle = Configuration::zeros();
-    let half = [0, 1].map(|k| {
-        let lower = points().map(|p| p[k]).fold(f64::INFINITY, f64::min);
-        let upper = points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
-        middle[k] = (lower + upper) / 2.0;
-        (upper - lower) / 2.0 + pieces.iter().map(|piece| rounding(piece, k)).fold(0.0, f64::max)
-    });
-    (middle, Deviation::Box(half))
-}
-
-/// The tube about a part of a piece, from the configuration halfway through it, and all that is in each joint no more
-/// than `beside` off it.
-pub(super) fn along(piece: &Piece, from: f64, to: f64, beside: f64) -> (Configuration, Deviation) {
-    let (first, middle, last) = (piece.at(from), piece.at((from + to) / 2.0), piece.at(to));
-    let bend = piece.bend(from, to);
-    let off_chord = (first + last) / 2.0 - middle;
-    let half =
-        [0, 1].map(|k| bend[k] * (to - from) * (to - from) / 8.0 + off_chord[k].abs() + rounding(piece, k) + beside);
-    (middle, Deviation::Tube((last - first) / 2.0, half))
 }

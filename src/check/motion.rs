@@ -1,8 +1,8 @@
 //! Continuous collision check of a path.
 
 use super::blends::CertifiedCurve;
-use super::collision::along;
 use super::deviation::{Deviation, Posture};
+use super::span::along;
 use super::vicinity::Vicinity;
 use crate::interrupt::checkpoint;
 use crate::model::{Contact, Pair, Scene};

@@ -135,14 +135,16 @@ pub struct Files {
     /// The workspace, TOML.
     #[arg(value_name = "WORLD", value_hint = ValueHint::FilePath)]
     pub world: PathBuf,
-    #[command(flatten)]
-    pub xacro: XacroArgs,
+    // As in `XacroArgs`, which an optional group cannot hold.
+    /// Argument of a robot that is xacro, in place of its default. Can be repeated.
+    #[arg(long = "xacro-arg", value_name = "NAME=VALUE", value_parser = xacro_argument)]
+    pub xacro_args: Vec<(String, String)>,
 }
 
 impl Files {
     /// The arm's file with its arguments.
     pub fn robot(&self) -> RobotFile {
-        self.xacro.robot(&self.urdf)
+        RobotFile { path: self.urdf.clone(), xacro_args: self.xacro_args.clone() }
     }
 }
 

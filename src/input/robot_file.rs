@@ -56,7 +56,10 @@ impl RobotFile {
 fn diagnostic(error: cplan_xacro::Error) -> Diagnostic {
     let diagnostic = match error.place {
         None => Diagnostic::new(error.path.display().to_string(), error.message),
-        Some((file, place)) => Source::in_memory(file.path, &*file.text).diagnostic_at(place.range, error.message),
+        Some(place) => {
+            let (file, place) = *place;
+            Source::in_memory(file.path, &*file.text).diagnostic_at(place.range, error.message)
+        }
     };
-    diagnostic.help(error.hint.unwrap_or_else(|| "correct it there; docs/robots.md says what of xacro is read".into()))
+    diagnostic.help(error.hint.unwrap_or_else(|| "correct it, or have ROS's own xacro expand the file".into()))
 }

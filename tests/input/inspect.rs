@@ -223,12 +223,20 @@ fn command(args: &[&str]) -> (i32, String, String) {
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
-/// A SCARA whose quill turns: three pairs of neighbours would do.
+/// A SCARA whose quill turns, and whose hand nods: three pairs of neighbours would do, in two planes.
 fn turning_quill(folder: &tempfile::TempDir) -> String {
     let urdf = std::fs::read_to_string("robots/scara.urdf").unwrap();
     assert!(urdf.contains("type=\"prismatic\""));
     let path = folder.path().join("quill.urdf");
-    std::fs::write(&path, urdf.replace("type=\"prismatic\"", "type=\"revolute\"")).unwrap();
+    let joint = |name: &str, parent: &str, child: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"revolute\"><parent link=\"{parent}\"/><child link=\"{child}\"/><axis xyz=\"0 1 0\"/>\
+             <limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/></joint><link name=\"{child}\"/></robot>"
+        )
+    };
+    let nods = urdf.replace("type=\"prismatic\"", "type=\"revolute\"");
+    let nods = nods.replace("</robot>", &joint("nod", "flange", "hand"));
+    std::fs::write(&path, nods.replace("</robot>", &joint("nod_again", "hand", "finger"))).unwrap();
     path.display().to_string()
 }
 
@@ -261,10 +269,10 @@ fn the_json_has_the_documented_fields() {
     assert_eq!(json["joints"][0]["limits"]["source"], "urdf");
     assert_eq!(json["joints"][0]["limits"]["range"].as_array().map(Vec::len), Some(2));
     assert_eq!(json["joints"][0]["acceleration"]["source"], "default");
-    assert!(json["pairs"].as_array().is_some_and(|p| p.len() == 6));
+    assert!(json["pairs"].as_array().is_some_and(|p| p.len() == 15));
     assert_eq!(json["plane"]["normal"], serde_json::json!([0.0, 0.0, 1.0]));
     assert!(json["outlines"][0]["area"].as_f64().is_some_and(|a| a > 0.0));
-    assert!(json["defects"][0]["message"].as_str().is_some_and(|m| m.contains("4 joints")));
+    assert!(json["defects"][0]["message"].as_str().is_some_and(|m| m.contains("6 joints")));
     assert!(json["defects"][0]["cure"].is_string());
     for key in ["urdf", "world", "root", "links", "tip", "reach", "ignored", "warnings", "remedy"] {
         assert!(json.get(key).is_some(), "{key} is missing");

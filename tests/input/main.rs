@@ -8,6 +8,8 @@ mod hints;
 mod inspect;
 mod mutations;
 mod maps;
+mod packages;
+mod pairs;
 mod places;
 mod real_urdfs;
 mod tasks;

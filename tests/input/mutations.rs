@@ -3,7 +3,7 @@
 use crate::common::dice;
 use crate::common::random::times;
 use crate::common::slips::slipped;
-use cplan::input::{InputError, Overrides, Source, load_recording, scene_from};
+use cplan::input::{InputError, Overrides, RobotFile, Source, load_recording, scene_from};
 use std::time::{Duration, Instant};
 
 const ARM: &str = include_str!("../../src/cli/starter/rr.urdf");
@@ -92,6 +92,51 @@ fn slips_in_tables_are_read_or_refused() {
             Err(error) => {
                 refused += 1;
                 is_helpful(&error, &table);
+            }
+        }
+    }
+    assert!(read > refused / 20 && refused > read / 20, "{read} {refused}");
+}
+
+/// A robot with most of what xacro has, and a file that it includes.
+const XACRO: [(&str, &str); 2] = [
+    ("arm.urdf.xacro", include_str!("../../robots/scara.urdf.xacro")),
+    (
+        "parts.xacro",
+        r#"<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:property name="sizes" value="${dict(a=[1, 2.5], b='x')}"/>
+  <xacro:macro name="turn" params="n *block **more e:=^|3">
+    <xacro:if value="${n > 0 and not sizes['b'] == 'y'}"><xacro:turn n="${n - 1}"><a/><b><c/></b></xacro:turn></xacro:if>
+    <xacro:unless value="false"><xacro:insert_block name="block"/><xacro:insert_block name="more"/></xacro:unless>
+    <link name="l${n}_$(arg reach)" v="${max(sizes.a) ** 2 if e else -radians(90)} $(optenv NOTHING 1)"/>
+  </xacro:macro>
+  <xacro:turn n="3"><a/><b><c/></b></xacro:turn>
+</robot>"#,
+    ),
+];
+
+#[test]
+fn slips_in_xacro_are_read_or_refused() {
+    let (mut read, mut refused) = (0, 0);
+    let mut dice = dice(29);
+    let folder = tempfile::tempdir().unwrap();
+    let main = folder.path().join(XACRO[0].0);
+    for k in 0..times(1500) {
+        let slip = usize::from(k % 2 == 1);
+        let included = XACRO[0].1.replace("<link name=\"base_link\"/>", "<xacro:include filename=\"parts.xacro\"/>");
+        let mut texts = [if slip == 0 { XACRO[0].1.to_owned() } else { included }, XACRO[1].1.to_owned()];
+        texts[slip] = slipped(&mut dice, &texts[slip]);
+        for ((name, _), text) in XACRO.iter().zip(&texts) {
+            std::fs::write(folder.path().join(name), text).unwrap();
+        }
+        let started = Instant::now();
+        let source = RobotFile::from(&main).read();
+        assert!(started.elapsed() < TIME_LIMIT, "{texts:?}");
+        match source {
+            Ok(_) => read += 1,
+            Err(error) => {
+                refused += 1;
+                is_helpful(&error, &texts[slip]);
             }
         }
     }

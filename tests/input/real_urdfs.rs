@@ -158,7 +158,7 @@ fn the_tutorial_scara_has_the_known_dimensions() {
     let work = tempfile::tempdir().unwrap();
     let world = work.path().join("world.toml");
     std::fs::write(&world, "[robot]\njoints = [\"joint1\", \"joint2\"]\n").unwrap();
-    let arm = load_scene(&folder.join("icube_scara.urdf"), &world).unwrap().scene.into_parts().0;
+    let arm = load_scene(folder.join("icube_scara.urdf"), &world).unwrap().scene.into_parts().0;
     assert!((arm.offset - cplan::geometry::Vector::new(0.425, 0.0)).norm() < 1e-12);
     // The tool hangs 0.11 m along a z axis that was turned over by 3.14, not pi.
     let roll: f64 = 314.0 / 100.0;

@@ -87,7 +87,7 @@ fn what_takes_more_boxes_than_allowed_is_left_open() {
     let place = tempfile::tempdir().unwrap();
     let world = place.path().join("touched.toml");
     std::fs::write(&world, closed.replace("0.03995", "0.04")).unwrap();
-    let problem = input::load(&root.join("robots/rail_arm.urdf"), &world, &Overrides::default()).unwrap().problem;
+    let problem = input::load(root.join("robots/rail_arm.urdf"), &world, &Overrides::default()).unwrap().problem;
     for allowed in [5_000, 20_000] {
         let Verdict::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not tell") };
         let boxes: usize = reason.split(' ').next().and_then(|word| word.parse().ok()).expect(&reason);

@@ -150,7 +150,7 @@ fn task(world: &str) -> Option<Task> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("world.toml");
     std::fs::write(&file, world).unwrap();
-    Some(load_scene(&robot(), &file).unwrap().task(&Overrides::default()).ok()?.task)
+    Some(load_scene(robot(), &file).unwrap().task(&Overrides::default()).ok()?.task)
 }
 
 fn planned(task: &Task) -> TaskAnswer {

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 fn problem(world: &str) -> MotionProblem {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let world = root.join("workspaces").join(world);
-    load(&root.join("robots/planar_2r.urdf"), &world, &Overrides::default()).unwrap().problem
+    load(root.join("robots/planar_2r.urdf"), &world, &Overrides::default()).unwrap().problem
 }
 
 fn options(method: Method) -> Options {

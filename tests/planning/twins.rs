@@ -32,7 +32,7 @@ const STEP: f64 = 1e-4;
 fn load(name: &str, robot: &str) -> MotionProblem {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let (urdf, world) = (format!("robots/{robot}.urdf"), format!("workspaces/{name}.toml"));
-    let loaded = input::load(&root.join(urdf), &root.join(world), &Overrides::default());
+    let loaded = input::load(root.join(urdf), &root.join(world), &Overrides::default());
     loaded.unwrap_or_else(|e| panic!("{e}")).problem
 }
 

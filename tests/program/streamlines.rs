@@ -165,7 +165,7 @@ const WORLDS: [(&str, &str); 5] = [
 #[test]
 fn harmonic_paths_follow_the_gradient_of_an_equation_solved_elsewhere() {
     for (robot, world) in WORLDS {
-        let problem = load(shipped(robot).as_ref(), shipped(world).as_ref(), &Overrides::default()).unwrap().problem;
+        let problem = load(shipped(robot), shipped(world).as_ref(), &Overrides::default()).unwrap().problem;
         let own = planned(robot, &shipped(world), "");
         assert_eq!(own["path_kind"], "own");
         let path = waypoints(&own);

@@ -16,6 +16,7 @@ use tree::{Read, Tree, child, moves};
 mod bar;
 mod collada;
 mod layers;
+mod manifest;
 mod mesh;
 mod mimic;
 mod oblique;

@@ -134,7 +134,7 @@ pub(crate) fn read(file: &File, index: usize) -> Result<Tree, Error> {
     let text = &*file.text;
     let wrong = |range: Range<usize>, message: String, hint: &str| Error {
         path: file.path.clone(),
-        place: Some((file.clone(), Place { file: index, range })),
+        place: Some(Box::new((file.clone(), Place { file: index, range }))),
         message,
         hint: Some(hint.to_owned()),
     };

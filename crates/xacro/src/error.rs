@@ -10,7 +10,7 @@ pub struct Error {
     /// The file that is wrong.
     pub path: PathBuf,
     /// Its text and the bytes that are wrong, if it is that part.
-    pub place: Option<(File, Place)>,
+    pub place: Option<Box<(File, Place)>>,
     /// What is wrong.
     pub message: String,
     /// What to do about it.
@@ -20,7 +20,7 @@ pub struct Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.path.display())?;
-        if let Some((file, place)) = &self.place {
+        if let Some((file, place)) = self.place.as_deref() {
             write!(f, ":{}", file.line(place.range.start))?;
         }
         write!(f, ": {}", self.message)?;

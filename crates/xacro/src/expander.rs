@@ -114,7 +114,7 @@ impl<'s> Expander<'s> {
                 format!("{message} (in macro \"{name}\", called at {}:{line})", caller.path.display())
             }
         };
-        Error { path: file.path.clone(), place: Some((file.clone(), place.clone())), message, hint }
+        Error { path: file.path.clone(), place: Some(Box::new((file.clone(), place.clone()))), message, hint }
     }
 
     /// The value of an attribute.

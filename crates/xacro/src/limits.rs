@@ -4,7 +4,7 @@ use crate::error::Fault;
 
 /// Levels of elements, macros, includes and properties within one another. Robots need about 20; a macro that calls itself needs two a
 /// turn.
-pub(crate) const DEEPEST: usize = 160;
+pub(crate) const DEEPEST: usize = 320;
 
 /// Levels of parentheses and operators in one expression.
 pub(crate) const DEEPEST_EXPRESSION: usize = 40;

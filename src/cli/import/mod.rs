@@ -13,7 +13,7 @@ use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::draw;
 use crate::grammar::{finite, number_in, positive};
-use crate::input::{self, Diagnostic, Position, Source, TipPoint, World};
+use crate::input::{self, Diagnostic, Position, Source, World};
 use crate::motion::{check_writable, write_whole_set};
 use crate::output::laid_out;
 use crate::text::{counted, plain_line};
@@ -74,8 +74,8 @@ pub struct ImportArgs {
     #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true, default_value_t = 0.0)]
     pub turn: f64,
     /// Move it, metres: where the drawing's origin comes to lie.
-    #[arg(long = "move", value_name = "x,y", allow_hyphen_values = true)]
-    pub shift: Option<TipPoint>,
+    #[arg(long = "move", value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
+    pub shift: Option<[f64; 2]>,
     #[command(flatten)]
     pub query: QueryArgs,
     #[command(flatten)]
@@ -84,6 +84,17 @@ pub struct ImportArgs {
 
 fn tolerance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= FINEST, &format!("of metres, finite and at least {FINEST}"))
+}
+
+/// Longest move, metres: drawings hold coordinates of half of it.
+const LONGEST_MOVE: f64 = 2e12;
+
+fn displacement(text: &str) -> Result<[f64; 2], String> {
+    let (x, y) = text.split_once(',').ok_or("expected two numbers separated by a comma, such as -0.4,1")?;
+    let length = |text: &str| {
+        number_in(text.trim(), |x| x.abs() <= LONGEST_MOVE, &format!("of metres, {LONGEST_MOVE:e} at most"))
+    };
+    Ok([length(x)?, length(y)?])
 }
 
 fn angle(text: &str) -> Result<f64, String> {
@@ -143,7 +154,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
         refused(args, Diagnostic { position, ..Diagnostic::new("", error.message).help(error.cure) })
     })?;
     let Drawing { shapes, mut notes } = drawing;
-    let shift = args.shift.map_or([0.0; 2], |TipPoint(point)| point.into());
+    let shift = args.shift.unwrap_or_default();
     let placement = Placement { turn: args.turn, shift };
     let found = obstacles::found(shapes, &placement, &mut notes);
     let layers = Layers {

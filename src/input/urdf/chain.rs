@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::held::Held;
-use super::pairing;
+use super::pairing::{self, Evident};
 use super::tree::Tree;
 use crate::input::error::{Diagnostic, InputError, quoted};
 use crate::input::world::World;
@@ -31,13 +31,11 @@ pub(super) struct Chain {
 pub(super) fn choose(document: &Document, tree: &Tree, world: &World) -> Result<Chain, InputError> {
     let chooser = Chooser { document, tree, world };
     chooser.names_exist()?;
-    let joints = chooser.joints()?;
+    let Evident { joints, reason } = chooser.joints()?;
     let mut chain = with_joints(document, tree, world, joints)?;
-    if world.robot.joints.is_none() && chooser.candidates().len() > 2 {
+    if !reason.is_empty() {
         let [first, second] = joints.map(|j| document.robot.joints[j].name.as_str());
-        let note = format!(
-            "the two joints are \"{first}\" and \"{second}\", the only planar pair of neighbours; [robot] joints chooses others"
-        );
+        let note = format!("the two joints are \"{first}\" and \"{second}\"{reason}; [robot] joints chooses others");
         chain.notes.insert(0, note);
     }
     Ok(chain)
@@ -67,7 +65,7 @@ pub(super) fn admits(document: &Document, tree: &Tree, world: &World, joints: [u
 
 /// The two joints that the world names, or that are the only ones.
 pub(super) fn joints(document: &Document, tree: &Tree, world: &World) -> Option<[usize; 2]> {
-    Chooser { document, tree, world }.joints().ok()
+    Chooser { document, tree, world }.joints().ok().map(|evident| evident.joints)
 }
 
 /// Every two joints that move on their own, the first of which carries the second; base first.
@@ -140,25 +138,27 @@ impl Chooser<'_> {
         InputError::check(diagnostics)
     }
 
-    fn joints(&self) -> Result<[usize; 2], Diagnostic> {
-        let pair = match &self.world.robot.joints {
+    /// The two joints; the reason is empty if they are named, or the only ones.
+    fn joints(&self) -> Result<Evident, Diagnostic> {
+        let settled = |joints: [usize; 2]| Evident { joints, reason: String::new() };
+        let Evident { joints: pair, reason } = match &self.world.robot.joints {
             Some(names) => match names.get_ref().as_slice() {
-                [a, b] => [self.named(a, "joints")?, self.named(b, "joints")?],
+                [a, b] => settled([self.named(a, "joints")?, self.named(b, "joints")?]),
                 other => {
                     let message = format!("[robot] joints: exactly two joints move, {} are named", other.len());
                     return Err(self.in_world(names, message).help("joints = [\"first\", \"second\"], base to tip"));
                 }
             },
-            None => self.the_only_two()?,
+            None => self.evident()?,
         };
         let [a, b] = pair;
         if self.tree.carries(a, self.tree.parent[b]) {
-            return Ok(pair);
+            return Ok(Evident { joints: pair, reason });
         }
         let (first, second) = (&self.all()[a].name, &self.all()[b].name);
         let swapped = self.tree.carries(b, self.tree.parent[a]);
         match &self.world.robot.joints {
-            None if swapped => Ok([b, a]),
+            None if swapped => Ok(settled([b, a])),
             Some(names) if swapped => {
                 let message = format!(
                     "[robot] joints: joint \"{first}\" is carried by joint \"{second}\", not the other way round"
@@ -185,10 +185,10 @@ impl Chooser<'_> {
         (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect()
     }
 
-    fn the_only_two(&self) -> Result<[usize; 2], Diagnostic> {
+    fn evident(&self) -> Result<Evident, Diagnostic> {
         let candidates = self.candidates();
         if let [a, b] = candidates[..] {
-            return Ok([a, b]);
+            return Ok(Evident { joints: [a, b], reason: String::new() });
         }
         let list: Vec<String> = candidates
             .iter()
@@ -227,8 +227,8 @@ impl Chooser<'_> {
             return Err(self.document.source.diagnostic(message).help(help));
         }
         let planar = pairing::planar(self.document, self.tree, self.world);
-        if let Some(pair) = pairing::evident(self.document, self.tree, &planar) {
-            return Ok(pair);
+        if let Some(evident) = pairing::evident(self.document, self.tree, &planar) {
+            return Ok(evident);
         }
         let count = candidates.len();
         let list = list.join(", ");

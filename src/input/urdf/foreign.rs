@@ -3,6 +3,7 @@
 use super::document::tag;
 use crate::input::error::Diagnostic;
 use crate::input::source::{Position, Source};
+use cplan_xacro::is_xacro;
 use roxmltree::{Document, Error, Node};
 
 /// Namespace of xacro.
@@ -68,7 +69,7 @@ pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Diagnostic> {
             return Err(at(root, &message).help("give the URDF first and the world file second"));
         }
     }
-    match xacro_trace(root.document()).filter(|_| !source.is_expanded()) {
+    match xacro_trace(root.document()).filter(|_| !source.is_expanded() && is_xacro(&source.text)) {
         Some(node) => Err(xacro(at(node, "this text is xacro, not a plain URDF"))),
         None => Ok(()),
     }

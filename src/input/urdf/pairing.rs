@@ -2,9 +2,11 @@
 
 use super::chain;
 use super::document::Document;
+use super::plane::ALIGNED;
 use super::reduction::Reduction;
 use super::tree::Tree;
 use crate::input::world::World;
+use crate::model::Plane;
 use urdf_rs::JointType;
 
 /// More pairs than this are not listed in a message.
@@ -13,38 +15,62 @@ const LISTED: usize = 6;
 /// Of robots with more joints than this that can move, pairs are not tried: their number grows with the square.
 pub(super) const MOST_TRIED: usize = 40;
 
-/// Every two joints that form a planar arm and go with all that the world says; base first.
-pub(super) fn planar(document: &Document, tree: &Tree, world: &World) -> Vec<[usize; 2]> {
-    let forms_arm = |pair: &[usize; 2]| {
-        chain::with_joints(document, tree, world, *pair)
-            .is_ok_and(|chain| Reduction::new(document, tree, world, &chain).common_plane().is_ok())
-    };
-    chain::pairs(document, tree).into_iter().filter(forms_arm).collect()
+/// Two joints that form a planar arm.
+pub(super) struct PlanarPair {
+    /// Base to tip.
+    pub joints: [usize; 2],
+    plane: Plane,
 }
 
-/// The pair that must be meant: the only planar one, if none turns between; or else the only planar one without any joint
-/// between that moves.
-pub(super) fn evident(document: &Document, tree: &Tree, planar: &[[usize; 2]]) -> Option<[usize; 2]> {
-    let between = |[a, b]: &[usize; 2]| -> Vec<&urdf_rs::Joint> {
+/// A pair that is taken although the world names none.
+pub(super) struct Evident {
+    pub joints: [usize; 2],
+    /// Why this one, in words that follow its names.
+    pub reason: String,
+}
+
+/// Every two joints that form a planar arm and go with all that the world says; base first.
+pub(super) fn planar(document: &Document, tree: &Tree, world: &World) -> Vec<PlanarPair> {
+    let plane = |joints: [usize; 2]| {
+        let chain = chain::with_joints(document, tree, world, joints).ok()?;
+        Reduction::new(document, tree, world, &chain).common_plane().ok()
+    };
+    let pairs = chain::pairs(document, tree).into_iter();
+    pairs.filter_map(|joints| Some(PlanarPair { joints, plane: plane(joints)? })).collect()
+}
+
+/// The pair that must be meant: the only planar one, if none turns between; or else, of the planar ones without any joint between
+/// that moves, the only one, or the first of the chain if all share its plane.
+pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<Evident> {
+    let between = |pair: &PlanarPair| -> Vec<&urdf_rs::Joint> {
+        let [a, b] = &pair.joints;
         let is_inner = |j: &usize| tree.carries(*a, tree.parent[*j]) && tree.carries(*j, tree.parent[*b]);
         let inner = (0..document.robot.joints.len()).filter(is_inner);
         inner.map(|j| &document.robot.joints[j]).filter(|joint| chain::is_movable(joint)).collect()
     };
     if let [only] = planar {
         let turns = |joint: &&urdf_rs::Joint| joint.joint_type != JointType::Prismatic;
-        return (!between(only).iter().any(turns)).then_some(*only);
+        let reason = ", the only planar pair of neighbours".to_owned();
+        return (!between(only).iter().any(turns)).then_some(Evident { joints: only.joints, reason });
     }
-    let adjacent: Vec<&[usize; 2]> = planar.iter().filter(|pair| between(pair).is_empty()).collect();
-    match adjacent[..] {
-        [only] => Some(*only),
-        _ => None,
-    }
+    let adjacent: Vec<&PlanarPair> = planar.iter().filter(|pair| between(pair).is_empty()).collect();
+    let (first, others) = adjacent.split_first()?;
+    let follows = |other: &&PlanarPair| {
+        let [a, b] = [first.joints[1], other.joints[0]];
+        (a == b || tree.carries(a, tree.parent[b]))
+            && other.plane.normal.cross(&first.plane.normal).norm() <= ALIGNED.sin()
+    };
+    let reason = match others.len() {
+        0 => ", the only planar pair of neighbours".to_owned(),
+        more => format!(", the first of {} planar pairs of neighbours, which share a plane", more + 1),
+    };
+    others.iter().all(follows).then_some(Evident { joints: first.joints, reason })
 }
 
 /// The entries that would choose these pairs, for messages.
-pub(super) fn choices(document: &Document, pairs: &[[usize; 2]]) -> String {
-    let entry = |pair: &[usize; 2]| {
-        let [a, b] = pair.map(|j| document.robot.joints[j].name.as_str());
+pub(super) fn choices(document: &Document, pairs: &[PlanarPair]) -> String {
+    let entry = |pair: &PlanarPair| {
+        let [a, b] = pair.joints.map(|j| document.robot.joints[j].name.as_str());
         format!("[robot] joints = [{a:?}, {b:?}]")
     };
     let shown: Vec<String> = pairs.iter().take(LISTED).map(entry).collect();

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 /// Directions within this angle, radians, count as parallel (or perpendicular): exported files have axes like
 /// `-1.19e-5 0 0.9999` and angles like 1.57. Over a metre it is a millimetre.
-const ALIGNED: f64 = 1e-3;
+pub(super) const ALIGNED: f64 = 1e-3;
 
 /// A joint's axis in the root frame.
 #[derive(Debug, Clone, Copy)]

@@ -27,12 +27,12 @@ fn robot() -> PathBuf {
 
 /// The world `world.toml` of a folder, with the gantry that spans a room.
 fn world_in(folder: &TempDir) -> Result<World, InputError> {
-    load_scene(&robot(), &folder.path().join("world.toml")).map(|loaded| loaded.world)
+    load_scene(robot(), &folder.path().join("world.toml")).map(|loaded| loaded.world)
 }
 
 /// The problem of `world.toml`.
 fn problem_in(folder: &TempDir) -> Result<Loaded, InputError> {
-    load(&robot(), &folder.path().join("world.toml"), &Overrides::default())
+    load(robot(), &folder.path().join("world.toml"), &Overrides::default())
 }
 
 /// What was refused names all of these.

@@ -16,7 +16,7 @@ fn problem(data: &std::path::Path, map: usize, preferences: usize, start: [f64; 
         "[start]\njoints = {start:?}\n[map]\nfile = {map:?}\npreferences = {preferences:?}\nheight = [0.0, 3.0]\n"
     );
     std::fs::write(&world, text).unwrap();
-    load(&robot(), &world, &Overrides::default()).unwrap_or_else(|e| panic!("{e}")).problem
+    load(robot(), &world, &Overrides::default()).unwrap_or_else(|e| panic!("{e}")).problem
 }
 
 #[test]

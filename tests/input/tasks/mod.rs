@@ -259,6 +259,7 @@ fn the_book_shows_what_can_be_written() {
     assert_eq!(loaded.task.steps().count(), 10 * (3 + 2 * 100));
     assert_eq!(loaded.task.items.iter().filter(|item| matches!(item, Item::AnyOrder(_))).count(), 1000);
     let feeder = "[[pallet]]\nname = \"feeder\"\nrows = 5\ncolumns = 4\npitch = [0.05, 0.05]\nat = [1.0, 0.5]\n";
-    let scene = with_world(&format!("{pallets}{feeder}"), load_scene).unwrap_or_else(|e| panic!("{e}"));
+    let scene = with_world(&format!("{pallets}{feeder}"), |urdf, world| load_scene(urdf, world))
+        .unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(scene.world.objects.len(), 20);
 }

@@ -196,7 +196,7 @@ fn random_queries_are_free_and_follow_from_the_seed() {
     };
     let six = run("--queries 6 --seed 5");
     assert_eq!((six["queries"].as_u64(), six["seed"].as_u64()), (Some(6), Some(5)));
-    let problem = load(urdf.as_ref(), world.as_ref(), &Overrides::default()).unwrap().problem;
+    let problem = load(&urdf, world.as_ref(), &Overrides::default()).unwrap().problem;
     let scene = problem.scene();
     let problems = six["problems"].as_array().unwrap();
     for problem in problems {

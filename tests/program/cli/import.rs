@@ -374,7 +374,7 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
 fn projected_coordinates_are_moved_as_the_hint_says() {
     let place = Place::new();
     let square = "[[[500123.5, 5400456.25], [500124.5, 5400456.25], [500124.5, 5400457.25], [500123.5, 5400456.25]]]";
-    place.write("site.geojson", &format!(r#"{{"type": "Polygon", "coordinates": {square}}}"#));
+    place.write("site.geojson", format!(r#"{{"type": "Polygon", "coordinates": {square}}}"#));
     for before in ["", " --turn 30deg", " --move 3,4"] {
         let refused = place.run(&["import", "site.geojson"], &format!("--json{before}")).json();
         let cure = refused["cure"].as_str().unwrap();

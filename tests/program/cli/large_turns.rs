@@ -14,7 +14,7 @@ const WALL: &str =
 
 fn scene(place: &Place) -> LoadedScene {
     place.write("world.toml", WALL);
-    load_scene(shipped("robots/planar_2r_continuous.urdf").as_ref(), &place.path("world.toml")).unwrap()
+    load_scene(shipped("robots/planar_2r_continuous.urdf"), &place.path("world.toml")).unwrap()
 }
 
 /// The second link out of the way.

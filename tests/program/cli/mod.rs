@@ -41,6 +41,7 @@ mod study;
 mod tasks;
 mod terminal;
 mod torques;
+mod xacro;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

@@ -32,7 +32,7 @@ fn read(name: &str, text: impl AsRef<[u8]>) -> Result<Vec<String>, String> {
     fs::write(at("arm.urdf"), ARM).unwrap();
     fs::write(at("world.toml"), WORLD).unwrap();
     fs::write(at(name), text).unwrap();
-    let scene = load_scene(&at("arm.urdf"), &at("world.toml")).unwrap_or_else(|e| panic!("{e}"));
+    let scene = load_scene(at("arm.urdf"), &at("world.toml")).unwrap_or_else(|e| panic!("{e}"));
     load_recording(&at(name), &scene).map(|loaded| loaded.notes).map_err(|e| e.to_string())
 }
 
@@ -123,7 +123,7 @@ fn files_of_other_kinds() {
     let at = |file: &str| folder.path().join(file);
     fs::write(at("arm.urdf"), ARM).unwrap();
     fs::write(at("world.toml"), WORLD).unwrap();
-    let scene = load_scene(&at("arm.urdf"), &at("world.toml")).unwrap();
+    let scene = load_scene(at("arm.urdf"), &at("world.toml")).unwrap();
     let error = load_recording(&at("absent.csv"), &scene).unwrap_err().to_string();
     assert!(error.contains("absent.csv") && error.contains("cannot be read"), "{error}");
 }

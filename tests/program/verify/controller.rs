@@ -63,7 +63,7 @@ fn yaml(points: &[Point], given: usize) -> String {
 
 fn read(text: &str) -> Recording {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    let scene = load_scene(&root.join("robots/planar_2r.urdf"), &root.join("workspaces/shelf.toml")).unwrap();
+    let scene = load_scene(root.join("robots/planar_2r.urdf"), &root.join("workspaces/shelf.toml")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("m.yaml");
     std::fs::write(&file, text).unwrap();
@@ -148,7 +148,7 @@ fn a_dwell_with_different_accelerations_is_seen_to_move() {
 #[test]
 fn messages_that_no_controller_joins_are_refused() {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    let scene = load_scene(&root.join("robots/planar_2r.urdf"), &root.join("workspaces/shelf.toml")).unwrap();
+    let scene = load_scene(root.join("robots/planar_2r.urdf"), &root.join("workspaces/shelf.toml")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("m.yaml");
     let head = "joint_names: [shoulder, elbow]\npoints:\n- {positions: [0, 0], velocities: [0, 0], accelerations: [0, 0], \

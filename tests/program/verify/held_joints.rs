@@ -154,7 +154,7 @@ fn motions_of_a_quill_agree_with_the_scenes_of_their_moments() {
         };
         let distance = |time: f64| {
             let [j1, j2, quill] = at(time);
-            let world = format!("{WORLD}").replace("[robot]", &format!("[robot]\nfixed = {{ quill = {quill:?} }}"));
+            let world = WORLD.replace("[robot]", &format!("[robot]\nfixed = {{ quill = {quill:?} }}"));
             let robot = Source::in_memory("arm.urdf", ROBOT.replace("FINGER", FINGER));
             let scene =
                 scene_from(robot, Source::in_memory("world.toml", world)).unwrap_or_else(|e| panic!("{e}")).scene;

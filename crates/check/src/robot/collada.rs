@@ -223,3 +223,34 @@ fn placing(node: Node) -> Result<Affine, String> {
     }
     Ok(all)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHOWN: &str = "<scene><instance_visual_scene url=\"#v\"/></scene>";
+
+    /// A triangle in a node without a place, in centimetres.
+    fn triangle(node: &str, scene: &str) -> String {
+        format!(
+            r##"<?xml version="1.0"?><COLLADA><asset><unit meter="0.01"/></asset><geometry id="g"><mesh>
+            <source id="s"><float_array id="a" count="9">0 0 0 100 0 0 0 50 0</float_array><technique_common>
+            <accessor source="#a" count="3" stride="3"><param name="X"/><param name="Y"/><param name="Z"/></accessor></technique_common></source>
+            <vertices id="w"><input semantic="POSITION" source="#s"/></vertices>
+            <triangles count="1"><input semantic="VERTEX" source="#w" offset="0"/><p>0 1 2</p></triangles></mesh></geometry>
+            <visual_scene id="v"><node>{node}</node></visual_scene>{scene}</COLLADA>"##
+        )
+    }
+
+    #[test]
+    fn what_no_scene_shows_is_where_it_lies() {
+        let instance = "<instance_geometry url=\"#g\"/>";
+        let found = |text: &str| format!("{:?}", vertices(text.as_bytes()).unwrap());
+        let whole = triangle(instance, SHOWN);
+        let unshown = triangle("", "").replace("visual_scene", "hidden_scene");
+        for text in [&triangle("", SHOWN), &unshown, &format!("<!-- one -->\n <!-- two -->{whole}")] {
+            assert_eq!(found(text), found(&whole), "{text}");
+        }
+        assert!(vertices(format!("text {whole}").as_bytes()).is_err());
+    }
+}

@@ -1,9 +1,9 @@
 //! Meshes: the corners of their faces, whose convex hull stands for them, and the edges between these.
 
-use super::collada;
 use super::pose::Vector;
 use super::solid::Mesh;
 use super::tree::{Read, Tree};
+use super::{collada, manifest};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::files::Files;
@@ -17,6 +17,9 @@ use std::path::{Path, PathBuf};
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 const NORMAL: usize = 12;
+
+/// Folders about the URDF below which packages are looked for.
+const MOST_ABOUT: usize = 5;
 
 /// A corner, as STL has it: in single precision.
 type Single = [u32; 3];
@@ -172,8 +175,8 @@ fn exactly(corner: Single) -> Option<Vector> {
     Some([x?, y?, z?])
 }
 
-/// Where a mesh may be: as a path from the URDF on, or in a package that lies beside one of the folders about it or where
-/// `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` say.
+/// Where a mesh may be: as a path from the URDF on, or in a package. That is a folder whose `package.xml` has the name, about the URDF, or
+/// below one of the folders about it, or else a folder that is called so, also where `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH` say.
 fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
     let Some(rest) = name.strip_prefix("package://") else {
         return vec![urdf.with_file_name(name.strip_prefix("file://").unwrap_or(name))];
@@ -191,7 +194,12 @@ fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
     let is_package = |folder: &Path| folder.file_name().is_some_and(|name| name == package);
     let named = |folder: PathBuf| {
         let own = is_package(&folder).then(|| folder.clone());
-        own.into_iter().chain([folder.join(package)]).map(|package| package.join(inside))
+        own.into_iter().chain([folder.join(package)])
     };
-    above.chain(ros).chain(ament).flat_map(named).collect()
+    let places: Vec<PathBuf> = above.chain(ros).collect();
+    // A repository ends the search.
+    let repository = places.iter().position(|place| place.join(".git").exists()).map_or(MOST_ABOUT, |at| at + 1);
+    let declared = places.iter().take(repository.min(MOST_ABOUT)).flat_map(|place| manifest::declared(package, place));
+    let called = places.iter().cloned().chain(ament).flat_map(named);
+    declared.chain(called).map(|package| package.join(inside)).collect()
 }

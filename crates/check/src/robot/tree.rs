@@ -54,6 +54,13 @@ pub fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Ite
     node.children().filter(move |n| n.tag_name().name() == name && n.tag_name().namespace() == namespace)
 }
 
+/// Whether an element is to be expanded before it means anything.
+fn is_xacro(node: &Node, robot: &Node) -> bool {
+    let namespace = node.tag_name().namespace().filter(|namespace| Some(*namespace) != robot.tag_name().namespace());
+    namespace.is_some_and(|namespace| namespace.ends_with("/xacro"))
+        || node.attributes().any(|attribute| attribute.value().contains("${") || attribute.value().contains("$("))
+}
+
 pub fn child<'a>(node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>> {
     children(node, name).next()
 }
@@ -75,6 +82,11 @@ impl<'a> Tree<'a> {
         let robot = document.root_element();
         if robot.tag_name().name() != "robot" {
             return tree.error(robot, "this is not a URDF: it has no <robot>");
+        }
+        if let Some(node) = document.descendants().find(|node| is_xacro(node, &robot)) {
+            let message =
+                "this is xacro, not a plain URDF; `cplan inspect FILE --expanded robot.urdf` writes the URDF to check";
+            return tree.error(node, message);
         }
         for node in children(robot, "link") {
             if tree.links.insert(tree.text(node, "name")?, node).is_some() {

@@ -146,7 +146,7 @@ impl Evaluator<'_> {
     }
 
     fn call(&mut self, of: &Expression, values: &[Expression], named: &[(String, Expression)]) -> Result<Value, Fault> {
-        let mut arguments = self.values(values)?;
+        let arguments = self.values(values)?;
         let named = named.iter().map(|(name, value)| Ok((name.clone(), self.value(value)?)));
         let named = named.collect::<Result<Vec<_>, Fault>>()?;
         let name = match of {
@@ -169,7 +169,7 @@ impl Evaluator<'_> {
                 named.into_iter().map(|(name, value)| (Value::text(name), value)).collect::<Vec<_>>().into(),
             )),
             (_, _, [(wrong, _), ..]) => Err(format!("{name}() takes no argument called \"{wrong}\"").into()),
-            _ => functions::call(name, &mut arguments),
+            _ => functions::call(name, &arguments),
         }
     }
 }

@@ -75,7 +75,7 @@ pub(super) fn is_function(name: &str) -> bool {
 }
 
 /// Calls a function.
-pub(super) fn call(name: &str, arguments: &mut Vec<Value>) -> Result<Value, Fault> {
+pub(super) fn call(name: &str, arguments: &[Value]) -> Result<Value, Fault> {
     if !is_function(name) {
         let known: Vec<&str> = OF_ONE.iter().map(|f| f.0).chain(OF_TWO.iter().map(|f| f.0)).chain(MORE).collect();
         return Err(Fault::with_hint(
@@ -119,15 +119,15 @@ fn of_one(name: &str, x: Number) -> Option<Result<Value, Fault>> {
 /// A float without a fraction as an integer.
 fn whole(name: &str, x: f64) -> Result<Value, Fault> {
     /// The least power of two that is too large.
-    const BEYOND: f64 = 9.223_372_036_854_775_8e18;
+    const BEYOND: f64 = 9_223_372_036_854_775_808.0;
     match x.abs() < BEYOND {
         true => Ok(Value::Int(x as i64)),
         false => Err(format!("the result of {name}() is too large").into()),
     }
 }
 
-fn more(name: &str, arguments: &mut Vec<Value>) -> Result<Option<Value>, Fault> {
-    let value = match (name, &arguments[..]) {
+fn more(name: &str, arguments: &[Value]) -> Result<Option<Value>, Fault> {
+    let value = match (name, arguments) {
         ("abs", [Value::Int(x)]) => Value::Int(x.checked_abs().ok_or("the result of abs() is too large")?),
         ("abs", [Value::Float(x)]) => Value::Float(x.abs()),
         ("bool", [x]) => Value::Bool(x.is_true()),

@@ -1,0 +1,40 @@
+//! Packages by the name that their `package.xml` gives them.
+
+use roxmltree::Document;
+use std::path::{Path, PathBuf};
+
+/// Levels of folders that are looked into below a folder.
+const LEVELS: usize = 4;
+
+/// Folders that are looked into below a folder.
+const MOST: usize = 1_000;
+
+/// The folders that are packages of a name: this one, or those below it, nearest first.
+pub fn declared(package: &str, folder: &Path) -> Vec<PathBuf> {
+    let mut level = vec![folder.to_owned()];
+    let (mut found, mut seen) = (Vec::new(), 0);
+    for _ in 0..=LEVELS {
+        found.extend(level.iter().filter(|folder| name(folder).as_deref() == Some(package)).cloned());
+        level = level.iter().flat_map(|folder| inside(folder)).take(MOST - seen).collect();
+        seen += level.len();
+    }
+    found
+}
+
+/// The name that a folder gives itself.
+fn name(folder: &Path) -> Option<String> {
+    let text = std::fs::read_to_string(folder.join("package.xml")).ok()?;
+    let document = Document::parse(text.trim_start()).ok()?;
+    let name = document.root_element().children().find(|node| node.has_tag_name("name"))?;
+    Some(name.text()?.trim().to_owned())
+}
+
+/// The folders in a folder, in the order of their names, without hidden ones.
+fn inside(folder: &Path) -> Vec<PathBuf> {
+    let entries = folder.read_dir().into_iter().flatten().filter_map(Result::ok);
+    let is_folder = |entry: &std::fs::DirEntry| entry.file_type().is_ok_and(|kind| kind.is_dir());
+    let shown = entries.filter(|entry| is_folder(entry) && !entry.file_name().to_string_lossy().starts_with('.'));
+    let mut folders: Vec<PathBuf> = shown.map(|entry| entry.path()).collect();
+    folders.sort();
+    folders
+}

@@ -1,0 +1,102 @@
+//! What is refused: with file, line and a hint, and soon.
+
+use crate::common::{Files, robot};
+use std::time::{Duration, Instant};
+
+/// The message, which has all parts, and comes soon on a stack of a usual size.
+fn refused(files: &[(&str, &str)], arguments: &[(&str, &str)], parts: &[&str]) {
+    let begun = Instant::now();
+    let message = std::thread::scope(|scope| {
+        let expand = || Files::new(files).expand(arguments).expect_err("should be refused").to_string();
+        std::thread::Builder::new().stack_size(2 << 20).spawn_scoped(scope, expand).unwrap().join().unwrap()
+    });
+    assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
+    for part in parts {
+        assert!(message.contains(part), "no {part:?} in {message}");
+    }
+}
+
+#[test]
+fn mistakes_are_named_with_file_line_and_hint() {
+    for (text, parts) in [
+        ("\n<v v=\"${nothing}\"/>", &["r.xacro:3:", "no property \"nothing\"", "xacro:property"][..]),
+        ("<v v=\"${sin}\"/>", &["it is a function"]),
+        ("<v v=\"${1 +}\"/>", &["something is missing at its end"]),
+        ("<v v=\"${(1\"/>", &["\"${\" has no closing }"]),
+        ("<v v=\"${1 / 0}\"/>", &["divides by zero"]),
+        ("<v v=\"${'a' + 1}\"/>", &["'a' (text) and '1' (int)", "str(...)"]),
+        ("<v v=\"${[x for x in [1]]}\"/>", &["comprehensions", "ROS's own xacro"]),
+        ("<v v=\"${open('x')}\"/>", &["the function open() is not known", "radians"]),
+        ("<v v=\"${[1][5]}\"/>", &["index 5 is beyond its 1 items"]),
+        ("<v v=\"$(find nowhere_pkg)/a\"/>", &["the package \"nowhere_pkg\" is not found", "ROS_PACKAGE_PATH"]),
+        ("<v v=\"$(arg x)\"/>", &["the argument \"x\" has no value", "--xacro-arg x=VALUE"]),
+        ("<v v=\"$(env NO_SUCH_VARIABLE_HERE)\"/>", &["NO_SUCH_VARIABLE_HERE"]),
+        ("<v v=\"$(anon x)\"/>", &["\"$(anon x)\" is not known", "$(find PACKAGE)"]),
+        ("<xacro:if value=\"maybe\"/>", &["'maybe' is no condition"]),
+        ("<xacro:if/>", &["<xacro:if> has no value"]),
+        ("<xacro:wheel/>", &["there is no macro \"wheel\""]),
+        ("<xacro:macro name=\"m\" params=\"a\"/><xacro:m b=\"1\"/>", &["no parameter \"b\"", "its parameters are a"]),
+        ("<xacro:macro name=\"m\" params=\"a\"/><xacro:m/>", &["called without \"a\""]),
+        ("<xacro:macro name=\"m\" params=\"*a\"/><xacro:m/>", &["without the block \"*a\""]),
+        ("<xacro:macro name=\"m\"/><xacro:m><x/></xacro:m>", &["no block for <x>"]),
+        (
+            "<xacro:macro name=\"m\">\n<v v=\"${q}\"/></xacro:macro>\n<xacro:m/>",
+            &["r.xacro:3:", "in macro \"m\", called at", ":4)"],
+        ),
+        ("<xacro:insert_block name=\"b\"/>", &["there is no block \"b\""]),
+        ("<xacro:property name=\"a b\" value=\"1\"/>", &["\"a b\" is no name of a property"]),
+        ("<xacro:property name=\"a\" value=\"${a}\"/><v v=\"${a}\"/>", &["depends on itself"]),
+        ("<xacro:element xacro:name=\"x\"/>", &["xacro:element is not read"]),
+        ("<xacro:include filename=\"none.xacro\"/>", &["none.xacro cannot be read", "relative to this file"]),
+        ("<xacro:include filename=\"*.xacro\"/>", &["patterns are not read"]),
+        ("<macro name=\"m\" params=\"\"/>", &["<macro> without a prefix", "<xacro:macro"]),
+        ("<v v=\"${load_yaml('none.yaml')}\"/>", &["none.yaml cannot be read"]),
+        ("<link>", &["not well-formed XML"]),
+    ] {
+        refused(&[("r.xacro", &robot(text))], &[], parts);
+    }
+    refused(&[("r.xacro", "<robot><xacro:m/></robot>")], &[], &["prefix \"xacro\" is not declared", "xmlns:xacro="]);
+    let text = robot("<xacro:arg name=\"reach\" default=\"1\"/>");
+    refused(&[("r.xacro", &text)], &[("raech", "1")], &["no argument \"raech\"", "its arguments are reach"]);
+    let entities = "<!DOCTYPE r [<!ENTITY a \"b\">]><robot>&a;</robot>";
+    refused(&[("r.xacro", entities)], &[], &["defines entities"]);
+}
+
+#[test]
+fn what_goes_on_without_end_is_refused_soon() {
+    let deep = "<a>".repeat(100_000) + &"</a>".repeat(100_000);
+    let parens = format!("<v v=\"${{{}1{}}}\"/>", "(".repeat(5000), ")".repeat(5000));
+    let nots = format!("<v v=\"${{{} 1}}\"/>", "not ".repeat(900));
+    let powers = format!("<v v=\"${{{}1}}\"/>", "2 ** ".repeat(400));
+    let sum = format!("<v v=\"${{{}nothing}}\"/>", "1 + ".repeat(400));
+    let chain: String =
+        (0..5000).map(|k| format!("<xacro:property name=\"p{k}\" value=\"${{-(1 * -p{})}}\"/>", k + 1)).collect();
+    let doubling: String = (0..60)
+        .map(|k| format!("<xacro:property name=\"p{k}\" value=\"${{p{0} + p{0}}}\"/>", k + 1))
+        .collect::<String>()
+        + &format!("<xacro:property name=\"p30\" value=\"{}\"/><v v=\"${{p0}}\"/>", "x".repeat(9000));
+    let branching = "<xacro:macro name=\"m\" params=\"n\"><xacro:if value=\"${n &gt; 0}\"><xacro:m n=\"${n - 1}\"/><xacro:m n=\"${n - 1}\"/>\
+                     </xacro:if><a/></xacro:macro><xacro:m n=\"60\"/>";
+    for (text, part) in [
+        ("<xacro:macro name=\"m\"><xacro:m/></xacro:macro><xacro:m/>", "nested more than"),
+        (branching, "the expansion"),
+        (&deep, "nested"),
+        (&parens, "words"),
+        (&nots, "True"),
+        (&powers, "nested more than"),
+        (&sum, "no property \"nothing\""),
+        (&(chain + "<v v=\"${p0}\"/>"), "nested more than"),
+        (&doubling, "makes more than"),
+        ("<v v=\"${'x' * 10 ** 12}\"/>", "too large"),
+        ("<v v=\"${list(range(10 ** 12))}\"/>", "too long"),
+        ("<v v=\"${9 ** 9 ** 9}\"/>", "too large"),
+    ] {
+        if part != "True" {
+            refused(&[("r.xacro", &robot(text))], &[], &[part]);
+        } else {
+            assert!(Files::new(&[("r.xacro", &robot(text))]).expand(&[]).unwrap().text.contains(part));
+        }
+    }
+    let [a, b] = ["b", "a"].map(|name| robot(&format!("<xacro:include filename=\"{name}.xacro\"/>")));
+    refused(&[("a.xacro", &a), ("b.xacro", &b)], &[], &["b.xacro:2:", "a.xacro includes itself"]);
+}
