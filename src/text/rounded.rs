@@ -51,13 +51,16 @@ pub fn at_most(value: f64, decimals: usize) -> String {
 /// Two digits of a positive number that are no more than it.
 fn two_digits_below(value: f64) -> String {
     let nearest = format!("{value:.1e}");
-    let is_below = |text: &str| text.parse().is_ok_and(|shown: f64| shown <= value);
-    if is_below(&nearest) {
+    let Some((digits, exponent)) =
+        nearest.split_once('e').filter(|_| nearest.parse().is_ok_and(|shown: f64| shown > value))
+    else {
         return nearest;
+    };
+    match (digits.parse::<f64>(), exponent.parse::<i32>()) {
+        (Ok(1.0), Ok(exponent)) => format!("9.9e{}", exponent - 1),
+        (Ok(digits), Ok(exponent)) => format!("{:.1}e{exponent}", digits - 0.1),
+        _ => nearest,
     }
-    // A twentieth less is a unit of the second digit or half of one.
-    let less = format!("{:.1e}", value * 0.95);
-    if is_below(&less) { less } else { format!("{:.1e}", value * 0.9) }
 }
 
 /// A share in words, rounded up: `0.04 %`, `8.5e-3 %`. That a quotient was rounded makes it no more.
@@ -112,7 +115,7 @@ mod tests {
     #[test]
     fn zero_has_no_sign_and_no_proven_distance_looks_like_it() {
         assert_eq!([fixed(-1e-9, 4), fixed(-0.0, 2), fixed(-0.1, 0), fixed(-0.1, 1)], ["0.0000", "0.00", "0", "-0.1"]);
-        assert_eq!([nonzero(5.64e-7, 6), nonzero(-5.6e-7, 4), nonzero(-0.0, 2)], ["5.6e-7", "-5.6e-7", "0.00"]);
+        assert_eq!([nonzero(4.64e-7, 6), nonzero(-5.6e-7, 4), nonzero(-0.0, 2)], ["4.6e-7", "-5.6e-7", "0.00"]);
         assert_eq!([fixed(f64::NEG_INFINITY, 2), fixed(-20.0, 1)], ["-inf", "-20.0"]);
         assert_eq!([at_least(5.6e-7, 6), at_least(5.68e-7, 6), at_least(9.96e-9, 6)], ["5.6e-7", "5.6e-7", "9.9e-9"]);
         assert_eq!([at_least(1e-300, 4), at_least(0.0, 6), at_most(-1e-9, 6)], ["1.0e-300", "0.000000", "0.000000"]);

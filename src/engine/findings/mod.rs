@@ -112,7 +112,7 @@ fn judge_task(
             .into(),
     );
     let replay = replay(&task, recording, steps);
-    Ok(task::judged(&task, &scene, &loaded.robot.assumed, recording, steps, replay, claims, notes))
+    Ok(task::judged(&task, &scene, &loaded.robot.assumed, (recording, steps), replay, claims, notes))
 }
 
 /// Steps that look like a seam in wrapped angles.

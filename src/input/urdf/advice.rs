@@ -60,7 +60,7 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
     if velocity == 0.0 {
         return Some(format!("{given} is taken as not given: {help}"));
     }
-    let degrees = (unit == "rad").then(|| format!(" ({} deg/s)", short(velocity.to_degrees()))).unwrap_or_default();
+    let degrees = if unit == "rad" { format!(" ({} deg/s)", short(velocity.to_degrees())) } else { String::new() };
     (velocity > fastest)
         .then(|| format!("{given} is {velocity} {unit}/s{degrees}, faster than any drive: times are too short; {help}"))
 }
