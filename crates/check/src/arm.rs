@@ -5,16 +5,26 @@ use crate::domain::{Range, Rectangle};
 use crate::interval::{BITS, Interval, Point, both_turns, length, rough, roughly, sum, times, turned};
 use crate::overlap::{Shape, overlap_by_more_than, seem_to_overlap};
 use crate::robot::{Arm, Body, Motion};
+use crate::world::Owner;
 use num_bigint::BigInt;
 use std::cell::RefCell;
 
 /// A box of configurations by its middle and half its sides.
+#[derive(Clone)]
 pub struct Cell {
     middle: [Interval; 2],
     half: [Interval; 2],
 }
 
 impl Cell {
+    /// The box in which to look for contact with a link of the robot: if joint 1 carries it, joint 1 is at zero.
+    pub fn beside(mut self, link: Option<&Owner>) -> Self {
+        if link.is_some_and(|link| link.is_carried) {
+            (self.middle[0], self.half[0]) = (Interval::whole(0), Interval::whole(0));
+        }
+        self
+    }
+
     /// What a straight segment covers from `k / 2^cuts` to `(k + 1) / 2^cuts` of its length.
     pub fn of_segment(from: &Point, along: &Point, k: i64, cuts: u32) -> Self {
         let middle = sum(from, &times(along, &Interval::exactly(BigInt::from(2 * k + 1) << (BITS - cuts - 1))));

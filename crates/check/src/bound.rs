@@ -6,14 +6,13 @@
 
 use crate::arm::{self, Mover};
 use crate::certificate::{Bound, Certificate, Metric, Wall, rectangles};
-use crate::contacts::{Among, Contacts};
+use crate::contacts::{Among, Contacts, Pair};
 use crate::decimal::Decimal;
 use crate::domain::{Axis, Rectangle, within};
 use crate::ends::{End, FEW_PARTS};
 use crate::error::{CheckError, Input};
 use crate::interval::{BITS, Interval, Point, minus, twice};
-use crate::overlap::Shape;
-use crate::robot::{Arm, Body, Motion};
+use crate::robot::{Arm, Motion};
 use crate::world::World;
 use num_bigint::{BigInt, Sign};
 use std::cell::Cell;
@@ -57,8 +56,7 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     let contacts = Contacts::new(arm, &among, certificate, certificate.clearance(world)?).complete()?;
     contacts.hold(arm, stuck, &boxes)?;
     for (number, wall) in bound.walls.iter().enumerate() {
-        let (body, part) = contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?;
-        if !closes(arm, wall, &body, &part) {
+        if !closes(arm, wall, &contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?) {
             return CheckError::fails(format!("wall {number}: along it the shape can come off the part"));
         }
     }
@@ -73,20 +71,21 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
 /// Whether a shape and a part are seen to overlap all along a wall: it is halved until each piece is, as a box, or there were too many looks.
 ///
 /// A shape that only slides along the wall overlaps another at a convex set of places: then its ends are enough.
-fn closes(arm: &Arm, wall: &Wall, body: &Body, part: &Shape) -> bool {
+fn closes(arm: &Arm, wall: &Wall, Pair { body, part, beside }: &Pair) -> bool {
     let [from, to] = [&wall.from, &wall.to].map(|end| end.each_ref().map(Interval::from));
     let along = minus(&to, &from);
+    let cell = |from, along, k, cuts| arm::Cell::of_segment(from, along, k, cuts).beside(*beside);
     let mover = Mover::new(arm, body);
     let turns = |k: usize| wall.from[k] != wall.to[k] && matches!(arm.joints[k].motion, Motion::Turn(_));
     if !(0..=body.link).any(turns) {
         let still = [0, 1].map(|_| Interval::whole(0));
-        return [from, to].iter().all(|end| mover.overlaps(part, &arm::Cell::of_segment(end, &still, 0, 0)));
+        return [from, to].iter().all(|end| mover.overlaps(part, &cell(end, &still, 0, 0)));
     }
     let (mut left, mut last) = (vec![(0, 0)], 0);
     for _ in 0..MOST_LOOKS {
         let Some((k, cuts)) = left.pop() else { return true };
         // What is much longer than the piece before is not looked at.
-        if cuts + 1 >= last && mover.overlaps(part, &arm::Cell::of_segment(&from, &along, k, cuts)) {
+        if cuts + 1 >= last && mover.overlaps(part, &cell(&from, &along, k, cuts)) {
             last = cuts;
         } else if cuts < MOST_CUTS {
             left.extend([2 * k + 1, 2 * k].map(|k| (k, cuts + 1)));

@@ -8,7 +8,7 @@ use crate::error::{CheckError, Input};
 use crate::interval::Interval;
 use crate::overlap::Shape;
 use crate::robot::{Arm, Body, named as named_shape};
-use crate::world::{Obstacle, World};
+use crate::world::{Obstacle, Owner, World};
 use carried::Hung;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -71,7 +71,7 @@ enum Named {
     Carried(Hung),
 }
 
-/// A part of an obstacle, or a link that stands still, that evidence names, grown by the clearance.
+/// A part of an obstacle, or a link of the robot, that evidence names, grown by the clearance.
 pub struct Part {
     of: Whole,
     shape: Shape,
@@ -84,8 +84,16 @@ pub struct Part {
 enum Whole {
     /// The obstacle with this number.
     Obstacle(usize),
-    /// The link of the robot with this name.
-    Link(String),
+    /// This link of the robot.
+    Link(Owner),
+}
+
+/// A shape and a part that can meet.
+pub struct Pair<'a> {
+    pub body: Cow<'a, Body>,
+    pub part: Cow<'a, Shape>,
+    /// The link that the part is of, if it is of the robot: then [`Cell::beside`] is the box to look in.
+    pub beside: Option<&'a Owner>,
 }
 
 /// All that evidence may name, or why it may not.
@@ -122,21 +130,16 @@ impl<'a> Contacts<'a> {
     /// That in all of each box the shape is too near the part.
     pub fn hold(&self, arm: &Arm, stuck: &[StuckBox], boxes: &[Rectangle]) -> Result<(), CheckError> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
-            let (body, part) = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
-            if !Mover::new(arm, &body).overlaps(&part, &Cell::from(ranges)) {
+            let Pair { body, part, beside } = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
+            if !Mover::new(arm, &body).overlaps(&part, &Cell::from(ranges).beside(beside)) {
                 return CheckError::fails(format!("box {number}: within it the shape can come off the part"));
             }
         }
         Ok(())
     }
 
-    /// A shape and a part that can meet.
-    pub fn pair(
-        &self,
-        shape: usize,
-        part: usize,
-        who: impl Fn() -> String,
-    ) -> Result<(Cow<'_, Body>, Cow<'_, Shape>), CheckError> {
+    /// Finds a shape and a part that can meet.
+    pub fn pair(&self, shape: usize, part: usize, who: impl Fn() -> String) -> Result<Pair<'_>, CheckError> {
         let fails = |why: &str| CheckError::fails(format!("{}{why}", who()));
         let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {
             return fails(" names a shape or a part that is not there");
@@ -150,17 +153,27 @@ impl<'a> Contacts<'a> {
             return fails(": the shape rests on the obstacle");
         }
         let is_among = |all: &[usize]| matches!(part.of, Whole::Obstacle(number) if all.contains(&number));
-        match (shape, &part.of) {
-            (Named::Own(_, ignored), Whole::Link(link)) if ignored.contains(link) => {
+        let beside = match &part.of {
+            Whole::Link(link) => Some(link),
+            Whole::Obstacle(_) => None,
+        };
+        match (shape, beside) {
+            (Named::Own(_, ignored), Some(Owner { link, .. })) if ignored.contains(link) => {
                 fails(&format!(": the shape may meet link \"{link}\""))
             }
             (Named::Own(body, _), _) if body.link == 1 && is_among(&self.among.allowed) => {
                 fails(": the shape may meet the obstacle")
             }
-            (Named::Own(body, _), _) => Ok((Cow::Borrowed(body), Cow::Borrowed(&part.shape))),
+            (Named::Own(body, _), _) => {
+                Ok(Pair { body: Cow::Borrowed(body), part: Cow::Borrowed(&part.shape), beside })
+            }
+            (Named::Carried(Hung { about_tip: Some(_), .. }), Some(Owner { link, is_carried: true })) => {
+                fails(&format!(": what is carried turns beside link \"{link}\""))
+            }
             (Named::Carried(hung), _) => {
                 let supports = self.among.carried.as_ref().map(|carried| &carried.supports);
-                hung.against(part, supports.is_some_and(|supports| is_among(supports)))
+                let (body, part) = hung.against(part, supports.is_some_and(|supports| is_among(supports)))?;
+                Ok(Pair { body, part, beside })
             }
         }
     }

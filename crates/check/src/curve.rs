@@ -34,6 +34,12 @@ pub struct Piece {
 }
 
 impl Piece {
+    /// The same with joint 1 at zero.
+    pub fn of_second(&self) -> Self {
+        let curve = |curve: &Vec<Values>| curve.iter().map(|[_, second]| [0, *second]).collect();
+        Self { curves: self.curves.iter().map(curve).collect(), ..self.clone() }
+    }
+
     /// Both halves of it (de Casteljau).
     pub fn halves(&self) -> [Self; 2] {
         let halves: Vec<[Vec<Values>; 2]> = self.curves.iter().map(|curve| halves(curve)).collect();

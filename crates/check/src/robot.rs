@@ -64,8 +64,9 @@ pub struct Arm<'a> {
     pub tip: Body,
     /// All that can collide, ...
     pub shapes: Vec<Counted>,
-    /// ... shapes of the robot that stand still, ...
-    pub still: Vec<Counted>,
+    /// ... shapes of the robot that others of its links can hit: of links that stand still, and of those that joint 1 carries, in the plane where they
+    /// are with joint 1 at zero, ...
+    pub bases: Vec<Counted>,
     /// ... and the obstacles that they make.
     pub own: Vec<Obstacle>,
     /// What is taken to be otherwise than the URDF has it, in words.
@@ -181,10 +182,10 @@ impl<'a> Arm<'a> {
         let offset = minus(&second, &base);
         let nowhere = Shape { points: Vec::new(), radius: Interval::whole(0) };
         let (tip_link, tip) = (children[1], Body { link: 1, shape: nowhere, heights: None });
-        let (shapes, still, own, notes) = Default::default();
+        let (shapes, bases, own, notes) = Default::default();
         let domain = Domain::new(joints.each_ref().map(|joint| &joint.axis));
         let mut arm =
-            Self { joints, domain, base, offset, tip_link, tip, shapes, still, own, notes, tree, children, plane };
+            Self { joints, domain, base, offset, tip_link, tip, shapes, bases, own, notes, tree, children, plane };
         arm.tip_link = arm.tip(world.tip.as_deref())?;
         let at = arm.tree.pose(arm.tip_link)?;
         arm.tip = arm.project(Some(1), &at, &Solid::point(), Outline::Within);

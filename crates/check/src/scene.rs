@@ -67,7 +67,13 @@ pub fn stay_off(
         None => format!("obstacle {number}"),
     };
     let solids: Vec<&Solid> = parts.iter().map(|part| part.solid).collect();
-    keep_off(chain, pieces, (&solids, &edges), pairs).map_err(|Open { knot, solid, edge }| {
+    // Where what joint 1 carries is, seen from what joint 2 carries, depends on joint 2 alone.
+    let is_carried = |number: usize| obstacles[number].as_ref().is_some_and(|present| present.obstacle.is_carried());
+    let (turning, standing) = pairs.into_iter().partition(|[_, edge]| is_carried(owners[*edge]));
+    let of_second: Vec<Piece> = pieces.iter().map(Piece::of_second).collect();
+    let kept = keep_off(chain, pieces, (&solids, &edges), standing)
+        .and_then(|()| keep_off(chain, &of_second, (&solids, &edges), turning));
+    kept.map_err(|Open { knot, solid, edge }| {
         let Part { name, keeps, .. } = &parts[solid];
         CheckError::Fails(format!(
             "from knot {knot} to the next {name} is not shown to stay {keeps} {}",

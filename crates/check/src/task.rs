@@ -8,6 +8,7 @@ use crate::error::{CheckError, Input};
 use crate::free::{Chain, Edge, On, Solid, guard};
 use crate::interval::{Interval, Point, both_turns, length, minus, turned};
 use crate::motion::{SIXTY, fine, piece, well_formed};
+use crate::overlap::Shape;
 use crate::polygon::Corner;
 use crate::robot::{Arm, Counted};
 use crate::scene::{Part, Present, stay_off};
@@ -160,7 +161,19 @@ struct Held {
     pressed: Option<Obstacle>,
     /// The shapes of both.
     solids: [Vec<Solid>; 2],
+    /// A disc that covers it however it turns about the tip, if it is held level.
+    round: Option<Solid>,
     carrying: Carrying,
+}
+
+/// How what is held keeps off an obstacle.
+#[derive(PartialEq)]
+enum Manner {
+    Off,
+    /// It presses into a support by no more than it may.
+    Pressed,
+    /// However it turns about the tip: held level, it turns beside what joint 1 carries.
+    Round,
 }
 
 /// Where everything is between steps.
@@ -307,8 +320,8 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// Whether what is held can meet an obstacle, and is to keep off it rather than to press into it by no more than it may.
-    fn meets(&self, held: &Held, obstacle: usize, tool: Tool) -> Option<bool> {
+    /// How what is held is to keep off an obstacle, if it can meet it.
+    fn meets(&self, held: &Held, obstacle: usize, tool: Tool) -> Option<Manner> {
         let own = self.task.first + held.object;
         let [heights, others] = [own, obstacle].map(|number| self.all[number].heights.as_ref());
         if let (Some(lying), Some([low, high])) = (heights, others) {
@@ -327,27 +340,36 @@ impl<'a> Replay<'a> {
         if tool == Tool::Lying && self.present[obstacle].as_ref().is_some_and(moves) {
             return None;
         }
-        (obstacle != own).then(|| !held.carrying.supports.contains(&obstacle))
+        (obstacle != own).then(|| match held.carrying.supports.contains(&obstacle) {
+            true => Manner::Pressed,
+            false if held.round.is_some() && self.all[obstacle].is_carried() => Manner::Round,
+            false => Manner::Off,
+        })
     }
 
     /// The parts of what is held.
     fn hanging<'h>(&'h self, held: &'h Held, solids: &'h [Vec<Solid>; 2], tool: Tool) -> Vec<Part<'h>> {
         let all = 0..self.present.len();
-        let part = |solid, keeps, others: bool| {
-            let meets = all.clone().map(|obstacle| self.meets(held, obstacle, tool) == Some(others)).collect();
+        let part = |solid, keeps, manner: Manner| {
+            let is_met = |obstacle| self.meets(held, obstacle, tool).is_some_and(|of| of == manner);
+            let meets = all.clone().map(is_met).collect();
             Part { name: "what is carried".to_owned(), keeps, solid, meets }
         };
         let [others, supports] = solids;
-        let supported = supports.iter().map(|solid| part(solid, "no deeper than it may press into", false));
-        others.iter().map(|solid| part(solid, &*self.keeps, true)).chain(supported).collect()
+        let supported = supports.iter().map(|solid| part(solid, "no deeper than it may press into", Manner::Pressed));
+        let round = held.round.iter().map(|solid| part(solid, &*self.keeps, Manner::Round));
+        others.iter().map(|solid| part(solid, &*self.keeps, Manner::Off)).chain(supported).chain(round).collect()
     }
 
     /// That no obstacle begins within what is held, or no support within what of it keeps off these.
     fn surrounds_none(&self, held: &Held, values: &Point, time: &Decimal, tool: Tool) -> Result<(), CheckError> {
-        for (hanging, others) in iter::once((&held.hanging, true)).chain(held.pressed.iter().map(|own| (own, false))) {
-            let lying = self.chain.lying(&held.on, hanging, values);
+        let of_second = [Interval::whole(0), values[1].clone()];
+        let pressed = held.pressed.iter().map(|own| (own, Manner::Pressed));
+        for (hanging, manner) in iter::once((&held.hanging, Manner::Off)).chain(pressed) {
+            let [lying, beside] = [values, &of_second].map(|at| self.chain.lying(&held.on, hanging, at));
             for (number, present) in self.present.iter().enumerate() {
-                if self.meets(held, number, tool) == Some(others) {
+                if self.meets(held, number, tool).is_some_and(|of| of == manner) {
+                    let lying = if self.all[number].is_carried() { &beside } else { &lying };
                     let mut edges = present.iter().flat_map(|present| &present.edges);
                     let side = |edge: &Edge| edge.during(&self.chain, [time, time]).point().clone();
                     if edges.any(|edge| lying.surrounds(&side(edge), &guard()) != Some(false)) {
@@ -409,6 +431,18 @@ impl<'a> Replay<'a> {
         Ok([solids(hanging, &self.kept)?, pressed.map_or(Ok(Vec::new()), |own| solids(own, &guard()))?])
     }
 
+    /// A disc about the tip that covers what is held level however it turns.
+    fn round(&self, hanging: &Obstacle) -> Result<Solid, CheckError> {
+        let all = hanging.solids()?;
+        let reach = |shape: &Shape| {
+            let points = shape.points.iter().map(length);
+            points.map(|off| off.upper + &shape.radius.upper).max()
+        };
+        let radius = Interval::exactly(all.iter().filter_map(reach).max().unwrap_or_default());
+        let disc = Shape { points: vec![self.tip.clone()], radius };
+        Ok(Solid::new(&self.chain, On::Link(1), &disc, &self.kept))
+    }
+
     /// For what is not looked at in time.
     fn nothing_moves(&self, what: &str) -> Result<(), CheckError> {
         let moves = |present: &Present| present.obstacle.course.is_some();
@@ -440,15 +474,17 @@ impl<'a> Replay<'a> {
         }
         let tip = self.chain.point_at(&On::Link(1), &self.tip, at);
         self.misses(length(&minus(&tip, &lying.placed(&grasp.each_ref().map(Interval::from)))).upper)?;
-        let (on, hanging) = if self.task.objects[object].is_level {
+        let (on, hanging, round) = if self.task.objects[object].is_level {
             let (at, turn) = (minus(&lying.at, &tip), lying.turn.clone());
-            (On::Level(self.tip.clone()), lying.moved(at, turn))
+            let hanging = lying.moved(at, turn);
+            let round = self.round(&hanging)?;
+            (On::Level(self.tip.clone()), hanging, Some(round))
         } else {
-            (On::Link(1), self.chain.hung(&lying, at))
+            (On::Link(1), self.chain.hung(&lying, at), None)
         };
         let pressed = (!carrying.supports.is_empty()).then(|| hanging.pressed(&self.pressed)).transpose()?;
         let solids = self.hung(&self.chain, &on, &hanging, pressed.as_ref())?;
-        self.held = Some(Held { object, on, hanging, pressed, solids, carrying });
+        self.held = Some(Held { object, on, hanging, pressed, solids, round, carrying });
         self.released = None;
         Ok(())
     }
@@ -482,7 +518,9 @@ impl<'a> Replay<'a> {
         let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]], time };
         let solids = self.hung(&wrist, &On::Link(0), &held.hanging, held.pressed.as_ref())?;
         let seen = |(number, present): (usize, &Option<Present>)| {
-            let met = present.as_ref().filter(|_| self.meets(&held, number, Tool::Raised).is_some());
+            // A disc about the tip has been looked at.
+            let meets = || self.meets(&held, number, Tool::Raised).is_some_and(|of| of != Manner::Round);
+            let met = present.as_ref().filter(|_| meets());
             met.map(|present| Present::new(&wrist, present.obstacle.clone())).transpose()
         };
         let present = self.present.iter().enumerate().map(seen).collect::<Result<Vec<_>, _>>()?;

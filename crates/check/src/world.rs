@@ -25,6 +25,7 @@ pub mod task;
 
 pub use course::Course;
 pub use obstacle::Obstacle;
+pub use own::Owner;
 
 use cells::Cells;
 use obstacle::Outline;

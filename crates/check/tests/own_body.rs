@@ -1,4 +1,4 @@
-//! The robot's own body: links that stand still are obstacles for links that move.
+//! The robot's own body: links that stand still and links that joint 1 carries are obstacles for other links.
 
 #[path = "common/scara.rs"]
 mod scara;
@@ -240,4 +240,159 @@ fn bars_are_kept_apart() {
     // The bar of the forearm is 0.4 m to 0.5 m high, and reaches to the quill.
     fails(judged(&high("0.4 0.3 0.7"), "bar = 0.05", &folded("")), &["the bar of link \"fore\"", "link \"base\""]);
     holds(judged(&high("0.4 0.3 0.4"), "bar = 0.05", &folded("")));
+}
+
+/// A SCARA whose elbow goes all round, and whose upper arm is as wide as this.
+fn turning(lowest: f64, wide: f64) -> String {
+    let upper = scara(lowest).replacen("0.6 0.1 0.2", &format!("0.6 {wide} 0.2"), 1);
+    upper.replacen("name=\"b\" type=\"revolute\"", "name=\"b\" type=\"continuous\"", 1)
+}
+
+/// Folded back, the quill is in the middle of the upper arm. It passes above if it is high enough.
+#[test]
+fn the_upper_arm_is_hit_and_passed_over() {
+    let fold = |urdf: &str, robot: &str, knots: &str, extra: &str| {
+        let certificate = format!(
+            r#"{{"format": "cplan certificate 1", "answer": "found", {extra}
+                "motion": {{"interpolation": ["linear"], "knots": [{knots}]}}}}"#
+        );
+        judged(urdf, robot, &certificate)
+    };
+    let goal = |to: f64| format!(r#""goal": [1, {to}],"#);
+    let round = "[0, -1, 0], [1, 1, 4]";
+    let hit = ["from knot 0", "link \"quill\", collision 0", "link \"upper\", collision 0"];
+    for lowest in [0.35, 0.449] {
+        fails(fold(&turning(lowest, 0.1), "", round, &goal(4.0)), &hit);
+        fails(fold(&turning(lowest, 0.1), "at = [3, -2]\nangle = 1", round, &goal(4.0)), &hit);
+        holds(fold(&turning(lowest, 0.1), "own_body = false", round, &goal(4.0)));
+        holds(fold(&turning(lowest, 0.1), "ignore_contact = [[\"upper\", \"quill\"]]", round, &goal(4.0)));
+    }
+    holds(fold(&turning(0.45, 0.1), "", round, &goal(4.0)));
+    // 0.45 sin(2.8) - 0.02 - 0.05 = 0.0807 beside it, wherever the shoulder is.
+    for (clearance, is_free) in [(0.08, true), (0.081, false)] {
+        let extra = format!("{}\"clearance\": {clearance},", goal(2.8));
+        let (code, said) = fold(&turning(0.35, 0.1), "", "[0, -1, 0], [1, 1, 2.8]", &extra);
+        assert_eq!(code, if is_free { 0 } else { 3 }, "{clearance}: {said}");
+    }
+    // It is let through only if they overlap where the motion begins.
+    let ignored = format!(r#"{} "ignored": [["quill", "upper"]],"#, goal(4.0));
+    fails(fold(&turning(0.35, 0.1), "", round, &ignored), &["do not overlap where the motion begins"]);
+    let wide = turning(0.35, 2.5).replacen("0.6 2.5 0.2", "2.5 2.5 0.2", 1);
+    fails(fold(&wide, "", round, &goal(4.0)), &hit);
+    let said = holds(fold(&wide, "", round, &ignored));
+    assert!(said.contains("\"quill\" and \"upper\" is ignored"), "{said}");
+}
+
+/// If joint 1 slides, the carriage is an obstacle for what the elbow swings, wherever it is.
+#[test]
+fn a_carriage_is_hit_wherever_it_slides() {
+    let slides = turning(0.35, 0.1).replacen("name=\"a\" type=\"revolute\"", "name=\"a\" type=\"prismatic\"", 1);
+    let slides = slides.replacen("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 1 0\"/>", 1);
+    let slid = |lowest: &str, to: f64| {
+        let certificate = folded(&format!(r#""start": [1, 0], "goal": [2, {to}],"#));
+        let certificate = certificate.replace("[0, -1, 0], [1, -1, 2.8]", &format!("[0, 1, 0], [1, 2, {to}]"));
+        judged(&slides.replacen("0.425", lowest, 1), "", &certificate)
+    };
+    fails(slid("0.425", 4.0), &["link \"quill\"", "link \"upper\""]);
+    holds(slid("0.425", 2.8));
+    holds(slid("0.53", 4.0));
+}
+
+const UPPER: &str = r#"{"own": "upper", "collision": 0}"#;
+
+/// Whether a part of the upper arm is met depends on the elbow alone: a box may be as wide as the shoulder goes.
+#[test]
+fn proofs_name_links_that_joint_1_carries() {
+    let proof = |boxes: &[f64], shape: &str, part: &str| {
+        let stuck = |at: &f64| {
+            let [low, high] = [at - 0.01, at + 0.01];
+            format!(r#"{{"lower": [-0.6, {low}], "upper": [0.6, {high}], "shape": 0, "part": 0}}"#)
+        };
+        let boxes: Vec<String> = boxes.iter().map(stuck).collect();
+        format!(
+            r#"{{"format": "cplan certificate 1", "answer": "infeasible", "start": [-0.1, 0], "goal": [0.1, 2.9],
+                "shapes": [{shape}], "parts": [{part}], "boxes": [{}]}}"#,
+            boxes.join(",")
+        )
+    };
+    let both = proof(&[2.65, -2.65], QUILL, UPPER);
+    holds(judged(&turning(0.35, 0.5), LIMITS, &both));
+    holds(judged(&turning(0.35, 0.5), &format!("{LIMITS}\nat = [1, 1]\nangle = 2"), &both));
+    // The elbow may also turn to the right.
+    fails(judged(&turning(0.35, 0.5), LIMITS, &proof(&[2.65], QUILL, UPPER)), &["do not separate"]);
+    holds(judged(&scara(0.35).replacen("0.6 0.1 0.2", "0.6 0.5 0.2", 1), LIMITS, &proof(&[2.65], QUILL, UPPER)));
+    for (lowest, wide, robot, shape, part, why) in [
+        (0.35, 0.3, "", QUILL, UPPER, "can come off"),
+        (0.45, 0.5, "", QUILL, UPPER, "passes over or under"),
+        (0.35, 0.5, "own_body = false", QUILL, UPPER, "no collision shape number 0"),
+        (0.35, 0.5, "ignore_contact = [[\"quill\", \"upper\"]]", QUILL, UPPER, "no collision shape number 0"),
+        (0.35, 0.5, "", r#"{"link": "upper", "collision": 0}"#, UPPER, "may meet link \"upper\""),
+        (
+            0.35,
+            0.5,
+            "",
+            r#"{"link": "upper", "collision": 0}"#,
+            r#"{"own": "quill", "collision": 0}"#,
+            "link \"quill\"",
+        ),
+    ] {
+        let robot = format!("{LIMITS}\n{robot}");
+        fails(judged(&turning(lowest, wide), &robot, &proof(&[2.65, -2.65], shape, part)), &[why]);
+    }
+    let ignored = both.replace("\"start\"", r#""ignored": [["upper", "quill"]], "start""#);
+    fails(judged(&turning(0.35, 0.5), LIMITS, &ignored), &["may meet link \"upper\""]);
+}
+
+/// What is held rigidly turns with the forearm. What is held level turns beside the upper arm, and needs room all round.
+#[test]
+fn what_is_carried_stays_off_the_upper_arm() {
+    let carried = |long: f64, elbow: f64, robot: &str| {
+        let tip = [f64::cos, f64::sin].map(|of| 0.5 * of(1.0) + 0.45 * of(1.0 + elbow));
+        let world = format!(
+            "[robot]\n{robot}\n[start]\njoints = [0, 0]\n[[object]]\nname = \"block\"\nat = [0.95, 0]\nheight = [0.31, 0.4]\n\
+             polygon = [[-{long}, -0.02], [0.02, -0.02], [0.02, 0.02], [-{long}, 0.02]]\n\
+             [[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = {tip:?} }}\n"
+        );
+        let certificate = format!(
+            r#"{{"format": "cplan certificate 1", "answer": "found",
+            "steps": [{{"step": 1, "knots": [0, 1]}}, {{"step": 2, "knots": [1, 2]}}],
+            "motion": {{"interpolation": ["linear"], "knots": [[0, 0, 0], [1, 0, 0], [2, 1, {elbow}]]}}}}"#
+        );
+        told(check(&scara(0.46), &world, &certificate))
+    };
+    let level = "payload = \"level\"\nwrist = { velocity = 1 }";
+    let hit = ["step 2", "what is carried", "link \"upper\", collision 0"];
+    holds(carried(0.3, 2.2, ""));
+    fails(carried(0.3, 2.8, ""), &hit);
+    // The tip is 0.3138 m beside the upper arm.
+    holds(carried(0.31, 2.2, level));
+    fails(carried(0.32, 2.2, level), &hit);
+    holds(carried(0.32, 2.2, ""));
+    holds(carried(0.32, 2.2, &format!("{level}\nown_body = false")));
+}
+
+/// Proofs about a task may name what is carried against the upper arm if it is held rigidly.
+#[test]
+fn proofs_put_what_is_held_rigidly_beside_the_upper_arm() {
+    let tip = |elbow: f64| [0.5 + 0.45 * elbow.cos(), 0.45 * elbow.sin()];
+    let proof = |payload: &str, wide: f64| {
+        let world = format!(
+            "[robot]\nlimits = {{ a = [-0.5, 0.5], b = [-1, 2.9] }}\n{payload}\n[start]\njoints = [0, 0]\n\
+             [[object]]\nname = \"block\"\nat = {:?}\nheight = [0.31, 0.4]\n\
+             polygon = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]\n\
+             [[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = {:?} }}\n",
+            tip(1.0),
+            tip(2.8)
+        );
+        let certificate = format!(
+            r#"{{"format": "cplan certificate 1", "answer": "infeasible", "parts": [{UPPER}],
+            "shapes": [{{"carried": [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]}}],
+            "cases": [{{"step": 2, "from": [[-0.0001, 0.0001], [0.9999, 1.0001]],
+            "boxes": [{{"lower": [-0.6, 2.64], "upper": [0.6, 2.66], "shape": 0, "part": 0}}]}}]}}"#
+        );
+        told(check(&turning(0.46, wide), &world, &certificate))
+    };
+    holds(proof("", 0.5));
+    fails(proof("", 0.3), &["can come off"]);
+    fails(proof("payload = \"level\"\nwrist = { velocity = 1 }", 0.5), &["turns beside link \"upper\""]);
 }

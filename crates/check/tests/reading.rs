@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Lines that an answer about one motion may rest on. Until layers and links that stand still had names in certificates it was 3 000.
-const MOST: usize = 3150;
+/// Lines that an answer about one motion may rest on. Until layers and links had names in certificates as parts it was 3 000, and until
+/// links that joint 1 carries had, 3 150.
+const MOST: usize = 3170;
 
 /// Lines of code of a file, without comments and tests.
 fn lines(path: &Path) -> usize {
@@ -52,7 +53,7 @@ fn the_page_says_how_much_there_is_to_read() {
     assert!(left.is_empty(), "the page does not name {left:?}");
     // What it says of sums is of the same rows, and no answer about one motion grows beyond what the page says.
     let below: usize = sums[..4].iter().sum();
-    let answers = [(sums[4], "on 2 699 lines"), (sums[5], "on 2 921"), (sums[4] + sums[6], "on 3 142")];
+    let answers = [(sums[4], "on 2 720 lines"), (sums[5], "on 2 933"), (sums[4] + sums[6], "on 3 162")];
     for (answer, said) in answers {
         let digits: usize = said.chars().filter(char::is_ascii_digit).collect::<String>().parse().unwrap();
         assert!(table.contains(said) && (below + answer).abs_diff(digits) < 10 && digits <= MOST, "{said}");

@@ -26,7 +26,7 @@ pub struct Hung {
     /// Of what is kept level it is the tip.
     pub body: Body,
     /// What is kept level, as seen from the tip.
-    about_tip: Option<Shape>,
+    pub about_tip: Option<Shape>,
     /// What of it stays off its supports.
     pressed: Option<Result<Shape, CheckError>>,
 }

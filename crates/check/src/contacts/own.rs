@@ -5,7 +5,7 @@ use crate::certificate::PartName;
 use crate::error::{CheckError, Input};
 use crate::robot::{Arm, Outline, named};
 
-/// Finds the shape of a link that stands still, or a layer of it.
+/// Finds the shape of a link that is an obstacle for others, or a layer of it.
 ///
 /// # Errors
 /// When the name is incomplete, or no such shape counts.
@@ -15,6 +15,7 @@ pub fn part(arm: &Arm, name: &PartName) -> Result<Evident, CheckError> {
         (Some(link), None, Some(number), None) => (link, "visual", number),
         _ => return Err(CheckError::in_file(Input::Certificate, PART)),
     };
-    let within = &named(&arm.still, (link, kind, number), name.height.as_ref())?.within;
-    Ok((Whole::Link(link.clone()), within.shape.clone(), within.kept(Outline::Within)))
+    let own = named(&arm.bases, (link, kind, number), name.height.as_ref())?;
+    let within = &own.within;
+    Ok((Whole::Link(own.owner()), within.shape.clone(), within.kept(Outline::Within)))
 }

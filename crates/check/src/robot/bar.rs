@@ -29,6 +29,7 @@ impl Arm<'_> {
         let body =
             Body { link: last, shape: Shape { points: vec![[0, 0].map(Interval::whole), end], radius }, heights };
         let (link, around, within) = (link.to_owned(), body.clone(), body);
-        Ok(Counted { link, kind: "bar", number: 0, layer: None, around, within, ignored: BTreeSet::new() })
+        let (layer, ignored) = (None, BTreeSet::new());
+        Ok(Counted { link, kind: "bar", number: 0, last: Some(last), layer, around, within, ignored })
     }
 }

@@ -10,8 +10,8 @@ use crate::certificate::Certificate;
 use crate::decimal::Decimal;
 use crate::domain::Range;
 use crate::error::{CheckError, Input};
-use crate::interval::{Interval, Point};
-use crate::world::{Obstacle, World};
+use crate::interval::{Interval, Point, sum};
+use crate::world::{Obstacle, Owner, World};
 use num_bigint::BigInt;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -48,7 +48,7 @@ impl<'a> Arm<'a> {
         Ok(is_held.then_some(None))
     }
 
-    /// Cuts meshes in layers, and sorts all shapes into those that move and those that stand still.
+    /// Cuts meshes in layers, and finds the shapes that move, and those that are obstacles for others.
     ///
     /// # Errors
     /// When the world names a link that the robot does not have.
@@ -58,7 +58,8 @@ impl<'a> Arm<'a> {
             let message = format!("[robot] ignore_contact: the robot has no link \"{odd}\"");
             return Err(CheckError::in_file(Input::World, message));
         }
-        let groups: BTreeMap<&'a str, Option<usize>> = all.iter().map(|placed| (placed.link, placed.last)).collect();
+        let groups: BTreeMap<&'a str, Option<usize>> =
+            all.iter().map(|placed| (placed.link, placed.whole.last)).collect();
         let chain = |link: &&'a str| Ok((*link, self.tree.chain(link)?));
         let chains = groups.keys().map(chain).collect::<Read<BTreeMap<&str, Vec<&str>>>>()?;
         let mut apart = BTreeSet::new();
@@ -73,9 +74,10 @@ impl<'a> Arm<'a> {
         let ends = |placed: &Placed| placed.whole.around.heights.iter().flatten().map(|h| h.middle().0).collect();
         let ends: Vec<(&str, Vec<BigInt>)> = all.iter().map(|placed| (placed.link, ends(placed))).collect();
         let wrist = world.task.as_ref().and_then(|task| task.wrist.as_ref()?.joint.as_deref());
-        for Placed { link, last, mut whole, surface } in all {
-            let still = groups.iter().filter(|(other, of)| of.is_none() && !apart.contains(&(link, **other)));
-            whole.ignored = still.map(|(other, _)| (*other).to_owned()).collect();
+        for Placed { link, mut whole, surface } in all {
+            let last = whole.last;
+            let ignored = groups.keys().filter(|other| !apart.contains(&(link, **other)));
+            whole.ignored = ignored.map(|other| (*other).to_owned()).collect();
             let others = ends.iter().filter(|(other, _)| apart.contains(&(link, *other)));
             let cuts = cuts(others.flat_map(|(_, ends)| ends.clone()).collect());
             // A link below the wrist is replaced by a disc, and stays in one piece.
@@ -90,17 +92,19 @@ impl<'a> Arm<'a> {
             if layers.is_empty() {
                 layers.push(whole);
             }
+            let is_met = |other: &str, of: Option<usize>| of == Some(1) && apart.contains(&(link, other));
+            if last.is_none() || last == Some(0) && groups.iter().any(|(other, of)| is_met(other, *of)) {
+                self.bases.extend(layers.iter().map(|own| own.at_zero(&self.base)));
+            }
             if last.is_some() {
                 self.shapes.append(&mut layers);
-            } else {
-                self.still.append(&mut layers);
             }
         }
         let obstacle = |own: &Counted| {
             let heights = own.around.kept(Outline::Around);
-            Obstacle::link(own.to_string(), own.link.clone(), own.around.shape.clone(), heights)
+            Obstacle::link(own.to_string(), own.owner(), own.around.shape.clone(), heights)
         };
-        self.own = self.still.iter().map(obstacle).collect();
+        self.own = self.bases.iter().map(obstacle).collect();
         Ok(())
     }
 
@@ -118,10 +122,10 @@ impl<'a> Arm<'a> {
             let meet = |own: &Counted, other: &Counted| {
                 let heights = other.within.kept(Outline::Within);
                 let mover = Mover::new(self, &own.within);
-                own.within.is_at(heights.as_ref())
-                    && cell.as_ref().is_none_or(|cell| mover.overlaps(&other.within.shape, cell))
+                let cell = cell.clone().map(|cell| cell.beside(Some(&other.owner())));
+                own.within.is_at(heights.as_ref()) && cell.is_none_or(|cell| mover.overlaps(&other.within.shape, &cell))
             };
-            let pairs = self.shapes.iter().flat_map(|own| self.still.iter().map(move |other| (own, other)));
+            let pairs = self.shapes.iter().flat_map(|own| self.bases.iter().map(move |other| (own, other)));
             if !pairs.filter(|(own, other)| is_pair(own, other)).any(|(own, other)| meet(own, other)) {
                 let why = format!(
                     "links \"{a}\" and \"{b}\" do not overlap where the motion begins, so their contact counts"
@@ -129,8 +133,8 @@ impl<'a> Arm<'a> {
                 return CheckError::fails(why);
             }
             for own in &mut self.shapes {
-                let other = [(a, b), (b, a)].into_iter().find(|(moving, _)| own.link == **moving);
-                own.ignored.extend(other.map(|(_, still)| still.clone()));
+                let other = [(a, b), (b, a)].into_iter().find(|(link, _)| own.link == **link);
+                own.ignored.extend(other.map(|(_, other)| other.clone()));
             }
             self.notes += &format!(
                 "; contact of links \"{a}\" and \"{b}\" is ignored, as the certificate says that they always overlap"
@@ -141,15 +145,31 @@ impl<'a> Arm<'a> {
 }
 
 impl Counted {
+    /// Places a shape of a link that stands still, or that joint 1 carries, in the plane, with joint 1 at zero.
+    fn at_zero(&self, base: &Point) -> Self {
+        let mut own = self.clone();
+        if own.last.is_some() {
+            for point in own.around.shape.points.iter_mut().chain(&mut own.within.shape.points) {
+                *point = sum(point, base);
+            }
+        }
+        own
+    }
+
+    /// Returns the link as the owner of an obstacle.
+    pub fn owner(&self) -> Owner {
+        Owner { link: self.link.clone(), is_carried: self.last.is_some() }
+    }
+
     /// Whether a body, which is this shape or its sweep by the tool, must keep off an obstacle.
     pub fn meets(&self, body: &Body, obstacle: &Obstacle) -> bool {
-        let is_free = obstacle.own.as_ref().is_some_and(|link| self.ignored.contains(link));
+        let is_free = obstacle.own.as_ref().is_some_and(|own| self.ignored.contains(&own.link));
         !is_free && !body.passes(obstacle.heights.as_ref())
     }
 }
 
 impl Body {
-    /// Returns the heights at which other links can collide with a link that stands still: at least those with
+    /// Returns the heights at which other links can collide with a link that is an obstacle for them: at least those with
     /// [`Outline::Around`], at most those with [`Outline::Within`].
     pub fn kept(&self, outline: Outline) -> Option<Range> {
         let by = Interval::from(&Decimal::power_of_ten(TOUCHING));

@@ -12,6 +12,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 /// A shape that counts, or a layer of one.
+#[derive(Clone)]
 pub struct Counted {
     /// The link that it belongs to.
     pub link: String,
@@ -19,13 +20,15 @@ pub struct Counted {
     pub kind: &'static str,
     /// ... and its number among those of its kind that the link has, without those that have no size.
     pub number: usize,
+    /// The last of the two joints that moves it; none if it stands still.
+    pub last: Option<usize>,
     /// Number of the layer, counted from the lowest, if the shape is cut.
     pub layer: Option<usize>,
     /// At least what it covers, ...
     pub around: Body,
     /// ... and at most.
     pub within: Body,
-    /// Links that stand still and that it may touch.
+    /// Links that it may touch.
     pub ignored: BTreeSet<String>,
 }
 
@@ -43,8 +46,6 @@ impl fmt::Display for Counted {
 /// A whole shape in its place.
 pub struct Placed<'a> {
     pub link: &'a str,
-    /// The last of the two joints that moves it; none if it stands still.
-    pub last: Option<usize>,
     pub whole: Counted,
     /// Its points and edges, if layers can be cut.
     pub surface: Option<Surface>,
@@ -101,7 +102,7 @@ impl<'a> Arm<'a> {
             match (last, &world.bar, unread.into_iter().next()) {
                 (Some(last), Some(bar), unread) if found.is_empty() || unread.is_some() => {
                     let (link, whole) = (self.children[last], self.bar(last, bar)?);
-                    found.push(Placed { link, last: Some(last), whole, surface: None });
+                    found.push(Placed { link, whole, surface: None });
                 }
                 (_, None, Some((.., unread))) => return Err(unread),
                 _ => {}
@@ -152,8 +153,8 @@ impl<'a> Arm<'a> {
                     }
                 };
                 let (layer, ignored) = (None, BTreeSet::new());
-                let whole = Counted { link: link.to_owned(), kind, number, layer, around, within, ignored };
-                found.push(Placed { link, last, whole, surface });
+                let whole = Counted { link: link.to_owned(), kind, number, last, layer, around, within, ignored };
+                found.push(Placed { link, whole, surface });
                 number += 1;
             }
             if found.len() + unread.len() > before {

@@ -2,6 +2,7 @@
 
 use super::cells::Cells;
 use super::course::Course;
+use super::own::Owner;
 use super::point;
 use crate::decimal::Decimal;
 use crate::domain::Range;
@@ -16,8 +17,8 @@ use std::rc::Rc;
 #[derive(Clone)]
 pub struct Obstacle {
     pub name: Option<String>,
-    /// Name of the link, if it is part of the robot.
-    pub own: Option<String>,
+    /// The link, if it is part of the robot.
+    pub own: Option<Owner>,
     pub(super) outline: Outline,
     /// Where its frame's origin lies, and sine and cosine of how it is turned.
     pub at: Point,

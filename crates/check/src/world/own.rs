@@ -6,11 +6,25 @@ use crate::domain::Range;
 use crate::interval::Interval;
 use crate::overlap::Shape;
 
+/// A link of the robot that is an obstacle for others.
+#[derive(Clone)]
+pub struct Owner {
+    /// Its name.
+    pub link: String,
+    /// Whether joint 1 carries it. Then its place is that with joint 1 at zero, and so is that of what can meet it.
+    pub is_carried: bool,
+}
+
 impl Obstacle {
-    /// Makes an obstacle of a link that stands still.
-    pub fn link(name: String, link: String, shape: Shape, heights: Option<Range>) -> Self {
+    /// Makes an obstacle of a link.
+    pub fn link(name: String, owner: Owner, shape: Shape, heights: Option<Range>) -> Self {
         let [at, turn] = [[0, 0], [0, 1]].map(|of| of.map(Interval::whole));
-        Self { name: Some(name), own: Some(link), outline: Outline::Own(shape), at, turn, heights, course: None }
+        Self { name: Some(name), own: Some(owner), outline: Outline::Own(shape), at, turn, heights, course: None }
+    }
+
+    /// Whether joint 1 carries it.
+    pub fn is_carried(&self) -> bool {
+        self.own.as_ref().is_some_and(|own| own.is_carried)
     }
 
     /// Returns its name for messages.
