@@ -79,6 +79,10 @@ impl<'a> ToolMotion<'a> {
             scene.reshaped(turned, |obstacle| obstacle.pieces.clone()),
             scene.reshaped(all, |obstacle| obstacle.pieces.clone()),
         ];
+        let swept = swept.with_self_heights(|link, heights| {
+            let carried = lifts.iter().filter(|lift| lift.bodies.iter().any(|body| body == link));
+            carried.fold(heights, |heights, lift| heights.lifted(lift.extent(Span::all(lift.pieces.len()))))
+        });
         Self { lifts, still, swept, covers }
     }
 
@@ -94,11 +98,15 @@ impl<'a> ToolMotion<'a> {
 
     /// The heights of a pair's part with such lifts, and those of its obstacle.
     fn heights(&self, pair: Pair, extents: &[[f64; 2]]) -> [Heights; 2] {
-        let part = &self.still.arm().links[pair.link].parts[pair.part];
-        let lifts = self.lifts.iter().zip(extents).filter(|(lift, _)| lift.bodies.contains(&part.body));
-        let standing = || &self.swept.workspace().obstacles[pair.obstacle];
-        let obstacle = self.swept.mover(pair).map_or_else(standing, |mover| &mover.obstacle);
-        [lifts.fold(part.heights, |heights, (_, extent)| heights.lifted(*extent)), obstacle.heights]
+        let part = &self.still.link(pair).parts[pair.part];
+        let lifted = |link: &String, heights: Heights| {
+            let lifts = self.lifts.iter().zip(extents).filter(|(lift, _)| lift.bodies.contains(link));
+            lifts.fold(heights, |heights, (_, extent)| heights.lifted(*extent))
+        };
+        let obstacle = self.still.obstacle(pair.obstacle);
+        let is_own = self.still.self_obstacle(pair.obstacle).is_some();
+        let of_obstacle = if is_own { lifted(&obstacle.name, obstacle.heights) } else { obstacle.heights };
+        [lifted(&part.body, part.heights), of_obstacle]
     }
 
     /// Whether the heights of a pair may meet with lifts within these bounds.
@@ -109,7 +117,7 @@ impl<'a> ToolMotion<'a> {
 
     /// Whether at a moment the heights of a pair meet for certain, and its part is what it stands for.
     pub fn is_there(&self, pair: Pair, (piece, share): Place) -> bool {
-        let is_cover = self.covers[pair.link].get(pair.part).is_some_and(|is_cover| *is_cover);
+        let is_cover = self.covers[pair.link.min(1)].get(pair.part).is_some_and(|is_cover| *is_cover);
         let [part, obstacle] = self.heights(pair, &self.extents(Span::Part(piece, share, share)));
         !is_cover && part.surely_meet(obstacle)
     }

@@ -266,6 +266,17 @@ impl Scene {
         self.remade(reshape, pieces, self.reading)
     }
 
+    /// The same scene with other heights for the arm's self obstacles, given the URDF link's name and those that it has.
+    #[must_use]
+    pub(crate) fn with_self_heights(&self, heights: impl Fn(&str, Heights) -> Heights) -> Self {
+        let (payload, allowed_contacts) = (self.payload.clone(), self.allowed_contacts.clone());
+        let (mut arm, workspace) = self.clone().into_parts();
+        for SelfObstacle { obstacle, .. } in &mut arm.self_obstacles {
+            obstacle.heights = heights(&obstacle.name, obstacle.heights);
+        }
+        Self::assembled(arm, workspace, payload, &allowed_contacts, self.reading)
+    }
+
     /// The same scene for evidence that a payload is in the way, or presses too deep into its supports, where the obstacles from `first` on are
     /// objects: these and the payload are smaller by `room`, all round each piece, so that it holds wherever they lie and hang within that.
     #[must_use]
