@@ -2,8 +2,8 @@
 
 use super::error::{Diagnostic, DiagnosticKind, InputError};
 use super::reasons::{
-    HELP_FOR_LIMITS, beyond_limits, describe, describe_segment, help_for_contact, help_for_ik_solutions,
-    help_for_reach, obstructions, out_of_reach, within_limits,
+    HELP_FOR_LIMITS, beyond_limits, describe, describe_segment, help_at, help_for_ik_solutions, help_for_reach,
+    obstructions, out_of_reach, within_limits,
 };
 use super::{Loaded, LoadedScene, Overrides};
 use crate::geometry::Point;
@@ -108,7 +108,7 @@ impl LoadedScene {
         let hits = obstructions(&self.scene, q);
         if !hits.is_empty() {
             let message = format!("{what} ({}) is not free: {}", describe(&self.scene, q), listed(&hits));
-            return Err(place.diagnostic(message).help(help_for_contact(&self.scene)));
+            return Err(place.diagnostic(message).help(help_at(&self.scene, q)));
         }
         Ok(())
     }

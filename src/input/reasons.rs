@@ -1,7 +1,7 @@
 //! Configurations in words: why one is outside the limits or not free, why no IK solution reaches a point.
 
 use crate::geometry::Point;
-use crate::model::{Freedom, Inverse, Scene, within};
+use crate::model::{Freedom, Inverse, Obstruction, Scene, within};
 use crate::space::{Configuration, JointRange, Segment};
 use crate::text::{fixed, told_apart};
 
@@ -76,6 +76,17 @@ pub(super) const HELP_FOR_TIP: &str = "choose another point, or override [robot]
 /// Why `q` is not free, in words, the worst pair of shapes for each link and obstacle.
 pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
     scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
+}
+
+/// The hint for a configuration in which links of the robot hit each other alone.
+const HELP_FOR_OWN_BODY: &str =
+    "choose another configuration, or let these links touch: [robot] ignore_contact = [[\"LINK\", \"LINK\"]]";
+
+/// The hint for a configuration that is not free.
+pub(super) fn help_at(scene: &Scene, q: Configuration) -> &'static str {
+    let hits = scene.obstructions(q);
+    let is_own = |hit: &Obstruction| scene.self_obstacle(hit.contact.pair.obstacle).is_some();
+    if !hits.is_empty() && hits.iter().all(is_own) { HELP_FOR_OWN_BODY } else { help_for_contact(scene) }
 }
 
 /// What to do about a configuration that is not free.

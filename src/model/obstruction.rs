@@ -69,7 +69,8 @@ impl Scene {
     pub fn explain(&self, obstruction: &Obstruction) -> String {
         let Contact { pair, separation } = obstruction.contact;
         let part = self.describe_part(pair);
-        let obstacle = self.describe_obstacle(pair.obstacle);
+        let moves = if self.mover(pair).is_some() { "moving " } else { "" };
+        let obstacle = format!("{moves}{}", self.describe_obstacle(pair.obstacle));
         let distance = separation.distance;
         if !obstruction.touches {
             let clearance = self.workspace().clearance;

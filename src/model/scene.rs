@@ -526,14 +526,10 @@ impl Scene {
         format!("{} and {}", self.describe_part(pair), self.describe_obstacle(pair.obstacle))
     }
 
-    /// An obstacle in words: `obstacle "shelf"`, `moving obstacle "cart"`, `link "base_link"`.
+    /// Names an obstacle: `obstacle "shelf"`, `link "base_link"`.
     #[must_use]
     pub fn describe_obstacle(&self, number: usize) -> String {
-        let kind = match number.checked_sub(self.workspace.obstacles.len()) {
-            None => "obstacle",
-            Some(number) if number < self.workspace.movers.len() => "moving obstacle",
-            Some(_) => "link",
-        };
+        let kind = if self.self_obstacles().contains(&number) { "link" } else { "obstacle" };
         format!("{kind} \"{}\"", self.obstacle(number).name)
     }
 

@@ -3,13 +3,13 @@
 use super::Obstacle;
 use serde::{Deserialize, Serialize};
 
-/// What carries a link that other links can hit.
+/// Carrier of a link that other links can hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Carrier {
     /// The robot's base: the link stands still.
     Base,
-    /// Joint 1. Only link 2 and what it carries can hit such a link, and whether they do depends on joint 2 alone.
+    /// Joint 1. Only link 2 and its payload can hit such a link, and that depends on joint 2 alone.
     FirstJoint,
 }
 
@@ -35,7 +35,7 @@ pub struct SelfObstacle {
 }
 
 impl SelfObstacle {
-    /// Whether a URDF link is free to meet it.
+    /// Returns whether a URDF link is free to meet it.
     #[must_use]
     pub fn ignores(&self, link: &str) -> bool {
         self.ignored.iter().chain(&self.permanent).any(|ignored| ignored == link)

@@ -352,7 +352,7 @@ polygon = [[0, 0], [0, 1], [1, 1]]
 /// A kilometre too far says how far numbers go.
 #[test]
 fn numbers_that_are_too_large_say_the_bound() {
-    bad_arm("xyz=\"0.5 0 0\"", "xyz=\"1000500 0 0\"", &["line 9", "at most 1e6", "cure: numbers go up to 1e6"]);
-    bad_arm("size=\"1 0.1 0.1\"", "size=\"2e6 0.1 0.1\"", &["line 9", "at most 1e6", "cure: numbers go up to 1e6"]);
-    with_robot("at = [1000500, 0]", &["at most 1e6", "cure: numbers go up to 1e6"]);
+    bad_arm("xyz=\"0.5 0 0\"", "xyz=\"1000500 0 0\"", &["line 9", "at most 1e6", "from -1e6 to 1e6"]);
+    bad_arm("size=\"1 0.1 0.1\"", "size=\"2e6 0.1 0.1\"", &["line 9", "at most 1e6", "from -1e6 to 1e6"]);
+    with_robot("at = [1000500, 0]", &["at most 1e6", "from -1e6 to 1e6"]);
 }

@@ -70,6 +70,8 @@ limits = { a = [-1, 1.5] }
 velocity = { a = 2 }
 acceleration = { a = 3.5 }
 jerk = { a = 100 }
+own_body = true
+ignore_contact = [["base", "tool"]]
 effort = { a = 50 }
 dynamics = true
 gravity = [0, 0, -9.81]

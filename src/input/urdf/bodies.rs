@@ -109,7 +109,7 @@ impl Bodies<'_> {
         let geometry = links.iter().enumerate().map(|(index, link)| self.described(index, link)).collect();
         let self_obstacles = own.obstacles(&all);
         if self.world.robot.own_body != Some(false) {
-            warnings.extend(fixed.unread.iter().chain(&fixed.unseen).map(|unread| left_out(unread)));
+            warnings.extend(fixed.unread.iter().chain(&fixed.unseen).map(left_out));
             notes.extend(own.notes());
         }
         Ok(Outlines { links, self_obstacles, geometry, notes, warnings })

@@ -1,4 +1,4 @@
-//! The robot's own body: which of its links are in the way of which others, and where their meshes are cut in layers.
+//! Self-collision: the pairs of links that the planner keeps apart, and the layers in which it cuts their meshes.
 //!
 //! A link is an obstacle for those that a joint further along the chain moves, except for its neighbours in the chain, for those that the world lets
 //! it meet, and for those that it meets in every configuration.
@@ -19,7 +19,7 @@ use urdf_rs::JointType;
 /// Values of each joint at which links are placed to find those that meet in every configuration.
 const SAMPLES: usize = 32;
 
-/// Which joint moves a link last.
+/// Part of the robot to which a link belongs, by the joint that moves it last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Group {
     /// Neither of the two, nor any other that can move.
@@ -31,7 +31,7 @@ pub(super) enum Group {
 /// Pairs of URDF links that are kept apart.
 pub(super) struct SelfCollision<'a> {
     bodies: &'a Bodies<'a>,
-    /// The groups of all URDF links; none of those that other joints move.
+    /// The group of each URDF link; `None` if another joint moves it.
     groups: Vec<Option<Group>>,
     /// URDF links that have a shape.
     solid: BTreeSet<usize>,
@@ -75,14 +75,14 @@ impl<'a> SelfCollision<'a> {
         Ok(Self { bodies, groups, solid, allowed })
     }
 
-    /// Whether two URDF links of different groups are kept apart.
+    /// Returns whether the planner keeps two URDF links apart.
     fn checked(&self, a: usize, b: usize) -> bool {
         let is_enabled = self.bodies.world.robot.own_body != Some(false);
         let are_apart = self.groups[a].zip(self.groups[b]).is_some_and(|(a, b)| a != b);
         is_enabled && are_apart && !self.allowed.contains(&(a, b)) && !self.are_neighbors(a, b)
     }
 
-    /// Whether no link with a shape is between two links in the tree.
+    /// Returns whether no link with a shape is between two links in the tree.
     fn are_neighbors(&self, a: usize, b: usize) -> bool {
         let [above_a, above_b] = [a, b].map(|link| self.bodies.tree.ancestors(link));
         let common = above_a.iter().rev().zip(above_b.iter().rev()).take_while(|(a, b)| a == b).count();
@@ -93,7 +93,7 @@ impl<'a> SelfCollision<'a> {
         !between(&above_a).into_iter().chain(between(&above_b)).chain(middle).any(|link| self.solid.contains(&link))
     }
 
-    /// Heights at which a link's meshes are cut: where shapes begin and end from which the link is kept apart; ascending.
+    /// Returns the heights at which a link's meshes are cut: where shapes begin and end from which the link is kept apart; ascending.
     pub fn cuts(&self, link: usize, all: &[PlacedShape]) -> Vec<f64> {
         let others = all.iter().filter(|other| self.checked(link, other.link));
         let mut cuts: Vec<f64> = others.flat_map(|other| [other.heights.lower, other.heights.upper]).collect();
@@ -102,7 +102,7 @@ impl<'a> SelfCollision<'a> {
         cuts
     }
 
-    /// Links that others further along the chain can hit, in layers, with the links that are free to meet them.
+    /// Lists the links that others further along the chain can hit, in layers, with the links that are free to meet them.
     pub fn obstacles(&self, all: &[PlacedShape]) -> Vec<SelfObstacle> {
         if self.bodies.world.robot.own_body == Some(false) {
             return Vec::new();
@@ -128,19 +128,19 @@ impl<'a> SelfCollision<'a> {
         obstacles
     }
 
-    /// Whether a link is kept apart from one further along the chain.
+    /// Returns whether a link is kept apart from one further along the chain.
     fn is_hit_by(&self, link: usize, other: usize) -> bool {
         self.groups[link] < self.groups[other] && self.checked(link, other)
     }
 
-    /// Links further along the chain that are free to meet a link.
+    /// Lists the links further along the chain that are free to meet a link.
     fn ignored(&self, link: usize) -> Vec<String> {
         let further = |other: &usize| self.groups[link] < self.groups[*other];
         let ignored = self.solid.iter().copied().filter(|other| further(other) && !self.checked(link, *other));
         ignored.map(|other| self.bodies.document.robot.links[other].name.clone()).collect()
     }
 
-    /// What the user should know: pairs of links that are free to meet.
+    /// Names the neighbours, which are free to meet, for the user.
     pub fn notes(&self) -> Vec<String> {
         let neighbors: Vec<String> =
             self.pairs().filter(|(a, b)| self.are_neighbors(*a, *b)).map(|p| self.named(p)).collect();
@@ -149,7 +149,7 @@ impl<'a> SelfCollision<'a> {
         if is_enabled && !neighbors.is_empty() { vec![note] } else { Vec::new() }
     }
 
-    /// Pairs of solid links of different groups.
+    /// Iterates over pairs of solid links of different groups.
     fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let all = self.solid.iter().copied().filter(|&link| self.groups[link].is_some());
         all.clone()
@@ -198,7 +198,7 @@ pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     Some(format!("contact of links that meet in every configuration is ignored: {}", named.join(", ")))
 }
 
-/// Which joint moves a URDF link last; none if a joint does that neither is one of the two nor carries them.
+/// Returns which joint moves a URDF link last; `None` if that is a joint beside the arm.
 pub(super) fn group(document: &Document, tree: &Tree, chain: &Chain, link: usize) -> Option<Group> {
     let [first, second] = chain.joints;
     if tree.carries(second, link) {

@@ -5,7 +5,7 @@ use crate::common::random::times;
 use crate::parry::core_distance;
 use cplan::cli::read_words;
 use cplan::cspace::Proves;
-use cplan::model::Scene;
+use cplan::model::{Carrier, Part, Scene};
 use cplan::output::{CSpaces, Polygons, Values};
 use cplan::{Configuration, Problem, plan};
 use std::path::Path;
@@ -20,13 +20,22 @@ fn planned(robot: &str, world: &str, planner: &str) -> (Problem, CSpaces) {
     (problem, spaces)
 }
 
-/// The distance of the arm from an obstacle.
-fn distance(scene: &Scene, q: Values, obstacle: usize) -> f64 {
-    let (arm, obstacle) = (scene.arm(), &scene.workspace().obstacles[obstacle]);
-    let poses = arm.poses(Configuration::from(q));
+/// The distance of the arm from an obstacle, or of its links further along the chain from a link of its own; after the obstacles those
+/// links are numbered.
+fn distance(scene: &Scene, q: Values, number: usize) -> f64 {
+    let arm = scene.arm();
+    let own = number.checked_sub(scene.workspace().obstacles.len()).map(|link| &arm.self_obstacles[link]);
+    let obstacle = own.map_or_else(|| &scene.workspace().obstacles[number], |own| &own.obstacle);
+    let is_carried = own.is_some_and(|own| own.carrier == Carrier::FirstJoint);
+    // Joint 1 carries both.
+    let poses = arm.poses(Configuration::from(if is_carried { [0.0, q[1]] } else { q }));
     let mut least = f64::INFINITY;
-    for (link, pose) in arm.links.iter().zip(&poses) {
-        for part in link.parts.iter().filter(|part| part.heights.meet(obstacle.heights)) {
+    for (link, pose) in arm.links.iter().zip(&poses).skip(usize::from(is_carried)) {
+        let can_meet = |part: &&Part| match own {
+            None => part.heights.meet(obstacle.heights),
+            Some(own) => part.heights.surely_meet(obstacle.heights) && !own.ignores(&part.body),
+        };
+        for part in link.parts.iter().filter(can_meet) {
             let shape = part.shape.at(pose);
             let apart = obstacle
                 .pieces

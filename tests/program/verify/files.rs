@@ -217,7 +217,7 @@ fn a_recording_may_be_larger_than_other_files() {
     let padding = " ".repeat(257 << 20);
     std::fs::write(&file, format!("time,shoulder,elbow\n#{padding}\n0,-0.9,0.4\n1,-0.8,0.4\n")).unwrap();
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let scene = load_scene(&root.join("robots/planar_2r.urdf"), &root.join("workspaces/shelf.toml")).unwrap();
+    let scene = load_scene(root.join("robots/planar_2r.urdf"), &root.join("workspaces/shelf.toml")).unwrap();
     let loaded = load_recording(&file, &scene).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(loaded.recording.positions().len(), 2);
     // A robot is not read so far, and the hint is not about permissions.
