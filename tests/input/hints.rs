@@ -106,15 +106,6 @@ fn hints_about_the_robots_tree() {
         "one of revolute, continuous",
         &["type=\"revolute\"", "type=\"continuous\""],
     );
-    // A pair among three joints: any that is listed will do.
-    let third = "<joint name=\"j3\" type=\"continuous\"><axis xyz=\"0 1 0\"/><parent link=\"fore\"/><child link=\"w\"/></joint>\
-                 <link name=\"w\"/></robot>";
-    let urdf = with(ARM, "</robot>", third);
-    let pairs = ["[\"j1\", \"j2\"]", "[\"j1\", \"j3\"]", "[\"j2\", \"j3\"]"];
-    for pair in pairs {
-        let world = robot(&format!("joints = {pair}"));
-        holds([&urdf, WORLD], &format!("joints = {pair}"), &[[&urdf, &world]]);
-    }
 }
 
 #[test]
