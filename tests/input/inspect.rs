@@ -189,7 +189,7 @@ const PUBLISHED: [Expected; 18] = [
     ("ros2_control_rrbot", true, Some(["joint1", "joint2"]), &[]),
     ("sorydi3_scara", true, Some(["theta1", "theta2"]), &[]),
     ("sorydi3_theta_rho_RP", true, None, &[]),
-    ("yao_scara_solidworks", false, None, &["7 joints that can move", "not perpendicular"]),
+    ("yao_scara_solidworks", false, None, &["link2.STL\" is not there", "not perpendicular"]),
 ];
 
 #[test]

@@ -89,7 +89,7 @@ fn table() -> Vec<(&'static str, String, Outcome)> {
         row("sorydi3_scara", "joints = [\"theta1\", \"theta2\"]", Loads("RR", [Visual; 2], "tmp43")),
         row("sorydi3_theta_rho_RP", "", Loads("RP", [Visual; 2], "L2")),
         row("sorydi3_theta_theta_2R", "", Loads("RR", [Visual; 2], "L2")),
-        row("yao_scara_solidworks", "", Refused(&["7 joints that can move"])),
+        row("yao_scara_solidworks", "", Refused(&["link2.STL\" is not there"])),
         row(
             "yao_scara_solidworks",
             "joints = [\"joint2\", \"joint3\"]\ntip = \"link4\"\nfixed = { joint1 = -0.1 }\nbar = 0.04",
