@@ -100,9 +100,12 @@ pub fn compare(py: Python<'_>, arm: &Arm, world: &World, words: Vec<String>) -> 
     }
 }
 
+/// Stubs show defaults as they are written in signatures, so that they repeat the limit.
+const _: () = assert!(TIME_LIMIT.as_secs() == 5);
+
 /// Why there is no motion and what opens a way, or what shapes the one that there is: JSON and text.
 #[pyfunction]
-#[pyo3(signature = (arm, world, options = None, time = TIME_LIMIT.as_secs_f64()))]
+#[pyo3(signature = (arm, world, options = None, time = 5.0))]
 pub fn explain(
     py: Python<'_>,
     arm: &Arm,
@@ -116,7 +119,7 @@ pub fn explain(
 
 /// The same as a picture, or as a page.
 #[pyfunction]
-#[pyo3(signature = (arm, world, options = None, page = false, time = TIME_LIMIT.as_secs_f64()))]
+#[pyo3(signature = (arm, world, options = None, page = false, time = 5.0))]
 pub fn explain_drawn(
     py: Python<'_>,
     arm: &Arm,
