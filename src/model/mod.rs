@@ -34,6 +34,7 @@ mod record;
 mod robot_joints;
 mod scene;
 mod scene_error;
+mod scene_names;
 mod scene_record;
 mod self_obstacle;
 mod sensor;

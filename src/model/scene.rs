@@ -11,7 +11,6 @@ use crate::geometry::{Convex, Separation, separation};
 use crate::space::{Configuration, JointRange};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use std::ops::Range;
 
 /// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -485,60 +484,6 @@ impl Scene {
         self.closest(q).map_or(f64::INFINITY, |c| c.separation.distance)
     }
 
-    /// The obstacle of a number: of the workspace, one that moves (in its own frame), or a link of the robot.
-    ///
-    /// # Panics
-    /// If there is none of that number.
-    #[must_use]
-    pub fn obstacle(&self, number: usize) -> &Obstacle {
-        let standing = self.workspace.obstacles.len();
-        if let Some(obstacle) = self.workspace.obstacles.get(number) {
-            return obstacle;
-        }
-        let moving = self.workspace.movers.get(number - standing).map(|mover| &mover.obstacle);
-        moving.unwrap_or_else(|| &self.arm.self_obstacles[number - standing - self.workspace.movers.len()].obstacle)
-    }
-
-    /// The arm's self obstacle of a number; none if that is another obstacle.
-    #[must_use]
-    pub fn self_obstacle(&self, number: usize) -> Option<&SelfObstacle> {
-        self.arm.self_obstacles.get(number.checked_sub(self.self_obstacles().start)?)
-    }
-
-    /// Numbers of the arm's self obstacles: after those of the obstacles and of what moves.
-    #[must_use]
-    pub fn self_obstacles(&self) -> Range<usize> {
-        let first = self.workspace.obstacles.len() + self.workspace.movers.len();
-        first..first + self.arm.self_obstacles.len()
-    }
-
-    /// Of a link of the robot in layers the number of the first; of another obstacle its own number.
-    #[must_use]
-    pub fn first_layer(&self, number: usize) -> usize {
-        let name = &self.obstacle(number).name;
-        let mut layers = self.self_obstacles().filter(|&layer| self.obstacle(layer).name == *name);
-        if number < self.self_obstacles().start { number } else { layers.next().unwrap_or(number) }
-    }
-
-    /// The pair in words: `link "forearm" and obstacle "shelf"`.
-    #[must_use]
-    pub fn describe(&self, pair: Pair) -> String {
-        format!("{} and {}", self.describe_part(pair), self.describe_obstacle(pair.obstacle))
-    }
-
-    /// Names an obstacle: `obstacle "shelf"`, `link "base_link"`.
-    #[must_use]
-    pub fn describe_obstacle(&self, number: usize) -> String {
-        let kind = if self.self_obstacles().contains(&number) { "link" } else { "obstacle" };
-        format!("{kind} \"{}\"", self.obstacle(number).name)
-    }
-
-    /// The name of what a part can meet in a pair.
-    #[must_use]
-    pub fn obstacle_name(&self, pair: Pair) -> &str {
-        &self.obstacle(pair.obstacle).name
-    }
-
     /// Whether a pair's part is the payload's.
     #[must_use]
     pub fn is_payload(&self, pair: Pair) -> bool {
@@ -558,19 +503,5 @@ impl Scene {
         let pieces = &self.obstacle(pair.obstacle).pieces;
         // What is made of them comes after them, all for one piece of the payload after all for another.
         &pieces[pair.piece % pieces.len()]
-    }
-
-    /// What a pair's part belongs to, in words: `link "forearm" (body "gripper")`, `payload "part"`.
-    #[must_use]
-    pub fn describe_part(&self, pair: Pair) -> String {
-        let link = self.link(pair);
-        let body = &link.parts[pair.part].body;
-        if self.is_payload(pair) {
-            format!("payload \"{body}\"")
-        } else if *body == link.name {
-            format!("link \"{}\"", link.name)
-        } else {
-            format!("link \"{}\" (body \"{body}\")", link.name)
-        }
     }
 }

@@ -1,0 +1,74 @@
+//! The obstacles of a scene by their numbers, and the words for its shapes.
+
+use super::{Obstacle, Pair, Scene, SelfObstacle};
+use std::ops::Range;
+
+impl Scene {
+    /// The obstacle of a number: of the workspace, one that moves (in its own frame), or a link of the robot.
+    ///
+    /// # Panics
+    /// If there is none of that number.
+    #[must_use]
+    pub fn obstacle(&self, number: usize) -> &Obstacle {
+        let standing = self.workspace().obstacles.len();
+        if let Some(obstacle) = self.workspace().obstacles.get(number) {
+            return obstacle;
+        }
+        let moving = self.workspace().movers.get(number - standing).map(|mover| &mover.obstacle);
+        moving.unwrap_or_else(|| &self.arm().self_obstacles[number - standing - self.workspace().movers.len()].obstacle)
+    }
+
+    /// The arm's self obstacle of a number; none if that is another obstacle.
+    #[must_use]
+    pub fn self_obstacle(&self, number: usize) -> Option<&SelfObstacle> {
+        self.arm().self_obstacles.get(number.checked_sub(self.self_obstacles().start)?)
+    }
+
+    /// Numbers of the arm's self obstacles: after those of the obstacles and of what moves.
+    #[must_use]
+    pub fn self_obstacles(&self) -> Range<usize> {
+        let first = self.workspace().obstacles.len() + self.workspace().movers.len();
+        first..first + self.arm().self_obstacles.len()
+    }
+
+    /// Of a link of the robot in layers the number of the first; of another obstacle its own number.
+    #[must_use]
+    pub fn first_layer(&self, number: usize) -> usize {
+        let name = &self.obstacle(number).name;
+        let mut layers = self.self_obstacles().filter(|&layer| self.obstacle(layer).name == *name);
+        if number < self.self_obstacles().start { number } else { layers.next().unwrap_or(number) }
+    }
+
+    /// The pair in words: `link "forearm" and obstacle "shelf"`.
+    #[must_use]
+    pub fn describe(&self, pair: Pair) -> String {
+        format!("{} and {}", self.describe_part(pair), self.describe_obstacle(pair.obstacle))
+    }
+
+    /// Names an obstacle: `obstacle "shelf"`, `link "base_link"`.
+    #[must_use]
+    pub fn describe_obstacle(&self, number: usize) -> String {
+        let kind = if self.self_obstacles().contains(&number) { "link" } else { "obstacle" };
+        format!("{kind} \"{}\"", self.obstacle(number).name)
+    }
+
+    /// The name of what a part can meet in a pair.
+    #[must_use]
+    pub fn obstacle_name(&self, pair: Pair) -> &str {
+        &self.obstacle(pair.obstacle).name
+    }
+
+    /// What a pair's part belongs to, in words: `link "forearm" (body "gripper")`, `payload "part"`.
+    #[must_use]
+    pub fn describe_part(&self, pair: Pair) -> String {
+        let link = self.link(pair);
+        let body = &link.parts[pair.part].body;
+        if self.is_payload(pair) {
+            format!("payload \"{body}\"")
+        } else if *body == link.name {
+            format!("link \"{}\"", link.name)
+        } else {
+            format!("link \"{}\" (body \"{body}\")", link.name)
+        }
+    }
+}
