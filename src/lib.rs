@@ -42,16 +42,7 @@
 //! input gives the same output, byte for byte, but for times taken, where they are asked for.
 #![forbid(unsafe_code)]
 
-#[cfg(feature = "program")]
-mod parallel;
-mod text;
-pub mod geometry;
-pub mod space;
-pub mod model;
 pub mod input;
-pub mod cspace;
-pub mod field;
-pub mod planner;
 pub mod check;
 pub mod search;
 pub mod motion;
@@ -74,7 +65,12 @@ pub mod live;
 mod serve;
 #[cfg(feature = "program")]
 pub mod cli;
+pub use cplan_core::{cspace, model, space};
+pub use cplan_geometry as geometry;
 pub use cplan_interrupt as interrupt;
+#[cfg(feature = "program")]
+use cplan_parallel as parallel;
+use cplan_text as text;
 pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
 pub use geometry::Point;
 pub use input::InputError;
@@ -82,9 +78,23 @@ pub use model::{Arm, Joint, Link, Obstacle, Outcome, Status, Workspace};
 pub use nalgebra;
 pub use space::Configuration;
 
-#[cfg(test)]
-#[path = "../tests/common/random.rs"]
-mod random;
+/// Planners: pure functions from a space and a query to a run.
+pub mod planner {
+    pub use cplan_core::planner::*;
+    pub use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner, field_domain};
+    pub use cplan_roadmaps::{Prm, PrmMap, Triangles, TrianglesMap, Voronoi, VoronoiMap};
+}
+
+/// Waves over the cells of a grid, and potential fields on it.
+pub mod field {
+    pub use cplan_core::waves::{FreeCells, Move, Neighborhood, StepLabels, search};
+    pub use cplan_fields::*;
+    pub use cplan_harmonic::{
+        Component, Field, Guide, Lattice, LatticePoint, LocalMaximum, Place, Potential, Room, STEP, Streamline,
+        UNREACHED, Uphill, Wave, advance, direction, follow, harmonic, harmonic_way, residual, rough_harmonic,
+    };
+    pub use cplan_multigrid as multigrid;
+}
 
 /// The README's example is compiled and run as a documentation test.
 #[cfg(doctest)]

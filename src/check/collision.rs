@@ -1,8 +1,8 @@
 //! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
 
-use super::deviation::{Bounded, Deviation, Posture};
-use super::span::{Place, Span};
 use super::tool::ToolMotion;
+use super::{Bounded, Deviation, Posture};
+use super::{Place, Span};
 use crate::geometry::Separation;
 use crate::interrupt::checkpoint;
 use crate::model::{Contact, Drift, HeldMotion, Pair, Scene};

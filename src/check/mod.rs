@@ -30,37 +30,23 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod blends;
 mod bound;
-mod cell;
 mod claims;
-mod deviation;
 mod ends;
 mod limits;
-mod motion;
 mod collision;
-mod proof;
 mod replay;
-mod span;
 mod tool;
 mod torque;
-mod vicinity;
 mod wrist;
 
-pub use blends::{CertifiedCurve, Rounding, blend};
 pub use bound::{Barrier, CheckedBound, ClosedSegment, LengthClaim, Slice, Wall};
-pub use cell::Cell;
 pub use claims::{FalseClaim, claims_kept, step_claims_kept, task_claims_kept};
 pub(crate) use collision::met_in_time;
 pub use collision::{CollisionCheck, Encounter, Moment, certify_in_time, check_collision, check_collision_with};
-pub(crate) use deviation::STUCK_ROUNDING;
-pub use deviation::{Bounded, Deviation, Posture};
+pub use cplan_core::check::*;
 pub use ends::{ENDS_WITHIN, Miss, ends_kept};
 pub use limits::{Excess, Limit, limits_kept, torques_kept};
-pub use motion::{CertifiedPath, Nearest, Rejection, StraightMotions, certify};
-pub use proof::{CheckedProof, Disconnection, ProofBox, ProofError, ProofFormatError, StuckBox, read_proof};
 pub use replay::{Departure, Fault, Happening, Replay, ReplayedStep, ReplayedTurn, replay};
-pub(crate) use span::{Place, Span};
 pub(crate) use torque::torque_looks;
-pub(crate) use vicinity::Vicinity;
 pub use wrist::{TurnContact, WristTurn, given_turn, wrist_turn};

@@ -4,8 +4,8 @@
 //! of the heights at one moment only. A part that turns about a wrist counts as the disc about the axis that it sweeps, and no contact of
 //! such a disc is claimed, unless the part is that disc itself.
 
-use super::deviation::Deviation;
-use super::span::{Place, Span};
+use super::Deviation;
+use super::{Place, Span};
 use crate::geometry::{Convex, Point};
 use crate::model::{Heights, HeldEffect, HeldMotion, Pair, Part, Scene};
 use crate::space::Piece;

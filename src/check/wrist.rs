@@ -164,7 +164,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #![proptest_config(crate::random::cases(256))]
+        #![proptest_config(cplan_cases::cases(256))]
 
         /// Against a look at 4000 places of the turn, each of which is in the arc or not.
         #[test]

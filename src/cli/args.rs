@@ -19,7 +19,7 @@ use super::serve::ServeArgs;
 #[cfg(feature = "study")]
 use super::study::StudyArgs;
 use crate::engine::Method;
-use crate::grammar::{MotionArgs, PlannerArgs, PlannerWords, number_in};
+use crate::grammar::{MotionArgs, PlannerArgs, PlannerWords, number_in, word};
 use crate::input::{JointValues, Overrides, RobotFile, TipPoint};
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueHint};
 use std::collections::BTreeSet;
@@ -214,7 +214,7 @@ fn time(text: &str) -> Result<f64, String> {
 #[derive(Debug, Args)]
 pub struct PlanArgs {
     /// Planner.
-    #[arg(long, value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
     pub planner: Method,
     #[command(flatten)]
     pub query: QueryArgs,
@@ -266,7 +266,7 @@ Examples:
 Exit codes: 0 the options are printed, 2 wrong command line.")]
 pub struct PlannersArgs {
     /// Planner that searches; which options are for which planner stands with each.
-    #[arg(long, value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
     pub planner: Method,
     #[command(flatten)]
     pub options: PlannerArgs,

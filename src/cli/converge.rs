@@ -7,7 +7,7 @@ use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::engine::{FieldProblem, Problem};
 use crate::field::{Difference, Direction, Equation, Limits, Measure, Stopping};
-use crate::grammar::{OrderName, direction, finite, positive};
+use crate::grammar::{OrderName, direction, finite, positive, word};
 use crate::input;
 use crate::motion::write_whole_set;
 use crate::output::title_of;
@@ -48,10 +48,10 @@ pub struct ConvergeArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = OrderName::Rows)]
     pub order: OrderName,
     /// What lies beyond joint limits.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = Limits::High)]
+    #[arg(long, value_parser = word::<Limits>(), value_name = "NAME", default_value = "high")]
     pub limits: Limits,
     /// What of a sweep's changes must fall below the tolerance.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = Measure::GreatestRelativeChange)]
+    #[arg(long, value_parser = word::<Measure>(), value_name = "NAME", default_value = "relative")]
     pub measure: Measure,
     /// Relax until the measure is below this.
     #[arg(long, value_name = "SIZE", default_value_t = 1e-6, value_parser = positive, allow_hyphen_values = true)]

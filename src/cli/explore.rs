@@ -8,7 +8,7 @@ use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
 use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, explore, map_description, map_picture};
-use crate::grammar::{PlannerArgs, positive};
+use crate::grammar::{PlannerArgs, positive, word};
 use crate::input::{self, Explorable, OccupancyMap};
 use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_whole_set};
@@ -39,10 +39,10 @@ pub struct ExploreArgs {
     /// Where to go next: to the goal, as far as the way is known (the default where there is a goal); to a place from which something new can
     /// be seen: one that shows all that the nearest does, and more (view, the default elsewhere), the nearest, the first along the wall to
     /// the right; or up the harmonic potential of all such places.
-    #[arg(long, value_enum, value_name = "NAME")]
+    #[arg(long, value_parser = word::<Strategy>(), value_name = "NAME")]
     pub strategy: Option<Strategy>,
     /// What plans the optimistic paths, where strategy "goal" takes unknown space as free.
-    #[arg(long, value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
     pub planner: Method,
     #[command(flatten)]
     pub query: QueryArgs,

@@ -4,7 +4,7 @@ use super::args::{Cli, QueryArgs};
 use super::failure::Failure;
 use super::message_args::MessageArgs;
 use crate::engine::{Method, Options};
-use crate::grammar::{MotionArgs, PlannerArgs};
+use crate::grammar::{MotionArgs, PlannerArgs, word};
 use crate::input::Overrides;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
@@ -13,7 +13,7 @@ use clap::{CommandFactory, Parser};
 #[derive(Debug, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct Words {
-    #[arg(long, default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word::<Method>(), default_value_t = Method::Shortest)]
     planner: Method,
     #[command(flatten)]
     query: QueryArgs,

@@ -149,7 +149,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::random::cases(200))]
+        #![proptest_config(cplan_cases::cases(200))]
 
         /// Walks along the path, wraps every point by itself, and asks whether the pieces hold it; nothing is lost and
         /// nothing is added, since the lengths agree.

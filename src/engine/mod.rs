@@ -88,40 +88,15 @@ pub use replay::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 pub use result::{Choice, Report, TaskFigures};
 pub use settle::decide;
 
-use crate::check::{CertifiedPath, CheckedProof};
+use crate::check::CertifiedPath;
+pub use crate::check::Verdict;
 use crate::cspace::{Grid, Regions};
-use crate::model::Outcome;
 use crate::planner::{PathKind, Planner as _, Run, Trace, Visibility};
 use crate::space::Configuration;
-use crate::text::counted;
 use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::ops::Add;
 use std::time::Duration;
-
-/// The answer to a problem: a motion that is proven free, a proof that there is none, or why neither is known within the effort.
-pub type Verdict = Outcome<CertifiedPath, CheckedProof>;
-
-impl Verdict {
-    /// The proof that there is no path, if that is the answer.
-    #[must_use]
-    pub fn proof(&self) -> Option<&CheckedProof> {
-        if let Verdict::Infeasible(proof) = self { Some(proof) } else { None }
-    }
-
-    /// Why there is no motion, if there is none.
-    #[must_use]
-    pub fn reason(&self) -> Option<String> {
-        match self {
-            Verdict::Found(_) => None,
-            Verdict::Infeasible(proof) => {
-                let boxes = counted(proof.stuck().len(), "box");
-                Some(format!("proven: colliding configurations separate start and goal ({boxes})"))
-            }
-            Verdict::Unknown(reason) => Some(reason.clone()),
-        }
-    }
-}
 
 /// The representation that the last attempt worked on.
 #[derive(Debug, Clone)]

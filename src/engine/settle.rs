@@ -6,7 +6,7 @@ use super::subdivision::certified;
 use super::thinned::Thinned;
 use crate::check::{CheckedProof, Disconnection};
 use crate::model::{MotionProblem, Pair};
-use crate::search::{Connectivity, connectivity, slab_connectivity};
+use crate::search::{Connectivity, connectivity, slab_connectivity, slimmed};
 
 /// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
 const SLABS: usize = 10_000;
@@ -118,7 +118,7 @@ fn judged(problem: &MotionProblem, in_truth: &dyn Fn(Pair) -> Pair, answer: Conn
 
 /// The proof with no more boxes than it takes, if it passes the independent check.
 pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
-    proof.slimmed(|some| held(problem, some))
+    slimmed(&proof, |some| held(problem, some))
 }
 
 /// The proof, if it passes the independent check.

@@ -98,7 +98,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::random::cases(96))]
+        #![proptest_config(cplan_cases::cases(96))]
 
         /// By looking along all rays.
         #[test]

@@ -1,5 +1,6 @@
 //! Words for fields.
 
+use super::names::word;
 use super::number::{finite, positive};
 use crate::engine::Method;
 use crate::field::{
@@ -77,7 +78,7 @@ pub struct FieldArgs {
     #[arg(long, value_name = "v1,v2", value_parser = direction, allow_hyphen_values = true)]
     pub direction: Option<Direction>,
     /// How slopes are discretised (oriented, local, bvp) [default: central].
-    #[arg(long, value_enum, value_name = "NAME")]
+    #[arg(long, value_parser = word::<Difference>(), value_name = "NAME")]
     pub difference: Option<Difference>,
     /// How the equation is relaxed, such as --relaxation sor --order corners [default, if the field is not the plain
     /// harmonic one: gauss-seidel].
@@ -91,7 +92,7 @@ pub struct FieldArgs {
     #[arg(long, value_name = "W", value_parser = positive, allow_hyphen_values = true)]
     pub factor: Option<f64>,
     /// What lies beyond joint limits [default: high].
-    #[arg(long, value_enum, value_name = "NAME")]
+    #[arg(long, value_parser = word::<Limits>(), value_name = "NAME")]
     pub limits: Option<Limits>,
     /// Relax until no value changes by more than this part of itself in a sweep [default: 1e-6].
     #[arg(long, value_name = "SHARE", value_parser = positive, allow_hyphen_values = true)]
@@ -100,7 +101,7 @@ pub struct FieldArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub max_sweeps: Option<u32>,
     /// What the field is relaxed on [default: cpu].
-    #[arg(long, value_enum, value_name = "DEVICE")]
+    #[arg(long, value_parser = word::<Device>(), value_name = "DEVICE")]
     pub on: Option<Device>,
     /// Pull of the goal (khatib): constant:C, or linear:K for K times the distance [default: linear:1].
     #[arg(long, value_name = "LAW", value_parser = attraction)]

@@ -10,5 +10,6 @@ mod roadmap;
 pub use field::{OrderName, direction};
 pub use motion::MotionArgs;
 pub(crate) use names::named;
+pub use names::{Named, word};
 pub use number::{finite, number_in, positive};
 pub use planner::{EffortArgs, PlannerArgs, PlannerWords};

@@ -1,5 +1,6 @@
 //! How to drive along a path.
 
+use super::names::word;
 use super::number::{number_in, seconds};
 use crate::motion::{Drive, Objective};
 use clap::Args;
@@ -8,7 +9,7 @@ use clap::Args;
 #[derive(Debug, Args)]
 pub struct MotionArgs {
     /// What is to be the least: the length of the path, or the time of the motion, for which the path is given another shape.
-    #[arg(long, value_enum, value_name = "WHAT", default_value_t)]
+    #[arg(long, value_parser = word::<Objective>(), value_name = "WHAT", default_value = "length")]
     pub optimize: Objective,
     /// Time between two samples of the trajectory, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]

@@ -4,16 +4,70 @@ use crate::engine::{GridSpace, Method, NamedJoints};
 use crate::field::{Device, Difference, Limits, Measure};
 use crate::motion::Objective;
 use crate::planner::{GridSearch, PathKind};
-use clap::ValueEnum;
-use clap::builder::PossibleValue;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::ffi::OsStr;
+use std::marker::PhantomData;
 
-impl ValueEnum for Method {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Method::ALL
+/// A type whose values have words on the command line.
+pub trait Named: Copy + Send + Sync + 'static {
+    /// All values, in the order of the help.
+    const VALUES: &'static [Self];
+
+    /// Returns its word.
+    fn word(self) -> &'static str;
+
+    /// Returns what the help says about it; may be empty.
+    fn help(self) -> &'static str;
+}
+
+/// Parses one of the words of `T`; help and shells list them.
+#[derive(Debug)]
+pub struct WordParser<T>(PhantomData<T>);
+
+impl<T> Clone for WordParser<T> {
+    fn clone(&self) -> Self {
+        Self(PhantomData)
+    }
+}
+
+/// Returns the parser of the words of `T`.
+pub fn word<T: Named>() -> WordParser<T> {
+    WordParser(PhantomData)
+}
+
+impl<T: Named> TypedValueParser for WordParser<T> {
+    type Value = T;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Self::Value, clap::Error> {
+        let known = PossibleValuesParser::new(T::VALUES.iter().copied().map(possible));
+        let word = known.parse_ref(command, argument, value)?;
+        Ok(T::VALUES.iter().copied().find(|value| value.word() == word).expect("the word is one of its values"))
     }
 
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self {
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(T::VALUES.iter().copied().map(possible)))
+    }
+}
+
+fn possible<T: Named>(value: T) -> PossibleValue {
+    let possible = PossibleValue::new(value.word());
+    if value.help().is_empty() { possible } else { possible.help(value.help()) }
+}
+
+impl Named for Method {
+    const VALUES: &'static [Self] = &Method::ALL;
+
+    fn word(self) -> &'static str {
+        self.name()
+    }
+
+    fn help(self) -> &'static str {
+        match self {
             Method::Shortest => {
                 "The shortest path, from exact slices, with a proven bound on the optimum; or a proof that there is none"
             }
@@ -30,32 +84,34 @@ impl ValueEnum for Method {
             Method::Wavefront => "Manhattan wavefront on a grid",
             Method::Harmonic => "Harmonic potential on a grid",
             Method::Subdivision => "Subdivision into boxes: a path with room around it, or a proof that there is none",
-        };
-        Some(PossibleValue::new(self.name()).help(help))
+        }
     }
 }
 
-impl ValueEnum for PathKind {
-    fn value_variants<'a>() -> &'a [Self] {
-        &PathKind::ALL
+impl Named for PathKind {
+    const VALUES: &'static [Self] = &PathKind::ALL;
+
+    fn word(self) -> &'static str {
+        self.name()
     }
 
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self {
+    fn help(self) -> &'static str {
+        match self {
             PathKind::Own => "As the planner's method has it",
             PathKind::Taut => "Pulled taut: shorter, nearer to obstacles",
-        };
-        Some(PossibleValue::new(self.name()).help(help))
+        }
     }
 }
 
-impl ValueEnum for GridSearch {
-    fn value_variants<'a>() -> &'a [Self] {
-        &GridSearch::ALL
+impl Named for GridSearch {
+    const VALUES: &'static [Self] = &GridSearch::ALL;
+
+    fn word(self) -> &'static str {
+        self.name()
     }
 
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self {
+    fn help(self) -> &'static str {
+        match self {
             GridSearch::Wave => "Of grids: labels all cells from the goal: fewest moves",
             GridSearch::BreadthFirst => "Breadth first, until the other end is met: fewest moves or edges",
             GridSearch::DepthFirst => "Depth first, until the other end is met: some path",
@@ -64,39 +120,41 @@ impl ValueEnum for GridSearch {
             }
             GridSearch::AStar => "The same cost, led by the distance to the other end",
             GridSearch::Greedy => "Nearest to the other end first: some path, found soon",
-        };
-        Some(PossibleValue::new(self.name()).help(help))
+        }
     }
 }
 
-impl ValueEnum for GridSpace {
-    fn value_variants<'a>() -> &'a [Self] {
-        &GridSpace::ALL
+impl Named for GridSpace {
+    const VALUES: &'static [Self] = &GridSpace::ALL;
+
+    fn word(self) -> &'static str {
+        self.name()
     }
 
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self {
+    fn help(self) -> &'static str {
+        match self {
             GridSpace::Rows => "By exact slices: cells that are wholly free first, then cells whose centres are",
             GridSpace::Sampled => "By parry2d's collision checks at the cells' centres",
-        };
-        Some(PossibleValue::new(self.name()).help(help))
+        }
     }
 }
 
 /// Names of the variants of types that have no others, and help that may be empty.
 macro_rules! named {
     ($of:ty: $($variant:ident $name:literal $help:literal),+) => {
-        impl clap::ValueEnum for $of {
-            fn value_variants<'a>() -> &'a [Self] {
-                &[$(Self::$variant),+]
+        impl $crate::grammar::Named for $of {
+            const VALUES: &'static [Self] = &[$(Self::$variant),+];
+
+            fn word(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name),+
+                }
             }
 
-            fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
-                let (name, help) = match self {
-                    $(Self::$variant => ($name, $help)),+
-                };
-                let value = clap::builder::PossibleValue::new(name);
-                Some(if help.is_empty() { value } else { value.help(help) })
+            fn help(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $help),+
+                }
             }
         }
     };

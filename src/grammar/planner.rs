@@ -1,6 +1,7 @@
 //! A planner and its options.
 
 use super::field::FieldArgs;
+use super::names::word;
 use super::number::number_in;
 use super::roadmap::RoadmapArgs;
 use crate::engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
@@ -77,11 +78,11 @@ pub struct PathArgs {
     /// Which path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of a
     /// decomposition's doors and cells, the arcs of the Voronoi diagram), or that one pulled taut within the planner's cells
     /// [default: own for harmonic and voronoi, taut for the others].
-    #[arg(long, value_enum, value_name = "KIND")]
+    #[arg(long, value_parser = word::<PathKind>(), value_name = "KIND")]
     pub path: Option<PathKind>,
     /// How the grid is searched, from the goal (planner wavefront), or the roadmap, from the start unless it is --backward
     /// (planners visibility, trapezoid, triangles, voronoi, prm), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the others]
-    #[arg(long, value_enum, value_name = "NAME")]
+    #[arg(long, value_parser = word::<GridSearch>(), value_name = "NAME")]
     pub search: Option<GridSearch>,
     /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
     /// (planner wavefront). wave and bfs count moves; dijkstra and astar take a diagonal one for 1.414. [default: 4]
@@ -89,7 +90,7 @@ pub struct PathArgs {
     pub neighbors: Option<Neighborhood>,
     /// How the grid's cells are decided (planners wavefront, harmonic): by exact slices, or by sampled collision checks, which
     /// prove nothing. Paths are certified either way. [default: rows]
-    #[arg(long, value_enum, value_name = "NAME")]
+    #[arg(long, value_parser = word::<GridSpace>(), value_name = "NAME")]
     pub space: Option<GridSpace>,
 }
 
@@ -113,6 +114,7 @@ pub struct PlannerArgs {
 #[command(no_binary_name = true, disable_help_flag = true)]
 pub struct PlannerWords {
     /// Which planner.
+    #[arg(value_parser = word::<Method>())]
     pub planner: Method,
     #[command(flatten)]
     pub options: PlannerArgs,

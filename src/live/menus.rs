@@ -7,8 +7,9 @@ use super::options::Options;
 use super::protocol::{OptionReply, PlannerReply};
 use crate::engine::{FIRST_CELLS, GridSpace, Method, Planner};
 use crate::field::Neighborhood;
+use crate::grammar::Named;
 use crate::planner::{GridSearch, Prm};
-use clap::{Arg, Command, ValueEnum};
+use clap::{Arg, Command};
 
 /// An option with a menu of its own. All others can be typed.
 struct Choice {
@@ -50,7 +51,7 @@ const CHOICES: [Choice; 8] = [
         name: "search",
         label: "search",
         numbers: &[],
-        standard: |planner| word(&if planner.has_roadmap() { GridSearch::AStar } else { GridSearch::default() }),
+        standard: |planner| word(if planner.has_roadmap() { GridSearch::AStar } else { GridSearch::default() }),
         is_for: |_| true,
     },
     Choice {
@@ -71,7 +72,7 @@ const CHOICES: [Choice; 8] = [
         name: "space",
         label: "cells by",
         numbers: &[],
-        standard: |_| word(&GridSpace::default()),
+        standard: |_| word(GridSpace::default()),
         is_for: |_| true,
     },
 ];
@@ -85,8 +86,8 @@ fn cells(planner: Method) -> Option<String> {
     }
 }
 
-fn word(value: &impl ValueEnum) -> Option<String> {
-    Some(value.to_possible_value()?.get_name().to_owned())
+fn word(value: impl Named) -> Option<String> {
+    Some(value.word().to_owned())
 }
 
 /// Every planner with its menus.

@@ -316,7 +316,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #![proptest_config(crate::random::cases(256))]
+        #![proptest_config(cplan_cases::cases(256))]
 
         /// Against the vertices of the polygon, by brute force.
         #[test]

@@ -226,7 +226,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::random::cases(256))]
+        #![proptest_config(cplan_cases::cases(256))]
 
         /// From what an arm does to far beyond it; `tests/motion` has the durations.
         #[test]

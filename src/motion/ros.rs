@@ -95,7 +95,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::random::cases(256))]
+        #![proptest_config(cplan_cases::cases(256))]
 
         #[test]
         fn any_name_is_read_back(name in any::<String>()) {

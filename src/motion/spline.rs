@@ -305,7 +305,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::random::cases(64))]
+        #![proptest_config(cplan_cases::cases(64))]
 
         /// By differences of its own samples: limits, rest at both ends, and that joints which stand still do.
         #[test]

@@ -164,7 +164,7 @@ fn joints() -> impl Strategy<Value = [Joint; 2]> {
 }
 
 proptest! {
-    #![proptest_config(crate::random::cases(256))]
+    #![proptest_config(cplan_cases::cases(256))]
 
     #[test]
     fn random_paths(

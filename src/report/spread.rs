@@ -88,7 +88,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::random::cases(256))]
+        #![proptest_config(cplan_cases::cases(256))]
 
         #[test]
         fn quartiles_lie_on_the_broken_line(values in prop::collection::vec(-1e6..1e6_f64, 1..60)) {

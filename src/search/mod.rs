@@ -29,7 +29,6 @@
 
 mod bands;
 mod boxes;
-mod cell;
 mod chain;
 mod channel;
 mod connectivity;
@@ -44,3 +43,4 @@ pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};
 pub use optimum::{Motions, Proposed, Refused, ShortMotion, claimed_length, least_length, short_motion};
 pub use slabs::{slab_boxes, slab_connectivity};
+pub use slim::slimmed;

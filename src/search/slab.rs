@@ -274,7 +274,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::random::cases(600))]
+        #![proptest_config(cplan_cases::cases(600))]
 
         /// The oracle is the distance of the shapes at sampled configurations, which knows no contact angles.
         #[test]

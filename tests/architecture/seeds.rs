@@ -1,10 +1,10 @@
-//! Holds that random tests are the same in every run: every `proptest!` takes its configuration from `common::random`.
+//! Holds that random tests are the same in every run: every `proptest!` takes its configuration from the crate `cplan_cases`.
 
 use crate::rust_files;
 use std::path::{Path, PathBuf};
 
-/// The one place where seeds and numbers of cases are made, and this file.
-const HERE: [&str; 2] = ["tests/common/random.rs", "tests/architecture/seeds.rs"];
+/// The crate that makes seeds and numbers of cases, and this file.
+const HERE: [&str; 2] = ["crates/cases/src/lib.rs", "tests/architecture/seeds.rs"];
 
 /// Where tests are.
 const FOLDERS: [&str; 3] = ["crates", "src", "tests"];
@@ -14,7 +14,7 @@ const ELSEWHERE: [&str; 7] =
     ["ProptestConfig", "with_cases", "test_runner::Config", "TestRunner::", "RngSeed", "from_entropy", "rand::"];
 
 /// Variables of long campaigns, which are another run altogether (`tests/planning/random_worlds`), of published data, and of
-/// a folder for pictures. All else is asked for by the two of `common::random`.
+/// a folder for pictures. All else is asked for through the two variables of `cplan_cases`.
 const VARIABLES: [&str; 8] = [
     "CPLAN_WORLDS",
     "CPLAN_FIRST",
@@ -36,9 +36,7 @@ fn left_to_chance(text: &str) -> Vec<usize> {
     let wrong = |at: usize| {
         let opens = code[at].contains("proptest! {");
         let next = code[at + 1..].iter().map(|line| line.trim()).find(|line| !line.is_empty()).unwrap_or_default();
-        let is_fixed = ["common::random", "random"]
-            .iter()
-            .any(|module| next.starts_with(&format!("#![proptest_config(crate::{module}::cases(")));
+        let is_fixed = next.starts_with("#![proptest_config(cplan_cases::cases(");
         (opens && !is_fixed) || ELSEWHERE.iter().any(|word| code[at].contains(word))
     };
     (0..code.len()).filter(|&at| wrong(at)).map(|at| at + 1).collect()
@@ -60,7 +58,7 @@ fn no_random_test_is_left_to_chance() {
     }
     assert!(
         wrong.is_empty(),
-        "begin with #![proptest_config(crate::common::random::cases(100))], in src and crates with crate::random::cases, and use no \
+        "begin with #![proptest_config(cplan_cases::cases(100))], in src and crates with crate::random::cases, and use no \
          other source of chance:\n{}",
         wrong.join("\n")
     );
@@ -84,7 +82,7 @@ fn numbers_of_cases_have_no_variables_of_their_own() {
             }
         }
     }
-    assert!(wrong.is_empty(), "use crate::common::random::times or seeds:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "use cplan_cases::times or cplan_cases::seeds:\n{}", wrong.join("\n"));
 }
 
 #[test]
@@ -111,9 +109,9 @@ fn nothing_is_left_behind_by_a_failure() {
 
 #[test]
 fn the_search_for_chance_sees_all_forms() {
-    let fixed = "proptest! {\n    // why\n    #![proptest_config(crate::common::random::cases(9))]\n";
+    let fixed = "proptest! {\n    // why\n    #![proptest_config(cplan_cases::cases(9))]\n";
     assert!(left_to_chance(fixed).is_empty());
-    assert!(left_to_chance("proptest! {\n    #![proptest_config(crate::random::cases(9))]\n").is_empty());
+    assert!(left_to_chance("proptest! {\n    #![proptest_config(cplan_cases::cases(9))]\n").is_empty());
     assert_eq!(left_to_chance("proptest! {\n    #[test]\n    fn f() {}\n}"), [1]);
     assert_eq!(
         left_to_chance("let x = 1;\nproptest! {\n    #![proptest_config(ProptestConfig::with_cases(9))]"),

@@ -3,10 +3,11 @@
 
 pub mod dice;
 pub mod mazes;
-pub mod random;
 pub mod reference;
 pub mod roadmap;
 pub mod slips;
+
+pub use cplan_cases as random;
 
 use cplan::check::{Disconnection, ProofError, StuckBox};
 use cplan::geometry::{Convex, Point, Vector};

@@ -163,7 +163,7 @@ fn goes_from_cell_to_cell(grid: &Grid, start: usize, goal: usize) -> Result<(), 
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(150))]
+    #![proptest_config(cplan_cases::cases(150))]
 
     #[test]
     fn labels_are_the_shortest_numbers_of_steps((grid, start, goal) in random_problem()) {

@@ -23,7 +23,7 @@ fn random_grid() -> impl Strategy<Value = (Grid, usize)> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(300))]
+    #![proptest_config(cplan_cases::cases(300))]
 
     /// The path between the cells stays in free cells and ends at the goal.
     #[test]

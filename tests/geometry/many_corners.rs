@@ -107,7 +107,7 @@ fn first_meeting(ring: &[Corner]) -> Option<(usize, usize)> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(2000))]
+    #![proptest_config(cplan_cases::cases(2000))]
 
     #[test]
     fn of_sides_that_meet_the_first_of_the_list_are_named(ring in prop::collection::vec((-6..=6i64, -6..=6i64), 4..14)) {

@@ -64,7 +64,7 @@ fn check(a: &Convex, b: &Convex) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(2000))]
+    #![proptest_config(cplan_cases::cases(2000))]
 
     #[test]
     fn lattice_shapes(a in lattice_shape(), b in lattice_shape()) {

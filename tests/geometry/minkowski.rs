@@ -40,7 +40,7 @@ fn polygon() -> impl Strategy<Value = Vec<Point>> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(2000))]
+    #![proptest_config(cplan_cases::cases(2000))]
 
     #[test]
     fn lattice_differences_are_hulls_of_all_differences(a in core(), b in core()) {
@@ -69,7 +69,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(200))]
+    #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
     fn translations_that_collide_are_the_points_of_the_difference(a in core(), b in core()) {

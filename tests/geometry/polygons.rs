@@ -56,7 +56,7 @@ fn contains(ring: &[Corner], p: Corner) -> bool {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(1200))]
+    #![proptest_config(cplan_cases::cases(1200))]
 
     #[test]
     fn validation_agrees_with_the_definition(ring in prop::collection::vec((-2..=2i64, -2..=2i64), 3..7)) {

@@ -12,7 +12,7 @@ fn nudged(x: f64, steps: i8) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(4000))]
+    #![proptest_config(cplan_cases::cases(4000))]
 
     #[test]
     fn lattice_shapes_meet_as_integers_say(a in core(), b in core()) {

@@ -58,7 +58,7 @@ fn apart(domain: &Domain, equation: &Equation, relaxation: &Relaxation, stopping
 }
 
 proptest! {
-    #![proptest_config(crate::random::cases(48))]
+    #![proptest_config(cplan_cases::cases(48))]
 
     #[test]
     #[ignore = "needs a Vulkan driver: .ci/gpu"]

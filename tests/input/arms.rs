@@ -100,7 +100,7 @@ fn arms() -> impl Strategy<Value = [TestJoint; 2]> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(128))]
+    #![proptest_config(cplan_cases::cases(128))]
 
     #[test]
     fn planar_kinematics_are_the_spatial_ones_projected(joints in arms(), q in [-3.0..3.0f64, -3.0..3.0]) {

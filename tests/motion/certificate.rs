@@ -25,7 +25,7 @@ fn sampled(scene: &Scene, waypoints: &[Configuration], radii: &[f64], n: u32) ->
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(96))]
+    #![proptest_config(cplan_cases::cases(96))]
 
     #[test]
     fn blends_keep_what_is_proven(

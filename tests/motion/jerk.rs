@@ -181,7 +181,7 @@ fn joints() -> impl Strategy<Value = [[f64; 2]; 3]> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(192))]
+    #![proptest_config(cplan_cases::cases(192))]
 
     #[test]
     fn random_paths(
@@ -201,7 +201,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(2000))]
+    #![proptest_config(cplan_cases::cases(2000))]
 
     /// One joint, from what an arm does to far beyond it.
     #[test]

@@ -195,7 +195,7 @@ fn a_file_of_many_chunks() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(64))]
+    #![proptest_config(cplan_cases::cases(64))]
 
     #[test]
     fn any_motion_is_read_back(

@@ -198,7 +198,7 @@ fn a_slow_tip_is_as_fast_as_it_may() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(128))]
+    #![proptest_config(cplan_cases::cases(128))]
 
     #[test]
     fn never_slower_than_with_stops(

@@ -148,7 +148,7 @@ fn a_right_angle() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(96))]
+    #![proptest_config(cplan_cases::cases(96))]
 
     #[test]
     fn random_paths(

@@ -28,7 +28,7 @@ fn sampled(scene: &Scene, path: &Path, n: u32) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(64))]
+    #![proptest_config(cplan_cases::cases(64))]
 
     #[test]
     fn verdict_and_clearance_agree_with_dense_sampling(

@@ -197,7 +197,7 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(200))]
+    #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
     fn labels_of_small_grids((grid, sources, start) in with_cells(random_grid(1..12, 1..12, 0.6))) {

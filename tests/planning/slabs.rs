@@ -83,7 +83,7 @@ fn obstacle() -> impl Strategy<Value = Convex> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(400))]
+    #![proptest_config(cplan_cases::cases(400))]
 
     #[test]
     fn random_scenes_are_answered_as_the_boxes_answer_them(

@@ -166,7 +166,7 @@ fn repeated_crowd(crowd: &[Vec<Point>], side: usize, circles: [bool; 2]) -> Regi
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(48))]
+    #![proptest_config(cplan_cases::cases(48))]
 
     #[test]
     fn ways_are_as_wide_as_floods_find(seed: u64, count in 1usize..10) {

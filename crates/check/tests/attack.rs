@@ -3,8 +3,7 @@
 
 #[path = "../../../tests/common/dice.rs"]
 mod dice;
-#[path = "../../../tests/common/random.rs"]
-mod random;
+use cplan_cases as random;
 #[path = "common/two_bars.rs"]
 mod two_bars;
 

@@ -1,7 +1,6 @@
 //! Certificates written by hand, and falsified ones.
 
-#[path = "../../../tests/common/random.rs"]
-mod random;
+use cplan_cases as random;
 
 use cplan_check::{CheckError, Input, check};
 

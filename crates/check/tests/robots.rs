@@ -3,8 +3,7 @@
 
 #[path = "../../../tests/common/dice.rs"]
 mod dice;
-#[path = "../../../tests/common/random.rs"]
-mod random;
+use cplan_cases as random;
 
 use cplan_check::{CheckError, check};
 use dice::Dice;

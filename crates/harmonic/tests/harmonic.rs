@@ -3,8 +3,6 @@
 
 #[path = "../../../tests/common/mazes.rs"]
 mod mazes;
-#[path = "../../../tests/common/random.rs"]
-mod random;
 
 use cplan_harmonic::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, harmonic_way, residual};
 use num_rational::BigRational;
@@ -103,7 +101,7 @@ fn random_grid() -> impl Strategy<Value = (Grid, usize)> {
 }
 
 proptest! {
-    #![proptest_config(crate::random::cases(40))]
+    #![proptest_config(cplan_cases::cases(40))]
 
     #[test]
     fn values_are_the_rational_ones_however_small((grid, goal) in random_grid()) {
@@ -145,7 +143,7 @@ fn large_grid() -> impl Strategy<Value = (Grid, Vec<usize>)> {
 }
 
 proptest! {
-    #![proptest_config(crate::random::cases(12))]
+    #![proptest_config(cplan_cases::cases(12))]
 
     #[test]
     fn every_cell_has_a_greater_neighbor_in_large_grids_of_all_kinds((grid, goals) in large_grid()) {

@@ -1,8 +1,5 @@
 //! The fast solver against solvers that share no code with it: dense elimination, relaxation, closed forms.
 
-#[path = "../../../tests/common/random.rs"]
-mod random;
-
 use cplan_multigrid::{Ends, Multigrid};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -81,7 +78,7 @@ fn agrees_with_elimination(
 }
 
 proptest! {
-    #![proptest_config(crate::random::cases(192))]
+    #![proptest_config(cplan_cases::cases(192))]
 
     #[test]
     fn small_grids_agree_with_elimination((cells, ends, free, right) in scene(24), shift in prop_oneof![Just(0.0), 0.0..0.5_f64]) {

@@ -8,7 +8,7 @@ mod steps;
 pub use steps::{step_claims_kept, task_claims_kept};
 
 use super::collision::{CollisionCheck, check_collision};
-use super::motion::{Rejection, certify};
+use super::{Rejection, certify};
 use crate::model::{Arm, BlendsClaim, Claims, OptimumClaim, Scene};
 use crate::space::{Configuration, Path, Recording};
 use follow::follows;

@@ -3,7 +3,7 @@
 use crate::cli::args::{QueryArgs, XacroArgs};
 use crate::cli::variant::Variant;
 use crate::engine::Method;
-use crate::grammar::{EffortArgs, MotionArgs};
+use crate::grammar::{EffortArgs, MotionArgs, word};
 use clap::{ArgGroup, Args, ValueHint};
 use std::path::PathBuf;
 
@@ -65,7 +65,7 @@ pub struct CompareArgs {
     pub motion: MotionArgs,
     /// Only these planners; can be repeated. Each row is about the planner's usual path; of those that have two (see --path of
     /// the main job) length and clearance of both are listed.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_parser = word::<Method>(), value_name = "NAME")]
     pub planner: Vec<Method>,
     /// One more row: a planner with options of its own, such as --with "harmonic --field oriented --epsilon 0.5
     /// --direction 0,-1" or --with "trapezoid --path own"; can be repeated.

@@ -314,7 +314,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::random::cases(64))]
+        #![proptest_config(cplan_cases::cases(64))]
 
         /// What is said of large groups is less than the best of all orders.
         #[test]

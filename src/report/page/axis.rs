@@ -127,7 +127,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::random::cases(256))]
+        #![proptest_config(cplan_cases::cases(256))]
 
         #[test]
         fn every_axis_holds_its_values_and_has_ticks(

@@ -20,7 +20,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(60))]
+    #![proptest_config(cplan_cases::cases(60))]
 
     /// Term by term: the short way round circles, with a frame of one cell beyond high limits.
     #[test]

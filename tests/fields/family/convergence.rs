@@ -179,7 +179,7 @@ fn relaxation() -> impl Strategy<Value = Relaxation> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(200))]
+    #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
     fn elimination_finds_what_dense_solution_finds(

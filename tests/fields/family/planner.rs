@@ -84,7 +84,7 @@ fn equations() -> Vec<EquationChoice> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(150))]
+    #![proptest_config(cplan_cases::cases(150))]
 
     /// Every field finds a path exactly where the wave does, through free cells.
     #[test]

@@ -95,7 +95,7 @@ fn random_case() -> impl Strategy<Value = (Domain, Equation, Relaxation)> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(400))]
+    #![proptest_config(cplan_cases::cases(400))]
 
     #[test]
     fn values_stay_within_the_fixed_ones_however_early_the_relaxation_ends(

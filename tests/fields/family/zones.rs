@@ -21,7 +21,7 @@ fn torus() -> Arm {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(256))]
+    #![proptest_config(cplan_cases::cases(256))]
 
     /// A rectangle of angles, anywhere on the line, holds where some copy of the angle is in it.
     #[test]

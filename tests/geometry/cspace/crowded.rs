@@ -118,7 +118,7 @@ fn is_free(regions: &Regions, at: Configuration) -> bool {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(4))]
+    #![proptest_config(cplan_cases::cases(4))]
 
     /// Free keeps the quarter of the margin; what keeps three margins is free.
     #[test]

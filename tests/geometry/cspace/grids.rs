@@ -132,7 +132,7 @@ fn a_limit_may_be_two_turns_below_a_reach_range() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(100))]
+    #![proptest_config(cplan_cases::cases(100))]
 
     #[test]
     fn bitmaps_are_grids(scene in any_scene(), cells in (1..90_usize, 1..200_usize), clearance in prop_oneof![Just(0.0), 0.0..0.1f64]) {

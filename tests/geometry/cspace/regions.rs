@@ -222,7 +222,7 @@ fn any_gantry() -> impl Strategy<Value = Scene> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(96))]
+    #![proptest_config(cplan_cases::cases(96))]
 
     #[test]
     fn what_gantries_lose_is_no_more_than_the_margin(scene in any_gantry(), margin in prop_oneof![Just(1e-4), 0.001..0.02f64]) {

@@ -91,7 +91,7 @@ fn check_turning(part: &Convex, pivot: Point, piece: &Convex, grow: f64) -> Resu
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(2000))]
+    #![proptest_config(cplan_cases::cases(2000))]
 
     #[test]
     fn arcs_agree_with_sampled_distances(

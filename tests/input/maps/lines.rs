@@ -30,7 +30,7 @@ fn segments(pieces: impl Iterator<Item = [Point; 2]>) -> Vec<[[f64; 2]; 2]> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(200))]
+    #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
     fn maps_are_read_as_written_and_chained_without_loss(

@@ -31,7 +31,7 @@ fn assert_said<T>(read: Result<T, InputError>) {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(300))]
+    #![proptest_config(cplan_cases::cases(300))]
 
     #[test]
     fn damaged_files(damage in prop::collection::vec((0.0..1.0_f64, 0..40_u8, prop_oneof![

@@ -23,7 +23,7 @@ fn depth(piece: &Convex, place: Point) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(60))]
+    #![proptest_config(cplan_cases::cases(60))]
 
     #[test]
     fn obstacles_are_where_the_picture_is_dark(

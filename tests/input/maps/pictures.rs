@@ -67,7 +67,7 @@ fn encoded(width: u32, color: ColorType, depth: BitDepth, palette: Option<(&[u8]
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(200))]
+    #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
     fn greymaps(

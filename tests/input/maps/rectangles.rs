@@ -43,7 +43,7 @@ fn picture() -> impl Strategy<Value = Vec<Vec<bool>>> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(400))]
+    #![proptest_config(cplan_cases::cases(400))]
 
     #[test]
     fn every_solid_pixel_is_in_one_rectangle_and_no_other_pixel_in_any(pixels in picture()) {

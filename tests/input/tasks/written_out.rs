@@ -140,7 +140,7 @@ const LINES: &[&str] = &[
 ];
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(150))]
+    #![proptest_config(cplan_cases::cases(150))]
 
     #[test]
     fn groups_in_groups(nodes in nodes(), repeat in 1..3usize) {

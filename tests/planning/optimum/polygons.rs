@@ -116,7 +116,7 @@ fn along_a_slanting_side() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(200))]
+    #![proptest_config(cplan_cases::cases(200))]
 
     #[test]
     fn no_way_among_polygons_is_shorter_than_the_bound(

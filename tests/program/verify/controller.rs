@@ -88,7 +88,7 @@ fn points() -> impl Strategy<Value = Vec<Point>> {
 const LOOKS: u32 = 400;
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(24))]
+    #![proptest_config(cplan_cases::cases(24))]
 
     /// Positions, velocities and accelerations between all points; and what limits are broken, which is what is seen.
     #[test]

@@ -144,7 +144,7 @@ fn a_real_move_that_is_too_fast_is_so_with_samples_a_microsecond_apart() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(64))]
+    #![proptest_config(cplan_cases::cases(64))]
 
     /// Random cubics with all their digits: what dense samples see beyond a limit is found, and nothing else.
     #[test]

@@ -35,7 +35,7 @@ fn sampled(scene: &Scene, recording: &Recording, n: u32) -> Vec<(f64, f64)> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(96))]
+    #![proptest_config(cplan_cases::cases(96))]
 
     #[test]
     fn verdict_agrees_with_dense_sampling(

@@ -4,8 +4,6 @@ mod cell;
 mod dxf;
 mod geojson;
 mod hostile;
-#[path = "../../../../tests/common/random.rs"]
-mod random;
 mod svg;
 mod written;
 

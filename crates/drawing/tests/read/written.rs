@@ -13,7 +13,7 @@ fn corners() -> impl Strategy<Value = Vec<Point>> {
 }
 
 proptest! {
-    #![proptest_config(crate::random::cases(64))]
+    #![proptest_config(cplan_cases::cases(64))]
 
     #[test]
     fn polygons_come_back_from_every_format(corners in corners()) {

@@ -5,8 +5,6 @@
 mod adapter;
 mod multigrid;
 mod oracle;
-#[path = "../../../../tests/common/random.rs"]
-mod random;
 mod relax;
 
 use cplan_gpu::Gpu;

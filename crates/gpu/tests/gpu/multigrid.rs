@@ -6,7 +6,7 @@ use cplan_gpu::{Edge, GpuError, Multigrid, Stencil};
 use proptest::prelude::*;
 
 proptest! {
-    #![proptest_config(crate::random::cases(40))]
+    #![proptest_config(cplan_cases::cases(40))]
 
     #[test]
     #[ignore = "needs a Vulkan driver: .ci/gpu"]

@@ -37,7 +37,7 @@ fn settings() -> impl Strategy<Value = Settings> {
 }
 
 proptest! {
-    #![proptest_config(crate::random::cases(60))]
+    #![proptest_config(cplan_cases::cases(60))]
 
     #[test]
     #[ignore = "needs a Vulkan driver: .ci/gpu"]
@@ -159,7 +159,7 @@ fn what_makes_no_sense_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(crate::random::cases(12))]
+    #![proptest_config(cplan_cases::cases(12))]
 
     #[test]
     #[ignore = "needs a Vulkan driver: .ci/gpu"]

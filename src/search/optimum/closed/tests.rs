@@ -144,7 +144,7 @@ impl Case {
 }
 
 proptest! {
-    #![proptest_config(crate::random::cases(10))]
+    #![proptest_config(cplan_cases::cases(10))]
 
     /// And much is called closed.
     #[test]

@@ -1,0 +1,76 @@
+//! Random cases for tests: how many, and which. They are the same in every run, unless the environment asks for others.
+//!
+//! - `CPLAN_TIMES=20`: twenty times as many (0.1: a tenth).
+//! - `CPLAN_SEED=7`: others, the seventh choice; 0 is the usual one. A failure comes again with the same two variables.
+
+use proptest::test_runner::{Config, RngSeed};
+use std::ops::Range;
+use std::str::FromStr;
+
+/// Seeds of handwritten generators are counted from here on, for one `CPLAN_SEED` after the other.
+const STRIDE: u64 = 1 << 32;
+
+/// Returns the configuration for `proptest!`: this many cases, always the same. Every block must have it
+/// (`tests/architecture/seeds.rs`).
+///
+/// # Panics
+/// If `CPLAN_TIMES` or `CPLAN_SEED` is not a number.
+#[must_use]
+pub fn cases(usual: u32) -> Config {
+    let cases = u32::try_from(times(u64::from(usual))).expect("CPLAN_TIMES is too large");
+    Config {
+        cases,
+        // `prop_assume` may turn down twenty draws for each case that is kept.
+        max_global_rejects: cases.saturating_mul(20).max(1024),
+        rng_seed: RngSeed::Fixed(seed()),
+        // A file of failures would make the next run another one. What failed becomes a test with a name.
+        failure_persistence: None,
+        ..Config::default()
+    }
+}
+
+/// Returns seeds for generators written by hand: this many, always the same.
+///
+/// # Panics
+/// As [`cases`].
+#[must_use]
+pub fn seeds(usual: u64) -> Range<u64> {
+    let first = seed().wrapping_mul(STRIDE);
+    first..first + times(usual)
+}
+
+/// Returns the number of cases, given the usual number; at least one.
+///
+/// # Panics
+/// As [`cases`].
+#[must_use]
+pub fn times(usual: u64) -> u64 {
+    let factor = from_environment("CPLAN_TIMES", 1.0);
+    assert!(factor > 0.0 && factor < 1e9, "CPLAN_TIMES is a positive factor, not {factor}");
+    ((usual as f64 * factor).round() as u64).max(1)
+}
+
+/// Returns the number of the choice of cases, `CPLAN_SEED`.
+///
+/// # Panics
+/// As [`cases`].
+#[must_use]
+pub fn seed() -> u64 {
+    from_environment("CPLAN_SEED", 0)
+}
+
+/// True if the cases are those of every run. Tests that count how many cases of a kind occur can only do so then.
+///
+/// # Panics
+/// As [`cases`].
+#[must_use]
+pub fn usual() -> bool {
+    seed() == 0 && times(1 << 20) == 1 << 20
+}
+
+fn from_environment<T: FromStr>(name: &str, usual: T) -> T {
+    match std::env::var(name) {
+        Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name} is no number: {text:?}")),
+        Err(_) => usual,
+    }
+}

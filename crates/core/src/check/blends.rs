@@ -1,0 +1,234 @@
+//! Corners cut short as far as the clearance allows.
+
+use super::motion::{CertifiedPath, Nearest, Search};
+use super::vicinity::Vicinity;
+use crate::model::Scene;
+use crate::space::{Blend, BlendedPath, Path, Piece};
+
+/// Share of the clearance beyond what is to be kept that stays when corners are cut: half, so that a motion on
+/// blends is proven to keep at least half the distance of the straight path.
+const KEPT: f64 = 0.5;
+
+/// Share of an inner leg that the blend at either end of it may take; what is left between them stays straight.
+const SHARE: f64 = 0.45;
+
+/// The same for the first and the last leg, which have a blend at one end only.
+const SHARE_OF_AN_END: f64 = 0.9;
+
+/// Times that a radius is halved before the corner stays a corner: a blend is passed at a speed that goes with the root
+/// of its radius, so that the last one tried saves a hundredth of the time of the first.
+const HALVINGS: u32 = 13;
+
+/// Tries between the first radius that is certified and the one before it.
+const REFINEMENTS: u32 = 2;
+
+/// Looks per pair of shapes before a blend counts as not certified: those that keep their distance clearly need some ten,
+/// and nothing is lost by a smaller blend.
+const LOOKS: usize = 64;
+
+/// A path with blended corners whose whole motion is proven: it is within the joint limits and keeps its clearance, on
+/// the straight legs up to their corners and on the blends and anywhere up to [`crate::space::HAIR`] off these; or, where a motion rounds
+/// the corners by another curve, on that curve. Only [`blend`] and [`super::Rounding`] make either.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertifiedCurve {
+    curve: BlendedPath,
+    clearance: f64,
+    nearest: Option<Nearest>,
+    /// What rounds the corners, where it is not parabolas: how far they reach, and a polyline for pictures.
+    driven: Option<(Vec<f64>, Path)>,
+}
+
+impl From<CertifiedPath> for CertifiedCurve {
+    /// The straight path, without blends.
+    fn from(path: CertifiedPath) -> Self {
+        let (clearance, nearest) = (path.clearance(), path.nearest());
+        Self { curve: path.into_path().into(), clearance, nearest, driven: None }
+    }
+}
+
+impl CertifiedCurve {
+    /// The path and its blends.
+    #[must_use]
+    pub fn curve(&self) -> &BlendedPath {
+        &self.curve
+    }
+
+    /// How far the rounding of each waypoint's corner reaches, in joint units: the radius of its blend, or of a parabola that leaves the path
+    /// as far as the motion does; 0 where the motion turns on the spot.
+    #[must_use]
+    pub fn radii(&self) -> &[f64] {
+        self.driven.as_ref().map_or_else(|| self.curve.radii(), |(radii, _)| radii)
+    }
+
+    /// Proven lower bound on the distance between arm and obstacles, metres, along the blends and along the straight
+    /// legs all the way to their corners; infinite if nothing can meet. Never less than the clearance asked for.
+    #[must_use]
+    pub fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
+    /// Where it comes nearest, as far as was looked; none if nothing can meet.
+    #[must_use]
+    pub fn nearest(&self) -> Option<Nearest> {
+        self.nearest
+    }
+
+    /// The straight path, which is proven up to its corners.
+    #[must_use]
+    pub fn straight(&self) -> CertifiedPath {
+        CertifiedPath::part_of(self)
+    }
+
+    /// A polyline for pictures.
+    #[must_use]
+    pub fn outline(&self) -> Path {
+        self.driven.as_ref().map_or_else(|| self.curve.outline(), |(_, outline)| outline.clone())
+    }
+
+    /// Followed by another one that begins where this ends, at rest between them.
+    #[must_use]
+    pub fn then(self, next: &Self) -> Self {
+        let nearer = |a: &Nearest, b: &Nearest| a.contact.separation.distance <= b.contact.separation.distance;
+        let nearest = match (self.nearest, next.nearest) {
+            (Some(a), Some(b)) => Some(if nearer(&a, &b) { a } else { b }),
+            (a, b) => a.or(b),
+        };
+        let driven = (self.driven.is_some() || next.driven.is_some()).then(|| {
+            let radii = self.radii().iter().take(self.radii().len() - 1).chain(next.radii()).copied().collect();
+            let outline = self.outline().waypoints().iter().chain(next.outline().waypoints()).copied().collect();
+            (radii, Path::new(outline))
+        });
+        let clearance = self.clearance.min(next.clearance);
+        Self { curve: self.curve.then(&next.curve), clearance, nearest, driven }
+    }
+
+    /// The same, known to keep this distance from what moves, too, which is nearest here.
+    #[must_use]
+    pub fn among_movers(self, clearance: f64, nearest: Option<Nearest>) -> Self {
+        let nearer =
+            |a: &Nearest| self.nearest.is_none_or(|b| a.contact.separation.distance < b.contact.separation.distance);
+        let nearest = nearest.filter(nearer).or(self.nearest);
+        Self { clearance: self.clearance.min(clearance), nearest, ..self }
+    }
+
+    /// The same without the blend at an inner waypoint: the legs are proven up to the corner.
+    #[must_use]
+    pub fn without(self, waypoint: usize) -> Self {
+        Self { curve: self.curve.with(waypoint, 0.0), ..self }
+    }
+}
+
+/// Cuts the corners of a certified path by parabolas, each as large as is certified: a blend begins and ends no farther
+/// than `greatest` from its corner (in joint units, radians and metres as they come; infinite for no such bound), takes at
+/// most 0.45 of a leg (0.9 of the first and the last), and keeps more than half of what the path's clearance exceeds
+/// `clearance` by. A radius that is not certified is halved; after some halvings the corner stays. Corners without a turn
+/// are blended too: the blend is straight then.
+///
+/// Blends lie in the triangle of their control points, so joint limits need no check. Each blend is judged by the same
+/// bisection as a straight piece, with the tube about its chord for the deviation.
+#[must_use]
+pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64) -> CertifiedCurve {
+    let q = path.path().waypoints();
+    let required = required(path, clearance);
+    let mut blended = CertifiedCurve::from(path.clone());
+    if path.clearance() <= clearance {
+        return blended;
+    }
+    let vicinity = Vicinity::new(scene);
+    let budget = LOOKS * scene.pairs().len();
+    let last = q.len() - 1;
+    for waypoint in 1..last {
+        let share = |end: usize| if end == 0 || end == last { SHARE_OF_AN_END } else { SHARE };
+        let room = |end: usize| share(end) * (q[end] - q[waypoint]).norm();
+        let most = greatest.min(room(waypoint - 1)).min(room(waypoint + 1));
+        // A leg whose length is lost in the smallest of doubles has no room.
+        if most <= 0.0 {
+            continue;
+        }
+        let judge = |radius: f64| {
+            let blend = Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius);
+            let mut search = Search::beside(&blended, scene, required, budget);
+            search.blend(&vicinity, &blend).ok()?;
+            Some((radius, search.proven, search.nearest))
+        };
+        if let Some((radius, clearance, nearest)) = largest(most, judge) {
+            blended = CertifiedCurve { curve: blended.curve.with(waypoint, radius), clearance, nearest, driven: None };
+        }
+    }
+    blended
+}
+
+/// What motions are to keep that leave a path at its corners.
+fn required(path: &CertifiedPath, clearance: f64) -> f64 {
+    clearance + KEPT * (path.clearance() - clearance)
+}
+
+/// Looks per pair of shapes before a piece of a motion counts as not certified: a straight one may slide along an obstacle at a hair's
+/// distance.
+const LOOKS_OF_A_PIECE: usize = 2048;
+
+/// Judges motions that round the corners of a path by whatever curve.
+pub struct Rounding<'a> {
+    scene: &'a Scene,
+    vicinity: Vicinity<'a>,
+    path: &'a CertifiedPath,
+    required: f64,
+}
+
+impl<'a> Rounding<'a> {
+    /// Motions are to keep more than half of what the path's clearance exceeds `clearance` by, as blends are.
+    #[must_use]
+    pub fn new(scene: &'a Scene, path: &'a CertifiedPath, clearance: f64) -> Self {
+        Self { scene, vicinity: Vicinity::new(scene), path, required: required(path, clearance) }
+    }
+
+    /// The pieces of a motion that are not shown to be free, by their numbers. Joint limits are not looked at.
+    #[must_use]
+    pub fn open(&self, pieces: &[Piece]) -> Vec<usize> {
+        let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len();
+        let is_open = |piece: &Piece| {
+            Search::deciding(self.scene, self.required, budget).piece(&self.vicinity, piece, 0.0).is_err()
+        };
+        (0..pieces.len()).filter(|&i| is_open(&pieces[i])).collect()
+    }
+
+    /// The path with a motion that rounds its corners, so far each (see [`CertifiedCurve::radii`]); none if the motion is not shown to be
+    /// free. Joint limits are not looked at.
+    #[must_use]
+    pub fn certified(&self, radii: Vec<f64>, pieces: &[Piece]) -> Option<CertifiedCurve> {
+        let known = CertifiedCurve::from(self.path.clone());
+        let budget = LOOKS_OF_A_PIECE * self.scene.pairs().len() * pieces.len();
+        let mut search = Search::beside(&known, self.scene, self.required, budget);
+        pieces.iter().try_for_each(|piece| search.piece(&self.vicinity, piece, 0.0)).ok()?;
+        let Search { proven, nearest, .. } = search;
+        let knots = pieces.iter().map(|piece| piece.at(0.0)).chain(pieces.last().map(|piece| piece.at(1.0)));
+        Some(CertifiedCurve { clearance: proven, nearest, driven: Some((radii, Path::new(knots.collect()))), ..known })
+    }
+}
+
+/// What comes of the largest radius up to `most` that is accepted, as far as was tried.
+fn largest<T>(most: f64, judge: impl Fn(f64) -> Option<T>) -> Option<T> {
+    let mut refused = f64::INFINITY;
+    let mut radius = most;
+    let mut best = None;
+    for _ in 0..=HALVINGS {
+        best = judge(radius);
+        if best.is_some() {
+            break;
+        }
+        refused = radius;
+        radius /= 2.0;
+    }
+    best.as_ref()?;
+    for _ in 0..REFINEMENTS {
+        if refused.is_infinite() {
+            break;
+        }
+        let between = (radius + refused) / 2.0;
+        match judge(between) {
+            Some(better) => (best, radius) = (Some(better), between),
+            None => refused = between,
+        }
+    }
+    best
+}

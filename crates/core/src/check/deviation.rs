@@ -1,0 +1,378 @@
+//! How far link and obstacle can come together while the configuration deviates from a given one.
+//!
+//! Let `q` deviate from `m` by `d`, let `n` be the direction of least distance at `m`, and let `x(d)` be a corner of
+//! the link. Taylor's formula gives `n . x(d) <= n . x(0) + |n . J d| + K / 2` with `K` a bound on the second
+//! derivative along the way. The link stays on its side of the obstacle's supporting line as long as this is below it
+//! for every corner, which bounds the distance from below: to first order only motion *towards* the obstacle counts.
+//! The same holds in the link's frame, where the obstacle's corners move and the link rests; whichever is the better
+//! bound counts. Both are far better than "no point moves farther than" (Schwarzer, Saha, Latombe 2005) when a link
+//! slides along an obstacle, which shortest paths do; that one is the third bound, and the best one far away.
+
+use crate::model::{Arm, Drift, JointType, Pair, Scene};
+use crate::space::Configuration;
+use cplan_geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, reach, separation_at};
+
+/// Rounding errors of one evaluation stay far below this share of the lengths involved (a few dozen operations at
+/// 1.1e-16 each); bounds are weakened by it, so that they hold in floating point too.
+const ROUNDING: f64 = 1e-13;
+
+/// The same where shapes are to be stuck: more than the independent check demands ([`super::Disconnection::checked`], 1e-12), so that it
+/// accepts what is claimed.
+pub const STUCK_ROUNDING: f64 = 2e-12;
+
+/// A set of deviations from a configuration, symmetric about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Deviation {
+    /// Along a straight motion: `t d` for `-1 <= t <= 1`.
+    Along(Configuration),
+    /// A box: `|d_1| <= h_1` and `|d_2| <= h_2`.
+    Box([f64; 2]),
+    /// The sum of both: a motion that is straight up to a box about each of its points, as a curve about its chord is.
+    Tube(Configuration, [f64; 2]),
+}
+
+impl Deviation {
+    /// The greatest `|g_1 d_1 + g_2 d_2|`.
+    fn linear(self, g: [f64; 2]) -> f64 {
+        match self {
+            Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1]).abs(),
+            Deviation::Box(h) => g[0].abs() * h[0] + g[1].abs() * h[1],
+            Deviation::Tube(d, h) => Deviation::Along(d).linear(g) + Deviation::Box(h).linear(g),
+        }
+    }
+
+    /// The greatest `|g_1 d_1 + g_2 d_2 - t c|`, where `t` is the share of the straight motion that has been gone.
+    fn linear_less(self, g: [f64; 2], c: f64) -> f64 {
+        match self {
+            Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1] - c).abs(),
+            Deviation::Box(_) => self.linear(g) + c.abs(),
+            Deviation::Tube(d, h) => Deviation::Along(d).linear_less(g, c) + Deviation::Box(h).linear(g),
+        }
+    }
+
+    /// The greatest `|d_1|` and `|d_2|`.
+    fn each(self) -> [f64; 2] {
+        match self {
+            Deviation::Along(d) => [d[0].abs(), d[1].abs()],
+            Deviation::Box(h) => h,
+            Deviation::Tube(d, h) => [d[0].abs() + h[0], d[1].abs() + h[1]],
+        }
+    }
+}
+
+/// The arm at one configuration, ready to judge deviations from it.
+#[derive(Debug, Clone)]
+pub struct Posture<'a> {
+    scene: &'a Scene,
+    q: Configuration,
+    poses: [Pose; 3],
+    /// Where joint 2 is, here and with joint 1 at zero.
+    elbows: [Point; 2],
+}
+
+/// A pair at a posture: its distance there, and the least it can come to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounded {
+    /// Signed distance at the posture.
+    pub here: Separation,
+    /// Lower bound on the signed distance over the deviation, metres.
+    pub least: f64,
+}
+
+/// The shapes of a pair, and what the obstacle's does while the configuration deviates, if it moves: at the deviation `t d` it is where it is
+/// `t` half spans from the middle of the drift.
+#[derive(Clone, Copy)]
+struct Shapes<'s> {
+    link: usize,
+    /// The link's, in its frame.
+    local: &'s Convex,
+    /// The obstacle's, in the plane; where it is in the middle.
+    piece: &'s Convex,
+    drift: Option<&'s Drift>,
+}
+
+/// A bound on the second derivative of the motion of points, per squared parameter of the deviation.
+#[derive(Debug, Clone, Copy)]
+pub struct Curvature {
+    /// It grows with the distance from here, ...
+    center: Point,
+    /// ... and this, ...
+    shift: f64,
+    /// ... times the square of this, ...
+    factor: f64,
+    /// ... from this.
+    constant: f64,
+}
+
+impl Curvature {
+    /// That of a point.
+    pub fn of(&self, p: Point) -> f64 {
+        ((p - self.center).norm() + self.shift) * self.factor * self.factor + self.constant
+    }
+}
+
+impl<'a> Posture<'a> {
+    /// The arm of `scene` at `q`.
+    #[must_use]
+    pub fn new(scene: &'a Scene, q: Configuration) -> Self {
+        let poses = scene.arm().pair_poses(q);
+        let offset = Point::from(scene.arm().offset);
+        let at_zero = scene.arm().pose(0, Configuration::new(0.0, q[1])) * offset;
+        Self { scene, q, poses, elbows: [poses[0] * offset, at_zero] }
+    }
+
+    /// The configuration.
+    pub fn configuration(&self) -> Configuration {
+        self.q
+    }
+
+    /// Where a link is.
+    pub fn pose(&self, link: usize) -> Pose {
+        self.poses[link]
+    }
+
+    /// Distance of a pair here.
+    pub fn here(&self, pair: Pair) -> Separation {
+        separation_at(self.scene.part(pair), &self.poses[pair.link], self.scene.piece(pair), |_, here| here)
+    }
+
+    /// Distance of a pair here and a lower bound on it over `deviation`.
+    #[must_use]
+    pub fn bound(&self, pair: Pair, deviation: Deviation) -> Bounded {
+        self.bound_up_to(pair, deviation, |_| f64::INFINITY)
+    }
+
+    /// The same, but for the trouble of a better bound than one that is enough for the distance here.
+    pub fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> Bounded {
+        self.least(self.shapes(pair), deviation, enough)
+    }
+
+    /// [`Posture::bound_up_to`] with something that moves: the posture is that in the middle of a span of time, the deviation what the arm does in it.
+    pub fn bound_moving(
+        &self,
+        pair: Pair,
+        deviation: Deviation,
+        drift: &Drift,
+        enough: impl Fn(f64) -> f64,
+    ) -> Bounded {
+        let standing = self.shapes(pair);
+        let piece = standing.piece.at(&drift.middle);
+        self.least(Shapes { piece: &piece, drift: Some(drift), ..standing }, deviation, enough)
+    }
+
+    /// [`Posture::apart`] from something that moves.
+    pub fn apart_moving(&self, pair: Pair, deviation: Deviation, drift: &Drift) -> f64 {
+        let (center, around) = disc(self.scene.piece(pair));
+        let drifts = drift.farthest(center.coords.norm() + around);
+        self.apart_from(pair, deviation, drift.middle * center, around + drifts)
+    }
+
+    fn shapes(&self, pair: Pair) -> Shapes<'a> {
+        Shapes { link: pair.link, local: self.scene.part(pair), piece: self.scene.piece(pair), drift: None }
+    }
+
+    fn least(&self, shapes: Shapes, deviation: Deviation, enough: impl Fn(f64) -> f64) -> Bounded {
+        let Shapes { link, local, piece, drift } = shapes;
+        separation_at(local, &self.poses[link], piece, |corners, here| {
+            let rounding = ROUNDING * self.scale(corners, local.radius(), piece);
+            let enough = enough(here.distance) + rounding;
+            let drifts =
+                drift.map_or(0.0, |drift| drift.farthest(piece.reach_from(drift.middle.translation.vector.into())));
+            let mut least = here.distance - self.farthest_motion_of(link, local, deviation) - drifts;
+            let radii = local.radius() + piece.radius();
+            if least < enough {
+                least = least.max(self.least_in_plane(shapes, corners, here.direction, deviation) - radii);
+            }
+            if least < enough && drift.is_none() {
+                least = least.max(self.least_in_link(shapes, corners, here.direction, deviation) - radii);
+            }
+            Bounded { here, least: least - rounding }
+        })
+    }
+
+    /// A lower bound on the distance of a pair over `deviation` from discs around the shapes: far below
+    /// [`Posture::bound`]'s where shapes are near each other, and a small part of its cost.
+    pub fn apart(&self, pair: Pair, deviation: Deviation) -> f64 {
+        let (fixed, around) = disc(self.scene.piece(pair));
+        self.apart_from(pair, deviation, fixed, around)
+    }
+
+    fn apart_from(&self, pair: Pair, deviation: Deviation, fixed: Point, around: f64) -> f64 {
+        let (at, extent) = self.place(pair, deviation);
+        let between = (at - fixed).norm();
+        let scale = self.scene.arm().base.coords.norm() + at.coords.norm() + fixed.coords.norm() + extent + around;
+        between - extent - around - ROUNDING * scale
+    }
+
+    /// A disc that holds the part of a pair over `deviation`.
+    pub fn place(&self, pair: Pair, deviation: Deviation) -> (Point, f64) {
+        let (center, extent) = disc(self.scene.part(pair));
+        (self.poses[pair.link] * center, extent + self.farthest_motion(pair, deviation))
+    }
+
+    /// An upper bound on the signed distance of a pair over `deviation`: negative means stuck everywhere in it.
+    ///
+    /// Were the shapes separate at some deviation, a separating line there, moved back by the farthest motion of a
+    /// point, would bound the depth here by that motion.
+    #[must_use]
+    pub fn greatest(&self, pair: Pair, deviation: Deviation) -> f64 {
+        let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
+        separation_at(local, &self.poses[pair.link], piece, |corners, here| {
+            let room = here.distance + self.farthest_motion(pair, deviation);
+            room + STUCK_ROUNDING * self.scale(corners, local.radius(), piece)
+        })
+    }
+
+    /// Magnitude of the coordinates that enter a distance.
+    pub fn scale(&self, corners: &[Point], radius: f64, piece: &Convex) -> f64 {
+        let base = self.scene.arm().base;
+        base.coords.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)
+    }
+
+    /// Bound with the separating direction fixed in the plane: the link's corners move, and those of an obstacle that does.
+    fn least_in_plane(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
+        let Shapes { link, local, piece, drift } = shapes;
+        let curvature = self.curvature_in_plane(link, deviation);
+        let ahead = |p: &Point| n.dot(&p.coords);
+        let Some(drift) = drift else {
+            let line = piece.core().iter().map(ahead).fold(f64::INFINITY, f64::min);
+            let mut least = f64::INFINITY;
+            for (x, a) in corners.iter().zip(local.core()) {
+                let toward = deviation.linear(self.rates(link, *x, n));
+                least = least.min(line - ahead(x) - toward - curvature.of(*a) / 2.0);
+            }
+            return least;
+        };
+        // Both move by the same share of the span: what they do together does not count.
+        let mut least = f64::INFINITY;
+        for (x, a) in corners.iter().zip(local.core()) {
+            let rates = self.rates(link, *x, n);
+            for p in piece.core() {
+                let toward = deviation.linear_less(rates, n.dot(&drift.of(*p)));
+                least = least.min(ahead(p) - ahead(x) - toward - curvature.of(*a) / 2.0 - drift.beyond(*p));
+            }
+        }
+        least
+    }
+
+    /// Bound with the separating direction fixed in the link: the obstacle's corners move, with the opposite of the
+    /// velocity that a point of the link has in their place.
+    fn least_in_link(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
+        let Shapes { link, piece, .. } = shapes;
+        let line = corners.iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
+        let mut least = f64::INFINITY;
+        let curvature = self.curvature_in_link(link, deviation);
+        for p in piece.core() {
+            let gap = n.dot(&p.coords) - line;
+            let toward = deviation.linear(self.rates(link, *p, n));
+            least = least.min(gap - toward - curvature.of(*p) / 2.0);
+        }
+        least
+    }
+
+    /// Rate along `n`, for each joint, of the point of link `link` that is at `x` now.
+    fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
+        let arm = self.scene.arm();
+        let first = match arm.joints[0].joint_type {
+            _ if link == 2 => 0.0,
+            JointType::Revolute { sign } => sign * n.dot(&perpendicular(x - arm.base)),
+            JointType::Prismatic { direction } => n.dot(&direction),
+        };
+        let second = match arm.joints[1].joint_type {
+            _ if link == 0 => 0.0,
+            JointType::Revolute { sign } => sign * n.dot(&perpendicular(x - self.elbows[link - 1])),
+            JointType::Prismatic { direction } if link == 2 => n.dot(&direction),
+            JointType::Prismatic { direction } => n.dot(&(self.poses[0].rotation * direction)),
+        };
+        [first, second]
+    }
+
+    /// Of points of the link (link frame) in the plane.
+    pub fn curvature_in_plane(&self, link: usize, deviation: Deviation) -> Curvature {
+        use JointType::{Prismatic, Revolute};
+        let arm = self.scene.arm();
+        let [d1, d2] = deviation.each();
+        let none = Curvature { center: Point::origin(), shift: 0.0, factor: 0.0, constant: 0.0 };
+        match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
+            (0, Revolute { .. }, _) => Curvature { factor: d1, ..none },
+            (2, _, Revolute { .. }) => Curvature { factor: d2, ..none },
+            (2, _, Prismatic { .. }) => none,
+            (_, Revolute { .. }, Revolute { .. }) => {
+                Curvature { factor: turn_of_link_2(arm, deviation), constant: arm.offset.norm() * d1 * d1, ..none }
+            }
+            (_, Revolute { .. }, Prismatic { direction }) => {
+                let center = Point::from(-(arm.offset + direction * self.q[1]));
+                Curvature { center, shift: d2, factor: d1, constant: 2.0 * d1 * d2 }
+            }
+            (1, Prismatic { .. }, Revolute { .. }) => Curvature { factor: d2, ..none },
+            _ => none,
+        }
+    }
+
+    /// Of points of the plane, as seen from the link.
+    pub fn curvature_in_link(&self, link: usize, deviation: Deviation) -> Curvature {
+        use JointType::{Prismatic, Revolute};
+        let arm = self.scene.arm();
+        let [d1, d2] = deviation.each();
+        let about_base = Curvature { center: arm.base, shift: 0.0, factor: 0.0, constant: 0.0 };
+        match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
+            (2, _, Revolute { .. }) => Curvature { center: self.elbows[1], factor: d2, ..about_base },
+            (2, _, Prismatic { .. }) => about_base,
+            (0, Revolute { .. }, _) | (_, Revolute { .. }, Prismatic { .. }) => Curvature { factor: d1, ..about_base },
+            // y = R(-phi) (p - base) - R(-q2) offset
+            (_, Revolute { .. }, Revolute { .. }) => {
+                let constant = arm.offset.norm() * d2 * d2;
+                Curvature { factor: turn_of_link_2(arm, deviation), constant, ..about_base }
+            }
+            (1, Prismatic { .. }, Revolute { .. }) => {
+                Curvature { center: self.elbows[0], shift: d1, factor: d2, constant: 2.0 * d1 * d2 }
+            }
+            _ => about_base,
+        }
+    }
+
+    /// Bound on how far any point of the pair's link part moves.
+    pub fn farthest_motion(&self, pair: Pair, deviation: Deviation) -> f64 {
+        self.farthest_motion_of(pair.link, self.scene.part(pair), deviation)
+    }
+
+    fn farthest_motion_of(&self, link: usize, local: &Convex, deviation: Deviation) -> f64 {
+        use JointType::{Prismatic, Revolute};
+        let arm = self.scene.arm();
+        let reach = local.reach_from(Point::origin());
+        let [d1, d2] = deviation.each();
+        match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
+            (0, Revolute { .. }, _) => reach * d1,
+            (0, Prismatic { .. }, _) => d1,
+            (2, _, Revolute { .. }) => reach * d2,
+            (2, _, Prismatic { .. }) => d2,
+            (_, Revolute { .. }, Revolute { .. }) => arm.offset.norm() * d1 + reach * turn_of_link_2(arm, deviation),
+            (_, Revolute { .. }, Prismatic { direction }) => {
+                ((arm.offset + direction * self.q[1]).norm() + d2 + reach) * d1 + d2
+            }
+            (_, Prismatic { .. }, Revolute { .. }) => d1 + reach * d2,
+            (_, Prismatic { direction: one }, Prismatic { direction: two }) => match deviation {
+                Deviation::Along(d) => (one * d[0] + two * d[1]).norm(),
+                Deviation::Box(_) => d1 + d2,
+                Deviation::Tube(d, h) => (one * d[0] + two * d[1]).norm() + h[0] + h[1],
+            },
+        }
+    }
+}
+
+/// A disc around a shape.
+fn disc(shape: &Convex) -> (Point, f64) {
+    let core = shape.core();
+    let center = Point::from(core.iter().map(|p| p.coords).sum::<Vector>() / core.len() as f64);
+    let extent2 = core.iter().map(|p| (p - center).norm_squared()).fold(0.0, f64::max);
+    (center, extent2.sqrt() + shape.radius())
+}
+
+/// Greatest turn of link 2 against the plane when both joints turn.
+fn turn_of_link_2(arm: &Arm, deviation: Deviation) -> f64 {
+    let sign = |k: usize| match arm.joints[k].joint_type {
+        JointType::Revolute { sign } => sign,
+        JointType::Prismatic { .. } => 0.0,
+    };
+    deviation.linear([sign(0), sign(1)])
+}

@@ -1,0 +1,43 @@
+//! The judge: continuous collision checks of planned motions, and of proofs that there is none.
+//!
+//! It works on the scene's exact outlines and knows neither planners nor C-obstacles, so that a fault of a planner or of the search
+//! for proofs cannot hide here.
+//!
+//! - [`certify`] judges a path by bisection: [`Deviation`] bounds how much closer two shapes can come along a segment. Only `certify`
+//!   makes a [`CertifiedPath`].
+//! - [`blend`] cuts the corners of a certified path by parabolas, each as large as is certified within the clearance. A
+//!   [`CertifiedCurve`] is the straight path, its blends, and the least distance along all of both.
+//! - [`Disconnection::checked`] judges a proof that there is no path. It joins what the collision boxes leave by petgraph's
+//!   union-find.
+//!
+//! ```
+//! use cplan_core::check::{Rejection, certify};
+//! use cplan_core::model::{Arm, Obstacle, Scene, Workspace};
+//! use cplan_core::space::{Configuration, Path};
+//!
+//! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;
+//! let path = |q2: f64| Path::new(vec![Configuration::new(-0.6, q2), Configuration::new(0.6, q2)]);
+//! // Folded, the arm passes below the post: all of the continuous motion does. Stretched, it does not.
+//! assert!(certify(&scene, path(2.5), 0.0).is_ok_and(|certified| certified.clearance() > 0.3));
+//! assert!(matches!(certify(&scene, path(0.0), 0.0), Err(Rejection::TooClose(_))));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod blends;
+mod cell;
+mod deviation;
+mod motion;
+mod proof;
+mod span;
+mod vicinity;
+mod verdict;
+
+pub use blends::{CertifiedCurve, Rounding, blend};
+pub use cell::Cell;
+pub use deviation::{Bounded, Deviation, Posture, STUCK_ROUNDING};
+pub use motion::{CertifiedPath, Nearest, Rejection, StraightMotions, certify};
+pub use proof::{CheckedProof, Disconnection, ProofBox, ProofError, ProofFormatError, StuckBox, read_proof};
+pub use span::{Place, Span};
+pub use verdict::Verdict;
+pub use vicinity::Vicinity;

@@ -1,0 +1,312 @@
+//! Continuous collision check of a path.
+
+use super::blends::CertifiedCurve;
+use super::deviation::{Deviation, Posture};
+use super::span::along;
+use super::vicinity::Vicinity;
+use crate::model::{Contact, Pair, Scene};
+use crate::space::{Blend, Configuration, HAIR, Path, Piece};
+use cplan_interrupt::checkpoint;
+
+/// The proven clearance is at least this share of the true one: below it, pieces of the path are looked at again in
+/// halves. Nearer to 1 costs more evaluations, a few more for every halving of the gap.
+const TIGHTNESS: f64 = 0.9;
+
+/// Looks at pairs and pieces of a path before giving up: some seconds' worth, ...
+const MAX_EVALUATIONS: usize = 5_000_000;
+/// ... and some for each straight piece: paths through mazes have hundreds of thousands.
+const EVALUATIONS_PER_PIECE: usize = 500;
+
+/// Rounding of a configuration on a segment, relative to the larger of its ends: three operations. It matters where joints on
+/// circles are many turns from zero, where doubles lie far apart.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Parts of a curve whose postures all pairs share: its halves' halves' halves, and the three before.
+const SHARED: usize = 16;
+
+/// A pair that keeps more than so many times the least distance seen is not looked at: the clearance proven is that of a
+/// nearer one. Above the inverse of [`TIGHTNESS`], with room for rounding.
+const BEYOND: f64 = 2.0;
+
+/// A path whose whole continuous motion is proven to be within the joint limits and to keep its clearance. Only
+/// [`certify`] makes one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertifiedPath {
+    path: Path,
+    clearance: f64,
+    nearest: Option<Nearest>,
+}
+
+/// Where a path comes nearest to an obstacle, as far as was looked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// The configuration at which it comes so near.
+    pub at: Configuration,
+    /// The shapes and their distance there, an upper bound on the true clearance.
+    pub contact: Contact,
+}
+
+impl CertifiedPath {
+    /// The path that was shown to be free.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The straight path of a curve, whose clearance is that of the legs up to their corners, too.
+    pub(super) fn part_of(curve: &CertifiedCurve) -> Self {
+        Self { path: curve.curve().path().clone(), clearance: curve.clearance(), nearest: curve.nearest() }
+    }
+
+    /// The part between two distances along it, backwards if the first is the greater: part of what is certified is, and a way back as well as the
+    /// way there. Its clearance is at least that of the whole, which is what is told of it.
+    #[must_use]
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        Self { path: self.path.part(from, to), ..self.clone() }
+    }
+
+    pub(super) fn into_path(self) -> Path {
+        self.path
+    }
+
+    /// Proven lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if
+    /// nothing can meet. Positive, at least the clearance asked for, and at least 0.9 of the true value unless the
+    /// clearance asked for is nearer to it.
+    #[must_use]
+    pub fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
+    /// Where it comes nearest; none if nothing can meet.
+    #[must_use]
+    pub fn nearest(&self) -> Option<Nearest> {
+        self.nearest
+    }
+}
+
+/// Why a path is not certified.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rejection {
+    /// A waypoint is outside a joint's limits.
+    OutOfLimits {
+        /// Index of the waypoint.
+        waypoint: usize,
+        /// 0 or 1.
+        joint: usize,
+    },
+    /// At this configuration on the path the shapes touch, overlap, or are nearer than the clearance to keep.
+    TooClose(Nearest),
+    /// The search ran out here: nearer to the clearance to keep than can be told apart.
+    Undecided(Nearest),
+}
+
+/// Checks the whole motion along `path`, straight in joint space between waypoints: limits, and a distance of more
+/// than zero and at least `clearance` metres between every pair that can meet.
+///
+/// For every pair and segment the lower bound of [`Posture::bound`] about the middle decides, else both halves are
+/// looked at. Ends because a motion that keeps more than the clearance does so by a positive amount; the number of
+/// halvings grows like the square root of its inverse.
+///
+/// # Errors
+/// [`Rejection`]; `TooClose` is a proof that the path fails, the others are not.
+pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPath, Rejection> {
+    let topology = scene.arm().topology();
+    for (waypoint, q) in path.waypoints().iter().enumerate() {
+        if let Some(joint) = (0..2).find(|&k| !topology.ranges[k].contains(q[k])) {
+            return Err(Rejection::OutOfLimits { waypoint, joint });
+        }
+    }
+    let vicinity = Vicinity::new(scene);
+    let budget = MAX_EVALUATIONS + EVALUATIONS_PER_PIECE * path.waypoints().len();
+    let mut search = Search::new(scene, clearance, budget);
+    for &q in path.waypoints() {
+        let posture = Posture::new(scene, q);
+        let here = Deviation::Box([0.0, 0.0]);
+        vicinity.near(&posture, here, search.seen(), |pair| {
+            // What is farther off than the nearest so far is of no interest.
+            if posture.apart(pair, here) < search.seen() {
+                search.see(q, Contact { pair, separation: posture.here(pair) })?;
+            }
+            Ok(())
+        })?;
+    }
+    // A path that stays where it is has no segment, yet a clearance.
+    let rest = path.waypoints().len() == 1;
+    for (from, to) in path.segments().chain(rest.then(|| (path.start(), path.start()))) {
+        search.segment(&vicinity, from, to)?;
+    }
+    Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
+}
+
+/// Many straight motions in one scene, of each of which it is only asked whether it keeps the clearance: a small part of what [`certify`]
+/// costs, since nobody asks how much more it keeps.
+pub struct StraightMotions<'a> {
+    scene: &'a Scene,
+    vicinity: Vicinity<'a>,
+    clearance: f64,
+}
+
+impl<'a> StraightMotions<'a> {
+    /// Those that keep more than zero and at least `clearance` metres. `O(n log n)` in the pairs that can meet.
+    #[must_use]
+    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+        Self { scene, vicinity: Vicinity::new(scene), clearance }
+    }
+
+    /// Whether a motion is shown to be free, within the joint limits.
+    #[must_use]
+    pub fn is_free(&self, from: Configuration, to: Configuration) -> bool {
+        let topology = self.scene.arm().topology();
+        let within = [from, to].iter().all(|q| (0..2).all(|k| topology.ranges[k].contains(q[k])));
+        within
+            && Search::deciding(self.scene, self.clearance, MAX_EVALUATIONS).segment(&self.vicinity, from, to).is_ok()
+    }
+}
+
+/// The part of a segment that is so many shares of it to either side of a place, and what rounding makes of that place.
+fn part_of(from: Configuration, to: Configuration, half: f64) -> Deviation {
+    let rounded = [0, 1].map(|k| ROUNDING * from[k].abs().max(to[k].abs()));
+    Deviation::Tube((to - from) * half, rounded)
+}
+
+/// What is known while pieces of a motion are looked at.
+#[derive(Debug, Clone)]
+pub(super) struct Search<'a> {
+    scene: &'a Scene,
+    required: f64,
+    /// A bound is accepted if it is at least this share of the least distance seen.
+    tightness: f64,
+    /// Least of the bounds that were accepted.
+    pub(super) proven: f64,
+    /// Least distance seen.
+    pub(super) nearest: Option<Nearest>,
+    /// Looks that are left.
+    budget: usize,
+    /// Parts of a curve as (number, middle, half width) of the parameter, the first one on top. The whole has number 1, the halves of `n` have
+    /// `2 n` and `2 n + 1`.
+    open: Vec<(usize, f64, f64)>,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(scene: &'a Scene, required: f64, budget: usize) -> Self {
+        Self { scene, required, tightness: TIGHTNESS, proven: f64::INFINITY, nearest: None, budget, open: Vec::new() }
+    }
+
+    /// A search that asks only whether the distance required is kept, not how much more.
+    pub(super) fn deciding(scene: &'a Scene, required: f64, budget: usize) -> Self {
+        Self { tightness: 0.0, ..Self::new(scene, required, budget) }
+    }
+
+    /// A search that goes on from what is known of a motion.
+    pub(super) fn beside(known: &CertifiedCurve, scene: &'a Scene, required: f64, budget: usize) -> Self {
+        let (proven, nearest) = (known.clearance(), known.nearest());
+        Self { scene, required, tightness: TIGHTNESS, proven, nearest, budget, open: Vec::new() }
+    }
+
+    /// Takes note of a distance on the path.
+    fn see(&mut self, at: Configuration, contact: Contact) -> Result<(), Rejection> {
+        let distance = contact.separation.distance;
+        if self.nearest.is_none_or(|n| distance < n.contact.separation.distance) {
+            self.nearest = Some(Nearest { at, contact });
+        }
+        if distance <= 0.0 || distance < self.required {
+            return Err(Rejection::TooClose(Nearest { at, contact }));
+        }
+        Ok(())
+    }
+
+    /// Least distance seen.
+    fn seen(&self) -> f64 {
+        self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
+    }
+
+    /// What a bound has to reach to be accepted, once this distance is seen, too.
+    fn target(&self, distance: f64) -> f64 {
+        if self.tightness > 0.0 {
+            (self.tightness * self.seen().min(distance)).max(self.required)
+        } else {
+            self.required
+        }
+    }
+
+    /// Pairs that keep more than this need no look.
+    fn matters(&self) -> f64 {
+        if self.tightness > 0.0 { BEYOND * self.target(f64::INFINITY) } else { self.required }
+    }
+
+    fn segment(&mut self, vicinity: &Vicinity, from: Configuration, to: Configuration) -> Result<(), Rejection> {
+        self.curve(vicinity, |middle, half| (from + (to - from) * middle, part_of(from, to, half)))
+    }
+
+    /// A blend and all that is no farther off it than a hair.
+    pub(super) fn blend(&mut self, vicinity: &Vicinity, blend: &Blend) -> Result<(), Rejection> {
+        self.piece(vicinity, &blend.piece(), HAIR * blend.radius())
+    }
+
+    /// A piece of a motion and all that is in each joint no more than `beside` off it.
+    pub(super) fn piece(&mut self, vicinity: &Vicinity, piece: &Piece, beside: f64) -> Result<(), Rejection> {
+        self.curve(vicinity, |middle: f64, half: f64| along(piece, middle - half, middle + half, beside))
+    }
+
+    /// A curve given by what its part about a middle, so and so much to either side, is: a configuration, and the
+    /// deviations from it. The parameter goes from 0 to 1.
+    fn curve(
+        &mut self,
+        vicinity: &Vicinity,
+        part: impl Fn(f64, f64) -> (Configuration, Deviation),
+    ) -> Result<(), Rejection> {
+        let scene = self.scene;
+        let posed = |middle: f64, half: f64| {
+            let (at, deviation) = part(middle, half);
+            (Posture::new(scene, at), deviation)
+        };
+        let whole = posed(0.5, 0.5);
+        let mut shared = [const { None }; SHARED];
+        vicinity.near(&whole.0, whole.1, self.matters(), |pair| self.pair(pair, &whole, &mut shared, posed))
+    }
+
+    /// One pair along a curve. Its first parts' postures are those of other pairs, too.
+    fn pair(
+        &mut self,
+        pair: Pair,
+        whole: &(Posture<'a>, Deviation),
+        shared: &mut [Option<(Posture<'a>, Deviation)>; SHARED],
+        posed: impl Fn(f64, f64) -> (Posture<'a>, Deviation),
+    ) -> Result<(), Rejection> {
+        self.open.clear();
+        self.open.push((1, 0.5, 0.5));
+        while let Some((number, middle, half)) = self.open.pop() {
+            checkpoint();
+            let own;
+            let (posture, deviation) = match shared.get_mut(number) {
+                _ if number == 1 => whole,
+                Some(known) => known.get_or_insert_with(|| posed(middle, half)),
+                None => {
+                    own = posed(middle, half);
+                    &own
+                }
+            };
+            let (at, deviation) = (posture.configuration(), *deviation);
+            self.budget = self.budget.saturating_sub(1);
+            let apart = posture.apart(pair, deviation);
+            if apart > 0.0 && apart >= self.target(f64::INFINITY) {
+                self.proven = self.proven.min(apart);
+                continue;
+            }
+            let bounded = posture.bound_up_to(pair, deviation, |distance| self.target(distance));
+            let contact = Contact { pair, separation: bounded.here };
+            self.see(at, contact)?;
+            if bounded.least > 0.0 && bounded.least >= self.target(f64::INFINITY) {
+                self.proven = self.proven.min(bounded.least);
+            } else if self.budget == 0 || half < f64::EPSILON {
+                return Err(Rejection::Undecided(Nearest { at, contact }));
+            } else {
+                let quarter = half / 2.0;
+                let first = number.saturating_mul(2);
+                self.open.push((first.saturating_add(1), middle + quarter, quarter));
+                self.open.push((first, middle - quarter, quarter));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,193 @@
+//! Proofs that there is no path: boxes of colliding configurations that separate the start from all goals.
+//!
+//! A [`Disconnection`] is a claim, which anybody may make; a [`CheckedProof`] is one that holds, and only
+//! [`Disconnection::checked`] makes it. The check shares no code with the search that makes claims: depths come from the
+//! Minkowski difference, motions from chords, and that the boxes separate start and goals is decided by a sweep over what
+//! they leave of the domain.
+
+mod json;
+mod separation;
+
+pub use json::{ProofBox, ProofFormatError, read_proof};
+
+use super::cell::Cell;
+use crate::model::{JointType, Pair, Scene};
+use crate::space::{Configuration, GoalSet, Topology};
+use cplan_geometry::{Vector, penetration_depth};
+use cplan_interrupt::checkpoint;
+use separation::not_separated;
+use serde::{Serialize, Serializer};
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Share of the lengths involved by which a depth must exceed the motion, far above the rounding of either.
+const ROUNDING: f64 = 1e-12;
+
+/// A box of configurations in which one and the same pair is too near everywhere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StuckBox {
+    /// Which configurations.
+    pub cell: Cell,
+    /// Which shapes.
+    pub pair: Pair,
+}
+
+impl StuckBox {
+    /// Whether it is what it says, with room for rounding.
+    #[must_use]
+    pub fn holds(&self, scene: &Scene, clearance: f64) -> bool {
+        is_stuck(&scene.inner(), 0, self, clearance).is_ok()
+    }
+}
+
+/// The claim that no motion leads from the start to any goal: what the stuck boxes leave of the domain does not connect
+/// them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Disconnection {
+    stuck: Vec<StuckBox>,
+}
+
+/// A proof that no motion leads from the start to any goal. Only [`Disconnection::checked`] makes one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CheckedProof {
+    stuck: Arc<[StuckBox]>,
+}
+
+impl CheckedProof {
+    /// The boxes that separate the start from all goals.
+    #[must_use]
+    pub fn stuck(&self) -> &[StuckBox] {
+        &self.stuck
+    }
+}
+
+impl Serialize for CheckedProof {
+    /// As a list of [`ProofBox`].
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.stuck.iter().map(ProofBox::from))
+    }
+}
+
+/// Why a claimed proof proves nothing.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ProofError {
+    /// The box names shapes that cannot meet, or do not exist.
+    #[error("stuck box {0} names a pair of shapes that the scene does not have")]
+    UnknownPair(usize),
+    /// The box is empty, or not within the domain.
+    #[error("stuck box {0} is no part of the configuration space")]
+    NotInDomain(usize),
+    /// Its shapes could come apart within the box.
+    #[error(
+        "stuck box {index}: the shapes overlap by {depth:e} m in its middle, but can move by {motion:e} m within it"
+    )]
+    NotStuck {
+        /// Which box.
+        index: usize,
+        /// Penetration depth in the middle, clearance included, metres.
+        depth: f64,
+        /// How far points of the link can move from there, metres.
+        motion: f64,
+    },
+    /// The start and some of this piece of the goals lie in one connected part of what the boxes leave.
+    #[error("the stuck boxes do not separate the start from goal {0}")]
+    NotSeparated(usize),
+}
+
+impl Disconnection {
+    /// The claim that these boxes prove it.
+    #[must_use]
+    pub fn new(stuck: Vec<StuckBox>) -> Self {
+        Self { stuck }
+    }
+
+    /// The boxes.
+    #[must_use]
+    pub fn stuck(&self) -> &[StuckBox] {
+        &self.stuck
+    }
+
+    /// The same of a scene in which the pairs are others: those that `pair` names.
+    pub fn of_pairs(mut self, pair: impl Fn(Pair) -> Pair) -> Self {
+        self.stuck.iter_mut().for_each(|stuck| stuck.pair = pair(stuck.pair));
+        self
+    }
+
+    /// Checks the claim, wherever it comes from: that in each of the boxes its pair is nearer than `clearance` (or touches),
+    /// and that together they separate the start from all goals. `O(n log n)` for `n` boxes, times the number of boxes above
+    /// one another.
+    ///
+    /// # Errors
+    /// The first [`ProofError`].
+    pub fn checked(
+        self,
+        scene: &Scene,
+        start: Configuration,
+        goals: &GoalSet,
+        clearance: f64,
+    ) -> Result<CheckedProof, ProofError> {
+        let (scene, topology) = (&*scene.inner(), scene.arm().topology());
+        for (index, stuck) in self.stuck.iter().enumerate() {
+            is_in_space(scene, &topology, index, stuck)?;
+        }
+        // What does not separate is found out in less time than what does not overlap.
+        if let Some(goal) = not_separated(&topology, &self.stuck, start, goals) {
+            return Err(ProofError::NotSeparated(goal));
+        }
+        for (index, stuck) in self.stuck.iter().enumerate() {
+            is_stuck(scene, index, stuck, clearance)?;
+            checkpoint();
+        }
+        Ok(CheckedProof { stuck: self.stuck.into() })
+    }
+}
+
+/// Whether the box is part of the domain, and its shapes can meet.
+fn is_in_space(scene: &Scene, topology: &Topology, index: usize, stuck: &StuckBox) -> Result<(), ProofError> {
+    let cell = &stuck.cell;
+    for k in 0..2 {
+        let (lower, upper) = topology.ranges[k].domain();
+        if !(lower <= cell.lower[k] && cell.lower[k] < cell.upper[k] && cell.upper[k] <= upper) {
+            return Err(ProofError::NotInDomain(index));
+        }
+    }
+    scene.pairs().binary_search(&stuck.pair).map(|_| ()).map_err(|_| ProofError::UnknownPair(index))
+}
+
+/// Whether its shapes are nearer than `clearance` all over the box.
+fn is_stuck(scene: &Scene, index: usize, stuck: &StuckBox, clearance: f64) -> Result<(), ProofError> {
+    let cell = &stuck.cell;
+    let middle = Configuration::from_fn(|k, _| (cell.lower[k] + cell.upper[k]) / 2.0);
+    // The middle is rounded: the farther of the two ends counts.
+    let half = [0, 1].map(|k| (cell.upper[k] - middle[k]).max(middle[k] - cell.lower[k]));
+    let part = scene.part(stuck.pair).at(&scene.arm().pose(stuck.pair.link, middle));
+    let piece = scene.piece(stuck.pair).grown(clearance);
+    let depth = penetration_depth(&part, &piece);
+    let motion = farthest(scene, stuck, middle, half);
+    let scale = part.reach_from(scene.arm().base) + piece.reach_from(scene.arm().base) + scene.arm().base.coords.norm();
+    if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofError::NotStuck { index, depth, motion }) }
+}
+
+/// Farthest that a corner of the link's part can move from where it is at `q` while each joint moves by at most `half`:
+/// a turn by `t` about a point at distance `r` moves by the chord `2 r sin(t / 2)`.
+fn farthest(scene: &Scene, stuck: &StuckBox, q: Configuration, half: [f64; 2]) -> f64 {
+    let arm = scene.arm();
+    let chord = |angle: f64| 2.0 * (angle.min(std::f64::consts::PI) / 2.0).sin();
+    let of_corner = |a: Vector| match (stuck.pair.link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
+        (0, JointType::Revolute { .. }, _) => a.norm() * chord(half[0]),
+        (0, JointType::Prismatic { .. }, _) => half[0],
+        (2, _, JointType::Revolute { .. }) => a.norm() * chord(half[1]),
+        (2, _, JointType::Prismatic { .. }) => half[1],
+        (_, JointType::Revolute { .. }, JointType::Revolute { .. }) => {
+            arm.offset.norm() * chord(half[0]) + a.norm() * chord(half[0] + half[1])
+        }
+        (_, JointType::Revolute { .. }, JointType::Prismatic { direction }) => {
+            let at = |slide: f64| (arm.offset + direction * (q[1] + slide) + a).norm();
+            // Joint 2 first, then the turn about the base at the farther of the two ends: distance is convex.
+            half[1] + at(half[1]).max(at(-half[1])) * chord(half[0])
+        }
+        (_, JointType::Prismatic { .. }, JointType::Revolute { .. }) => half[0] + a.norm() * chord(half[1]),
+        (_, JointType::Prismatic { .. }, JointType::Prismatic { .. }) => half[0] + half[1],
+    };
+    scene.part(stuck.pair).core().iter().map(|p| of_corner(p.coords)).fold(0.0, f64::max)
+}

@@ -1,0 +1,52 @@
+//! Which obstacles are near a part of the arm at all.
+
+use super::deviation::{Deviation, Posture};
+use crate::model::{Pair, Scene};
+use cplan_geometry::{BoxTree, Vector};
+use std::borrow::Cow;
+
+/// The pairs of a scene, by the place of the obstacle's piece.
+pub struct Vicinity<'a> {
+    pairs: Cow<'a, [Pair]>,
+    /// Stretches of pairs with the same part, and the boxes of their pieces.
+    parts: Vec<(usize, BoxTree)>,
+}
+
+impl<'a> Vicinity<'a> {
+    /// All of them. `O(n log n)`.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self::of(scene, Cow::Borrowed(scene.pairs()))
+    }
+
+    /// Some of them, in their order.
+    pub fn of(scene: &Scene, pairs: Cow<'a, [Pair]>) -> Self {
+        let mut from = 0;
+        let stretches = pairs.chunk_by(|a, b| (a.link, a.part) == (b.link, b.part)).map(|stretch| {
+            let first = from;
+            from += stretch.len();
+            (first, BoxTree::new(stretch.iter().map(|&pair| scene.piece(pair).bounds()).collect()))
+        });
+        let parts = stretches.collect();
+        Self { pairs, parts }
+    }
+
+    /// Calls `f` with pairs in their order: all that come within `distance` of each other while the configuration
+    /// deviates from the posture, and some others. Ends with the first error.
+    pub fn near<E>(
+        &self,
+        posture: &Posture,
+        deviation: Deviation,
+        distance: f64,
+        mut f: impl FnMut(Pair) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut found = Vec::new();
+        for (first, tree) in &self.parts {
+            let (center, radius) = posture.place(self.pairs[*first], deviation);
+            let reach = Vector::repeat(radius + distance);
+            found.clear();
+            tree.meeting(&[center - reach, center + reach], &mut found);
+            found.iter().try_for_each(|&k| f(self.pairs[first + k as usize]))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,148 @@
+//! Proof that a straight motion between two configurations keeps a link part away from an obstacle piece.
+
+use crate::model::{Arm, JointType};
+use crate::space::Configuration;
+use cplan_geometry::{Convex, Pose, Separation, Vector, separation};
+use std::f64::consts::TAU;
+
+/// A configuration of link 2, with the direction along which part and piece are separated there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Contact {
+    /// Unwrapped joint values.
+    pub q: Configuration,
+    pose: Pose,
+    direction: Vector,
+}
+
+impl Contact {
+    /// The same with joint 2, a turning one, some whole turns further.
+    pub fn turned(&self, turns: f64) -> Self {
+        Self { q: Configuration::new(self.q[0], self.q[1] + turns * TAU), ..*self }
+    }
+}
+
+/// A part of link 2 and an obstacle piece, in their motion relative to each other.
+///
+/// The bound of [`PairMotion::least_distance`]. The distance of two convex sets is the greatest gap over all
+/// directions, so any choice of a direction at every point of the motion gives a lower bound. Take the unit directions
+/// `m`, `n` of the greatest gap at both ends, `c = m . n`, and between them the normalised `(1-t) m + t n`. For a
+/// corner `a` of the part and `b` of the piece the offset `y = b - a` is a smooth function of `t`, at most
+/// `k t(1-t)/2` from the straight line between its values at the ends, where `k` bounds its second derivative. With
+/// `G` the smaller gap at the ends and `D = 2 G - (gap at start along n) - (gap at end along m)`, at `x = t(1-t)`
+///
+/// ```text
+/// gap >= (G - x D) / sqrt(1 - 2x(1-c)) - x k/2  >=  (G - x D)(1 + x(1-c)) - x k/2,
+/// ```
+///
+/// which is concave in `x` for `D >= 0`, hence at least the lesser of its values at `x = 0` and `x = 1/4`. The same
+/// holds with all vectors in the link's frame, where the corners of the piece move instead. Of the three contacts, the
+/// first view is sharp for a corner of the link on an obstacle's side (`m = n`, `D = 0`), the second for an obstacle's
+/// corner on a side of the link, both for two corners.
+#[derive(Debug, Clone)]
+pub(super) struct PairMotion<'a> {
+    arm: &'a Arm,
+    part: &'a Convex,
+    piece: &'a Convex,
+    /// Greatest distance of a corner of the part's core from link 2's origin.
+    part_reach: f64,
+    /// Greatest distance of a corner of the piece's core from the base.
+    piece_reach: f64,
+}
+
+impl<'a> PairMotion<'a> {
+    /// The pair; `part` in link 2's frame.
+    pub fn new(arm: &'a Arm, part: &'a Convex, piece: &'a Convex) -> Self {
+        let part_reach = part.core().iter().map(|a| a.coords.norm()).fold(0.0, f64::max);
+        let piece_reach = piece.core().iter().map(|b| (b - arm.base).norm()).fold(0.0, f64::max);
+        Self { arm, part, piece, part_reach, piece_reach }
+    }
+
+    /// Bound on the change of the pair's distance per unit of `q1` at fixed `q2`.
+    ///
+    /// For a turning joint 1 as seen from link 1: the piece turns about the base. When joint 2 turns too, link 2 does so
+    /// within a fixed distance from the base, and the lesser of both counts.
+    pub fn speed(&self) -> f64 {
+        match (self.arm.joints[0].joint_type, self.arm.joints[1].joint_type) {
+            (JointType::Prismatic { .. }, _) => 1.0,
+            (JointType::Revolute { .. }, JointType::Prismatic { .. }) => self.piece_reach,
+            (JointType::Revolute { .. }, JointType::Revolute { .. }) => {
+                self.piece_reach.min(self.arm.offset.norm() + self.part_reach)
+            }
+        }
+    }
+
+    /// Signed distance of the pair at `q`.
+    pub fn separation(&self, q: Configuration) -> Separation {
+        separation(&self.part.at(&self.arm.pose(1, q)), self.piece)
+    }
+
+    /// The configuration `q` as an end of a motion.
+    pub fn contact(&self, q: Configuration) -> Contact {
+        let pose = self.arm.pose(1, q);
+        Contact { q, pose, direction: separation(&self.part.at(&pose), self.piece).direction }
+    }
+
+    /// A lower bound on the signed distance of the pair all along the straight motion from `from` to `to`; minus
+    /// infinity when the argument gives none.
+    pub fn least_distance(&self, from: &Contact, to: &Contact) -> f64 {
+        let ends = [self.gap(&from.pose, from.direction), self.gap(&to.pose, to.direction)];
+        let least = ends[0].min(ends[1]);
+        let radii = self.part.radius() + self.piece.radius();
+        let [world, link] = self.curvatures(from.q, to.q);
+
+        let across = [self.gap(&from.pose, to.direction), self.gap(&to.pose, from.direction)];
+        let seen_from_world = bound(least, across, from.direction.dot(&to.direction), world);
+
+        // The directions carried along by the link's rotation.
+        let turn = to.pose.rotation * from.pose.rotation.inverse();
+        let (carried_on, carried_back) = (turn * from.direction, turn.inverse() * to.direction);
+        let across = [self.gap(&from.pose, carried_back), self.gap(&to.pose, carried_on)];
+        let seen_from_link = bound(least, across, carried_on.dot(&to.direction), link);
+
+        seen_from_world.max(seen_from_link) - radii
+    }
+
+    /// Gap between the cores along the unit direction `n` (from part to piece) with the link at `pose`.
+    fn gap(&self, pose: &Pose, n: Vector) -> f64 {
+        let in_link = pose.rotation.inverse() * n;
+        let part = self.part.core().iter().map(|a| in_link.dot(&a.coords)).fold(f64::NEG_INFINITY, f64::max);
+        let piece = self.piece.core().iter().map(|b| n.dot(&b.coords)).fold(f64::INFINITY, f64::min);
+        piece - part - n.dot(&pose.translation.vector)
+    }
+
+    /// Bounds on the second derivative, along the straight motion over a unit of time, of a corner of the part seen from
+    /// the world, and of a corner of the piece seen from the link.
+    pub fn curvatures(&self, from: Configuration, to: Configuration) -> [f64; 2] {
+        let d = to - from;
+        let (offset, part, piece) = (self.arm.offset, self.part_reach, self.piece_reach);
+        match (self.arm.joints[0].joint_type, self.arm.joints[1].joint_type) {
+            (JointType::Revolute { sign: s1 }, JointType::Revolute { sign: s2 }) => {
+                let turn2 = (s1 * d[0] + s2 * d[1]).powi(2);
+                let offset = offset.norm();
+                [offset * d[0] * d[0] + part * turn2, piece * turn2 + offset * d[1] * d[1]]
+            }
+            (JointType::Prismatic { direction }, JointType::Revolute { .. }) => {
+                let elbow = |q1: f64| (offset + q1 * direction).norm();
+                let arm = piece + elbow(from[0]).max(elbow(to[0]));
+                [part * d[1] * d[1], arm * d[1] * d[1] + 2.0 * (d[0] * d[1]).abs()]
+            }
+            (JointType::Revolute { .. }, JointType::Prismatic { direction }) => {
+                let origin = |q2: f64| (offset + q2 * direction).norm();
+                let arm = part + origin(from[1]).max(origin(to[1]));
+                [arm * d[0] * d[0] + 2.0 * (d[0] * d[1]).abs(), piece * d[0] * d[0]]
+            }
+            (JointType::Prismatic { .. }, JointType::Prismatic { .. }) => [0.0, 0.0],
+        }
+    }
+}
+
+/// The bound of [`PairMotion`]; `least` is its `G`, `across` the gaps at start and end along each other's direction.
+fn bound(least: f64, across: [f64; 2], cosine: f64, curvature: f64) -> f64 {
+    // The directions at the ends are the best ones there, so this is negative only by rounding.
+    let defect = (2.0 * least - across[0] - across[1]).max(0.0);
+    let middle = least - defect / 4.0;
+    if middle <= 0.0 || cosine <= 0.0 {
+        return f64::NEG_INFINITY;
+    }
+    least.min(middle * (1.0 + (1.0 - cosine).max(0.0) / 4.0) - curvature / 8.0)
+}

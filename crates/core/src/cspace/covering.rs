@@ -1,0 +1,327 @@
+//! Many small pieces covered by few: cells of a lattice that they meet, joined to convex polygons.
+
+use cplan_geometry::{Convex, Point, farthest, hull};
+use cplan_interrupt::checkpoint;
+
+/// Pieces are taken to be larger than they are by this share of the coordinates: more than rounding takes off cells.
+const ROUNDING: f64 = 1e-13;
+
+/// Rows of cells that all pieces cross together, at most; more would take more time than they save.
+const MOST_CROSSINGS: f64 = 4e7;
+
+/// Cells of a row, from the first to the last.
+type Run = [i64; 2];
+
+/// Convex polygons whose union holds all of `pieces`, none of which may be rounded, and reaches no farther than `within`
+/// beyond them. None where it would take too much time.
+///
+/// Half of `within` is the diagonal of a cell: what is in a cell that a piece meets is that near to it. Runs of such cells in
+/// rows above each other make a stack; a stack is cut into convex polygons that reach no farther than the other half beyond
+/// its cells. However many pieces there are, no more polygons come of them than there are runs, which is as many as cells
+/// along the outline. `O(n log n)` for `n` crossings of pieces with rows.
+pub(super) fn covering(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
+    debug_assert!(pieces.iter().all(|piece| piece.radius() == 0.0), "pieces with corners");
+    let lattice = Lattice::new(pieces, within / 2.0)?;
+    let mut polygons = Vec::new();
+    for stack in stacks(lattice.runs(pieces)) {
+        checkpoint();
+        lattice.convex(&stack, within / 2.0, &mut polygons);
+    }
+    Some(polygons)
+}
+
+/// Square cells, by column and row.
+struct Lattice {
+    origin: Point,
+    /// Side of a cell, metres.
+    side: f64,
+    rows: usize,
+    /// By how much pieces are taken to be larger, metres.
+    pad: f64,
+}
+
+impl Lattice {
+    /// Of cells with this diagonal, over all pieces.
+    fn new(pieces: &[Convex], diagonal: f64) -> Option<Self> {
+        let first = pieces.first()?.bounds();
+        let [lower, upper] = pieces.iter().map(Convex::bounds).fold(first, |[l, u], b| [l.inf(&b[0]), u.sup(&b[1])]);
+        let largest = lower.coords.amax().max(upper.coords.amax());
+        let (side, pad) = (diagonal / 2_f64.sqrt() * (1.0 - 1e-9), ROUNDING * largest);
+        let height = |[lower, upper]: [Point; 2]| (upper.y - lower.y) / side + 2.0;
+        let crossings: f64 = pieces.iter().map(|piece| height(piece.bounds())).sum();
+        let few = crossings <= MOST_CROSSINGS && (upper.x - lower.x) / side <= MOST_CROSSINGS;
+        // Cells that are not far larger than the rounding would not hold what they should.
+        (few && pad < side / 1024.0).then(|| {
+            let pads = cplan_geometry::Vector::repeat(pad);
+            let rows = height([lower, upper]) as usize + 1;
+            Self { origin: lower - pads, side, rows, pad }
+        })
+    }
+
+    fn column(&self, x: f64) -> i64 {
+        ((x - self.origin.x) / self.side).floor() as i64
+    }
+
+    fn row(&self, y: f64) -> usize {
+        (((y - self.origin.y) / self.side).floor().max(0.0) as usize).min(self.rows - 1)
+    }
+
+    fn corner(&self, column: i64, row: usize) -> Point {
+        Point::new(self.origin.x + column as f64 * self.side, self.origin.y + row as f64 * self.side)
+    }
+
+    /// Of each row the runs of cells that pieces meet: disjoint, not adjacent, ascending.
+    fn runs(&self, pieces: &[Convex]) -> Vec<Vec<Run>> {
+        let mut rows = vec![Vec::new(); self.rows];
+        // When a row has so many runs they are merged, so that they never take much more memory than they are worth.
+        let mut full = vec![64; self.rows];
+        for piece in pieces {
+            checkpoint();
+            let [lower, upper] = piece.bounds();
+            for row in self.row(lower.y - self.pad)..=self.row(upper.y + self.pad) {
+                let [bottom, top] = [row, row + 1].map(|row| self.corner(0, row).y);
+                if let Some([left, right]) = extent(piece.core(), bottom - self.pad, top + self.pad) {
+                    rows[row].push([self.column(left - self.pad), self.column(right + self.pad)]);
+                    if rows[row].len() > full[row] {
+                        merge(&mut rows[row]);
+                        full[row] = 64.max(2 * rows[row].len());
+                    }
+                }
+            }
+        }
+        rows.iter_mut().for_each(merge);
+        rows
+    }
+
+    /// Cuts a stack into convex polygons that reach no farther than `within` beyond its cells, each of as many rows as that
+    /// allows, as doubling and halving find. `O(n log n)`.
+    fn convex(&self, stack: &Stack, within: f64, out: &mut Vec<Convex>) {
+        let allowed = within / self.side;
+        let fits = |from: usize, to: usize| {
+            let runs = &stack.runs[from..to];
+            let side = |sign: i64, end: usize| bulge(runs.iter().map(|run| sign * (run[end] + end as i64))) <= allowed;
+            side(1, 0) && side(-1, 1)
+        };
+        let count = stack.runs.len();
+        let mut from = 0;
+        while from < count {
+            let to = farthest(from + 1, count, |to| fits(from, to));
+            let corners = |row: usize| {
+                let [left, right] = stack.runs[row];
+                [row, row + 1].map(|at| [left, right + 1].map(|column| self.corner(column, stack.bottom + at)))
+            };
+            let corners: Vec<Point> = (from..to).flat_map(corners).flatten().collect();
+            out.push(Convex::trusted(hull(&corners), 0.0));
+            from = to;
+        }
+    }
+}
+
+/// The least and the greatest abscissa of a convex polygon, segment or point within a strip; none if it does not meet it.
+fn extent(core: &[Point], bottom: f64, top: f64) -> Option<[f64; 2]> {
+    let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
+    let mut add = |x: f64| extent = [extent[0].min(x), extent[1].max(x)];
+    for (i, a) in core.iter().enumerate() {
+        if bottom <= a.y && a.y <= top {
+            add(a.x);
+        }
+        let b = core[(i + 1) % core.len()];
+        for y in [bottom, top] {
+            if (a.y < y) != (b.y < y) {
+                // Rounded into the side's range.
+                add((a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y))).clamp(a.x.min(b.x), a.x.max(b.x)));
+            }
+        }
+    }
+    (extent[0] <= extent[1]).then_some(extent)
+}
+
+/// The same cells as runs that are disjoint, not adjacent, ascending.
+fn merge(runs: &mut Vec<Run>) {
+    runs.sort_unstable();
+    runs.dedup_by(|next, kept| {
+        let one = next[0] <= kept[1] + 1;
+        if one {
+            kept[1] = kept[1].max(next[1]);
+        }
+        one
+    });
+}
+
+/// Runs in rows above each other, each of which meets the next one and no other.
+struct Stack {
+    /// Row of the first run.
+    bottom: usize,
+    runs: Vec<Run>,
+}
+
+/// All runs, in stacks.
+fn stacks(rows: Vec<Vec<Run>>) -> Vec<Stack> {
+    let (mut done, mut open): (Vec<Stack>, Vec<Stack>) = (Vec::new(), Vec::new());
+    for (row, runs) in rows.into_iter().enumerate() {
+        // For each stack and each run, how many of the others it meets, and the last of these.
+        let mut of_stack = vec![(0, 0); open.len()];
+        let mut of_run = vec![(0, 0); runs.len()];
+        let (mut i, mut j) = (0, 0);
+        while i < open.len() && j < runs.len() {
+            let top = open[i].runs[open[i].runs.len() - 1];
+            if top[0].max(runs[j][0]) <= top[1].min(runs[j][1]) {
+                of_stack[i] = (of_stack[i].0 + 1, j);
+                of_run[j] = (of_run[j].0 + 1, i);
+            }
+            if top[1] < runs[j][1] { i += 1 } else { j += 1 }
+        }
+        let mut before: Vec<Option<Stack>> = open.into_iter().map(Some).collect();
+        open = runs
+            .iter()
+            .zip(of_run)
+            .map(|(&run, (count, stack))| {
+                let goes_on = count == 1 && of_stack[stack].0 == 1;
+                let below = if goes_on { before[stack].take() } else { None };
+                let mut stack = below.unwrap_or_else(|| Stack { bottom: row, runs: Vec::new() });
+                stack.runs.push(run);
+                stack
+            })
+            .collect();
+        done.extend(before.into_iter().flatten());
+    }
+    done.extend(open);
+    done
+}
+
+/// How far the convex hull of a stack reaches beyond its left side, in cells, given by the columns at which rows begin.
+///
+/// Between two corners of the hull the side runs within a band along the chord between them, as wide as its corner farthest
+/// from the chord is off it; what lies between chord and side is no farther from the side than that.
+fn bulge(columns: impl Iterator<Item = i64>) -> f64 {
+    // Corners of the side from bottom to top.
+    let side: Vec<[i64; 2]> = columns.enumerate().flat_map(|(row, x)| [0, 1].map(|at| [x, row as i64 + at])).collect();
+    let cross = |a: [i64; 2], b: [i64; 2], c: [i64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    // The left side of the hull: upwards it turns right.
+    let mut chain: Vec<usize> = Vec::new();
+    for (k, &corner) in side.iter().enumerate() {
+        while let &[.., a, b] = chain.as_slice()
+            && cross(side[a], side[b], corner) >= 0
+        {
+            chain.pop();
+        }
+        chain.push(k);
+    }
+    let off = |ends: &[usize]| {
+        let (a, b) = (side[ends[0]], side[ends[1]]);
+        let length = ((b[0] - a[0]) as f64).hypot((b[1] - a[1]) as f64);
+        side[ends[0]..=ends[1]].iter().map(move |&p| cross(a, b, p).abs() as f64 / length.max(1.0)).fold(0.0, f64::max)
+    };
+    chain.windows(2).map(off).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_geometry::{separation, shapes_meet};
+    use proptest::prelude::*;
+
+    fn distance(p: Point, shapes: &[Convex]) -> f64 {
+        let to = |shape: &Convex| separation(&Convex::point(p), shape).distance;
+        shapes.iter().map(to).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Points of a shape: weighted means of its corners, the corners among them.
+    fn points_of(shape: &Convex, shares: &[f64]) -> Vec<Point> {
+        let core = shape.core();
+        let between = |k: usize| {
+            let (a, b, c) = (core[k % core.len()], core[(k + 1) % core.len()], core[(k * 7 + 2) % core.len()]);
+            let share = |i: usize| shares[(k + i) % shares.len()];
+            let along = a + (b - a) * share(0);
+            [a, along, along + (c - along) * share(1)]
+        };
+        (0..3 * core.len()).flat_map(between).collect()
+    }
+
+    /// Whether polygons cover pieces, and no more than is `within` of them; the distances of sampled points are the oracle.
+    fn covers(pieces: &[Convex], polygons: &[Convex], within: f64, shares: &[f64]) {
+        for p in pieces.iter().flat_map(|piece| points_of(piece, shares)) {
+            // Means of corners are off a segment, or a side, by their rounding.
+            let dot = Convex::point(p).grown(1e-14);
+            assert!(polygons.iter().any(|polygon| shapes_meet(&dot, polygon)), "{p} is left out");
+        }
+        for p in polygons.iter().flat_map(|polygon| points_of(polygon, shares)) {
+            let off = distance(p, pieces);
+            assert!(off <= within * (1.0 + 1e-6), "{p} is {off} away, more than {within}");
+        }
+    }
+
+    /// Points, where and how large, and whether they may lie anywhere.
+    type Given = (Vec<(f64, f64)>, (f64, f64, f64), bool);
+
+    /// Corners on a lattice (so that sides touch lattice lines, are level or upright) or anywhere.
+    fn pieces() -> impl Strategy<Value = Vec<Convex>> {
+        let spread = |free: bool, v: f64| if free { v } else { (v * 8.0).round() / 8.0 };
+        let piece = prop::collection::vec((-0.5..0.5f64, -0.5..0.5f64), 1..6);
+        let place = (-1.0..1.0f64, -1.0..1.0f64, 0.01..1.0f64);
+        prop::collection::vec((piece, place, any::<bool>()), 1..12).prop_map(move |all| {
+            let convex = |(points, (x, y, size), free): Given| {
+                let at = |(px, py)| Point::new(spread(free, x + size * px), spread(free, y + size * py));
+                Convex::trusted(hull(&points.into_iter().map(at).collect::<Vec<_>>()), 0.0)
+            };
+            all.into_iter().map(convex).collect()
+        })
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(200))]
+
+        #[test]
+        fn all_is_covered_and_little_more(
+            pieces in pieces(), within in prop_oneof![0.01..0.4f64, Just(0.25)],
+            shares in prop::collection::vec(0.0..=1.0f64, 7),
+        ) {
+            let polygons = covering(&pieces, within).expect("few rows");
+            covers(&pieces, &polygons, within, &shares);
+        }
+
+        /// A side as a row sees it, against the hull of its corners and the distance from it.
+        #[test]
+        fn a_bulge_is_the_depth_of_the_deepest_pocket(columns in prop::collection::vec(-6..6i64, 1..12)) {
+            // Far to the right the stack ends, so that its hull has no other side near.
+            let corner = |(row, x): (usize, i64)| [0, 1].map(|at| Point::new(x as f64, (row + at) as f64));
+            let side: Vec<Point> = columns.iter().copied().enumerate().flat_map(corner).collect();
+            let right = [0.0, columns.len() as f64].map(|y| Point::new(100.0, y));
+            let outline = hull(&side.iter().copied().chain(right).collect::<Vec<_>>());
+            let depth = |p: &Point| {
+                let sides = (0..outline.len()).map(|i| Convex::between(outline[i], outline[(i + 1) % outline.len()]));
+                distance(*p, &sides.collect::<Vec<_>>())
+            };
+            let deepest = side.iter().map(depth).fold(0.0, f64::max);
+            let found = bulge(columns.iter().copied());
+            // The distance from the chord's line, which is no more than that from the outline.
+            prop_assert!(found + 1e-9 >= deepest, "{found} {deepest}");
+        }
+    }
+
+    #[test]
+    fn a_disc_is_one_polygon_whatever_it_consists_of() {
+        let at = |k: usize| {
+            Point::new(
+                (k as f64 / 300.0 * std::f64::consts::TAU).cos(),
+                (k as f64 / 300.0 * std::f64::consts::TAU).sin(),
+            )
+        };
+        let slices: Vec<Convex> =
+            (0..300).map(|k| Convex::trusted(vec![Point::origin(), at(k), at(k + 1)], 0.0)).collect();
+        let polygons = covering(&slices, 0.02).unwrap();
+        assert_eq!(polygons.len(), 1);
+        covers(&slices, &polygons, 0.02, &[0.2, 0.7, 1.0]);
+    }
+
+    /// A hundred thousand short segments in a square: as many polygons as the square has cells along its sides.
+    #[test]
+    fn what_fills_a_square_is_about_the_square() {
+        let step = |k: u64| (k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64 / (1_u64 << 24) as f64;
+        let at = |k: u64| Point::new(step(2 * k), step(2 * k + 1));
+        let segments: Vec<Convex> =
+            (0..100_000).map(|k| Convex::between(at(k), at(k) + (at(k + 7) - Point::new(0.5, 0.5)) * 0.02)).collect();
+        let polygons = covering(&segments, 0.02).unwrap();
+        assert!(polygons.len() < 300, "{}", polygons.len());
+    }
+}

@@ -1,0 +1,133 @@
+//! C-obstacles of link 2 where it turns, or is turned: the exact slices of a pair, flattened with proof.
+
+use super::chord::{Contact, PairMotion};
+use super::events::events;
+use super::outline::{Break, Flattening, Source, contours};
+use crate::model::Contacts;
+use crate::space::Configuration;
+use cplan_geometry::{Hits, Point};
+use std::f64::consts::{PI, TAU};
+
+/// Share of the tolerance that chords leave unused, so that strict inequalities survive rounding.
+const SPARE: f64 = 1.0 / 16.0;
+
+/// Slices to begin with over a turn or a range of `q1`. Only shape and speed depend on it: what coarse slices could
+/// overlook is found by [`events`].
+const FIRST_SLICES: usize = 24;
+
+/// Overlap of neighbouring contours, relative to the width of the narrowest strip: far above the rounding of the union
+/// and far below the tolerance.
+const OVERLAP: f64 = 1e-3;
+
+/// The slices of one pair of link 2, and what chords between them must keep.
+pub(super) struct Curves<'a> {
+    slices: &'a Contacts<'a>,
+    index: usize,
+    motion: PairMotion<'a>,
+    /// Distance that chords must keep, at the least.
+    floor: f64,
+    /// Distance on the boundary of the slices.
+    level: f64,
+    /// Distance that the middle of a chord may have, at the most.
+    ceiling: f64,
+    min_width: f64,
+}
+
+impl<'a> Curves<'a> {
+    /// Pair `index` of the scene, to be covered where it is within `level`; see [`super::c_obstacles`].
+    pub fn new(slices: &'a Contacts<'a>, index: usize, level: f64, tolerance: f64) -> Self {
+        let scene = slices.scene();
+        let pair = scene.pairs()[index];
+        let motion = PairMotion::new(scene.arm(), scene.part(pair), scene.piece(pair));
+        // Over half of this no distance changes by more than the tolerance.
+        let min_width = tolerance / (2.0 * motion.speed().max(f64::MIN_POSITIVE));
+        let (floor, ceiling) = (level + SPARE * tolerance, level + 2.0 * tolerance);
+        Self { slices, index, motion, floor, level: level + tolerance, ceiling, min_width }
+    }
+
+    /// Contours that cover the pair's C-obstacle.
+    pub fn contours(&self) -> Vec<Vec<Point>> {
+        if self.slices.reach_range(self.index, self.level, &mut Vec::new()) == Hits::Never {
+            return Vec::new();
+        }
+        let turning = self.slices.scene().arm().joints[1].joint_type.is_revolute();
+        let overlap = OVERLAP * self.min_width;
+        contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
+    }
+
+    /// Slices to begin with, in order: some all over the range of `q1`, and those where the pair begins or ceases to be at
+    /// the floor, which are kept, or at the level. Of two no farther apart than contours overlap one does.
+    fn breaks(&self) -> Vec<Break> {
+        let scene = self.slices.scene();
+        let pair = scene.pairs()[self.index];
+        let arm = scene.arm();
+        let levels = [(self.floor, true), (self.level, false)];
+        let joint = &arm.joints[0];
+        let (start, end) = if joint.joint_type.is_revolute() {
+            let start = seam(self.slices, self.index, self.level);
+            (start, start + TAU)
+        } else {
+            joint.range.domain()
+        };
+        let step = (end - start) / FIRST_SLICES as f64;
+        let mut breaks: Vec<Break> = (0..FIRST_SLICES)
+            .map(|i| Break { q1: start + step * i as f64, keep: false })
+            .chain([Break { q1: end, keep: false }])
+            .collect();
+        for (level, keep) in levels {
+            for q1 in events(arm, scene.part(pair), scene.piece(pair), level) {
+                let q1 = if joint.joint_type.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
+                if start <= q1 && q1 <= end {
+                    breaks.push(Break { q1, keep });
+                }
+            }
+        }
+        breaks.sort_by(|a, b| a.q1.total_cmp(&b.q1));
+        breaks.dedup_by(|b, a| {
+            let near = b.q1 - a.q1 <= OVERLAP * self.min_width;
+            a.keep |= near && b.keep;
+            near
+        });
+        breaks
+    }
+}
+
+/// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first slices.
+fn seam(slices: &Contacts, index: usize, level: f64) -> f64 {
+    let mut intervals = Vec::new();
+    (0..FIRST_SLICES)
+        .map(|i| -PI + TAU / FIRST_SLICES as f64 * i as f64)
+        .find(|&q1| slices.second_link(index, q1, level, &mut intervals) == Hits::Never)
+        .unwrap_or(-PI)
+}
+
+impl Source for &Curves<'_> {
+    type End = Contact;
+
+    fn intervals(&mut self, q1: f64, out: &mut Vec<[f64; 2]>) {
+        if self.slices.second_link(self.index, q1, self.level, out) == Hits::Always {
+            out.push([-PI, PI]);
+        }
+    }
+
+    fn end(&self, q1: f64, q2: f64) -> Contact {
+        self.motion.contact(Configuration::new(q1, q2))
+    }
+
+    fn point(&self, end: &Contact) -> Point {
+        Point::from(end.q)
+    }
+
+    fn shifted(&self, end: &Contact, turns: f64) -> Contact {
+        end.turned(turns)
+    }
+
+    fn links(&self, from: &[Contact; 2], to: &[Contact; 2]) -> bool {
+        (0..2).all(|side| self.shortens(&from[side], &to[side]))
+    }
+
+    fn shortens(&self, from: &Contact, to: &Contact) -> bool {
+        self.motion.least_distance(from, to) >= self.floor
+            && self.motion.separation((from.q + to.q) / 2.0).distance <= self.ceiling
+    }
+}

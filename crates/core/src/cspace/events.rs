@@ -1,0 +1,330 @@
+//! Where the slices of a C-obstacle can change their structure: closed form.
+
+use crate::model::{Arm, JointType};
+use crate::space::Configuration;
+use cplan_geometry::{Convex, Point, Vector, cross, perpendicular, separation};
+use cplan_interrupt::checkpoint;
+use std::f64::consts::TAU;
+
+/// Slack, metres, in deciding whether a foot of a perpendicular lies on a side and whether a distance is the level. It
+/// can only add values that are no events, which cost a slice each; leaving one out would cost the guarantee.
+const SLACK: f64 = 1e-7;
+
+/// Values of `q1` among which is every one where an interval of `q2` within which `part` (of link 2, in its frame) and
+/// `piece` are at most `level` apart appears or vanishes. On a turning joint 1 each stands for its whole turns.
+///
+/// A connected part of `{ q : distance <= level }` has a point of least `q1` (or runs around the axis or out of its
+/// range). There the distance as a function of `q2` has a minimum. While the cores are disjoint the distance is the least
+/// over pairs of their points, so it is the minimum of the distance of two fixed points, whose derivative is zero: the
+/// contact normal passes through joint 2 when that turns, and is perpendicular to its direction when that slides. Both
+/// are one equation in `q1` for each pair of features. Needs `level` plus both radii to be positive. `O(n m)`.
+pub(super) fn events(arm: &Arm, part: &Convex, piece: &Convex, level: f64) -> Vec<f64> {
+    let radius = level + part.radius() + piece.radius();
+    match arm.joints[1].joint_type {
+        JointType::Revolute { sign } => Turning { arm, sign, part, piece, level, radius, found: Vec::new() }.solve(),
+        JointType::Prismatic { direction } => sliding(arm, direction, part, piece, radius),
+    }
+}
+
+/// Joint 2 slides: the piece passes the part sideways by exactly `radius`.
+fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: f64) -> Vec<f64> {
+    // Parallel slides keep the distance across them; others need no slices.
+    let JointType::Revolute { sign } = arm.joints[0].joint_type else { return Vec::new() };
+    // The part keeps its extent across the direction; that of the piece turns with joint 1.
+    let track = part.core().iter().map(|a| cross(direction, arm.offset + a.coords));
+    let (low, high) = extent(track);
+    let mut found = Vec::new();
+    for p in piece.core() {
+        let at = p - arm.base;
+        for target in [low - radius, high + radius] {
+            // cross(R(theta) direction, at) = |at| sin(arg at - arg direction - theta)
+            let sine = target / at.norm();
+            if sine.abs() <= 1.0 {
+                let angle = at.y.atan2(at.x) - direction.y.atan2(direction.x);
+                found.extend([angle - sine.asin(), angle + sine.asin() - TAU / 2.0].map(|theta| sign * theta));
+            }
+        }
+    }
+    // Only where the corner is the outermost of the piece.
+    found.retain(|&q1| {
+        let turned = arm.pose(0, Configuration::new(q1, 0.0)).rotation * direction;
+        let (near, far) = extent(piece.core().iter().map(|b| cross(turned, b - arm.base)));
+        (near - high - radius).abs() <= SLACK || (low - radius - far).abs() <= SLACK
+    });
+    found
+}
+
+fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+}
+
+/// A corner or a point of a side of the part whose normal passes through the joint.
+struct Radial {
+    /// Distance from the joint.
+    distance: f64,
+    /// Unit direction from the joint, in the link's frame; none for a corner on the joint itself.
+    heading: Option<Vector>,
+    /// Whether the outward normal points away from the joint.
+    outward: bool,
+}
+
+/// Joint 2 turns.
+struct Turning<'a> {
+    arm: &'a Arm,
+    sign: f64,
+    part: &'a Convex,
+    piece: &'a Convex,
+    level: f64,
+    radius: f64,
+    found: Vec<f64>,
+}
+
+impl Turning<'_> {
+    fn solve(mut self) -> Vec<f64> {
+        for feature in radial_features(self.part.core()) {
+            checkpoint();
+            // The piece then has the opposite normal, `radius` farther out or in.
+            let distance =
+                if feature.outward { feature.distance + self.radius } else { feature.distance - self.radius };
+            if distance >= 0.0 {
+                self.sides_at(distance, &feature);
+                self.corners_at(distance, &feature);
+            }
+        }
+        self.found
+    }
+
+    /// Sides of the piece with a foot of the perpendicular from the elbow at `distance`.
+    fn sides_at(&mut self, distance: f64, feature: &Radial) {
+        let facing = if feature.outward { -1.0 } else { 1.0 };
+        for (p, q) in sides(self.piece.core()) {
+            let along = (q - p).normalize();
+            let normal = -perpendicular(along);
+            for q1 in self.elbow_on_line(normal, normal.dot(&p.coords) - facing * distance) {
+                let foot = along.dot(&(self.arm.elbow_at(q1) - p));
+                if (-SLACK..=(q - p).norm() + SLACK).contains(&foot) {
+                    self.consider(q1, facing * normal, feature);
+                }
+            }
+        }
+    }
+
+    /// Corners of the piece at `distance` from the elbow, with that direction among their normals.
+    fn corners_at(&mut self, distance: f64, feature: &Radial) {
+        let core = self.piece.core();
+        let n = core.len();
+        let facing = if feature.outward { -1.0 } else { 1.0 };
+        for i in 0..n {
+            let p = core[i];
+            for q1 in self.elbow_on_circle(p, distance) {
+                let heading = p - self.arm.elbow_at(q1);
+                let normal = facing * heading;
+                let outermost = |w: Point| normal.dot(&(w - p)) <= SLACK * (w - p).norm();
+                if outermost(core[(i + 1) % n]) && outermost(core[(i + n - 1) % n]) {
+                    self.consider(q1, heading, feature);
+                }
+            }
+        }
+    }
+
+    /// Notes `q1` if with the feature turned to `heading` the pair is at the level there, and no nearer.
+    fn consider(&mut self, q1: f64, heading: Vector, feature: &Radial) {
+        if let (Some(at), true) = (feature.heading, heading.norm() > SLACK) {
+            let turn = heading.y.atan2(heading.x) - at.y.atan2(at.x);
+            let first = match self.arm.joints[0].joint_type {
+                JointType::Revolute { sign } => sign * q1,
+                JointType::Prismatic { .. } => 0.0,
+            };
+            let pose = self.arm.pose(1, Configuration::new(q1, self.sign * (turn - first)));
+            if separation(&self.part.at(&pose), self.piece).distance < self.level - SLACK {
+                return;
+            }
+        }
+        self.found.push(q1);
+    }
+
+    /// Where the elbow crosses the line `normal . x = offset`.
+    fn elbow_on_line(&self, normal: Vector, offset: f64) -> Vec<f64> {
+        let arm = self.arm;
+        match arm.joints[0].joint_type {
+            JointType::Revolute { sign } => {
+                turns_to(arm.offset, normal, offset - normal.dot(&arm.base.coords)).map(|theta| sign * theta).to_vec()
+            }
+            JointType::Prismatic { direction } => {
+                let speed = normal.dot(&direction);
+                let gap = offset - normal.dot(&(arm.base.coords + arm.offset));
+                if speed == 0.0 { Vec::new() } else { vec![gap / speed] }
+            }
+        }
+        .into_iter()
+        .filter(|q1| q1.is_finite())
+        .collect()
+    }
+
+    /// Where the elbow is `distance` from `p`.
+    fn elbow_on_circle(&self, p: Point, distance: f64) -> Vec<f64> {
+        let arm = self.arm;
+        match arm.joints[0].joint_type {
+            JointType::Revolute { sign } => {
+                let to = p - arm.base;
+                let dot = (arm.offset.norm_squared() + to.norm_squared() - distance * distance) / 2.0;
+                turns_to(arm.offset, to, dot).map(|theta| sign * theta).to_vec()
+            }
+            JointType::Prismatic { direction } => {
+                let to = p - (arm.base + arm.offset);
+                let (along, across) = (direction.dot(&to), cross(direction, to));
+                let half = (distance * distance - across * across).sqrt();
+                vec![along - half, along + half]
+            }
+        }
+        .into_iter()
+        .filter(|q1| q1.is_finite())
+        .collect()
+    }
+}
+
+/// The two angles by which `v` must be turned so that its product with `w` is `dot`; NaN when there are none.
+fn turns_to(v: Vector, w: Vector, dot: f64) -> [f64; 2] {
+    let middle = w.y.atan2(w.x) - v.y.atan2(v.x);
+    let half = (dot / (v.norm() * w.norm())).acos();
+    [middle - half, middle + half]
+}
+
+/// Points of the outline whose normal passes through the origin.
+fn radial_features(core: &[Point]) -> Vec<Radial> {
+    let n = core.len();
+    let mut features = Vec::new();
+    for i in 0..n {
+        let a = core[i].coords;
+        let distance = a.norm();
+        let neighbors = [core[(i + 1) % n].coords - a, core[(i + n - 1) % n].coords - a];
+        for (outward, sense) in [(true, 1.0), (false, -1.0)] {
+            if neighbors.iter().all(|w| sense * a.dot(w) <= SLACK * w.norm()) {
+                let heading = (distance > SLACK).then(|| a / distance);
+                features.push(Radial { distance, heading, outward });
+            }
+        }
+    }
+    for (p, q) in sides(core) {
+        let along = (q - p).normalize();
+        let normal = -perpendicular(along);
+        let (offset, foot) = (normal.dot(&p.coords), -along.dot(&p.coords));
+        if !(-SLACK..=(q - p).norm() + SLACK).contains(&foot) {
+            continue;
+        }
+        for (outward, sense) in [(true, 1.0), (false, -1.0)] {
+            if sense * offset >= -SLACK {
+                features.push(Radial { distance: (sense * offset).max(0.0), heading: Some(sense * normal), outward });
+            }
+        }
+    }
+    features
+}
+
+/// The sides of a core; of a segment both of its sides.
+fn sides(core: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
+    let n = if core.len() > 1 { core.len() } else { 0 };
+    (0..n).map(move |i| (core[i], core[(i + 1) % n]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Joint, Link, OutlineSource, Plane};
+    use crate::space::JointRange;
+    use cplan_geometry::{Hits, hull, sliding as slid, turning};
+    use nalgebra::{Translation2, Vector3};
+    use proptest::prelude::*;
+
+    fn shape() -> impl Strategy<Value = Convex> {
+        (prop::collection::vec((-0.5..0.5f64, -0.5..0.5f64), 1..6), 0.0..0.2f64).prop_map(|(points, radius)| {
+            let points: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y)).collect();
+            Convex::trusted(hull(&points), radius)
+        })
+    }
+
+    /// An arm without outlines.
+    fn arm(joints: [Joint; 2], offset: Vector) -> Arm {
+        let link = Link { name: "link".into(), parts: Vec::new(), source: OutlineSource::None };
+        let plane = Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() };
+        Arm {
+            name: "arm".into(),
+            joints,
+            links: [link.clone(), link],
+            base: Point::origin(),
+            offset,
+            tip: Point::origin(),
+            tip_name: "tip".into(),
+            plane,
+            dynamics: None,
+            self_obstacles: Vec::new(),
+        }
+    }
+
+    fn motion() -> impl Strategy<Value = JointType> {
+        let slide = (0.0..TAU).prop_map(|t: f64| JointType::Prismatic { direction: Vector::new(t.cos(), t.sin()) });
+        prop_oneof![prop_oneof![Just(1.0), Just(-1.0)].prop_map(|sign| JointType::Revolute { sign }), slide]
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(48))]
+
+        /// Between two near slices without an event, no interval appears away from all others.
+        #[test]
+        fn no_interval_appears_without_an_event(
+            motions in [motion(), motion()],
+            (part, piece) in (shape(), shape()),
+            at in (-1.0..1.0f64, -1.0..1.0f64),
+            level in 0.01..0.1f64,
+        ) {
+            prop_assume!(motions.iter().any(|m| m.is_revolute()));
+            const STEP: f64 = 0.004;
+            const NEAR: f64 = 0.05;
+            let joint = |motion: JointType| Joint {
+                name: "joint".into(),
+                joint_type: motion,
+                range: if motion.is_revolute() { JointRange::Circle } else { JointRange::Interval { lower: -3.0, upper: 3.0 } },
+                velocity: 1.0,
+                acceleration: 1.0,
+                jerk: None,
+            };
+            let core = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
+            let piece = Convex::trusted(core, piece.radius());
+            let arm = arm(motions.map(joint), Vector::new(0.7, 0.1));
+            let turns = motions[1].is_revolute();
+            let slice = |q1: f64| {
+                let pose = arm.pose(0, Configuration::new(q1, 0.0));
+                let pivot = pose * Point::from(arm.offset);
+                let mut out = Vec::new();
+                match motions[1] {
+                    JointType::Revolute { .. } => {
+                        // Angles of the link rather than values of the joint: structure is the same.
+                        if turning(&part, pivot, &piece, level, &mut out) == Hits::Always {
+                            out.push([-4.0, 4.0]);
+                        }
+                    }
+                    JointType::Prismatic { direction } => {
+                        let moved = part.at(&(pose * Translation2::from(arm.offset)));
+                        out.extend(slid(&moved, pose.rotation * direction, &piece, level));
+                    }
+                }
+                out
+            };
+            let found = events(&arm, &part, &piece, level);
+            let (start, steps) = (-3.0, 1500);
+            for k in 0..steps {
+                let (u, v) = (start + f64::from(k) * STEP, start + f64::from(k + 1) * STEP);
+                let before = slice(u);
+                let appears = slice(v).iter().any(|new| !before.iter().any(|old| {
+                    let shifts: &[f64] = if turns { &[-TAU, 0.0, TAU] } else { &[0.0] };
+                    shifts.iter().any(|s| old[0] + s <= new[1] + NEAR && new[0] <= old[1] + s + NEAR)
+                }));
+                let event = found.iter().any(|&q1| {
+                    let q1 = if motions[0].is_revolute() { u + (q1 - u + 1e-6).rem_euclid(TAU) - 1e-6 } else { q1 };
+                    u - 1e-6 <= q1 && q1 <= v + 1e-6
+                });
+                prop_assert!(!appears || event, "{u} {:?} {:?}", before, slice(v));
+            }
+        }
+    }
+}

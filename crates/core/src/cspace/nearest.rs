@@ -1,0 +1,163 @@
+//! The free configuration nearest to one that is not.
+
+use super::slices::Slice;
+use crate::model::{Contacts, Scene};
+use crate::space::{Configuration, JointRange};
+use cplan_geometry::ROUNDING;
+use std::f64::consts::{PI, TAU};
+
+/// A free configuration and how far it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearestFree {
+    /// Within the limits; on a circle the copy nearest to the configuration asked about.
+    pub configuration: Configuration,
+    /// Euclidean distance in joint space, radians and metres as they come.
+    pub distance: f64,
+    /// Least distance to an obstacle there, metres: positive, and not below the workspace's clearance. Infinite if
+    /// nothing can be hit.
+    pub clearance: f64,
+    /// Distance between neighbouring slices, in units of joint 1: see [`nearest_free`].
+    pub spacing: f64,
+}
+
+/// Slices on the whole range of joint 1, or on a turn if it has more.
+const SLICES: f64 = 4096.0;
+/// Local minima that are refined, best first.
+const MINIMA: usize = 8;
+/// Refinement ends when the slices are this close, in units of joint 1.
+const FINEST: f64 = 1e-10;
+/// Slices on either side of the best one, in each step of the refinement.
+const FAN: i32 = 8;
+
+/// The free configuration nearest to `q` in joint space (Euclidean, round a circle the short way).
+///
+/// Joint 1 runs through slices, [`NearestFree::spacing`] apart and out from `q`, with the ends of what link 1 forbids among
+/// them; in each the nearest free value of joint 2 is exact. The slices about the best local minima are then refined to
+/// 1e-10. The result is free by the scene's own measure, and no free configuration on any slice is nearer: one that is
+/// lies between two slices, less than a spacing from either.
+///
+/// None if no slice has a free configuration. `O(slices * pairs)`.
+#[must_use]
+pub fn nearest_free(scene: &Scene, q: Configuration) -> Option<NearestFree> {
+    Search::new(scene, q).run()
+}
+
+struct Search<'a> {
+    scene: &'a Scene,
+    slices: Contacts<'a>,
+    /// Values of joint 1 that link 1 forbids, on the axis's domain.
+    bands: Slice,
+    slice: Slice,
+    from: Configuration,
+    /// Growth of the obstacles: what is left out of a slice is then free for certain.
+    grow: f64,
+    best: Option<NearestFree>,
+    spacing: f64,
+}
+
+impl<'a> Search<'a> {
+    fn new(scene: &'a Scene, from: Configuration) -> Self {
+        let grow = scene.workspace().clearance + 2.0 * ROUNDING;
+        let slices = Contacts::new(scene);
+        let bands = slices.bands(grow);
+        let first = &scene.arm().joints[0];
+        let extent = first.range.extent();
+        let spacing = if first.joint_type.is_revolute() { extent.min(TAU) } else { extent } / SLICES;
+        Self { scene, slices, bands, slice: Slice::default(), from, grow, best: None, spacing }
+    }
+
+    fn run(mut self) -> Option<NearestFree> {
+        let first = &self.scene.arm().joints[0];
+        let start = match first.range {
+            JointRange::Interval { lower, upper } => self.from[0].clamp(lower, upper),
+            JointRange::Circle => self.from[0],
+        };
+        // Beyond these every slice repeats one that was nearer.
+        let farthest = match first.range {
+            JointRange::Circle => PI,
+            JointRange::Interval { .. } if first.joint_type.is_revolute() => TAU,
+            axis @ JointRange::Interval { .. } => axis.extent(),
+        };
+        let mut samples = Vec::new();
+        let ends: Vec<f64> = self.bands.merged.iter().flatten().copied().collect();
+        for end in ends {
+            let q1 = first.range.lift(end, start);
+            samples.extend(self.look(q1).map(|distance| (q1, distance)));
+        }
+        for k in 0.. {
+            let step = f64::from(k) * self.spacing;
+            let nearer = |best: NearestFree| (start - self.from[0]).abs() + step < best.distance;
+            if step > farthest || !self.best.is_none_or(nearer) {
+                break;
+            }
+            for q1 in [start + step, start - step] {
+                samples.extend(self.look(q1).map(|distance| (q1, distance)));
+            }
+            if self.spacing == 0.0 {
+                break;
+            }
+        }
+        for q1 in minima(samples) {
+            self.refine(q1);
+        }
+        self.best
+    }
+
+    /// Looks at ever closer slices about one.
+    fn refine(&mut self, q1: f64) {
+        let (mut middle, mut step) = (q1, self.spacing);
+        while step > FINEST {
+            step /= f64::from(FAN);
+            let around = (-FAN..=FAN).map(|k| middle + f64::from(k) * step);
+            let found = around.filter_map(|q1| self.look(q1).map(|distance| (q1, distance)));
+            let Some((next, _)) = found.min_by(|a, b| a.1.total_cmp(&b.1)) else { return };
+            middle = next;
+        }
+    }
+
+    /// Distance of the nearest free configuration with this value of joint 1, if it is allowed and there is one.
+    fn look(&mut self, q1: f64) -> Option<f64> {
+        let [first, second] = self.scene.arm().topology().ranges;
+        let inside = |band: &[f64; 2], value: f64| band[0] < value && value < band[1];
+        if !first.contains(q1) || self.bands.merged.iter().any(|band| inside(band, first.wrap(q1))) {
+            return None;
+        }
+        self.slices.slice(q1, self.grow, &mut self.slice);
+        let (lower, upper) = second.domain();
+        let wanted = match second {
+            JointRange::Interval { .. } => self.from[1].clamp(lower, upper),
+            JointRange::Circle => second.wrap(self.from[1]),
+        };
+        let ends = self.slice.merged.iter().flat_map(|&[start, end]| [start, end]);
+        let mut values: Vec<f64> = ends.chain((!self.slice.forbids(wanted)).then_some(wanted)).collect();
+        let away = |value: &f64| second.displacement(self.from[1], *value).abs();
+        values.sort_by(|a, b| away(a).total_cmp(&away(b)));
+        let q1 = first.lift(q1, self.from[0]);
+        // An interval cut off at the limit ends in a value that is not free, so the first that is counts.
+        values.into_iter().find_map(|q2| {
+            let to = Configuration::new(q1, second.lift(q2, self.from[1]));
+            let clearance = self.scene.clearance(to);
+            if clearance <= 0.0 || clearance < self.scene.workspace().clearance {
+                return None;
+            }
+            let distance = (to - self.from).norm();
+            if self.best.is_none_or(|best| distance < best.distance) {
+                self.best = Some(NearestFree { configuration: to, distance, clearance, spacing: self.spacing });
+            }
+            Some(distance)
+        })
+    }
+}
+
+/// The samples that are no farther than their neighbours, best first.
+fn minima(mut samples: Vec<(f64, f64)>) -> Vec<f64> {
+    samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let distance = |i: Option<usize>| i.and_then(|i| samples.get(i)).map_or(f64::INFINITY, |s| s.1);
+    let mut found: Vec<(f64, f64)> = (0..samples.len())
+        .filter(|&i| samples[i].1 <= distance(i.checked_sub(1)) && samples[i].1 <= distance(Some(i + 1)))
+        .map(|i| samples[i])
+        .collect();
+    found.sort_by(|a, b| a.1.total_cmp(&b.1));
+    found.truncate(MINIMA);
+    found.into_iter().map(|(q1, _)| q1).collect()
+}

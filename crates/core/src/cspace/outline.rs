@@ -1,0 +1,312 @@
+//! Contours of a C-obstacle from its slices: adaptive flattening of curves that are known at each `q1` exactly.
+
+use cplan_geometry::Point;
+use cplan_interrupt::checkpoint;
+use std::f64::consts::{PI, TAU};
+
+/// All of `q2` where that turns.
+const TURN: [f64; 2] = [-PI, PI];
+
+/// A C-obstacle, slice by slice, and a judge of its chords.
+pub(super) trait Source {
+    /// A point of the boundary.
+    type End: Copy;
+
+    /// Appends the blocked intervals of `q2` at `q1` in ascending order: disjoint and closed, on a circle as arcs
+    /// `[lower, upper]` no longer than a turn, one of a whole turn when all is blocked.
+    fn intervals(&mut self, q1: f64, out: &mut Vec<[f64; 2]>);
+
+    /// The boundary point `(q1, q2)`.
+    fn end(&self, q1: f64, q2: f64) -> Self::End;
+
+    /// The coordinates of a boundary point.
+    fn point(&self, end: &Self::End) -> Point;
+
+    /// The same point on another turn of joint 2.
+    fn shifted(&self, end: &Self::End, turns: f64) -> Self::End;
+
+    /// Whether the intervals with these ends in two slices can be linked by straight lines.
+    fn links(&self, from: &[Self::End; 2], to: &[Self::End; 2]) -> bool;
+
+    /// Whether the straight line between two boundary points can stand for the lines by way of the slices between.
+    fn shortens(&self, from: &Self::End, to: &Self::End) -> bool;
+}
+
+/// How to flatten.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Flattening {
+    /// Whether `q2` lives on turns (arcs that differ by whole turns are one).
+    pub turning: bool,
+    /// Strips no wider than this may be covered by rectangles over the intervals of both their slices.
+    pub min_width: f64,
+    /// Length by which neighbouring contours overlap, so that their union has no cracks.
+    pub overlap: f64,
+}
+
+/// A breakpoint of `q1`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Break {
+    /// The value of joint 1 there.
+    pub q1: f64,
+    /// Whether contours keep a vertex here: an end or a split of the C-obstacle may hide between other slices.
+    pub keep: bool,
+}
+
+/// Contours, each simple and counter-clockwise, whose union covers the C-obstacle over the span of `breaks` (ascending).
+///
+/// Each strip between two slices is bisected until its intervals match one to one and the chords between their ends are
+/// accepted, or it is `min_width` wide. Matched intervals form chains, each a contour; a narrow strip without a match is
+/// covered by rectangles. Last, corners are dropped from the chains as far as the longer chords are accepted.
+pub(super) fn contours<S: Source>(source: &mut S, breaks: &[Break], how: Flattening) -> Vec<Vec<Point>> {
+    let mut tracer = Tracer { source, how, open: Vec::new(), done: Vec::new(), scratch: Vec::new() };
+    let Some((first, rest)) = breaks.split_first() else { return Vec::new() };
+    let mut slice = tracer.slice(*first);
+    tracer.start_chains(&slice);
+    for &next in rest {
+        let next = tracer.slice(next);
+        tracer.strip(&slice, &next);
+        slice = next;
+    }
+    tracer.close_chains();
+    tracer.done
+}
+
+/// The blocked intervals of one slice with the boundary points at their ends.
+struct Slice<E> {
+    at: Break,
+    intervals: Vec<[E; 2]>,
+    /// All of `q2`, a whole turn, is blocked: `intervals` is then empty.
+    full: bool,
+}
+
+/// A run of matched intervals, in unwrapped values.
+struct Chain<E> {
+    slices: Vec<([E; 2], bool)>,
+    /// Turns by which the chain is ahead of its last slice's own values.
+    turns: f64,
+}
+
+struct Tracer<'r, S: Source> {
+    source: &'r mut S,
+    how: Flattening,
+    /// One for each interval of the current slice.
+    open: Vec<Chain<S::End>>,
+    done: Vec<Vec<Point>>,
+    scratch: Vec<[f64; 2]>,
+}
+
+impl<S: Source> Tracer<'_, S> {
+    fn slice(&mut self, at: Break) -> Slice<S::End> {
+        checkpoint();
+        self.scratch.clear();
+        self.source.intervals(at.q1, &mut self.scratch);
+        let full = self.how.turning && self.scratch.iter().any(|[lower, upper]| upper - lower >= TAU);
+        let intervals = if full {
+            Vec::new()
+        } else {
+            self.scratch.iter().map(|i| i.map(|q2| self.source.end(at.q1, q2))).collect()
+        };
+        Slice { at, intervals, full }
+    }
+
+    fn q2(&self, end: &S::End) -> f64 {
+        self.source.point(end).y
+    }
+
+    /// Extends the chains from slice `u` to slice `v`, through as many slices between as it takes.
+    fn strip(&mut self, u: &Slice<S::End>, v: &Slice<S::End>) {
+        if u.full && v.full {
+            self.rectangle(u.at.q1, v.at.q1, TURN);
+        } else if let Some(links) = self.matching(u, v) {
+            self.extend(v, &links);
+        } else if v.at.q1 - u.at.q1 <= self.how.min_width {
+            self.cover(u, v);
+        } else {
+            let middle = self.slice(Break { q1: f64::midpoint(u.at.q1, v.at.q1), keep: false });
+            self.strip(u, &middle);
+            self.strip(&middle, v);
+        }
+    }
+
+    /// For every interval of `u` its partner in `v` and the turns to add to that, if chords may link them.
+    fn matching(&self, u: &Slice<S::End>, v: &Slice<S::End>) -> Option<Vec<(usize, f64)>> {
+        let n = u.intervals.len();
+        if u.full || v.full || n != v.intervals.len() {
+            return None;
+        }
+        let rotations = if self.how.turning { n.max(1) } else { 1 };
+        (0..rotations).find_map(|rotation| {
+            (0..n)
+                .map(|i| {
+                    let j = (i + rotation) % n;
+                    let turns = self.turns_between(&u.intervals[i], &v.intervals[j]);
+                    let to = v.intervals[j].map(|end| self.source.shifted(&end, turns));
+                    let linked = self.overlap(&u.intervals[i], &to) && self.source.links(&u.intervals[i], &to);
+                    linked.then_some((j, turns))
+                })
+                .collect()
+        })
+    }
+
+    /// The whole turns that bring the middle of `to` nearest to that of `from`.
+    fn turns_between(&self, from: &[S::End; 2], to: &[S::End; 2]) -> f64 {
+        if !self.how.turning {
+            return 0.0;
+        }
+        let twice = |i: &[S::End; 2]| self.q2(&i[0]) + self.q2(&i[1]);
+        ((twice(from) - twice(to)) / (2.0 * TAU)).round()
+    }
+
+    fn overlap(&self, a: &[S::End; 2], b: &[S::End; 2]) -> bool {
+        self.q2(&a[0]) <= self.q2(&b[1]) && self.q2(&b[0]) <= self.q2(&a[1])
+    }
+
+    fn start_chains(&mut self, slice: &Slice<S::End>) {
+        self.open =
+            slice.intervals.iter().map(|&ends| Chain { slices: vec![(ends, slice.at.keep)], turns: 0.0 }).collect();
+    }
+
+    fn extend(&mut self, v: &Slice<S::End>, links: &[(usize, f64)]) {
+        let mut next: Vec<Option<Chain<S::End>>> = links.iter().map(|_| None).collect();
+        for (mut chain, &(to, turns)) in std::mem::take(&mut self.open).into_iter().zip(links) {
+            chain.turns += turns;
+            chain.slices.push((v.intervals[to].map(|end| self.source.shifted(&end, chain.turns)), v.at.keep));
+            next[to] = Some(chain);
+        }
+        self.open = next.into_iter().flatten().collect();
+    }
+
+    /// Covers the narrow strip between two slices that do not match.
+    fn cover(&mut self, u: &Slice<S::End>, v: &Slice<S::End>) {
+        self.close_chains();
+        let spans = if u.full || v.full {
+            vec![TURN]
+        } else {
+            let both = u.intervals.iter().chain(&v.intervals);
+            united(both.map(|i| [self.q2(&i[0]), self.q2(&i[1])]).collect(), self.how.turning)
+        };
+        for span in spans {
+            self.rectangle(u.at.q1, v.at.q1, span);
+        }
+        self.start_chains(v);
+    }
+
+    /// A rectangle over the strip and `span`.
+    fn rectangle(&mut self, u: f64, v: f64, [lower, upper]: [f64; 2]) {
+        let pad = self.how.overlap;
+        let (u, v, lower, upper) = (u - pad, v + pad, lower - pad, upper + pad);
+        self.finish(vec![Point::new(u, lower), Point::new(v, lower), Point::new(v, upper), Point::new(u, upper)]);
+    }
+
+    fn close_chains(&mut self) {
+        for chain in std::mem::take(&mut self.open) {
+            // A single slice lies within the rectangles on both its sides.
+            if chain.slices.len() < 2 {
+                continue;
+            }
+            let sides = [0, 1].map(|side| self.simplified(&chain, side));
+            let whole =
+                || [0, 1].map(|side| chain.slices.iter().map(|(ends, _)| self.source.point(&ends[side])).collect());
+            let sides = if ordered(&sides) { sides } else { whole() };
+            let contour = outline(&sides, self.how.overlap);
+            // Between two tips a single chord may do for both sides: then there is nothing in between to cover.
+            if contour.len() > 2 {
+                self.finish(contour);
+            }
+        }
+    }
+
+    /// One side of a chain with as few corners as accepted chords allow.
+    fn simplified(&self, chain: &Chain<S::End>, side: usize) -> Vec<Point> {
+        let slices = &chain.slices;
+        let mut corners = vec![self.source.point(&slices[0].0[side])];
+        let mut from = 0;
+        while from + 1 < slices.len() {
+            let mut to = from + 1;
+            while to + 1 < slices.len()
+                && !slices[to].1
+                && self.source.shortens(&slices[from].0[side], &slices[to + 1].0[side])
+            {
+                to += 1;
+            }
+            corners.push(self.source.point(&slices[to].0[side]));
+            from = to;
+        }
+        corners
+    }
+
+    /// Stores a contour, on the turn of joint 2 where its middle is in `[-pi, pi]`.
+    fn finish(&mut self, mut contour: Vec<Point>) {
+        if self.how.turning {
+            let range =
+                contour.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p.y), high.max(p.y)]);
+            let shift = TAU * (f64::midpoint(range[0], range[1]) / TAU).round();
+            contour.iter_mut().for_each(|p| p.y -= shift);
+        }
+        self.done.push(contour);
+    }
+}
+
+/// Whether the first polyline, a function of `x`, is nowhere above the second over the same range.
+fn ordered(sides: &[Vec<Point>; 2]) -> bool {
+    let below = |points: &[Point], other: &[Point], sign: f64| {
+        let mut segment = 0;
+        points.iter().all(|p| {
+            while segment + 2 < other.len() && other[segment + 1].x < p.x {
+                segment += 1;
+            }
+            let (a, b) = (other[segment], other[segment + 1]);
+            let y = if b.x > a.x { a.y + (b.y - a.y) * ((p.x - a.x) / (b.x - a.x)) } else { a.y };
+            sign * (y - p.y) >= 0.0
+        })
+    };
+    below(&sides[0], &sides[1], 1.0) && below(&sides[1], &sides[0], -1.0)
+}
+
+/// The contour between a lower and an upper polyline, lengthened by `pad` at both ends.
+fn outline(sides: &[Vec<Point>; 2], pad: f64) -> Vec<Point> {
+    let [lower, upper] = sides;
+    let mut contour = Vec::with_capacity(lower.len() + upper.len() + 4);
+    let (first, last) = (0, lower.len() - 1);
+    let beyond = |p: &Point, by: f64| Point::new(p.x + by, p.y);
+    if lower[first] != upper[first] {
+        contour.push(beyond(&lower[first], -pad));
+    }
+    contour.extend_from_slice(lower);
+    let top = upper.len() - 1;
+    if lower[last] != upper[top] {
+        contour.push(beyond(&lower[last], pad));
+        contour.push(beyond(&upper[top], pad));
+    }
+    contour.extend(upper.iter().rev());
+    if lower[first] != upper[first] {
+        contour.push(beyond(&upper[first], -pad));
+    }
+    contour.dedup();
+    while contour.len() > 1 && contour.first() == contour.last() {
+        contour.pop();
+    }
+    contour
+}
+
+/// The union of intervals, on a circle as arcs; an arc that closes the turn is left as long as it is.
+fn united(mut spans: Vec<[f64; 2]>, turning: bool) -> Vec<[f64; 2]> {
+    let mut out: Vec<[f64; 2]> = Vec::new();
+    while let Some(mut span) = spans.pop() {
+        let mut k = 0;
+        while k < out.len() {
+            let other = out[k];
+            let turns = if turning { ((span[0] + span[1] - other[0] - other[1]) / (2.0 * TAU)).round() } else { 0.0 };
+            let other = other.map(|q2| q2 + turns * TAU);
+            if other[0] <= span[1] && span[0] <= other[1] {
+                span = [span[0].min(other[0]), span[1].max(other[1])];
+                out.swap_remove(k);
+                k = 0;
+            } else {
+                k += 1;
+            }
+        }
+        out.push(span);
+    }
+    out
+}

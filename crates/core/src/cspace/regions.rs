@@ -1,0 +1,251 @@
+//! Configuration space as polygons.
+
+use super::coarse::coarse;
+use super::curves::Curves;
+use super::union::{blocked_space, free_space};
+use super::{Proves, translation};
+use crate::model::{Contacts, Joint, Pair, Scene};
+use crate::space::{Configuration, JointRange, Topology};
+use cplan_geometry::{Hits, Point, cross};
+use cplan_interrupt::checkpoint;
+use std::borrow::Cow;
+use std::f64::consts::{PI, TAU};
+
+/// Share of the margin that is left of it, as proven distance, on the contours of [`regions`] after flattening. The rest
+/// is what chords may cut off; the more, the fewer corners.
+const KEPT: f64 = 0.25;
+
+/// Shapes with many corners may be coarser than they are by so many times the margin that contours keep of it.
+const COARSENESS: f64 = 2.0;
+
+/// Overlap of bands across the seam of a turn, relative to the distance they are grown by: far above the rounding of the
+/// union.
+const OVERLAP: f64 = 1e-3;
+
+/// A simple polygon with holes: the outer contour counter-clockwise, holes clockwise.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polygon {
+    /// The outer contour, counter-clockwise.
+    pub outer: Vec<Point>,
+    /// Contours of the holes.
+    pub holes: Vec<Vec<Point>>,
+}
+
+impl Polygon {
+    /// Area without the holes.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        signed_area(&self.outer) + self.holes.iter().map(|hole| signed_area(hole)).sum::<f64>()
+    }
+
+    /// Whether `p` is inside, by the parity of crossings; points on a contour may come out either way. Linear.
+    #[must_use]
+    pub fn contains(&self, p: Point) -> bool {
+        let contours = std::iter::once(&self.outer).chain(&self.holes);
+        contours.filter(|contour| crossings(contour, p) % 2 == 1).count() % 2 == 1
+    }
+}
+
+fn signed_area(contour: &[Point]) -> f64 {
+    let n = contour.len();
+    (0..n).map(|i| cross(contour[i] - contour[0], contour[(i + 1) % n] - contour[0])).sum::<f64>() / 2.0
+}
+
+/// How many sides the ray from `p` along the first axis crosses.
+fn crossings(contour: &[Point], p: Point) -> usize {
+    let n = contour.len();
+    (0..n)
+        .filter(|&i| {
+            let (a, b) = (contour[i], contour[(i + 1) % n]);
+            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y))
+        })
+        .count()
+}
+
+/// The part of a C-obstacle that one obstacle contributes, as a simple polygon in unwrapped joint values; on a circle
+/// axis its copies shifted by whole turns belong to it. For pictures and as input of the union.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CObstacle {
+    /// As in [`Pair::obstacle`].
+    pub obstacle: usize,
+    /// Which link would hit it.
+    pub link: usize,
+    /// Counter-clockwise, coordinates `(q1, q2)`.
+    pub contour: Vec<Point>,
+}
+
+/// Free space as polygons over a *window* of the universal cover: on an interval the joint's limits, on a circle some
+/// turns around the start, in which obstacles repeat. A planner on a torus is so a planner in the plane, whose goals
+/// are all copies of the goal within the window.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Regions {
+    /// Of the configuration space.
+    pub topology: Topology,
+    /// What free and blocked prove.
+    pub proves: Proves,
+    /// Lower and upper value of each axis.
+    pub window: [(f64, f64); 2],
+    /// Each obstacle's contribution, once, not clipped to the window.
+    pub obstacles: Vec<CObstacle>,
+    /// The window less all obstacles: one polygon a connected component.
+    pub free: Vec<Polygon>,
+}
+
+impl Regions {
+    /// The contours of free space, which lies to the left of them.
+    #[must_use]
+    pub fn contours(&self) -> Vec<&[Point]> {
+        self.free.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes)).map(Vec::as_slice).collect()
+    }
+
+    /// The component of free space that holds `q`, given within the window. Linear in the number of corners.
+    #[must_use]
+    pub fn component(&self, q: Configuration) -> Option<usize> {
+        self.free.iter().position(|polygon| polygon.contains(Point::from(q)))
+    }
+}
+
+/// Free space of a scene with obstacles grown by its clearance and at most `margin` metres more, over the limits of
+/// interval axes and `periods` turns to either side of `center` on circles.
+///
+/// All along the boundary of the free space, and so within it, arm and obstacles are at least the clearance plus a
+/// quarter of `margin` apart (see [`c_obstacles`] for the argument); configurations with more than the clearance and
+/// three times `margin` are free here. Vertices grow like `1 / sqrt(margin)`.
+///
+/// # Panics
+/// If `margin` is not positive.
+#[must_use]
+pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize) -> Regions {
+    assert!(margin > 0.0, "a margin for the flattening of curves");
+    let obstacles = c_obstacles(scene, KEPT * margin, (1.0 - KEPT) * margin);
+    within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
+}
+
+/// Free space of a gantry, over the limits of its slides, with obstacles shrunk by at most `margin` metres: all that keeps the
+/// scene's clearance is within, and what is nearer by more than `margin` is not.
+///
+/// None for other arms, where link 1 can meet something, and where shapes are too thin to be shrunk: walls without thickness
+/// whose tool is a point. Vertices grow like `1 / sqrt(margin)`.
+#[must_use]
+pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
+    let map = translation::joint_map(scene.arm())?;
+    let level = scene.workspace().clearance;
+    let contour = |pair: &Pair| {
+        checkpoint();
+        if pair.link != 1 {
+            return None;
+        }
+        let (part, piece) = (scene.part(*pair), scene.piece(*pair));
+        let contour = translation::inner_contour(scene.arm(), &map, part, piece, level, margin)?;
+        Some(CObstacle { obstacle: pair.obstacle, link: pair.link, contour })
+    };
+    let obstacles: Option<Vec<CObstacle>> = scene.pairs().iter().map(contour).collect();
+    Some(within_window(scene, Proves::Inner { margin }, window(scene, Configuration::zeros(), 0), obstacles?))
+}
+
+/// The limits of interval axes, and `periods` turns to either side of `center` on circles.
+fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 2] {
+    let topology = scene.arm().topology();
+    let turns = TAU * periods as f64;
+    [0, 1].map(|k| match topology.ranges[k] {
+        JointRange::Interval { lower, upper } => (lower, upper),
+        JointRange::Circle => (center[k] - turns, center[k] + turns),
+    })
+}
+
+fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacles: Vec<CObstacle>) -> Regions {
+    let free = free_space(window, periods(scene), obstacles.iter().map(|o| o.contour.as_slice()));
+    Regions { topology: scene.arm().topology(), proves, window, obstacles, free }
+}
+
+/// After which joint values poses repeat.
+fn periods(scene: &Scene) -> [Option<f64>; 2] {
+    scene.arm().joints.each_ref().map(|joint| joint.joint_type.is_revolute().then_some(TAU))
+}
+
+/// What each obstacle of the workspace, then each of the arm's self obstacles, blocks within the limits, on a circle within `[-pi, pi]`, given the contours of the
+/// [`c_obstacles`]: disjoint polygons an obstacle, cut at the seams of circles.
+#[must_use]
+pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<Polygon>> {
+    let window = scene.arm().topology().ranges.map(JointRange::domain);
+    let of = |number: usize| contours.iter().filter(move |c| c.obstacle == number).map(|c| c.contour.as_slice());
+    let obstacles = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
+    obstacles.map(|number| blocked_space(window, periods(scene), of(number))).collect()
+}
+
+/// Contours that cover every configuration in which a pair of the scene is at most its clearance and `margin` apart, and
+/// hardly any in which it is more than twice `tolerance` farther; metres, `tolerance` positive. Each obstacle appears
+/// once for every pair, strip or band it takes; contours of one obstacle may overlap. Around shapes with many corners,
+/// unless the margin is 0, contours may be another two margins away: details that small are not traced.
+///
+/// Link 1 gives bands of `q1`, in closed form. Gantries give Minkowski differences, exact up to arcs: with margin,
+/// clearance and radii zero they are the exact C-obstacles. For the rest curves are flattened between exact slices, and
+/// that they cover what they should is proven, not sampled: no point of the set `S` to be covered lies on the boundary of
+/// the union, since chords keep their distance (as the module `chord` proves) and slices are exact; so every
+/// connected part of `S` is all inside or all outside. And each has a point inside: it either reaches the end of the
+/// range of `q1`, where there is a slice, or has a point of least `q1`, where there is one too (module `events`).
+///
+/// # Panics
+/// If `tolerance` is not positive.
+#[must_use]
+pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle> {
+    assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
+    let level = scene.workspace().clearance + margin;
+    let scene = &*coarsened(scene, margin, tolerance);
+    let slices = Contacts::new(scene);
+    let map = translation::joint_map(scene.arm());
+    let mut obstacles = Vec::new();
+    for (index, pair) in scene.pairs().iter().enumerate() {
+        checkpoint();
+        let contours = match (pair.link, &map) {
+            (0 | 2, _) => bands(&slices, index, level + tolerance, OVERLAP * level.min(1.0)),
+            (_, Some(map)) => {
+                let (part, piece) = (scene.part(*pair), scene.piece(*pair));
+                vec![translation::contour(scene.arm(), map, part, piece, level, tolerance)]
+            }
+            (_, None) => Curves::new(&slices, index, level, tolerance).contours(),
+        };
+        let (obstacle, link) = (pair.obstacle, pair.link);
+        obstacles.extend(contours.into_iter().map(|contour| CObstacle { obstacle, link, contour }));
+    }
+    obstacles
+}
+
+/// The scene that contours are traced of.
+fn coarsened(scene: &Scene, margin: f64, tolerance: f64) -> Cow<'_, Scene> {
+    coarse(scene, COARSENESS * margin, scene.workspace().clearance + margin + 4.0 * tolerance)
+}
+
+/// How many pairs of shapes [`regions`] traces with that `margin`: shapes with many corners are coarser the greater it is.
+#[must_use]
+pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
+    coarsened(scene, KEPT * margin, (1.0 - KEPT) * margin).pairs().len()
+}
+
+/// The values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end: the overlap
+/// closes the seam between the copies of a whole turn. Of a pair of link 2 and link 1 the values of `q2`, for all `q1`.
+fn bands(slices: &Contacts, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
+    let domain = |joint: &Joint| if joint.joint_type.is_revolute() { (-PI, PI) } else { joint.range.domain() };
+    let folds = slices.scene().pairs()[index].link == 2;
+    let mut joints: Vec<&Joint> = slices.scene().arm().joints.iter().collect();
+    if folds {
+        joints.reverse();
+    }
+    let mut spans = Vec::new();
+    let hits = match folds {
+        true => slices.second_link(index, 0.0, level, &mut spans),
+        false => slices.first_link(index, level, &mut spans),
+    };
+    if hits == Hits::Always {
+        spans = vec![<[f64; 2]>::from(domain(joints[0]))];
+    }
+    let (lower, upper) = domain(joints[1]);
+    let corners = |[a, b]: [f64; 2]| {
+        let corners = match folds {
+            true => [(lower - pad, a), (upper + pad, a), (upper + pad, b), (lower - pad, b)],
+            false => [(a, lower - pad), (b, lower - pad), (b, upper + pad), (a, upper + pad)],
+        };
+        corners.map(|(x, y)| Point::new(x, y)).to_vec()
+    };
+    spans.into_iter().map(corners).collect()
+}

@@ -1,0 +1,152 @@
+//! Grids from slices: no collision test a cell.
+
+use super::coarse::coarse;
+use super::{Grid, Proves};
+use crate::model::{Contacts, Scene, on_axis};
+use cplan_geometry::ROUNDING;
+use cplan_interrupt::checkpoint;
+use std::borrow::Cow;
+use std::f64::consts::TAU;
+
+/// Arcs are widened by this before whole cells are judged, radians or metres: rounding in the division into cells is
+/// some 1e-13 of a cell.
+const WIDENING: f64 = 1e-9;
+
+/// Share of what the joints' motion over a cell adds to the margin by which shapes with many corners may be coarser than they
+/// are.
+const COARSENESS: f64 = 1.0 / 16.0;
+
+/// The grid whose cells are blocked where their *centre* comes within `clearance` of an obstacle. What a sampled grid
+/// shows, up to centres within [`ROUNDING`] of contact, in `O(slices * contacts + cells)`.
+#[must_use]
+pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
+    let slices = Contacts::new(scene);
+    let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
+    let columns = Columns::new(&grid);
+    let bands = slices.bands(clearance);
+    let mut intervals = Vec::new();
+    for i in 0..cells[0] {
+        let q1 = grid.center(i * cells[1])[0];
+        let row = &mut grid.blocked[i * cells[1]..(i + 1) * cells[1]];
+        if bands.forbids(q1) {
+            row.fill(true);
+            continue;
+        }
+        let (elbow, heading) = slices.elbow(q1);
+        for index in slices.second_link_pairs() {
+            intervals.clear();
+            let hits = slices.at_elbow(index, elbow, heading, clearance, &mut intervals);
+            on_axis(&scene.arm().joints[1], hits, &intervals, |[start, end]| columns.block_centers(row, start, end));
+        }
+    }
+    grid
+}
+
+/// A grid whose free cells are *wholly* free: each of their configurations keeps at least `clearance` (and more than 0)
+/// from every obstacle.
+///
+/// A slice stands for its slab `q1 +- h1 / 2`: every obstacle is grown by the farthest that a point of link 2 which
+/// touches it can move while joint 1 does so (a chord about the base), and a cell is blocked when its closed range of
+/// `q2` meets a forbidden interval. Each configuration of a blocked cell comes within `clearance + margin` of an
+/// obstacle, `margin` being that of the grid's [`Proves::Outer`].
+///
+/// Obstacle by obstacle, only in the rows where link 2 reaches it at all: `O(reached slices * contacts + cells)`.
+#[must_use]
+pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
+    let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
+    let steps = grid.step();
+    let kept = clearance + 2.0 * ROUNDING;
+    let motions = |slices: &Contacts| -> Vec<f64> {
+        slices.second_link_pairs().map(|index| slices.motion(index, steps[0] / 2.0, kept)).collect()
+    };
+    let fine = Contacts::new(scene);
+    let within = COARSENESS * margin(&fine, &motions(&fine), steps, clearance);
+    let scene = coarse(scene, within, f64::INFINITY);
+    let slices = if let Cow::Owned(scene) = &scene { Contacts::new(scene) } else { fine };
+    let within = if matches!(scene, Cow::Owned(_)) { within } else { 0.0 };
+    let motions = motions(&slices);
+    grid.proves = Proves::Outer { margin: margin(&slices, &motions, steps, clearance) + within };
+
+    let columns = Columns::new(&grid);
+    let bands = slices.bands(kept);
+    let axis = grid.topology.ranges[0];
+    let turns: &[f64] = if axis.is_circle() { &[-TAU, 0.0, TAU] } else { &[0.0] };
+    let centers: Vec<f64> = (0..cells[0]).map(|i| grid.center(i * cells[1])[0]).collect();
+    let half = steps[0] / 2.0 + WIDENING;
+    let banned = |q1: f64, band: &[f64; 2], turn: f64| band[0] <= q1 + turn + half && band[1] >= q1 + turn - half;
+    let is_banned = |q1: f64| bands.merged.iter().any(|band| turns.iter().any(|&turn| banned(q1, band, turn)));
+    let elbows: Vec<_> = centers.iter().map(|&q1| (!is_banned(q1)).then(|| slices.elbow(q1))).collect();
+    for (row, _) in grid.blocked.chunks_mut(cells[1]).zip(&elbows).filter(|(_, elbow)| elbow.is_none()) {
+        row.fill(true);
+    }
+    let (mut reached, mut intervals) = (Vec::new(), Vec::new());
+    for (index, motion) in slices.second_link_pairs().zip(&motions) {
+        let grow = kept + motion;
+        reached.clear();
+        checkpoint();
+        let hits = slices.reach_range(index, grow, &mut reached);
+        on_axis(&scene.arm().joints[0], hits, &reached, |[start, end]| {
+            // One row more at either end, for the rounding of the range.
+            let first = centers.partition_point(|&q1| q1 < start).saturating_sub(1);
+            let last = (centers.partition_point(|&q1| q1 <= end) + 1).min(cells[0]);
+            let rows_within = grid.blocked.chunks_mut(cells[1]).zip(&elbows).take(last).skip(first);
+            for (row, elbow) in rows_within {
+                let &Some((elbow, heading)) = elbow else { continue };
+                intervals.clear();
+                let hits = slices.at_elbow(index, elbow, heading, grow, &mut intervals);
+                intervals.iter_mut().for_each(|[start, end]| (*start, *end) = (*start - WIDENING, *end + WIDENING));
+                on_axis(&scene.arm().joints[1], hits, &intervals, |[start, end]| {
+                    columns.block_touched(row, start, end)
+                });
+            }
+        });
+    }
+    grid
+}
+
+fn free(cells: [usize; 2]) -> Vec<bool> {
+    vec![false; cells[0] * cells[1]]
+}
+
+/// What the two joints' motion over a cell adds to `clearance` at most.
+fn margin(slices: &Contacts<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance: f64) -> f64 {
+    let first = (0..slices.second_link_pairs().start).map(|index| slices.motion(index, h1, clearance));
+    let second = slices.second_link_pairs().zip(motions).map(|(index, motion)| 2.0 * motion + slices.lever(index) * h2);
+    first.chain(second).fold(0.0, f64::max) + 4.0 * ROUNDING + WIDENING
+}
+
+/// The cells of a row by value of joint 2.
+struct Columns {
+    lower: f64,
+    per_cell: f64,
+    count: usize,
+}
+
+impl Columns {
+    fn new(grid: &Grid) -> Self {
+        Self { lower: grid.topology.ranges[1].domain().0, per_cell: 1.0 / grid.step()[1], count: grid.cells[1] }
+    }
+
+    /// Blocks the cells whose centre lies in the closed interval.
+    fn block_centers(&self, row: &mut [bool], start: f64, end: f64) {
+        let first = ((start - self.lower) * self.per_cell - 0.5).ceil();
+        let last = ((end - self.lower) * self.per_cell - 0.5).floor();
+        self.block(row, first, last);
+    }
+
+    /// Blocks the closed cells that meet the closed interval.
+    fn block_touched(&self, row: &mut [bool], start: f64, end: f64) {
+        let first = ((start - self.lower) * self.per_cell).ceil() - 1.0;
+        let last = ((end - self.lower) * self.per_cell).floor();
+        self.block(row, first, last);
+    }
+
+    fn block(&self, row: &mut [bool], first: f64, last: f64) {
+        // Conversions saturate: what lies before the row becomes 0, and `last + 1` beyond it the count.
+        let (from, to) = (first.max(0.0) as usize, (last + 1.0).max(0.0) as usize);
+        let to = to.min(self.count);
+        if from < to {
+            row[from..to].fill(true);
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Which stretches of a segment along one joint are free, exactly.
+
+use super::slices::Slice;
+use crate::model::{Carried, Contacts, Scene, on_axis};
+use crate::space::{Configuration, Segment};
+use cplan_geometry::{Features, Vector, merge_in_place, separation};
+
+/// The stretches of a segment in the domain that keep more than `grow` from contact, from its lesser end on. Exact up to
+/// [`cplan_geometry::ROUNDING`] where only one joint moves along it; a slanted segment is returned as it is.
+///
+/// With joint 1 at rest that is what a slice leaves. With joint 2 at rest link 2 is a part of link 1, and the contact angles
+/// of joint 1 tell. `O(m log m)` in the contacts.
+#[must_use]
+pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segment> {
+    let [from, to] = segment.ends();
+    let moved = match (from[0] == to[0], from[1] == to[1]) {
+        (true, _) => 1,
+        (_, true) => 0,
+        (false, false) => return vec![*segment],
+    };
+    let forbidden = if moved == 1 { along_second(scene, from[0], grow) } else { along_first(scene, from[1], grow) };
+    let (least, greatest) = (from[moved].min(to[moved]), from[moved].max(to[moved]));
+    let at = |value: f64| {
+        let mut q = from;
+        q[moved] = value;
+        q
+    };
+    let mut free = Vec::new();
+    let mut reached = least;
+    for [lower, upper] in forbidden.into_iter().chain([[f64::INFINITY; 2]]) {
+        if reached < lower.min(greatest) {
+            free.push(Segment::new(at(reached), at(lower.min(greatest))));
+        }
+        reached = reached.max(upper);
+    }
+    free
+}
+
+/// The forbidden values of joint 2 at a value of joint 1: all of them if link 1 is in contact.
+fn along_second(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
+    let slices = Contacts::new(scene);
+    if slices.bands(grow).forbids(q1) {
+        return vec![[f64::NEG_INFINITY, f64::INFINITY]];
+    }
+    let mut slice = Slice::default();
+    slices.slice(q1, grow, &mut slice);
+    slice.merged
+}
+
+/// The forbidden values of joint 1 at a value of joint 2.
+fn along_first(scene: &Scene, q2: f64, grow: f64) -> Vec<[f64; 2]> {
+    let arm = scene.arm();
+    let joint = &arm.joints[0];
+    let [first, second] = arm.poses(Configuration::new(0.0, q2));
+    let in_first = first.inverse() * second;
+    let (mut forbidden, mut scratch) = (Vec::new(), Vec::new());
+    for &pair in scene.pairs() {
+        let part = scene.part(pair);
+        if pair.link == 2 {
+            // Joint 1 carries both.
+            if separation(&part.at(&second), scene.piece(pair)).distance <= grow {
+                return vec![[f64::NEG_INFINITY, f64::INFINITY]];
+            }
+            continue;
+        }
+        let part = if pair.link == 0 {
+            Carried::new(joint.joint_type, part)
+        } else {
+            Carried::new(joint.joint_type, &part.at(&in_first))
+        };
+        scratch.clear();
+        let hits = part.hits(arm.base, Vector::x(), &Features::new(scene.piece(pair)), grow, &mut scratch);
+        on_axis(joint, hits, &scratch, |interval| forbidden.push(interval));
+    }
+    merge_in_place(&mut forbidden);
+    forbidden
+}

@@ -1,0 +1,168 @@
+//! C-obstacles of an arm that only translates link 2: Minkowski differences, exact but for rounded corners.
+
+use crate::model::{Arm, JointType};
+use cplan_geometry::{Convex, Point, Vector, cross, inset, minkowski_difference, perpendicular};
+use nalgebra::Matrix2;
+use std::f64::consts::TAU;
+
+/// Slides whose directions enclose less than this sine are parallel: the map from the plane to joint values would
+/// magnify rounding by its inverse.
+const PARALLEL: f64 = 1e-9;
+
+/// The map from displacements in the plane to joint values, for a gantry whose slides are not parallel.
+pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
+    let [JointType::Prismatic { direction: first }, JointType::Prismatic { direction: second }] =
+        [arm.joints[0].joint_type, arm.joints[1].joint_type]
+    else {
+        return None;
+    };
+    let directions = Matrix2::from_columns(&[first, second]);
+    if directions.determinant().abs() < PARALLEL { None } else { directions.try_inverse() }
+}
+
+/// The joint values at which `part` of link 2 comes within `level` of `piece`, as a convex polygon that also holds some
+/// at which they are up to `level + tolerance` apart: arcs are replaced by tangents, flat sides are exact. `map` is
+/// [`joint_map`]'s. `O(n + m)` and as many corners, plus those on arcs.
+pub(super) fn contour(
+    arm: &Arm,
+    map: &Matrix2<f64>,
+    part: &Convex,
+    piece: &Convex,
+    level: f64,
+    tolerance: f64,
+) -> Vec<Point> {
+    let radius = part.radius() + piece.radius() + level;
+    let core = minkowski_difference(piece.core(), part.core());
+    in_joint_values(arm, map, &tangent_polygon(&core, radius, radius + tolerance))
+}
+
+/// The joint values at which `part` of link 2 comes within `level` less `margin` of `piece`, and some at which it is nearer than
+/// `level` only, as a convex polygon: arcs are replaced by chords. None where nothing with area is left. Otherwise as
+/// [`contour`].
+pub(super) fn inner_contour(
+    arm: &Arm,
+    map: &Matrix2<f64>,
+    part: &Convex,
+    piece: &Convex,
+    level: f64,
+    margin: f64,
+) -> Option<Vec<Point>> {
+    // Half of it keeps chords and rounding off the boundary, the other half is for the chords to cut off.
+    let radius = part.radius() + piece.radius() + level - margin / 2.0;
+    let core = minkowski_difference(piece.core(), part.core());
+    let polygon = if radius <= 0.0 { inset(&core, -radius)? } else { chord_polygon(&core, radius, margin / 2.0) };
+    (polygon.len() > 2).then(|| in_joint_values(arm, map, &polygon))
+}
+
+/// A polygon of points within `radius` of a convex polygon that has all points within `radius - sag` of it.
+fn chord_polygon(core: &[Point], radius: f64, sag: f64) -> Vec<Point> {
+    let n = core.len();
+    let widest = 2.0 * (1.0 - sag / radius).max(0.0).acos();
+    let mut polygon = Vec::new();
+    for i in 0..n {
+        let (before, at, after) = (core[(i + n - 1) % n], core[i], core[(i + 1) % n]);
+        let (normal, turn) = if n == 1 { (Vector::x(), TAU) } else { corner(before, at, after) };
+        let chords = (turn / widest).ceil().max(1.0);
+        // Of a disc the last corner is the first.
+        for k in 0..chords as usize + usize::from(n > 1 && turn > 0.0) {
+            let angle = normal.y.atan2(normal.x) + turn * (k as f64 / chords);
+            polygon.push(at + radius * Vector::new(angle.cos(), angle.sin()));
+        }
+    }
+    polygon
+}
+
+/// A polygon of places of link 2's origin as one of joint values.
+fn in_joint_values(arm: &Arm, map: &Matrix2<f64>, polygon: &[Point]) -> Vec<Point> {
+    let origin = arm.base + arm.offset;
+    let mut contour: Vec<Point> = polygon.iter().map(|p| Point::from(map * (p - origin))).collect();
+    if map.determinant() < 0.0 {
+        contour.reverse();
+    }
+    contour
+}
+
+/// A polygon around all points within `radius` of a convex polygon, none of its corners farther than `reach` from it.
+fn tangent_polygon(core: &[Point], radius: f64, reach: f64) -> Vec<Point> {
+    if radius <= 0.0 {
+        return core.to_vec();
+    }
+    let n = core.len();
+    let widest = 2.0 * (radius / reach).acos();
+    let mut polygon = Vec::new();
+    for i in 0..n {
+        let (before, at, after) = (core[(i + n - 1) % n], core[i], core[(i + 1) % n]);
+        let (normal, turn) = if n == 1 { (Vector::x(), TAU) } else { corner(before, at, after) };
+        let tangents = (turn / widest).ceil().max(1.0);
+        let step = turn / tangents;
+        for k in 0..tangents as usize {
+            let angle = normal.y.atan2(normal.x) + (k as f64 + 0.5) * step;
+            let distance = radius / (step / 2.0).cos();
+            polygon.push(at + distance * Vector::new(angle.cos(), angle.sin()));
+        }
+    }
+    polygon
+}
+
+/// The outward normal before a corner, and the angle in `[0, pi]` by which it turns there.
+fn corner(before: Point, at: Point, after: Point) -> (Vector, f64) {
+    let (into, out) = (at - before, after - at);
+    // The sign can only be lost to rounding: a convex outline never turns clockwise.
+    (-perpendicular(into), cross(into, out).abs().atan2(into.dot(&out)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_geometry::separation;
+
+    fn cores() -> [Vec<Point>; 3] {
+        [
+            vec![Point::new(0.3, -0.2)],
+            vec![Point::new(0.0, 0.0), Point::new(1.0, 0.5)],
+            vec![Point::new(0.0, 0.0), Point::new(1.0, 0.0), Point::new(0.0, 0.1)],
+        ]
+    }
+
+    /// Distances from the core at corners, and between them.
+    #[test]
+    fn chord_polygons_lie_between_the_sag_and_the_radius() {
+        for core in cores() {
+            for sag in [1e-6, 1e-3, 0.05, 0.3] {
+                let polygon = chord_polygon(&core, 0.2, sag);
+                let shape = Convex::trusted(core.clone(), 0.0);
+                let distance = |p: Point| separation(&shape, &Convex::point(p)).distance;
+                for (i, &a) in polygon.iter().enumerate() {
+                    let b = polygon[(i + 1) % polygon.len()];
+                    for k in 0..=10 {
+                        let distance = distance(a + (b - a) * (f64::from(k) / 10.0));
+                        assert!(distance <= 0.2 + 1e-12 && distance >= 0.2 - sag - 1e-12, "{sag}: {distance}");
+                    }
+                }
+                // Counter-clockwise all the way round.
+                let n = polygon.len();
+                let turns = |i: usize| {
+                    let [a, b, c] = [0, 1, 2].map(|k| polygon[(i + k) % n]);
+                    cross(b - a, c - b) >= -1e-12
+                };
+                assert!(n < 3 || (0..n).all(turns), "{sag}: {polygon:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn tangent_polygons_lie_between_radius_and_reach() {
+        for core in cores() {
+            let polygon = tangent_polygon(&core, 0.2, 0.21);
+            let shape = Convex::trusted(core, 0.0);
+            let distance = |p: Point| separation(&shape, &Convex::point(p)).distance;
+            for (i, &a) in polygon.iter().enumerate() {
+                let b = polygon[(i + 1) % polygon.len()];
+                assert!(distance(a) <= 0.21 + 1e-12);
+                for k in 0..=10 {
+                    assert!(distance(a + (b - a) * (f64::from(k) / 10.0)) >= 0.2 - 1e-12);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! A window of the universal cover less all copies of the C-obstacles.
+
+use super::Polygon;
+use cplan_geometry::Point;
+use cplan_interrupt::checkpoint;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::core::solver::{Precision, Solver};
+use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
+
+/// Free parts of less area than this (products of rad and m) are left out: they are debris of rounding where contours
+/// nearly touch, and too small for an arm to make use of.
+const SLIVER_AREA: f64 = 1e-10;
+
+/// The free parts of `window`: one polygon a connected component, outer contour counter-clockwise, holes clockwise.
+///
+/// Every contour is counter-clockwise and repeats by `periods` along each axis that has one. Corners are rounded to a
+/// grid of some 1e-17 of the coordinates' range and snapped to each other ([`SNAPPING`]), which contours that carry a margin absorb.
+pub(super) fn free_space<'a>(
+    window: Window,
+    periods: [Option<f64>; 2],
+    contours: impl Iterator<Item = &'a [Point]>,
+) -> Vec<Polygon> {
+    let mut free = parts(window, periods, contours, OverlayRule::Difference);
+    free.retain(|polygon| polygon.area() > SLIVER_AREA);
+    free
+}
+
+/// The same of the parts of `window` that contours cover, all of them.
+pub(super) fn blocked_space<'a>(
+    window: Window,
+    periods: [Option<f64>; 2],
+    contours: impl Iterator<Item = &'a [Point]>,
+) -> Vec<Polygon> {
+    parts(window, periods, contours, OverlayRule::Intersect)
+}
+
+/// Lower and upper value of each axis.
+type Window = [(f64, f64); 2];
+
+fn parts<'a>(
+    window: Window,
+    periods: [Option<f64>; 2],
+    contours: impl Iterator<Item = &'a [Point]>,
+    rule: OverlayRule,
+) -> Vec<Polygon> {
+    let [(left, right), (bottom, top)] = window;
+    let subject = vec![[left, bottom], [right, bottom], [right, top], [left, top]];
+    let mut blocked: Vec<Vec<[f64; 2]>> = Vec::new();
+    for contour in contours {
+        let shifts = |k: usize| copies(contour.iter().map(move |p| p[k]), window[k], periods[k]);
+        for dx in shifts(0) {
+            for dy in shifts(1) {
+                blocked.push(contour.iter().map(|p| [p.x + dx, p.y + dy]).collect());
+            }
+        }
+    }
+    if blocked.len() > MANY {
+        blocked = united_by_neighbors(blocked);
+    }
+    let mut overlay = overlay(&subject, &blocked);
+    let inside = |[x, y]: [f64; 2]| Point::new(x.clamp(left, right), y.clamp(bottom, top));
+    let polygon = |shape: Contours| {
+        let mut contours = shape.into_iter().map(|contour| contour.into_iter().map(inside).collect::<Vec<_>>());
+        Some(Polygon { outer: contours.next()?, holes: contours.collect() })
+    };
+    overlay.overlay(rule, FillRule::NonZero).into_iter().filter_map(polygon).collect()
+}
+
+/// With more contours than this, neighbours are united before all of them are.
+const MANY: usize = 128;
+
+/// Contours that are united first.
+const GROUP: usize = 8;
+
+/// Neighbouring groups whose outlines are united next, and so on.
+const GROUPS: usize = 4;
+
+/// Outlines of which more than this share of the corners was left by a union hardly overlap: the last union does as well.
+const WORTH: f64 = 0.75;
+
+/// Corners are snapped to others within 256 steps of the grid, some 3e-15 of the coordinates' range, and four times as far in each round that has to
+/// follow: from less, or more slowly, sides that all but lie on each other are split in their thousands.
+const SNAPPING: Precision = Precision { start: 16, progression: 4 };
+
+type Overlay = FloatOverlay<[f64; 2], i64>;
+
+type Contours = Vec<Vec<[f64; 2]>>;
+
+fn overlay(subject: &[[f64; 2]], clip: &[Vec<[f64; 2]>]) -> Overlay {
+    let solver = Solver { precision: SNAPPING, ..Solver::default() };
+    Overlay::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), solver)
+}
+
+/// Contours with the same union, in which fewer cross: those of small neighbouring pieces overlap almost wholly, each with
+/// each, and of a group of them little more than the outline is left, of groups of groups again. So what crosses is as much as
+/// the outlines have corners, and not the square of the contours.
+fn united_by_neighbors(contours: Contours) -> Contours {
+    let middle = |contour: &[[f64; 2]], k: usize| {
+        let (low, high) =
+            contour.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[k]), h.max(p[k])));
+        low + (high - low) / 2.0
+    };
+    let mut placed: Vec<Placed> =
+        contours.into_iter().map(|contour| ([0, 1].map(|k| middle(&contour, k)), contour)).collect();
+    united_part(&mut placed).0
+}
+
+/// The middle of a contour's extent, and the contour.
+type Placed = ([f64; 2], Vec<[f64; 2]>);
+
+/// The outlines of a part, and whether it was worth it.
+fn united_part(part: &mut [Placed]) -> (Contours, bool) {
+    checkpoint();
+    if part.len() <= GROUP {
+        let group: Contours = part.iter_mut().map(|(_, contour)| std::mem::take(contour)).collect();
+        return united_if_worth(group);
+    }
+    let mut parts = vec![part];
+    while parts.len() < GROUPS && parts.iter().any(|part| part.len() > GROUP) {
+        parts = parts.into_iter().flat_map(halved).collect();
+    }
+    let (mut outlines, mut worth) = (Contours::new(), false);
+    for part in parts {
+        let (more, was_worth) = united_part(part);
+        outlines.extend(more);
+        worth |= was_worth;
+    }
+    if worth { united_if_worth(outlines) } else { (outlines, false) }
+}
+
+/// The outlines of a union, and whether they have clearly fewer corners than the contours.
+fn united_if_worth(contours: Contours) -> (Contours, bool) {
+    let corners = |contours: &Contours| contours.iter().map(Vec::len).sum::<usize>() as f64;
+    let before = corners(&contours);
+    let outlines: Contours =
+        overlay(&[], &contours).overlay(OverlayRule::Union, FillRule::NonZero).into_iter().flatten().collect();
+    let worth = corners(&outlines) <= WORTH * before;
+    (outlines, worth)
+}
+
+/// Halved across the longer side of what the middles cover.
+fn halved(part: &mut [Placed]) -> [&mut [Placed]; 2] {
+    let extent = |k: usize| {
+        let values = || part.iter().map(|(at, _)| at[k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let k = usize::from(extent(1) > extent(0));
+    let half = part.len() / 2;
+    part.select_nth_unstable_by(half, |(a, _), (b, _)| a[k].total_cmp(&b[k]));
+    part.split_at_mut(half).into()
+}
+
+/// The shifts by whole periods that bring an extent into touch with a range.
+fn copies(values: impl Iterator<Item = f64>, range: (f64, f64), period: Option<f64>) -> Vec<f64> {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    match period {
+        None if low <= range.1 && high >= range.0 => vec![0.0],
+        None => Vec::new(),
+        Some(period) => {
+            let (first, last) = (((range.0 - high) / period).ceil(), ((range.1 - low) / period).floor());
+            (first as i64..=last as i64).map(|k| k as f64 * period).collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(x: f64, y: f64, half: f64) -> Vec<Point> {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .map(|(i, j)| Point::new(x + i * half, y + j * half))
+            .to_vec()
+    }
+
+    #[test]
+    fn an_obstacle_inside_is_a_hole() {
+        let free =
+            free_space([(0.0, 4.0), (0.0, 4.0)], [None, None], [square(2.0, 2.0, 1.0)].iter().map(Vec::as_slice));
+        assert_eq!(free.len(), 1);
+        assert_eq!(free[0].holes.len(), 1);
+        assert!((free[0].area() - 12.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_repeated_obstacle_blocks_every_period() {
+        let wall = vec![Point::new(0.9, -1.0), Point::new(1.1, -1.0), Point::new(1.1, 9.0), Point::new(0.9, 9.0)];
+        let free = free_space([(0.0, 10.0), (0.0, 4.0)], [Some(2.0), None], [wall].iter().map(Vec::as_slice));
+        assert_eq!(free.len(), 6);
+        assert!((free.iter().map(Polygon::area).sum::<f64>() - (40.0 - 5.0 * 0.2 * 4.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn squares_that_touch_at_a_corner_part_what_lies_between() {
+        let squares = [square(1.0, 1.0, 1.0), square(3.0, 3.0, 1.0)];
+        let free = free_space([(0.0, 4.0), (0.0, 4.0)], [None, None], squares.iter().map(Vec::as_slice));
+        assert_eq!(free.len(), 2);
+    }
+
+    /// Unit squares among integer coordinates, of which every free one can be counted.
+    #[test]
+    fn many_squares_leave_what_none_of_them_covers() {
+        let n = 40_usize;
+        // 0, 7, 14, ... visits all places of the lattice in an order that jumps about.
+        for count in [MANY - 1, MANY + 1, 3 * MANY, 1500] {
+            let places: Vec<[usize; 2]> = (0..count).map(|i| 7 * i % (n * n)).map(|k| [k % n, k / n]).collect();
+            // A third of them are three wide, so that they overlap.
+            let width = |i: usize| if i.is_multiple_of(3) { 3 } else { 1 };
+            let mut covered = vec![[false; 40]; n];
+            let squares: Vec<Vec<Point>> = places
+                .iter()
+                .enumerate()
+                .map(|(i, &[x, y])| {
+                    covered[y][x..(x + width(i)).min(n)].fill(true);
+                    let (left, right) = (x as f64, (x + width(i)) as f64);
+                    let (low, high) = (y as f64, y as f64 + 1.0);
+                    [(left, low), (right, low), (right, high), (left, high)].map(|(x, y)| Point::new(x, y)).to_vec()
+                })
+                .collect();
+            let side = (0.0, n as f64);
+            let free = free_space([side, side], [None, None], squares.iter().map(Vec::as_slice));
+            let open = covered.iter().flatten().filter(|c| !**c).count() as f64;
+            assert!((free.iter().map(Polygon::area).sum::<f64>() - open).abs() < 1e-6, "{count}: {open}");
+            for (y, row) in covered.iter().enumerate() {
+                for (x, covered) in row.iter().enumerate() {
+                    let middle = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+                    assert_eq!(free.iter().any(|polygon| polygon.contains(middle)), !covered, "({x}, {y}) of {count}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! The core planner: from an arm among obstacles to a certified path.
+//!
+//! - [`space`]: joint values, axes that are intervals or circles, paths.
+//! - [`model`]: joints, links, the arm, obstacles, and the scene: which pairs of shapes can meet.
+//! - [`cspace`]: C-obstacles as slices, polygons or cells, each with what it proves.
+//! - [`waves`]: waves and classical searches over the free cells of a grid.
+//! - [`planner`]: the trait `Planner` and the four planners of the mission.
+//! - [`check`]: the judge, which certifies paths and proofs on the shapes themselves.
+
+pub mod space;
+pub mod model;
+pub mod cspace;
+pub mod waves;
+pub mod planner;
+pub mod check;

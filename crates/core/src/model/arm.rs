@@ -1,0 +1,211 @@
+//! The planar two-joint arm and its kinematics.
+
+use super::{Dynamics, Joint, JointType, Link, SelfObstacle};
+use crate::space::{Configuration, Topology};
+use cplan_geometry::{ConvexError, Point, Pose, Vector, perpendicular};
+use nalgebra::{Isometry2, Translation2, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// The plane of motion in the URDF's root frame: plane coordinates of a root point `x` are `(x . u, x . v)`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plane {
+    /// First basis vector.
+    pub u: Vector3<f64>,
+    /// Second basis vector.
+    pub v: Vector3<f64>,
+    /// Direction along which heights are measured.
+    pub normal: Vector3<f64>,
+}
+
+/// A planar arm with two joints in series.
+///
+/// Kinematics. `link 1` moves by joint 1 about (or along) `base`; joint 2 sits at `offset` from joint 1 in link 1's
+/// frame. With `T(v)` a translation and `M_i(q_i)` the joint's motion, a rotation by `sign q_i` or a translation by
+/// `q_i direction`,
+///
+/// ```text
+/// pose of link 1 = T(base) M_1(q1)
+/// pose of link 2 = T(base) M_1(q1) T(offset) M_2(q2)
+/// ```
+///
+/// All frames are parallel to the plane's axes at the zero configuration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Arm {
+    /// The robot's name.
+    pub name: String,
+    /// Base to tip.
+    pub joints: [Joint; 2],
+    /// What each joint carries.
+    pub links: [Link; 2],
+    /// Joint 1 in plane coordinates.
+    pub base: Point,
+    /// From joint 1 to joint 2 in link 1's frame.
+    pub offset: Vector,
+    /// The tip in link 2's frame.
+    pub tip: Point,
+    /// Name of the tip's URDF link.
+    pub tip_name: String,
+    /// The plane of motion.
+    pub plane: Plane,
+    /// Masses and efforts, if they are known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dynamics: Option<Dynamics>,
+    /// Links of the robot that are in the way of its other links.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub self_obstacles: Vec<SelfObstacle>,
+}
+
+impl Arm {
+    /// An arm whose joint 2 and tip lie on the x axis of the links at zero, joint 1 at the origin: joint 2 at `reaches[0]` from
+    /// joint 1, the tip at `reaches[1]` from joint 2, metres.
+    #[must_use]
+    pub fn new(joints: [Joint; 2], links: [Link; 2], reaches: [f64; 2]) -> Self {
+        let plane = Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() };
+        let [offset, tip] = reaches;
+        Self {
+            name: "arm".into(),
+            joints,
+            links,
+            base: Point::origin(),
+            offset: Vector::new(offset, 0.0),
+            tip: Point::new(tip, 0.0),
+            tip_name: "tip".into(),
+            plane,
+            dynamics: None,
+            self_obstacles: Vec::new(),
+        }
+    }
+
+    /// Two bars of these lengths and this width with round ends, metres, on joints that turn without end.
+    ///
+    /// ```
+    /// let arm = cplan::Arm::rr([1.0, 0.8], 0.06).expect("an arm");
+    /// assert_eq!((arm.kind(), arm.reach()), ("RR", 1.83));
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Link::bar`].
+    pub fn rr(lengths: [f64; 2], width: f64) -> Result<Self, ConvexError> {
+        let links = [Link::bar("link 1", lengths[0], width)?, Link::bar("link 2", lengths[1], width)?];
+        Ok(Self::new([Joint::continuous("joint 1"), Joint::continuous("joint 2")], links, lengths))
+    }
+
+    /// The same arm, put where `place` takes its root frame: turned, then moved.
+    #[must_use]
+    pub fn placed(&self, place: &Pose) -> Self {
+        let (mut arm, turn) = (self.clone(), place.rotation);
+        arm.base = place * self.base;
+        // Without a turn all numbers stay as they are.
+        if turn.angle() != 0.0 {
+            (arm.offset, arm.tip) = (turn * self.offset, turn * self.tip);
+            let turned = Pose::from_parts(Translation2::identity(), turn);
+            for part in arm.links.iter_mut().flat_map(|link| &mut link.parts) {
+                part.shape = part.shape.at(&turned);
+                part.inner = part.inner.as_ref().map(|inner| inner.at(&turned));
+            }
+            for joint in &mut arm.joints {
+                if let JointType::Prismatic { direction } = &mut joint.joint_type {
+                    *direction = turn * *direction;
+                }
+            }
+            for body in arm.dynamics.iter_mut().flat_map(|dynamics| &mut dynamics.bodies) {
+                body.center = turn * body.center;
+            }
+        }
+        arm.self_obstacles.iter_mut().for_each(|own| own.obstacle.move_by(place));
+        arm
+    }
+
+    /// The space of configurations.
+    #[must_use]
+    pub fn topology(&self) -> Topology {
+        Topology { ranges: [self.joints[0].range, self.joints[1].range] }
+    }
+
+    /// `RR`, `RP`, `PR` or `PP`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match (self.joints[0].joint_type.is_revolute(), self.joints[1].joint_type.is_revolute()) {
+            (true, true) => "RR",
+            (true, false) => "RP",
+            (false, true) => "PR",
+            (false, false) => "PP",
+        }
+    }
+
+    /// Pose of link 1 (`index` 0), of link 2 (1), or of link 2 while joint 1 stays at zero (2): how it lies to link 1.
+    #[must_use]
+    pub fn pose(&self, index: usize, q: Configuration) -> Pose {
+        let q = if index == 2 { Configuration::new(0.0, q[1]) } else { q };
+        let first = Translation2::from(self.base.coords) * motion(self.joints[0].joint_type, q[0]);
+        if index == 0 {
+            return first;
+        }
+        first * Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1])
+    }
+
+    /// Both link poses.
+    #[must_use]
+    pub fn poses(&self, q: Configuration) -> [Pose; 2] {
+        let [first, second, _] = self.pair_poses(q);
+        [first, second]
+    }
+
+    /// The poses by which a pair's part is placed, by [`super::Pair::link`].
+    #[must_use]
+    pub fn pair_poses(&self, q: Configuration) -> [Pose; 3] {
+        let second = Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1]);
+        let [first, at_zero] = [q[0], 0.0].map(|value| self.pose(0, Configuration::new(value, 0.0)));
+        [first, first * second, at_zero * second]
+    }
+
+    /// A length that bounds how far the outlines and the tip reach from joint 1 with both joints at zero; the size of
+    /// the arm, to which tolerances are relative. Metres, positive.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let of = |link: usize| self.links[link].parts.iter().map(|p| p.shape.reach_from(Point::origin()));
+        let first = of(0).fold(self.offset.norm(), f64::max);
+        let second = of(1).fold(self.tip.coords.norm(), f64::max);
+        (first.max(self.offset.norm() + second)).max(f64::MIN_POSITIVE)
+    }
+
+    /// Where the tip is.
+    #[must_use]
+    pub fn tip_at(&self, q: Configuration) -> Point {
+        self.pose(1, q) * self.tip
+    }
+
+    /// Where joint 2 is (for a prismatic one: its origin at zero, carried by link 1).
+    #[must_use]
+    pub fn elbow_at(&self, q1: f64) -> Point {
+        self.pose(0, Configuration::new(q1, 0.0)) * Point::from(self.offset)
+    }
+
+    /// Velocity of the point `p` of link `index` (link frame) per unit of each joint's rate: the two Jacobian columns.
+    #[must_use]
+    pub fn jacobian(&self, index: usize, p: Point, q: Configuration) -> [Vector; 2] {
+        let poses = self.poses(q);
+        let at = poses[index] * p;
+        let first = match self.joints[0].joint_type {
+            JointType::Revolute { sign } => sign * perpendicular(at - self.base),
+            JointType::Prismatic { direction } => direction,
+        };
+        if index == 0 {
+            return [first, Vector::zeros()];
+        }
+        let second = match self.joints[1].joint_type {
+            JointType::Revolute { sign } => sign * perpendicular(at - poses[0] * Point::from(self.offset)),
+            JointType::Prismatic { direction } => poses[0].rotation * direction,
+        };
+        [first, second]
+    }
+}
+
+fn motion(joint_type: JointType, value: f64) -> Pose {
+    match joint_type {
+        JointType::Revolute { sign } => Isometry2::rotation(sign * value),
+        JointType::Prismatic { direction } => Isometry2::translation(value * direction.x, value * direction.y),
+    }
+}

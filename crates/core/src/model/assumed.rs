@@ -1,0 +1,65 @@
+//! Limits that a motion keeps although nobody gives them, and the words for them.
+
+use cplan_text::short;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Top speed of a joint that turns, without one of its own; rad/s.
+pub const TURNING_SPEED: f64 = 1.0;
+
+/// The same of one that slides; m/s.
+pub const SLIDING_SPEED: f64 = 0.25;
+
+/// Seconds to top speed, without a limit on the acceleration.
+const TIME_TO_TOP_SPEED: f64 = 0.25;
+
+/// The greatest acceleration of a joint that has none, of its top speed.
+pub fn assumed_acceleration(velocity: f64) -> f64 {
+    (velocity / TIME_TO_TOP_SPEED).min(f64::MAX)
+}
+
+/// Defaults that were taken for want of limits, by joint: rad/s or m/s, rad/s2 or m/s2. Only timing depends on them; path,
+/// certificate and proof do not.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct AssumedLimits {
+    /// The top speeds that were assumed, by joint.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub velocity: BTreeMap<String, f64>,
+    /// The greatest accelerations that were assumed, by joint.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub acceleration: BTreeMap<String, f64>,
+}
+
+impl AssumedLimits {
+    /// Whether all limits are given.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.velocity.is_empty() && self.acceleration.is_empty()
+    }
+
+    /// All of them in words, for joints with these names and units of their values.
+    #[must_use]
+    pub fn notes(&self, joints: [(&str, &str); 2]) -> Vec<String> {
+        let of_joint = |(name, unit): (&str, &str)| {
+            let whose = format!("joint \"{name}\"");
+            let speed = self.velocity.get(name).map(|value| assumed_speed_note(&whose, *value, unit));
+            let acceleration = self.acceleration.get(name).map(|value| assumed_acceleration_note(&whose, *value, unit));
+            speed.into_iter().chain(acceleration)
+        };
+        joints.into_iter().flat_map(of_joint).collect()
+    }
+}
+
+/// The words for a top speed that nobody gives.
+fn assumed_speed_note(whose: &str, value: f64, unit: &str) -> String {
+    format!("{whose}: no top speed given; assumed {} {unit}/s, for the timing alone", short(value))
+}
+
+/// The words for an acceleration that nobody gives.
+pub fn assumed_acceleration_note(whose: &str, value: f64, unit: &str) -> String {
+    let value = short(value);
+    format!(
+        "{whose}: no acceleration limit given; assumed {value} {unit}/s2, top speed in {TIME_TO_TOP_SPEED} s, for the timing alone"
+    )
+}

@@ -1,0 +1,388 @@
+//! What an arm weighs, and the torques that move it.
+//!
+//! For a body of mass `m` whose centre of mass is at `p` and that turns by `theta`, with inertia `I` about its centre and the plane's
+//! normal, joint `k` has to bring
+//!
+//! ```text
+//! tau_k = m dp/dq_k . (p'' - g) + I dtheta/dq_k theta''
+//! ```
+//!
+//! and the sum of that over all bodies (d'Alembert; Siciliano, Sciavicco, Villani, Oriolo, *Robotics*, 2009, section 7.1). Torques in N m of
+//! joints that turn, forces in N of those that slide. Friction, gears and the rotors' own inertia are not in it.
+
+use super::{Arm, JointType, Payload};
+use crate::space::Configuration;
+use cplan_geometry::{Convex, Point, Pose, Vector, perpendicular};
+use serde::{Deserialize, Serialize};
+
+/// A rigid body in the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Kilograms.
+    pub mass: f64,
+    /// Centre of mass in the frame that the body belongs to.
+    pub center: Point,
+    /// Moment of inertia about the centre of mass and the plane's normal, kg m2.
+    pub inertia: f64,
+}
+
+/// Masses, gravity and the joints' efforts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dynamics {
+    /// What each joint carries up to the next, in the link's frame.
+    pub bodies: [Body; 2],
+    /// Acceleration of free fall in plane coordinates, m/s2.
+    pub gravity: Vector,
+    /// Greatest torque (N m) or force (N) of each joint.
+    pub effort: [f64; 2],
+    /// Joints whose greatest acceleration nobody gives.
+    pub assumed: [bool; 2],
+    /// Whether motions have to keep within the efforts.
+    pub limits: bool,
+}
+
+/// Greatest magnitudes of a curve's derivatives by its parameter, joint by joint, over a part of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rates {
+    /// Of the first derivative.
+    pub first: [f64; 2],
+    /// Of the second.
+    pub second: [f64; 2],
+    /// Of the third.
+    pub third: [f64; 2],
+}
+
+/// Second derivatives of the parts of a torque along a curve, by its parameter, at the most: of each joint.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Curvature {
+    /// Of what the first derivative of the curve asks for, as an acceleration.
+    pub inertial: [f64; 2],
+    /// Of what its second derivative and the square of the first do.
+    pub bent: [f64; 2],
+    /// Of what it takes to hold the arm.
+    pub holding: [f64; 2],
+}
+
+impl Body {
+    /// Nothing.
+    pub const NONE: Self = Self { mass: 0.0, center: Point::new(0.0, 0.0), inertia: 0.0 };
+
+    /// Both joined rigidly.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        let mass = self.mass + other.mass;
+        if mass == 0.0 {
+            return Self { inertia: self.inertia + other.inertia, ..*self };
+        }
+        let center = Point::from((self.center.coords * self.mass + other.center.coords * other.mass) / mass);
+        let about = |body: &Self| body.inertia + body.mass * (body.center - center).norm_squared();
+        Self { mass, center, inertia: about(self) + about(other) }
+    }
+
+    /// A mass spread evenly over pieces that do not overlap. Pieces that are rounded off count as their cores but for discs.
+    #[must_use]
+    pub fn spread(mass: f64, pieces: &[Convex]) -> Self {
+        let sheets = pieces.iter().map(sheet).fold(Self::NONE, |sum, piece| sum.and(&piece));
+        // Of sheets the mass is their area.
+        let density = if sheets.mass > 0.0 { mass / sheets.mass } else { 0.0 };
+        Self { mass, inertia: density * sheets.inertia, ..sheets }
+    }
+
+    fn at(&self, pose: &Pose) -> Self {
+        Self { center: pose * self.center, ..*self }
+    }
+}
+
+/// A piece of density 1.
+fn sheet(piece: &Convex) -> Body {
+    let core = piece.core();
+    if let [center] = core[..] {
+        let square = piece.radius() * piece.radius();
+        let mass = std::f64::consts::PI * square;
+        return Body { mass, center, inertia: mass * square / 2.0 };
+    }
+    // A fan of triangles; a triangle's inertia about its centre is a thirty-sixth of its mass times the sum of the squares of its sides.
+    let triangles = core.windows(2).skip(1).map(|side| {
+        let corners = [core[0], side[0], side[1]];
+        let [a, b, c] = [corners[1] - corners[0], corners[2] - corners[0], corners[2] - corners[1]];
+        let mass = a.perp(&b).abs() / 2.0;
+        let center = Point::from(corners.iter().map(|corner| corner.coords).sum::<Vector>() / 3.0);
+        Body { mass, center, inertia: mass * (a.norm_squared() + b.norm_squared() + c.norm_squared()) / 36.0 }
+    });
+    triangles.fold(Body::NONE, |sum, triangle| sum.and(&triangle))
+}
+
+impl Arm {
+    /// Lets motions keep within the joints' efforts, which take the place of accelerations that nobody gives; where nothing is known of
+    /// masses and efforts, nothing changes.
+    pub fn keep_efforts(&mut self) {
+        let Some(mut dynamics) = self.dynamics else { return };
+        dynamics.limits = true;
+        let greatest = dynamics.greatest_accelerations(self);
+        for (k, joint) in self.joints.iter_mut().enumerate().filter(|(k, _)| dynamics.assumed[*k]) {
+            // From one top speed to the other the jerk takes it no farther than this.
+            let by_jerk = joint.jerk.map_or(f64::MAX, |jerk| (2.0 * jerk * joint.velocity).sqrt());
+            joint.acceleration = greatest[k].min(by_jerk);
+        }
+        self.dynamics = Some(dynamics);
+    }
+}
+
+impl Dynamics {
+    /// The same with what is carried as a part of link 2. What a wrist keeps level does not turn: its mass counts at the tip.
+    #[must_use]
+    pub fn carrying(&self, arm: &Arm, payload: &Payload) -> Self {
+        let body = match payload.grip {
+            super::Grip::Rigid(in_link) => Body::spread(payload.mass, &payload.pieces).at(&in_link),
+            super::Grip::Level { .. } => Body { mass: payload.mass, center: arm.tip, inertia: 0.0 },
+        };
+        let [first, second] = self.bodies;
+        Self { bodies: [first, second.and(&body)], ..*self }
+    }
+
+    /// Torques of a motion at `q` with these speeds and accelerations of the joints.
+    #[must_use]
+    pub fn torque(
+        &self,
+        arm: &Arm,
+        q: Configuration,
+        velocity: Configuration,
+        acceleration: Configuration,
+    ) -> Configuration {
+        let here = self.at(arm, q);
+        here.inertial(acceleration) + here.centrifugal(velocity) + here.holding()
+    }
+
+    /// What all torques at a configuration depend on.
+    #[must_use]
+    pub fn at<'a>(&'a self, arm: &'a Arm, q: Configuration) -> DynamicsAt<'a> {
+        let columns = [0, 1].map(|link| arm.jacobian(link, self.bodies[link].center, q));
+        DynamicsAt { dynamics: self, arm, columns }
+    }
+
+    /// How fast torques change by the time along a part of a motion, at the most: no farther from `middle` than `reach` seconds, with these
+    /// derivatives.
+    #[must_use]
+    pub fn change(&self, arm: &Arm, middle: Configuration, reach: f64, rates: &Rates) -> [f64; 2] {
+        let mut change = [0.0; 2];
+        for (link, body) in self.bodies.iter().enumerate() {
+            let Bounds { column, way } = bounds(arm, link, body.center, middle, reach, rates);
+            let turn = is_turned(arm, link);
+            let turning = turn[0] * rates.third[0] + turn[1] * rates.third[1];
+            for (k, change) in change.iter_mut().enumerate() {
+                let moved = column[k][1] * (way[1] + self.gravity.norm()) + column[k][0] * way[2];
+                *change += body.mass * moved + body.inertia * turn[k] * turning;
+            }
+        }
+        change
+    }
+
+    /// How far torques are from linear on a part of a curve without third derivatives: no farther from `middle` than `reach` of the parameter.
+    #[must_use]
+    pub fn curvature(&self, arm: &Arm, middle: Configuration, reach: f64, rates: &Rates) -> Curvature {
+        let mut curvature = Curvature::default();
+        for (link, body) in self.bodies.iter().enumerate() {
+            let Bounds { column, way } = bounds(arm, link, body.center, middle, reach, rates);
+            for (k, column) in column.iter().enumerate() {
+                // The second derivative of a product of a column and a derivative of the way.
+                let of = |n: usize| column[2] * way[n] + 2.0 * column[1] * way[n + 1] + column[0] * way[n + 2];
+                curvature.inertial[k] += body.mass * of(0);
+                curvature.bent[k] += body.mass * of(1);
+                curvature.holding[k] += body.mass * column[2] * self.gravity.norm();
+            }
+        }
+        curvature
+    }
+
+    /// Bounds on the magnitudes of the inertia matrix's entries, wherever the arm is.
+    #[must_use]
+    pub fn greatest_inertia(&self, arm: &Arm) -> [[f64; 2]; 2] {
+        let mut greatest = [[0.0; 2]; 2];
+        for (link, body) in self.bodies.iter().enumerate() {
+            let (bounds, turn) = (everywhere(arm, link, body.center), is_turned(arm, link));
+            for (k, row) in greatest.iter_mut().enumerate() {
+                for (l, entry) in row.iter_mut().enumerate() {
+                    *entry += body.mass * bounds.column[k][0] * bounds.column[l][0] + body.inertia * turn[k] * turn[l];
+                }
+            }
+        }
+        greatest
+    }
+
+    /// Accelerations that no motion within speeds and efforts exceeds, wherever the arm is; infinite where a joint moves nothing.
+    #[must_use]
+    pub fn greatest_accelerations(&self, arm: &Arm) -> [f64; 2] {
+        let mut pull = self.effort;
+        for (link, body) in self.bodies.iter().enumerate() {
+            let bounds = everywhere(arm, link, body.center);
+            for (k, pull) in pull.iter_mut().enumerate() {
+                *pull += body.mass * bounds.column[k][0] * (bounds.way[1] + self.gravity.norm());
+            }
+        }
+        let (inertia, determinant) = (self.greatest_inertia(arm), self.least_determinant(arm));
+        [0, 1].map(|k| (inertia[1 - k][1 - k] * pull[k] + inertia[0][1] * pull[1 - k]) / determinant)
+    }
+
+    /// A lower bound on the determinant of the inertia matrix, wherever the arm is.
+    #[must_use]
+    pub fn least_determinant(&self, arm: &Arm) -> f64 {
+        use JointType::{Prismatic, Revolute};
+        let [a, b] = &self.bodies;
+        let about = |body: &Body| body.inertia + body.mass * body.center.coords.norm_squared();
+        match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
+            (Revolute { .. }, Revolute { .. }) => about(a) * about(b) + b.mass * arm.offset.norm_squared() * b.inertia,
+            (Revolute { .. }, Prismatic { .. }) => b.mass * (about(a) + b.inertia),
+            (Prismatic { .. }, Revolute { .. }) => a.mass * about(b) + b.mass * b.inertia,
+            (Prismatic { direction: first }, Prismatic { direction: second }) => {
+                a.mass * b.mass + (b.mass * first.perp(&second)).powi(2)
+            }
+        }
+    }
+}
+
+/// An arm's dynamics at a configuration.
+#[derive(Debug, Clone, Copy)]
+pub struct DynamicsAt<'a> {
+    dynamics: &'a Dynamics,
+    arm: &'a Arm,
+    /// Of each link's centre of mass its derivative by each joint.
+    columns: [[Vector; 2]; 2],
+}
+
+impl DynamicsAt<'_> {
+    /// What accelerations alone ask for: the inertia matrix times them.
+    #[must_use]
+    pub fn inertial(&self, acceleration: Configuration) -> Configuration {
+        self.sum(|link, [first, second]| {
+            let turning = turns(self.arm, link).map(|turn| turn.unwrap_or(0.0));
+            let along = first * acceleration[0] + second * acceleration[1];
+            (along, turning[0] * acceleration[0] + turning[1] * acceleration[1])
+        })
+    }
+
+    /// What speeds alone ask for: centrifugal and Coriolis forces.
+    #[must_use]
+    pub fn centrifugal(&self, velocity: Configuration) -> Configuration {
+        self.sum(|link, columns| (bending(self.arm, link, velocity, columns), 0.0))
+    }
+
+    /// What it takes to hold the arm at rest against gravity.
+    #[must_use]
+    pub fn holding(&self) -> Configuration {
+        self.sum(|_, _| (-self.dynamics.gravity, 0.0))
+    }
+
+    /// Torques for accelerations of each link's centre of mass and of its turning.
+    fn sum(&self, accelerations: impl Fn(usize, [Vector; 2]) -> (Vector, f64)) -> Configuration {
+        let mut torque = Configuration::zeros();
+        for (link, (body, columns)) in self.dynamics.bodies.iter().zip(self.columns).enumerate() {
+            let (moved, turned) = accelerations(link, columns);
+            for (k, turn) in turns(self.arm, link).into_iter().enumerate() {
+                torque[k] += body.mass * columns[k].dot(&moved) + body.inertia * turn.unwrap_or(0.0) * turned;
+            }
+        }
+        torque
+    }
+}
+
+/// Acceleration of a link's centre of mass while the joints' speeds stay as they are.
+fn bending(arm: &Arm, link: usize, v: Configuration, columns: [Vector; 2]) -> Vector {
+    use JointType::{Prismatic, Revolute};
+    let [first, second] = arm.joints.each_ref().map(|joint| joint.joint_type);
+    // The lever from a joint's axis to the centre is a quarter turn back from the column.
+    let lever = |sign: f64, column: Vector| -perpendicular(column) * sign;
+    match (first, second) {
+        (Revolute { sign }, _) if link == 0 => -lever(sign, columns[0]) * (v[0] * v[0]),
+        (Prismatic { .. }, _) if link == 0 => Vector::zeros(),
+        (Revolute { sign: s1 }, Revolute { sign: s2 }) => {
+            let outer = lever(s2, columns[1]);
+            let inner = lever(s1, columns[0]) - outer;
+            let turning = s1 * v[0] + s2 * v[1];
+            -inner * (v[0] * v[0]) - outer * (turning * turning)
+        }
+        (Revolute { sign }, Prismatic { .. }) => {
+            -lever(sign, columns[0]) * (v[0] * v[0]) + perpendicular(columns[1]) * (2.0 * sign * v[0] * v[1])
+        }
+        (Prismatic { .. }, Revolute { sign }) => -lever(sign, columns[1]) * (v[1] * v[1]),
+        (Prismatic { .. }, Prismatic { .. }) => Vector::zeros(),
+    }
+}
+
+/// By how much a link turns with each joint: none if that joint does not turn it.
+fn turns(arm: &Arm, link: usize) -> [Option<f64>; 2] {
+    [0, 1].map(|k| match arm.joints[k].joint_type {
+        JointType::Revolute { sign } if k <= link => Some(sign),
+        _ => None,
+    })
+}
+
+/// Likewise, 1 or 0.
+fn is_turned(arm: &Arm, link: usize) -> [f64; 2] {
+    turns(arm, link).map(|turn| f64::from(u8::from(turn.is_some())))
+}
+
+/// Bounds on magnitudes along a part of a curve, for a point of a link.
+struct Bounds {
+    /// Of the point's derivative by each joint, and of the first two derivatives of that along the curve.
+    column: [[f64; 3]; 2],
+    /// Of the first four derivatives of the point along the curve; of the fourth where the curve has no third derivative.
+    way: [f64; 4],
+}
+
+/// The same wherever the arm is, at constant speeds up to its top speeds.
+fn everywhere(arm: &Arm, link: usize, point: Point) -> Bounds {
+    let velocity = arm.joints.each_ref().map(|joint| joint.velocity);
+    let domains = arm.joints.each_ref().map(|joint| joint.range.domain());
+    let middle = Configuration::from(domains.map(|(lower, upper)| f64::midpoint(lower, upper)));
+    // No joint gets farther from the middle than in so many seconds at its top speed.
+    let time = (0..2).map(|k| (domains[k].1 - domains[k].0) / 2.0 / velocity[k]).fold(0.0, f64::max);
+    bounds(arm, link, point, middle, time, &Rates { first: velocity, second: [0.0; 2], third: [0.0; 2] })
+}
+
+fn bounds(arm: &Arm, link: usize, point: Point, middle: Configuration, reach: f64, rates: &Rates) -> Bounds {
+    use JointType::{Prismatic, Revolute};
+    const STILL: [f64; 3] = [0.0; 3];
+    let Rates { first: v, second: a, third: j } = *rates;
+    // Derivatives of a lever that turns, by those of its angle.
+    let lever = |length: f64, v: f64, a: f64, j: f64| {
+        let fourth = v * v * v * v + 6.0 * v * v * a + 3.0 * a * a;
+        [v, v * v + a, v * v * v + 3.0 * v * a + j, fourth].map(|by| length * by)
+    };
+    let column = |length: f64, way: [f64; 4]| [length, way[0], way[1]];
+    let slide = |k: usize| [v[k], a[k], j[k], 0.0];
+    let plus = |x: [f64; 4], y: [f64; 4]| [0, 1, 2, 3].map(|n| x[n] + y[n]);
+    let length = point.coords.norm();
+    let inner = arm.offset.norm();
+    match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
+        (Revolute { .. }, _) if link == 0 => {
+            let way = lever(length, v[0], a[0], j[0]);
+            Bounds { column: [column(length, way), STILL], way }
+        }
+        (Prismatic { .. }, _) if link == 0 => Bounds { column: [[1.0, 0.0, 0.0], STILL], way: slide(0) },
+        (Revolute { .. }, Revolute { .. }) => {
+            let outer = lever(length, v[0] + v[1], a[0] + a[1], j[0] + j[1]);
+            let way = plus(lever(inner, v[0], a[0], j[0]), outer);
+            Bounds { column: [column(inner + length, way), column(length, outer)], way }
+        }
+        (Revolute { .. }, Prismatic { direction }) => {
+            let r = (arm.offset + direction * middle[1] + point.coords).norm() + v[1] * reach;
+            let turned = lever(1.0, v[0], a[0], j[0]);
+            // Of a product of a lever that turns and a length that changes.
+            let mixed = [
+                0.0,
+                2.0 * turned[0] * v[1],
+                3.0 * turned[1] * v[1] + 3.0 * turned[0] * a[1],
+                4.0 * turned[2] * v[1] + 6.0 * turned[1] * a[1],
+            ];
+            let way = plus(plus(turned.map(|by| r * by), mixed), slide(1));
+            Bounds { column: [column(r, way), column(1.0, turned)], way }
+        }
+        (Prismatic { .. }, Revolute { .. }) => {
+            let outer = lever(length, v[1], a[1], j[1]);
+            Bounds { column: [[1.0, 0.0, 0.0], column(length, outer)], way: plus(slide(0), outer) }
+        }
+        (Prismatic { .. }, Prismatic { .. }) => Bounds { column: [[1.0, 0.0, 0.0]; 2], way: plus(slide(0), slide(1)) },
+    }
+}

@@ -1,0 +1,88 @@
+//! The outline of a link.
+
+use super::Heights;
+use cplan_geometry::{Convex, ConvexError, Point};
+use serde::{Deserialize, Serialize};
+
+/// Where a link's outline comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OutlineSource {
+    /// The URDF's `<collision>` geometry.
+    Collision,
+    /// The URDF's `<visual>` geometry, for want of collision geometry.
+    Visual,
+    /// A capsule between the joints, which the user asked for.
+    Bar,
+    /// Nothing: the link cannot collide.
+    None,
+}
+
+/// One convex piece of a link's outline, in the link's frame: origin at the joint that carries the link, axes parallel
+/// to the plane's at the zero configuration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// Projection on the plane, or what covers it: what is free of this is free.
+    pub shape: Convex,
+    /// A shape within the projection, where `shape` is larger than that: proofs that something is in the way rest on it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inner: Option<Convex>,
+    /// The number of the shape that it is, or is a part of, among those of the URDF link that have a size; of what is carried the number of the
+    /// payload's piece.
+    #[serde(default, skip_serializing_if = "is_first")]
+    pub number: usize,
+    /// Whether it is the URDF link's `<visual>` geometry, which has no `<collision>` geometry.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_visual: bool,
+    /// Extent along the plane's normal in the root frame.
+    pub heights: Heights,
+    /// The URDF link that the geometry belongs to.
+    pub body: String,
+}
+
+fn is_first(number: &usize) -> bool {
+    *number == 0
+}
+
+/// Everything that one joint moves and the next does not, fixed children included.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Link {
+    /// The URDF link that the joint carries.
+    pub name: String,
+    /// The outline: a union of convex parts.
+    pub parts: Vec<Part>,
+    /// Where the outline comes from.
+    pub source: OutlineSource,
+}
+
+impl Link {
+    /// A link of these shapes, at all heights; no shapes for one that cannot collide.
+    #[must_use]
+    pub fn of(name: &str, shapes: impl IntoIterator<Item = Convex>) -> Self {
+        let part =
+            |shape| Part { shape, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: name.into() };
+        let parts: Vec<Part> = shapes.into_iter().map(part).collect();
+        let source = if parts.is_empty() { OutlineSource::None } else { OutlineSource::Collision };
+        Self { name: name.into(), parts, source }
+    }
+
+    /// A bar with round ends along x from the joint, metres; without a width it is a line.
+    ///
+    /// ```
+    /// use cplan::model::Link;
+    ///
+    /// assert!(Link::bar("thin", 0.8, 0.0).is_ok());
+    /// assert!(Link::bar("backwards", -0.8, 0.06).is_err() && Link::bar("hollow", 0.8, -0.06).is_err());
+    /// ```
+    ///
+    /// # Errors
+    /// A length that is not finite and positive, and a width that is negative or not finite.
+    pub fn bar(name: &str, length: f64, width: f64) -> Result<Self, ConvexError> {
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(ConvexError::Length { length });
+        }
+        Ok(Self::of(name, [Convex::new(vec![Point::origin(), Point::new(length, 0.0)], width / 2.0)?]))
+    }
+}

@@ -1,0 +1,410 @@
+//! Obstacles that move while the arm does.
+
+use super::Obstacle;
+use cplan_geometry::{Convex, Interval, Point, Pose, Vector, merge_in_place, perpendicular};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Times of courses beyond this are a mistake, seconds: as long as the longest motion that is timed.
+pub const LATEST: f64 = 1e6;
+
+/// Where the frame of a mover is at a time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stop {
+    /// Seconds since the arm's motion begins.
+    pub time: f64,
+    /// The origin of its own frame, plane coordinates.
+    pub at: Point,
+    /// How the frame is turned against the plane's, radians. From one stop to the next it turns by their difference, whole turns included.
+    pub angle: f64,
+}
+
+/// How something moves: straight and evenly from stop to stop. It waits at the first stop until its time, and stays at the last; or leaves that at a
+/// constant velocity, for ever, as what lies on a conveyor does.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "CourseRecord", into = "CourseRecord")]
+pub struct Course {
+    stops: Vec<Stop>,
+    /// From the last stop on, metres a second.
+    velocity: Vector,
+    /// What follows from both.
+    legs: Vec<Leg>,
+}
+
+/// What a [`Course`] is made of.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CourseRecord {
+    stops: Vec<Stop>,
+    velocity: Vector,
+}
+
+impl From<Course> for CourseRecord {
+    fn from(Course { stops, velocity, .. }: Course) -> Self {
+        Self { stops, velocity }
+    }
+}
+
+impl TryFrom<CourseRecord> for Course {
+    type Error = CourseError;
+
+    fn try_from(CourseRecord { stops, velocity }: CourseRecord) -> Result<Self, CourseError> {
+        Self::new(stops, velocity)
+    }
+}
+
+/// Why stops make no course.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum CourseError {
+    /// There are none.
+    #[error("a course needs a stop")]
+    Empty,
+    /// A time that is not later than the one before, or negative, or beyond [`LATEST`].
+    #[error("stop {} is at {time} s; times begin at 0 or later, increase, and end before {LATEST:e}", stop + 1)]
+    Time {
+        /// Which, from 0.
+        stop: usize,
+        /// Its time.
+        time: f64,
+    },
+    /// A place, angle or velocity that is no number, or larger than makes sense.
+    #[error("stop {} has a place or a velocity that is none", stop + 1)]
+    Place {
+        /// Which, from 0.
+        stop: usize,
+    },
+}
+
+/// A stretch of a course in which neither velocity changes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leg {
+    /// When it begins, seconds.
+    pub from: f64,
+    /// When it ends; infinite for the last.
+    pub to: f64,
+    /// Where it begins.
+    pub start: Stop,
+    /// Of the frame's origin, metres a second.
+    pub velocity: Vector,
+    /// Radians a second.
+    pub turn: f64,
+}
+
+impl Leg {
+    /// Where the frame is at a time of the leg.
+    #[must_use]
+    pub fn pose(&self, time: f64) -> Pose {
+        let since = time - self.from;
+        Pose::new((self.start.at + self.velocity * since).coords, self.start.angle + self.turn * since)
+    }
+
+    /// Whether nothing moves in it.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        self.turn == 0.0 && self.velocity == Vector::zeros()
+    }
+
+    /// Farthest that a point moves in a second that is no farther than `reach` from the frame's origin, metres.
+    #[must_use]
+    pub fn speed(&self, reach: f64) -> f64 {
+        self.velocity.norm() + self.turn.abs() * reach
+    }
+}
+
+/// What a mover does within a span of time, as seen from where it is in the middle of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drift {
+    /// Where the frame is in the middle.
+    pub middle: Pose,
+    /// Of its origin then, metres a second, ...
+    velocity: Vector,
+    /// ... and how it turns, radians a second, ...
+    turn: f64,
+    /// ... for so long to either side, seconds.
+    half: f64,
+    /// The same for no known direction: metres a second, and radians a second. Of spans in which the velocity changes.
+    any: [f64; 2],
+}
+
+impl Drift {
+    /// Displacement per half the span of the point that is at `p` in the middle, to first order.
+    #[must_use]
+    pub fn of(&self, p: Point) -> Vector {
+        (self.velocity + perpendicular(p - self.origin()) * self.turn) * self.half
+    }
+
+    /// Bound on what the displacement of that point deviates from [`Drift::of`] by, metres.
+    #[must_use]
+    pub fn beyond(&self, p: Point) -> f64 {
+        let reach = (p - self.origin()).norm();
+        let turned = self.turn * self.half;
+        turned * turned * reach / 2.0 + (self.any[0] + self.any[1] * reach) * self.half
+    }
+
+    /// Farthest that a point moves that is no farther than `reach` from the frame's origin, metres.
+    #[must_use]
+    pub fn farthest(&self, reach: f64) -> f64 {
+        (self.velocity.norm() + self.any[0] + (self.turn.abs() + self.any[1]) * reach) * self.half
+    }
+
+    fn origin(&self) -> Point {
+        Point::from(self.middle.translation.vector)
+    }
+}
+
+impl Course {
+    /// From stop to stop, and on from the last at `velocity`.
+    ///
+    /// # Errors
+    /// [`CourseError`]: the first that there is.
+    pub fn new(stops: Vec<Stop>, velocity: Vector) -> Result<Self, CourseError> {
+        if stops.is_empty() {
+            return Err(CourseError::Empty);
+        }
+        let mut before = -1.0;
+        for (stop, Stop { time, at, angle }) in stops.iter().enumerate() {
+            if !(0.0..=LATEST).contains(time) || *time <= before {
+                return Err(CourseError::Time { stop, time: *time });
+            }
+            before = *time;
+            let is_last = stop + 1 == stops.len();
+            let numbers = [at.x, at.y, *angle].into_iter().chain(velocity.iter().copied().filter(|_| is_last));
+            if !super::scene_error::are_small(numbers) {
+                return Err(CourseError::Place { stop });
+            }
+        }
+        let legs = legs(&stops, velocity);
+        Ok(Self { stops, velocity, legs })
+    }
+
+    /// At a constant velocity from the beginning, metres a second, not turning.
+    ///
+    /// # Errors
+    /// Numbers that are not finite.
+    pub fn conveyor(at: [f64; 2], velocity: [f64; 2]) -> Result<Self, CourseError> {
+        Self::new(vec![Stop { time: 0.0, at: at.into(), angle: 0.0 }], velocity.into())
+    }
+
+    /// The stops, in the order of time; at least one.
+    #[must_use]
+    pub fn stops(&self) -> &[Stop] {
+        &self.stops
+    }
+
+    /// How it leaves the last stop, metres a second.
+    #[must_use]
+    pub fn velocity(&self) -> Vector {
+        self.velocity
+    }
+
+    /// Its legs from time 0 on, in order; the last never ends.
+    #[must_use]
+    pub fn legs(&self) -> &[Leg] {
+        &self.legs
+    }
+
+    /// Where the frame is at a time from 0 on.
+    #[must_use]
+    pub fn pose(&self, time: f64) -> Pose {
+        self.leg(time).pose(time)
+    }
+
+    /// What it does from one time to another.
+    #[must_use]
+    pub fn drift(&self, from: f64, to: f64) -> Drift {
+        let (middle, half) = (f64::midpoint(from, to), (to - from) / 2.0);
+        let leg = self.leg(middle);
+        let middle = leg.pose(middle);
+        if leg.from <= from && to <= leg.to {
+            return Drift { middle, velocity: leg.velocity, turn: leg.turn, half, any: [0.0; 2] };
+        }
+        let met = self.legs.iter().filter(|leg| leg.from <= to && from <= leg.to);
+        let any = met.fold([0.0_f64; 2], |[v, w], leg| [v.max(leg.velocity.norm()), w.max(leg.turn.abs())]);
+        Drift { middle, velocity: Vector::zeros(), turn: 0.0, half, any }
+    }
+
+    /// Whether it ever turns.
+    #[must_use]
+    pub fn turns(&self) -> bool {
+        self.legs.iter().any(|leg| leg.turn != 0.0)
+    }
+
+    /// The same on a clock that begins at a time from 0 on.
+    #[must_use]
+    pub fn since(&self, time: f64) -> Self {
+        let here = self.pose(time);
+        let later = self.stops.iter().filter(|stop| stop.time > time);
+        let mut stops: Vec<Stop> = later.map(|stop| Stop { time: stop.time - time, ..*stop }).collect();
+        if time >= self.stops[0].time {
+            // Whole turns count, which poses know nothing of.
+            let leg = self.leg(time);
+            let angle = leg.start.angle + leg.turn * (time - leg.from);
+            stops.insert(0, Stop { time: 0.0, at: here.translation.vector.into(), angle });
+        }
+        let legs = legs(&stops, self.velocity);
+        Self { stops, velocity: self.velocity, legs }
+    }
+
+    /// The times at which the frame's origin is at a point, or no farther from there than this and at its nearest, metres: in order.
+    #[must_use]
+    pub fn passes(&self, at: Point, within: f64) -> Vec<Interval> {
+        let of = |leg: &Leg| {
+            let (way, speed2) = (at - leg.start.at, leg.velocity.norm_squared());
+            let times = if speed2 > 0.0 {
+                let nearest = (leg.from + leg.velocity.dot(&way) / speed2).clamp(leg.from, leg.to);
+                [nearest; 2]
+            } else {
+                [leg.from, leg.to]
+            };
+            let off = (at - (leg.start.at + leg.velocity * (times[0] - leg.from))).norm();
+            (off <= within).then_some(times)
+        };
+        let mut times = self.legs.iter().filter_map(of).collect();
+        merge_in_place(&mut times);
+        times
+    }
+
+    fn leg(&self, time: f64) -> &Leg {
+        let next = self.legs.partition_point(|leg| leg.from <= time);
+        &self.legs[next.saturating_sub(1)]
+    }
+}
+
+/// The legs of a course from time 0 on.
+fn legs(stops: &[Stop], velocity: Vector) -> Vec<Leg> {
+    let first = stops[0];
+    let mut legs = Vec::with_capacity(stops.len() + 1);
+    if first.time > 0.0 {
+        let start = Stop { time: 0.0, ..first };
+        legs.push(Leg { from: 0.0, to: first.time, start, velocity: Vector::zeros(), turn: 0.0 });
+    }
+    for pair in stops.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        let lasts = b.time - a.time;
+        let (velocity, turn) = ((b.at - a.at) / lasts, (b.angle - a.angle) / lasts);
+        legs.push(Leg { from: a.time, to: b.time, start: a, velocity, turn });
+    }
+    let last = stops[stops.len() - 1];
+    legs.push(Leg { from: last.time, to: f64::INFINITY, start: last, velocity, turn: 0.0 });
+    legs
+}
+
+/// An obstacle that moves. What it does does not depend on the arm.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mover {
+    /// Its name, heights and shape, in its own frame.
+    pub obstacle: Obstacle,
+    /// Where that frame is in time.
+    pub course: Course,
+}
+
+impl Mover {
+    /// It as an obstacle where it is at a time.
+    #[must_use]
+    pub fn at(&self, time: f64) -> Obstacle {
+        let pose = self.course.pose(time);
+        let Obstacle { name, shape, pieces, heights } = &self.obstacle;
+        let pieces: Vec<Convex> = pieces.iter().map(|piece| piece.at(&pose)).collect();
+        Obstacle { name: name.clone(), shape: shape.at(&pose), pieces, heights: *heights }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn stop(time: f64, x: f64, y: f64, angle: f64) -> Stop {
+        Stop { time, at: Point::new(x, y), angle }
+    }
+
+    #[test]
+    fn waits_goes_stays_and_leaves() {
+        let stops = vec![stop(1.0, 0.0, 0.0, 0.0), stop(3.0, 1.0, 2.0, 1.0)];
+        let stays = Course::new(stops.clone(), Vector::zeros()).unwrap();
+        let place = |course: &Course, time: f64| {
+            let pose = course.pose(time);
+            [pose.translation.x, pose.translation.y, pose.rotation.angle()]
+        };
+        assert_eq!(place(&stays, 0.5), [0.0, 0.0, 0.0]);
+        assert_eq!(place(&stays, 2.0), [0.5, 1.0, 0.5]);
+        assert_eq!(place(&stays, 99.0), [1.0, 2.0, 1.0]);
+        let leaves = Course::new(stops, Vector::new(0.5, 0.0)).unwrap();
+        assert_eq!(place(&leaves, 5.0), [2.0, 2.0, 1.0]);
+        assert_eq!(place(&Course::conveyor([1.0, 0.0], [0.0, -0.25]).unwrap(), 4.0), [1.0, -1.0, 0.0]);
+    }
+
+    #[test]
+    fn a_course_from_a_later_time_on() {
+        let stops = vec![stop(1.0, 0.0, 0.0, 0.0), stop(3.0, 1.0, 2.0, 7.0)];
+        let course = Course::new(stops, Vector::new(0.5, 0.0)).unwrap();
+        for time in [0.0, 0.5, 1.0, 1.7, 3.0, 4.5] {
+            let later = course.since(time);
+            for since in [0.0, 0.3, 0.5, 1.0, 2.5, 9.0] {
+                let (a, b) = (course.pose(time + since), later.pose(since));
+                assert!((a.translation.vector - b.translation.vector).norm() < 1e-12, "{since} s after {time} s");
+                assert!((a.rotation.angle() - b.rotation.angle()).abs() < 1e-12, "{since} s after {time} s");
+            }
+        }
+    }
+
+    #[test]
+    fn when_a_course_passes_a_point() {
+        let belt = Course::conveyor([1.0, -1.0], [0.0, 0.25]).unwrap();
+        assert_eq!(belt.passes(Point::new(1.0, 0.0), 1e-3), [[4.0, 4.0]]);
+        assert!(
+            belt.passes(Point::new(1.0, -1.1), 1e-3).is_empty() && belt.passes(Point::new(1.1, 0.0), 1e-3).is_empty()
+        );
+        let stops = vec![
+            stop(1.0, 0.0, 0.0, 0.0),
+            stop(2.0, 1.0, 0.0, 0.0),
+            stop(3.0, 1.0, 0.0, 0.0),
+            stop(4.0, 0.0, 0.0, 0.0),
+        ];
+        let there_and_back = Course::new(stops, Vector::zeros()).unwrap();
+        assert_eq!(there_and_back.passes(Point::new(1.0, 0.0), 1e-3), [[2.0, 3.0]]);
+        assert_eq!(there_and_back.passes(Point::new(0.5, 0.0), 1e-3), [[1.5, 1.5], [3.5, 3.5]]);
+        assert_eq!(there_and_back.passes(Point::origin(), 1e-3), [[0.0, 1.0], [4.0, f64::INFINITY]]);
+    }
+
+    #[test]
+    fn stops_that_make_no_course() {
+        let course = |stops: Vec<Stop>| Course::new(stops, Vector::zeros()).unwrap_err();
+        assert_eq!(course(vec![]), CourseError::Empty);
+        assert_eq!(
+            course(vec![stop(1.0, 0.0, 0.0, 0.0), stop(1.0, 1.0, 0.0, 0.0)]),
+            CourseError::Time { stop: 1, time: 1.0 }
+        );
+        assert_eq!(course(vec![stop(-1.0, 0.0, 0.0, 0.0)]), CourseError::Time { stop: 0, time: -1.0 });
+        assert_eq!(course(vec![stop(0.0, f64::NAN, 0.0, 0.0)]), CourseError::Place { stop: 0 });
+        assert!(Course::conveyor([0.0, 0.0], [f64::INFINITY, 0.0]).is_err());
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(300))]
+
+        /// Where a point of the mover really is, against what its drift allows; also across stops.
+        #[test]
+        fn points_stay_where_their_drift_lets_them(
+            at in prop::array::uniform4(prop::array::uniform3(-2.0..2.0_f64)), times in prop::array::uniform4(0.1..1.0_f64),
+            point in prop::array::uniform2(-1.0..1.0_f64), from in 0.0..3.0_f64, lasts in 0.0..1.0_f64, share in 0.0..1.0_f64,
+        ) {
+            let mut time = 0.0;
+            let stops = at.iter().zip(times).map(|([x, y, angle], lasts)| {
+                time += lasts;
+                stop(time, *x, *y, *angle)
+            });
+            let course = Course::new(stops.collect(), Vector::new(at[0][0], at[1][0])).unwrap();
+            let drift = course.drift(from, from + lasts);
+            let point = Point::from(point);
+            let middle = drift.middle * point;
+            let then = course.pose(from + share * lasts) * point;
+            let moved = then - middle;
+            let linear = drift.of(middle) * (2.0 * share - 1.0);
+            prop_assert!((moved - linear).norm() <= drift.beyond(middle) + 1e-12);
+            prop_assert!(moved.norm() <= drift.farthest(point.coords.norm()) + 1e-12);
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Why a configuration is not free.
+
+use super::{Contact, Pair, Scene};
+use crate::space::Configuration;
+use cplan_geometry::{Convex, separation, shapes_meet};
+use cplan_text::told_apart;
+use std::borrow::Cow;
+
+/// A contact, or a distance below the clearance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Obstruction {
+    /// The shapes, and how they lie to each other.
+    pub contact: Contact,
+    /// Whether they meet, exactly decided; else they are nearer than the clearance.
+    pub touches: bool,
+}
+
+/// Depths below this, metres, are called touching.
+const SHALLOW: f64 = 1e-9;
+
+/// Depths of this and more, metres, are shown with four decimals, which would show nothing of smaller ones.
+const DEEP: f64 = 1e-3;
+
+impl Scene {
+    /// Why `q` is not free of what stands: of each link (or payload) and obstacle the worst pair of shapes. Empty if it is.
+    #[must_use]
+    pub fn obstructions(&self, q: Configuration) -> Vec<Obstruction> {
+        self.worst(q, self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair)))))
+    }
+
+    /// The same of what stands and of what moves, at a time.
+    #[must_use]
+    pub fn obstructions_at(&self, q: Configuration, time: f64) -> Vec<Obstruction> {
+        let standing = self.pairs().iter().map(|&pair| (pair, Cow::Borrowed(self.piece(pair))));
+        let moving = self.moving_pairs().iter().filter_map(|&pair| {
+            let pose = self.mover(pair)?.course.pose(time);
+            Some((pair, Cow::Owned(self.piece(pair).at(&pose))))
+        });
+        self.worst(q, standing.chain(moving))
+    }
+
+    fn worst<'a>(&self, q: Configuration, pieces: impl Iterator<Item = (Pair, Cow<'a, Convex>)>) -> Vec<Obstruction> {
+        let poses = self.arm().pair_poses(q);
+        let mut worst: Vec<Obstruction> = Vec::new();
+        for (pair, piece) in pieces {
+            let part = self.part(pair).at(&poses[pair.link]);
+            let contact = Contact { pair, separation: separation(&part, &piece) };
+            let distance = contact.separation.distance;
+            let touches = distance <= 0.0 || shapes_meet(&part, &piece);
+            if !touches && distance >= self.workspace().clearance {
+                continue;
+            }
+            let found = Obstruction { contact, touches };
+            let whose = |o: &Obstruction| {
+                let pair = o.contact.pair;
+                (pair.link, self.is_payload(pair), pair.obstacle)
+            };
+            match worst.iter_mut().find(|known| whose(known) == whose(&found)) {
+                Some(known) if known.contact.separation.distance <= distance => {}
+                Some(known) => *known = found,
+                None => worst.push(found),
+            }
+        }
+        worst
+    }
+
+    /// An obstruction in words: `link "forearm" hits obstacle "shelf", 0.0120 m deep`.
+    #[must_use]
+    pub fn explain(&self, obstruction: &Obstruction) -> String {
+        let Contact { pair, separation } = obstruction.contact;
+        let part = self.describe_part(pair);
+        let moves = if self.mover(pair).is_some() { "moving " } else { "" };
+        let obstacle = format!("{moves}{}", self.describe_obstacle(pair.obstacle));
+        let distance = separation.distance;
+        if !obstruction.touches {
+            let clearance = self.workspace().clearance;
+            let [distance, _] = told_apart([distance, clearance], 6);
+            return format!("{part} is {distance} m from {obstacle}, nearer than the clearance of {clearance} m");
+        }
+        let depth = (-distance).max(0.0);
+        let how = match depth {
+            _ if depth < SHALLOW => "just touching".to_owned(),
+            _ if depth >= DEEP => format!("{depth:.4} m deep"),
+            _ => format!("{depth:.2e} m deep"),
+        };
+        format!("{part} hits {obstacle}, {how}")
+    }
+}

@@ -1,0 +1,127 @@
+//! What is carried, as parts of link 2: whole, and for its supports smaller by what it may press into them.
+
+use super::scene::{Reading, obstacles};
+use super::{Arm, Carrier, Grip, Part, Payload, Workspace};
+use cplan_geometry::{Convex, Point, drawn_in};
+use nalgebra::{Isometry2, Translation2};
+use std::ops::Range;
+
+/// Which share of what a payload may press into its supports its corners are moved by: a little less, so that a checker that moves them farther
+/// has room.
+pub(super) const AT_MOST: f64 = 1.0 - 1e-3;
+
+/// The same for evidence that it presses deeper.
+pub(super) const SURELY: f64 = 1.0 + 1e-6;
+
+/// How much smaller what consists of pieces is taken in evidence that has room for how it lies and hangs, metres: at least a share of its depth,
+/// for rounding.
+pub fn taken_off(pieces: &[Convex], room: f64) -> f64 {
+    room.max(1e-6 * pieces.iter().map(Convex::depth).fold(0.0, f64::max))
+}
+
+/// What a payload's part can meet.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Meets {
+    /// Everything but the payload's supports.
+    Others,
+    /// The supports: the part is smaller by what it may press into them.
+    Supports,
+}
+
+/// Which pieces of each obstacle, and of each mover after them, something can meet.
+pub(super) type Meetable = Vec<Range<usize>>;
+
+impl Payload {
+    /// It as parts of link 2, each with what it can meet, numbered by the pieces that they are of; what is made of the obstacles' pieces for it is added to
+    /// `differences`.
+    pub(super) fn on_link(
+        &self,
+        arm: &Arm,
+        workspace: &Workspace,
+        reading: &Reading,
+        differences: &mut [Vec<Convex>],
+    ) -> Vec<(Part, Meetable)> {
+        let mut parts = Vec::new();
+        for (piece, shape, kind) in self.parts_read(arm, reading) {
+            let (on_link, level) = match self.grip {
+                Grip::Rigid(in_link) => (shape.at(&in_link), None),
+                Grip::Level { angle, point } => {
+                    let about_tip = Isometry2::rotation(angle) * Translation2::from(-point.coords);
+                    (Convex::point(arm.tip), Some(shape.at(&about_tip)))
+                }
+            };
+            let mut meetable = Vec::new();
+            let first_self = workspace.obstacles.len() + workspace.movers.len();
+            for (number, obstacle) in obstacles(arm, workspace).enumerate() {
+                let own = obstacle.pieces.len();
+                let link = number.checked_sub(first_self).map(|link| arm.self_obstacles[link].carrier);
+                // How something level lies to what joint 1 carries is not known: it is covered all round, which is no evidence.
+                let is_turned = level.is_some() && link == Some(Carrier::FirstJoint);
+                let meets = self.meets(kind, number) && !(is_turned && reading.is_evidence());
+                let nearer = kind.nearer(workspace.clearance);
+                if !meets || (level.is_none() && nearer == 0.0) {
+                    meetable.push(0..if meets { own } else { 0 });
+                    continue;
+                }
+                // What moves has its pieces in its own frame, which does not turn where something level is carried.
+                let mover = number.checked_sub(workspace.obstacles.len()).and_then(|mover| workspace.movers.get(mover));
+                let turned = mover.map(|mover| Isometry2::rotation(-mover.course.stops()[0].angle));
+                let seen = |level: &Convex| turned.map_or_else(|| level.clone(), |turned| level.at(&turned));
+                let all_round =
+                    |level: &Convex| Convex::trusted(vec![Point::origin()], level.reach_from(Point::origin()));
+                let level = level.as_ref().map(|level| if is_turned { all_round(level) } else { seen(level) });
+                let made = &mut differences[number];
+                let first = own + made.len();
+                made.extend(obstacle.pieces.iter().map(|piece| match &level {
+                    Some(level) => piece.receding(nearer).minkowski_difference(level),
+                    None => piece.receding(nearer),
+                }));
+                meetable.push(first..own + made.len());
+            }
+            let (heights, body) = (self.heights, self.object.clone());
+            parts
+                .push((Part { shape: on_link, inner: None, number: piece, is_visual: false, heights, body }, meetable));
+        }
+        parts
+    }
+
+    /// Its pieces, and smaller ones for its supports, in its own frame.
+    pub fn parts(&self, arm: &Arm) -> impl Iterator<Item = (Convex, Meets)> {
+        self.parts_read(arm, &Reading::ALL).into_iter().map(|(_, shape, kind)| (shape, kind))
+    }
+
+    /// The same, after the number of the piece that each is of.
+    fn parts_read(&self, arm: &Arm, reading: &Reading) -> Vec<(usize, Convex, Meets)> {
+        let mut parts: Vec<_> =
+            self.pieces.iter().enumerate().map(|(number, piece)| (number, piece.clone(), Meets::Others)).collect();
+        if !self.supports.is_empty() {
+            let left = drawn_in(&self.pieces, reading.pressed * Self::penetration_allowance(arm)).into_iter();
+            let of_piece = |(number, left): (usize, Vec<Convex>)| {
+                left.into_iter().map(move |shape| (number, shape, Meets::Supports))
+            };
+            parts.extend(left.enumerate().flat_map(of_piece));
+        }
+        parts.retain(|(number, ..)| !reading.takes_for_nothing(&self.pieces[*number]));
+        let Some(room) = reading.room else { return parts };
+        let off = taken_off(&self.pieces, room);
+        parts.into_iter().filter_map(|(number, shape, kind)| Some((number, shape.eroded(off)?, kind))).collect()
+    }
+
+    /// Whether its parts of that kind can meet an obstacle.
+    pub fn meets(&self, kind: Meets, obstacle: usize) -> bool {
+        match kind {
+            Meets::Others => !self.supports.contains(&obstacle),
+            Meets::Supports => self.supports.contains(&obstacle),
+        }
+    }
+}
+
+impl Meets {
+    /// How much nearer than the clearance the part may come to what it meets.
+    pub fn nearer(self, clearance: f64) -> f64 {
+        match self {
+            Meets::Others => 0.0,
+            Meets::Supports => clearance,
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! A planning problem.
+
+use super::Scene;
+use super::scene_record::MotionRecord;
+use crate::space::{Configuration, GoalSet};
+use cplan_geometry::Point;
+use serde::{Deserialize, Serialize};
+
+/// Where to go.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Goal {
+    /// These joint values.
+    Joints(Configuration),
+    /// Any configuration that puts the tip here.
+    Tip(Point),
+}
+
+/// Why a scene, a start and goals make no problem.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MotionProblemError {
+    /// The start lies outside a joint's limits, or is no number.
+    #[error("the start is outside the limits of joint \"{joint}\": {value}")]
+    StartOutside {
+        /// The joint's name in the URDF.
+        joint: String,
+        /// Radians or metres.
+        value: f64,
+    },
+    /// At the start the arm meets an obstacle, or is nearer to one than the clearance; of what moves, where it is at time 0.
+    #[error("the start is not free: {why}")]
+    StartBlocked {
+        /// Which link, which obstacle, how deep.
+        why: String,
+    },
+    /// There is nowhere to go.
+    #[error("there is no goal")]
+    NoGoal,
+    /// A goal lies outside a joint's limits, or is no number.
+    #[error("goal {} is outside the limits of joint \"{joint}\": {value}", goal + 1)]
+    GoalOutside {
+        /// Which of the goals, from 0.
+        goal: usize,
+        /// The joint's name.
+        joint: String,
+        /// Radians or metres.
+        value: f64,
+    },
+    /// A goal that is a single configuration is not free.
+    #[error("goal {} is not free: {why}", goal + 1)]
+    GoalBlocked {
+        /// Which of the goals, from 0.
+        goal: usize,
+        /// Which link, which obstacle, how deep.
+        why: String,
+    },
+}
+
+/// What a user asks: a scene, a start, and goals any of which will do.
+///
+/// The start lies within the joint limits and is free. There is at least one goal; goals lie within the limits. Single
+/// configurations among them are free; of a segment only a part may be.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "MotionRecord", into = "MotionRecord")]
+pub struct MotionProblem {
+    scene: Scene,
+    start: Configuration,
+    goals: GoalSet,
+}
+
+impl MotionProblem {
+    /// From a start to any of the goals: a configuration, a segment of them, or a set. `O(n)` distances in the scene's pairs
+    /// for the start and for each goal.
+    ///
+    /// # Errors
+    /// When the start or a goal is outside the limits or not free, or there is no goal.
+    pub fn new(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Result<Self, MotionProblemError> {
+        let goals = goals.into();
+        let outside = |q: Configuration| {
+            let joints = scene.arm().joints.iter().zip(q.iter());
+            joints.filter(|(joint, value)| !joint.range.contains(**value)).map(|(j, v)| (j.name.clone(), *v)).next()
+        };
+        let blocked = |q: Configuration| scene.obstructions(q).first().map(|found| scene.explain(found));
+        if let Some((joint, value)) = outside(start) {
+            return Err(MotionProblemError::StartOutside { joint, value });
+        }
+        if let Some(why) = scene.obstructions_at(start, 0.0).first().map(|found| scene.explain(found)) {
+            return Err(MotionProblemError::StartBlocked { why });
+        }
+        if goals.is_empty() {
+            return Err(MotionProblemError::NoGoal);
+        }
+        for (goal, piece) in goals.pieces().iter().enumerate() {
+            let [from, to] = piece.ends();
+            if let Some((joint, value)) = outside(from).or_else(|| outside(to)) {
+                return Err(MotionProblemError::GoalOutside { goal, joint, value });
+            }
+            if let Some(why) = blocked(from).filter(|_| piece.is_point()) {
+                return Err(MotionProblemError::GoalBlocked { goal, why });
+            }
+        }
+        Ok(Self { scene, start, goals })
+    }
+
+    /// The same of what is known to be valid, or whose start and goals nobody will look at.
+    #[must_use]
+    #[doc(hidden)]
+    pub fn trusted(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Self {
+        Self { scene, start, goals: goals.into() }
+    }
+
+    /// Arm and obstacles.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The same without start and goals.
+    #[must_use]
+    pub fn into_scene(self) -> Scene {
+        self.scene
+    }
+
+    /// Where the arm is.
+    #[must_use]
+    pub fn start(&self) -> Configuration {
+        self.start
+    }
+
+    /// The configurations of which reaching any will do.
+    #[must_use]
+    pub fn goals(&self) -> &GoalSet {
+        &self.goals
+    }
+
+    /// The arm, to give its joints other limits on speed, acceleration, jerk and effort, on which start and goals do not depend.
+    pub fn arm_mut(&mut self) -> &mut super::Arm {
+        self.scene.arm_mut()
+    }
+}

@@ -1,0 +1,509 @@
+//! The arm among its obstacles.
+
+use super::payload_parts::{AT_MOST, SURELY, taken_off};
+use super::scene_error::{check, check_clearance};
+use super::scene_record::SceneRecord;
+use super::{
+    Arm, Carrier, Dynamics, Grip, Heights, Joint, Link, Mover, Obstacle, Part, Payload, SceneError, SelfObstacle,
+    Workspace,
+};
+use crate::space::{Configuration, JointRange};
+use cplan_geometry::{Convex, Separation, separation};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Pair {
+    /// 0 or 1; 2 for link 2 as it lies to link 1, and the obstacle is carried by joint 1.
+    pub link: usize,
+    /// Into the link's parts.
+    pub part: usize,
+    /// Into the workspace's obstacles; beyond these, into what moves; beyond that, into the arm's self obstacles.
+    pub obstacle: usize,
+    /// Into the obstacle's pieces; beyond these, what is made of them for a payload.
+    pub piece: usize,
+}
+
+/// A pair and how its shapes lie to each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// The shapes that are looked at.
+    pub pair: Pair,
+    /// Their signed distance and its direction.
+    pub separation: Separation,
+}
+
+/// Arm and workspace, with the pairs of shapes that can meet at all. Every module that asks about collisions asks
+/// about these pairs, so a pair that heights rule out is ruled out everywhere.
+///
+/// A payload is a part of link 2. One that a wrist keeps level only translates with the tip: it meets a piece exactly
+/// when the tip lies in their Minkowski difference, so its part is the tip, a point, and its pieces are these differences.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "SceneRecord", into = "SceneRecord")]
+pub struct Scene {
+    arm: Arm,
+    workspace: Workspace,
+    payload: Option<Payload>,
+    /// Obstacles that link 2 itself is free to meet.
+    allowed_contacts: Vec<usize>,
+    /// Parts of link 2 that are the arm's own; those that follow are the payload's.
+    own_parts: usize,
+    reading: Reading,
+    pairs: Vec<Pair>,
+    /// The same with what moves.
+    moving: Vec<Pair>,
+    /// For each obstacle, mover and self obstacle, in this order: what a level payload makes of its pieces, and of supports what is met of them.
+    differences: Vec<Vec<Convex>>,
+}
+
+/// Whether heights meet, where rounding leaves it open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Meet {
+    /// They do: for what is to be free.
+    Perhaps,
+    /// They do not: for proofs that something is in the way.
+    Surely,
+}
+
+impl Meet {
+    /// Of a part of the arm, or of an object that it carries, and an obstacle.
+    fn holds(self, is_carried: bool, part: Heights, obstacle: Heights) -> bool {
+        match (self, is_carried) {
+            (Self::Perhaps, false) => part.meet(obstacle),
+            (Self::Perhaps, true) => part.object_meets(obstacle),
+            (Self::Surely, false) => part.surely_meet(obstacle),
+            (Self::Surely, true) => part.object_surely_meets(obstacle),
+        }
+    }
+}
+
+/// How it takes what is left open, and what it leaves out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Reading {
+    /// Which heights can meet.
+    meet: Meet,
+    /// By which share of what a payload may press into its supports its corners are moved.
+    pub pressed: f64,
+    /// By how much a payload is smaller at least, all round each piece, metres, as it is not known better how it hangs; none: it is as large
+    /// as it is.
+    pub room: Option<f64>,
+    /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
+    farthest: f64,
+}
+
+impl Reading {
+    /// What may meet does, and nothing is left out.
+    pub const ALL: Self = Self { meet: Meet::Perhaps, pressed: AT_MOST, room: None, farthest: f64::INFINITY };
+
+    /// Whether what is hit proves something.
+    pub fn is_evidence(&self) -> bool {
+        self.meet == Meet::Surely || self.room.is_some()
+    }
+
+    /// Whether a piece is perhaps nothing without rounding, and so no evidence.
+    pub fn takes_for_nothing(&self, piece: &Convex) -> bool {
+        self.meet == Meet::Surely && piece.is_sliver()
+    }
+}
+
+/// More pairs out of reach are left out of a search: with fewer it is as fast.
+const MANY_OUT_OF_REACH: usize = 200;
+
+/// By which share rounding may make a distance too large or a reach too small, and much more.
+const ROUNDING: f64 = 1e-9;
+
+/// All obstacles in the order in which a scene numbers them: those of the workspace, those that move, links of the robot.
+pub(super) fn obstacles<'a>(arm: &'a Arm, workspace: &'a Workspace) -> impl Iterator<Item = &'a Obstacle> {
+    workspace.all().chain(arm.self_obstacles.iter().map(|own| &own.obstacle))
+}
+
+impl Scene {
+    /// Puts the arm into the workspace.
+    ///
+    /// # Errors
+    /// When a number of either makes no sense: see [`SceneError`].
+    pub fn new(arm: Arm, workspace: Workspace) -> Result<Self, SceneError> {
+        Self::handling(arm, workspace, None, &[])
+    }
+
+    /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `allowed_contacts` obstacles, which it has
+    /// just let go of or is about to take; what moves has the numbers after those of the obstacles. A payload presses into its supports by no more than [`Payload::penetration_allowance`], its corners
+    /// included. No clearance is kept there: in every distance a support is farther away by it than it is.
+    ///
+    /// # Errors
+    /// As [`Scene::new`]; when what is carried is held at no finite place, or an obstacle's number is none.
+    pub fn handling(
+        arm: Arm,
+        workspace: Workspace,
+        payload: Option<Payload>,
+        allowed_contacts: &[usize],
+    ) -> Result<Self, SceneError> {
+        check(&arm, &workspace, payload.as_ref(), allowed_contacts)?;
+        Ok(Self::handling_trusted(arm, workspace, payload, allowed_contacts))
+    }
+
+    /// [`Scene::new`] of what is known to be valid.
+    #[must_use]
+    #[doc(hidden)]
+    pub fn trusted(arm: Arm, workspace: Workspace) -> Self {
+        Self::handling_trusted(arm, workspace, None, &[])
+    }
+
+    /// [`Scene::handling`] of what is known to be valid.
+    #[must_use]
+    #[doc(hidden)]
+    pub fn handling_trusted(
+        arm: Arm,
+        workspace: Workspace,
+        payload: Option<Payload>,
+        allowed_contacts: &[usize],
+    ) -> Self {
+        Self::assembled(arm, workspace, payload, allowed_contacts, Reading::ALL)
+    }
+
+    fn assembled(
+        mut arm: Arm,
+        workspace: Workspace,
+        payload: Option<Payload>,
+        allowed_contacts: &[usize],
+        reading: Reading,
+    ) -> Self {
+        debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
+        let own_parts = arm.links[1].parts.len();
+        let mut differences = vec![Vec::new(); obstacles(&arm, &workspace).count()];
+        let carried =
+            payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &reading, &mut differences));
+        arm.links[1].parts.extend(carried.iter().map(|(part, _)| part.clone()));
+        let (mut pairs, mut moving, mut folding) = (Vec::new(), Vec::new(), Vec::new());
+        let standing = workspace.obstacles.len();
+        let movers = standing..standing + workspace.movers.len();
+        let base = Convex::point(arm.base);
+        let is_far = |obstacle: usize, piece: &Convex| {
+            let stands = obstacle < standing && reading.farthest.is_finite();
+            stands && separation(&base, piece).distance > reading.farthest
+        };
+        let is_left_out = |obstacle: usize, piece: &Convex| is_far(obstacle, piece) || reading.takes_for_nothing(piece);
+        let left_out = |(number, o): (usize, &Obstacle)| o.pieces.iter().map(|p| is_left_out(number, p)).collect();
+        let may_leave_out = reading.farthest.is_finite() || reading.meet == Meet::Surely;
+        let left_out: Vec<Vec<bool>> =
+            if may_leave_out { obstacles(&arm, &workspace).enumerate().map(left_out).collect() } else { Vec::new() };
+        // What is made of pieces comes after them, all for one piece of the payload after all for another.
+        let is_kept = |pair: &Pair| left_out.get(pair.obstacle).is_none_or(|all| !all[pair.piece % all.len()]);
+        for (link, l) in arm.links.iter().enumerate() {
+            for (part, p) in l.parts.iter().enumerate() {
+                let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
+                let is_own = meetable.is_none();
+                let can_meet = |(number, o): &(usize, &Obstacle)| match number.checked_sub(movers.end) {
+                    None => reading.meet.holds(meetable.is_some(), p.heights, o.heights),
+                    // Links of a robot lie on each other.
+                    Some(number) => {
+                        let own = &arm.self_obstacles[number];
+                        let can_hit = link == 1 || own.carrier == Carrier::Base;
+                        can_hit && p.heights.surely_meet(o.heights) && !(is_own && own.ignores(&p.body))
+                    }
+                };
+                for (obstacle, o) in obstacles(&arm, &workspace).enumerate().filter(can_meet) {
+                    let pieces = match meetable {
+                        Some(meetable) => meetable[obstacle].clone(),
+                        None if link == 1 && allowed_contacts.contains(&obstacle) => 0..0,
+                        None => 0..o.pieces.len(),
+                    };
+                    let own = obstacle.checked_sub(movers.end).map(|number| arm.self_obstacles[number].carrier);
+                    let (among, link) = match own {
+                        None if movers.contains(&obstacle) => (&mut moving, link),
+                        Some(Carrier::FirstJoint) => (&mut folding, 2),
+                        _ => (&mut pairs, link),
+                    };
+                    among.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }).filter(is_kept));
+                }
+            }
+        }
+        pairs.extend(folding);
+        let allowed_contacts = allowed_contacts.to_vec();
+        Self { arm, workspace, payload, allowed_contacts, own_parts, reading, pairs, moving, differences }
+    }
+
+    /// The same scene for proofs that something is in the way: where an outline covers more than it stands for, the shape within, what is as
+    /// high as each other for certain, and no pieces that are nothing without rounding.
+    #[must_use]
+    pub fn inner(&self) -> Cow<'_, Self> {
+        let parts = || self.arm.links.iter().flat_map(|link| &link.parts);
+        let all = || obstacles(&self.arm, &self.workspace);
+        let is_level = self.payload.as_ref().is_some_and(|payload| matches!(payload.grip, Grip::Level { .. }));
+        let is_covered = is_level && self.arm.self_obstacles.iter().any(|own| own.carrier == Carrier::FirstJoint);
+        // Whether links of the robot meet is always known.
+        let is_known = |is_carried: bool, part: &Part| {
+            let meets = |meet: Meet, obstacle: &Obstacle| meet.holds(is_carried, part.heights, obstacle.heights);
+            self.workspace.all().all(|obstacle| meets(Meet::Perhaps, obstacle) == meets(Meet::Surely, obstacle))
+        };
+        let is_exact = self.reading.meet == Meet::Surely
+            || (0..2).all(|link| {
+                let (own, carried) = (self.own_parts(link), &self.arm.links[link].parts[self.own_parts(link).len()..]);
+                own.iter().all(|part| is_known(false, part)) && carried.iter().all(|part| is_known(true, part))
+            });
+        let carried = self.payload.iter().flat_map(|payload| &payload.pieces);
+        let mut pieces = all().flat_map(|obstacle| &obstacle.pieces).chain(carried);
+        let is_whole = self.reading.meet == Meet::Surely || !pieces.any(Convex::is_sliver);
+        if is_exact && is_whole && !is_covered && parts().all(|part| part.inner.is_none()) {
+            return Cow::Borrowed(self);
+        }
+        let shrink = |part: &mut Part| {
+            if let Some(inner) = part.inner.take() {
+                part.shape = inner;
+            }
+        };
+        Cow::Owned(self.remade(
+            shrink,
+            |obstacle| obstacle.pieces.clone(),
+            Reading { meet: Meet::Surely, ..self.reading },
+        ))
+    }
+
+    /// The same scene with other shapes for the arm's own parts and for the pieces of obstacles; each part stays one part,
+    /// each obstacle one obstacle, and what is carried stays as it is.
+    #[must_use]
+    pub fn reshaped(&self, reshape: impl Fn(&mut Part), pieces: impl FnMut(&Obstacle) -> Vec<Convex>) -> Self {
+        self.remade(reshape, pieces, self.reading)
+    }
+
+    /// The same scene with other heights for the arm's self obstacles, given the URDF link's name and those that it has.
+    #[must_use]
+    pub fn with_self_heights(&self, heights: impl Fn(&str, Heights) -> Heights) -> Self {
+        let (payload, allowed_contacts) = (self.payload.clone(), self.allowed_contacts.clone());
+        let (mut arm, workspace) = self.clone().into_parts();
+        for SelfObstacle { obstacle, .. } in &mut arm.self_obstacles {
+            obstacle.heights = heights(&obstacle.name, obstacle.heights);
+        }
+        Self::assembled(arm, workspace, payload, &allowed_contacts, self.reading)
+    }
+
+    /// The same scene for evidence that a payload is in the way, or presses too deep into its supports, where the obstacles from `first` on are
+    /// objects: these and the payload are smaller by `room`, all round each piece, so that it holds wherever they lie and hang within that.
+    #[must_use]
+    pub fn certain(self, first: usize, room: f64) -> Self {
+        let mut number = 0..;
+        let smaller = |obstacle: &Obstacle| match number.next() {
+            Some(number) if number >= first => {
+                let off = taken_off(&obstacle.pieces, room);
+                obstacle.pieces.iter().filter_map(|piece| piece.eroded(off)).collect()
+            }
+            _ => obstacle.pieces.clone(),
+        };
+        self.remade(|_| (), smaller, Reading { pressed: SURELY, room: Some(room), ..self.reading })
+    }
+
+    /// The same scene without the pairs with what stands farther from joint 1 than anything of the arm gets, clearance included; none where these are
+    /// few, or something is carried. Each part, obstacle and piece keeps its number.
+    #[must_use]
+    pub fn within_reach(&self) -> Option<Self> {
+        if self.payload.is_some() || self.pairs.len() <= MANY_OUT_OF_REACH {
+            return None;
+        }
+        let slide = |joint: &Joint| match (joint.joint_type.is_revolute(), joint.range) {
+            (true, _) => 0.0,
+            (false, JointRange::Interval { lower, upper }) => lower.abs().max(upper.abs()),
+            (false, JointRange::Circle) => f64::INFINITY,
+        };
+        let out = self.arm.reach() + self.arm.joints.iter().map(slide).sum::<f64>() + self.workspace.clearance;
+        let reading = Reading { farthest: out * (1.0 + ROUNDING), ..self.reading };
+        let near = self.remade(|_| (), |obstacle| obstacle.pieces.clone(), reading);
+        (near.pairs.len() + MANY_OUT_OF_REACH < self.pairs.len()).then_some(near)
+    }
+
+    fn remade(
+        &self,
+        reshape: impl Fn(&mut Part),
+        pieces: impl FnMut(&Obstacle) -> Vec<Convex>,
+        reading: Reading,
+    ) -> Self {
+        let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
+        arm.links[1].parts.truncate(self.own_parts);
+        arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(reshape);
+        let pieces: Vec<Vec<Convex>> = workspace.obstacles.iter().map(pieces).collect();
+        for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
+            obstacle.pieces = pieces;
+        }
+        Self::assembled(arm, workspace, self.payload.clone(), &self.allowed_contacts, reading)
+    }
+
+    /// The same scene with another distance to keep, metres.
+    ///
+    /// # Errors
+    /// When it is negative or not finite.
+    pub fn with_clearance(mut self, clearance: f64) -> Result<Self, SceneError> {
+        check_clearance(clearance)?;
+        let (payload, allowed_contacts) = (self.payload.take(), std::mem::take(&mut self.allowed_contacts));
+        let reading = self.reading;
+        let (arm, workspace) = self.into_parts();
+        Ok(Self::assembled(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts, reading))
+    }
+
+    /// The same scene at a time: what moves stands where it is then, after all that stands.
+    #[must_use]
+    pub fn frozen(&self, time: f64) -> Self {
+        if self.workspace.movers.is_empty() {
+            return self.clone();
+        }
+        let mut scene = self.clone();
+        let (payload, allowed_contacts) = (scene.payload.take(), std::mem::take(&mut scene.allowed_contacts));
+        let (arm, mut workspace) = scene.into_parts();
+        workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| mover.at(time)));
+        Self::assembled(arm, workspace, payload, &allowed_contacts, self.reading)
+    }
+
+    /// The same scene on a clock that begins at this time.
+    #[must_use]
+    pub fn since(mut self, time: f64) -> Self {
+        self.workspace.movers.iter_mut().for_each(|mover| mover.course = mover.course.since(time));
+        self
+    }
+
+    /// The same scene with one obstacle more, which stands.
+    #[must_use]
+    pub fn with_standing(&self, obstacle: Obstacle) -> Self {
+        let standing = self.workspace.obstacles.len();
+        // What moves has the numbers after those of what stands.
+        let contacts: Vec<usize> =
+            self.allowed_contacts.iter().map(|&number| number + usize::from(number >= standing)).collect();
+        let payload = self.payload.clone();
+        let (arm, mut workspace) = self.clone().into_parts();
+        workspace.obstacles.push(obstacle);
+        Self::assembled(arm, workspace, payload, &contacts, self.reading)
+    }
+
+    /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
+    #[must_use]
+    pub fn into_parts(mut self) -> (Arm, Workspace) {
+        self.arm.links[1].parts.truncate(self.own_parts);
+        (self.arm, self.workspace)
+    }
+
+    /// Obstacles that link 2 itself is free to meet, by their number.
+    #[must_use]
+    pub fn allowed_contacts(&self) -> &[usize] {
+        &self.allowed_contacts
+    }
+
+    /// The arm, with what it carries.
+    #[must_use]
+    pub fn arm(&self) -> &Arm {
+        &self.arm
+    }
+
+    /// What surrounds it.
+    #[must_use]
+    pub fn workspace(&self) -> &Workspace {
+        &self.workspace
+    }
+
+    /// The arm, to give its joints other limits on speed, acceleration, jerk and effort: the pairs do not depend on them.
+    pub fn arm_mut(&mut self) -> &mut Arm {
+        &mut self.arm
+    }
+
+    /// Masses and efforts with what is carried, if motions have to keep within the efforts.
+    #[must_use]
+    pub fn limiting_dynamics(&self) -> Option<Dynamics> {
+        let own = self.arm.dynamics.filter(|dynamics| dynamics.limits)?;
+        Some(self.payload.as_ref().map_or(own, |payload| own.carrying(&self.arm, payload)))
+    }
+
+    /// What the arm carries, if anything.
+    #[must_use]
+    pub fn payload(&self) -> Option<&Payload> {
+        self.payload.as_ref()
+    }
+
+    /// The link's own outline, without what it carries.
+    #[must_use]
+    pub fn own_parts(&self, link: usize) -> &[Part] {
+        let parts = &self.arm.links[link].parts;
+        if link == 1 { &parts[..self.own_parts] } else { parts }
+    }
+
+    /// All pairs that can meet, ordered by link, part, obstacle, piece.
+    #[must_use]
+    pub fn pairs(&self) -> &[Pair] {
+        &self.pairs
+    }
+
+    /// Pairs of a part and something that moves and can meet it at all, in the same order. All other questions are about what stands.
+    #[must_use]
+    pub fn moving_pairs(&self) -> &[Pair] {
+        &self.moving
+    }
+
+    /// What moves in a pair, if it is one of [`Scene::moving_pairs`].
+    #[must_use]
+    pub fn mover(&self, pair: Pair) -> Option<&Mover> {
+        self.workspace.movers.get(pair.obstacle.wrapping_sub(self.workspace.obstacles.len()))
+    }
+
+    /// The link of a pair's part.
+    #[must_use]
+    pub fn link(&self, pair: Pair) -> &Link {
+        &self.arm.links[pair.link.min(1)]
+    }
+
+    /// The link part of a pair, in its link's frame.
+    #[must_use]
+    pub fn part(&self, pair: Pair) -> &Convex {
+        &self.link(pair).parts[pair.part].shape
+    }
+
+    /// The obstacle piece of a pair, or what is made of it for a payload, in plane coordinates; of what moves, in its own frame.
+    #[must_use]
+    pub fn piece(&self, pair: Pair) -> &Convex {
+        let own = &self.obstacle(pair.obstacle).pieces;
+        own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
+    }
+
+    /// All pieces of something that moves, in its own frame, as [`Pair::piece`] counts them.
+    pub fn pieces_of_mover(&self, mover: usize) -> impl Iterator<Item = &Convex> {
+        let made = &self.differences[self.workspace.obstacles.len() + mover];
+        self.workspace.movers[mover].obstacle.pieces.iter().chain(made)
+    }
+
+    /// Signed distance of every pair at `q`, in the order of [`Scene::pairs`].
+    pub fn separations(&self, q: Configuration) -> impl Iterator<Item = Contact> + '_ {
+        let poses = self.arm.pair_poses(q);
+        self.pairs.iter().map(move |&pair| Contact {
+            pair,
+            separation: separation(&self.part(pair).at(&poses[pair.link]), self.piece(pair)),
+        })
+    }
+
+    /// The pair with the least signed distance at `q`; none when nothing can meet.
+    #[must_use]
+    pub fn closest(&self, q: Configuration) -> Option<Contact> {
+        self.separations(q).min_by(|a, b| a.separation.distance.total_cmp(&b.separation.distance))
+    }
+
+    /// Least signed distance between arm and obstacles at `q`, metres; infinite when nothing can meet.
+    #[must_use]
+    pub fn clearance(&self, q: Configuration) -> f64 {
+        self.closest(q).map_or(f64::INFINITY, |c| c.separation.distance)
+    }
+
+    /// Whether a pair's part is the payload's.
+    #[must_use]
+    pub fn is_payload(&self, pair: Pair) -> bool {
+        pair.link > 0 && pair.part >= self.own_parts
+    }
+
+    /// Which of the payload's pieces a pair is about, be it by what is made of that for supports; none if it is about the arm itself.
+    #[must_use]
+    pub fn payload_piece(&self, pair: Pair) -> Option<&Convex> {
+        let payload = self.payload.as_ref().filter(|_| self.is_payload(pair))?;
+        Some(&payload.pieces[self.arm.links[1].parts[pair.part].number])
+    }
+
+    /// The piece of the obstacle that a pair is about, in its place, whatever is made of it for a payload.
+    #[must_use]
+    pub fn obstacle_piece(&self, pair: Pair) -> &Convex {
+        let pieces = &self.obstacle(pair.obstacle).pieces;
+        // What is made of them comes after them, all for one piece of the payload after all for another.
+        &pieces[pair.piece % pieces.len()]
+    }
+}

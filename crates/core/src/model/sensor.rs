@@ -1,0 +1,155 @@
+//! A range sensor on an arm.
+
+use super::Arm;
+use cplan_geometry::{Point, Vector};
+use nalgebra::Rotation2;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// What a sensor moves with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Mount {
+    /// The tip. Straight ahead is from link 2's origin to the tip (link 2's x axis where they coincide).
+    Tip,
+    /// Nothing: it stands on the base. Straight ahead is the robot's x axis: that of the plane, turned as the robot is.
+    Base,
+}
+
+/// A range sensor: rays in a fan, each of which tells how far it goes before it meets something. The arm does not stand in
+/// its way.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Sensor {
+    /// What it moves with.
+    pub mount: Mount,
+    /// How the robot is turned in the world, radians.
+    pub turn: f64,
+    /// Number of rays, at least one.
+    pub rays: usize,
+    /// Angle between the outermost rays, radians, at most a whole turn, over which rays are spread evenly.
+    pub field_of_view: f64,
+    /// How far it sees, metres.
+    pub range: f64,
+    /// Distance in joint space from one reading to the next on the way, rad and m as they come.
+    pub step: f64,
+    /// The greatest error of a distance, metres: errors are uniform within it to both sides.
+    pub noise: f64,
+    /// What its errors follow from.
+    pub seed: u64,
+    /// Side of the cells of the map, metres.
+    pub cell: f64,
+}
+
+impl Sensor {
+    /// Cells of the map across the arm's reach, if nothing else is said.
+    const CELLS: f64 = 40.0;
+
+    /// The usual one for an arm: on the tip, 360 rays all around (what the arm moves into lies beside it as a rule, not ahead), as far
+    /// as half the arm reaches, a reading every tenth of a radian or metre, without errors.
+    #[must_use]
+    pub fn usual(arm: &Arm) -> Self {
+        let cell = arm.reach() / Self::CELLS;
+        let range = arm.reach() / 2.0;
+        Self {
+            mount: Mount::Tip,
+            turn: 0.0,
+            rays: 360,
+            field_of_view: TAU,
+            range,
+            step: 0.1,
+            noise: 0.0,
+            seed: 0,
+            cell,
+        }
+    }
+
+    /// Where it is and where straight ahead is, as an angle.
+    #[must_use]
+    pub fn pose(&self, arm: &Arm, q: [f64; 2]) -> (Point, f64) {
+        match self.mount {
+            Mount::Base => (arm.base, self.turn),
+            Mount::Tip => {
+                let pose = arm.pose(1, q.into());
+                let x = Rotation2::new(self.turn) * Vector::x();
+                let ahead = if arm.tip == Point::origin() { x } else { arm.tip.coords };
+                let ahead = pose * ahead;
+                (pose * arm.tip, ahead.y.atan2(ahead.x))
+            }
+        }
+    }
+
+    /// The angles of its rays, from right to left.
+    pub fn rays(&self, ahead: f64) -> impl Iterator<Item = f64> + use<> {
+        let sensor = *self;
+        (0..self.rays).map(move |k| sensor.ray(ahead, k))
+    }
+
+    /// The angle of ray `k`.
+    #[must_use]
+    pub fn ray(&self, ahead: f64, k: usize) -> f64 {
+        let first = if self.rays == 1 { ahead } else { ahead - self.field_of_view / 2.0 };
+        first + self.field_of_view * (k as f64 / self.gaps() as f64)
+    }
+
+    /// Gaps between rays, over the field of view: on a whole turn the last ray must not be the first once more.
+    fn gaps(&self) -> usize {
+        if self.field_of_view < TAU { self.rays.max(2) - 1 } else { self.rays }
+    }
+
+    /// The numbers of the rays that are no farther than an angle from a direction; some more than once if that is half a turn.
+    pub fn rays_about(&self, ahead: f64, direction: f64, angle: f64) -> impl Iterator<Item = usize> + use<> {
+        let (rays, gap) = (self.rays, self.field_of_view / self.gaps() as f64);
+        let from_first = (direction - self.ray(ahead, 0)).rem_euclid(TAU);
+        [-TAU, 0.0, TAU].into_iter().flat_map(move |turn| {
+            let middle = from_first + turn;
+            let from = ((middle - angle) / gap).ceil().max(0.0) as usize;
+            let to = ((middle + angle) / gap).floor() + 1.0;
+            from..(to.max(0.0) as usize).min(rays)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_geometry::ConvexError;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn rays_fan_out_about_straight_ahead() -> Result<(), ConvexError> {
+        let arm = Arm::rr([1.0, 0.5], 0.1)?;
+        let sensor = Sensor { rays: 3, field_of_view: PI, ..Sensor::usual(&arm) };
+        let (at, ahead) = sensor.pose(&arm, [PI / 2.0, -PI / 2.0]);
+        assert!((at - Point::new(0.5, 1.0)).norm() < 1e-12 && ahead.abs() < 1e-12, "{at} {ahead}");
+        let rays: Vec<f64> = sensor.rays(ahead).collect();
+        assert!(rays.iter().zip([-PI / 2.0, 0.0, PI / 2.0]).all(|(a, b)| (a - b).abs() < 1e-12), "{rays:?}");
+        let round = Sensor { field_of_view: TAU, rays: 4, ..sensor };
+        let rays: Vec<f64> = round.rays(0.0).collect();
+        assert!(rays.windows(2).all(|w| (w[1] - w[0] - TAU / 4.0).abs() < 1e-12), "{rays:?}");
+        assert_eq!(Sensor { rays: 1, ..sensor }.rays(0.3).collect::<Vec<_>>(), [0.3]);
+        let turned = Sensor { mount: Mount::Base, turn: 0.7, ..sensor };
+        assert_eq!(turned.pose(&arm, [1.0, 2.0]), (arm.base, 0.7));
+        let (at, ahead) = Sensor { mount: Mount::Base, ..sensor }.pose(&arm, [1.0, 2.0]);
+        assert_eq!((at, ahead), (arm.base, 0.0));
+        Ok(())
+    }
+
+    #[test]
+    fn rays_about_a_direction_are_those_no_farther_from_it() -> Result<(), ConvexError> {
+        let usual = Sensor::usual(&Arm::rr([1.0, 0.5], 0.1)?);
+        for (rays, field_of_view) in [(1, 1.0), (7, PI), (97, TAU - 0.1), (180, TAU)] {
+            let sensor = Sensor { rays, field_of_view, ..usual };
+            for k in 0..500 {
+                let [ahead, direction] = [0.37, 0.91].map(|step| (f64::from(k) * step) % (3.0 * PI) - PI);
+                let angle = f64::from(k % 9) * 0.31 + 0.01;
+                let mut about: Vec<usize> = sensor.rays_about(ahead, direction, angle).collect();
+                about.sort_unstable();
+                about.dedup();
+                let apart = |ray: f64| (ray - direction).cos().clamp(-1.0, 1.0).acos();
+                let near = (0..rays).filter(|&ray| apart(sensor.ray(ahead, ray)) <= angle);
+                assert_eq!(about, near.collect::<Vec<_>>(), "{rays} rays ahead {ahead}, {angle} about {direction}");
+            }
+        }
+        Ok(())
+    }
+}

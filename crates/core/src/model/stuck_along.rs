@@ -1,0 +1,93 @@
+//! Whether all configurations on a segment are blocked.
+
+use super::{Contact, JointType, Obstruction, Pair, Scene};
+use crate::space::{Configuration, Segment};
+use cplan_geometry::Point;
+
+/// Configurations looked at before the question is left open.
+const MOST_LOOKS: usize = 1000;
+
+/// A segment is halved so often at most.
+const MOST_HALVINGS: u32 = 20;
+
+/// Share of the lengths involved by which shapes must be deeper in each other than they can move: far above the rounding of
+/// either.
+const ROUNDING: f64 = 1e-12;
+
+/// A part of a segment on which one obstruction is proven to remain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockedStretch {
+    /// The configurations of that part.
+    pub stretch: Segment,
+    /// What is wrong in its middle, and not undone anywhere in it.
+    pub obstruction: Obstruction,
+}
+
+impl Scene {
+    /// The proof that no configuration on a segment is free, in its order: stretches that cover it, neighbours with the same
+    /// obstruction joined. None if there is a free one, or if it cannot be told.
+    ///
+    /// A pair that is deeper within reach of each other than a point of the arm moves from the middle of a stretch to its ends
+    /// stays there; other stretches are halved.
+    #[must_use]
+    pub fn blocked_along(&self, segment: &Segment) -> Option<Vec<BlockedStretch>> {
+        let mut waiting = vec![(0.0, 1.0, 0)];
+        let mut blocked: Vec<(f64, f64, Obstruction)> = Vec::new();
+        let mut looks = 0;
+        while let Some((from, to, halvings)) = waiting.pop() {
+            let middle = f64::midpoint(from, to);
+            let q = segment.at(middle);
+            let obstructions = self.obstructions(q);
+            looks += 1;
+            if obstructions.is_empty() || looks > MOST_LOOKS {
+                return None;
+            }
+            let [a, b] = [from, to].map(|share| segment.at(share) - q);
+            let moves = [0, 1].map(|k| a[k].abs().max(b[k].abs()));
+            let lasting = obstructions.into_iter().find(|obstruction| {
+                let Contact { pair, separation } = obstruction.contact;
+                let (motion, scale) = self.farthest_motion(pair, q, moves);
+                separation.distance + motion + ROUNDING * scale < self.workspace().clearance
+            });
+            match lasting {
+                Some(lasting) => blocked.push((from, to, lasting)),
+                None if halvings == MOST_HALVINGS => return None,
+                None => waiting.extend([(middle, to, halvings + 1), (from, middle, halvings + 1)]),
+            }
+        }
+        let whose = |obstruction: &Obstruction| {
+            let pair = obstruction.contact.pair;
+            (pair.link, self.is_payload(pair), pair.obstacle)
+        };
+        let same = |a: &(f64, f64, Obstruction), b: &(f64, f64, Obstruction)| whose(&a.2) == whose(&b.2);
+        let joined = blocked.chunk_by(same).map(|run| {
+            let deepest = run
+                .iter()
+                .map(|stretch| stretch.2)
+                .min_by(|a, b| a.contact.separation.distance.total_cmp(&b.contact.separation.distance));
+            let [from, to] = [run[0].0, run[run.len() - 1].1].map(|share| segment.at(share));
+            BlockedStretch { stretch: Segment::new(from, to), obstruction: deepest.unwrap_or(run[0].2) }
+        });
+        Some(joined.collect())
+    }
+
+    /// Farthest that a point of a pair's part moves while the joints move by at most `moves` from `q`, and the greatest length
+    /// that counts in it: joint 2 first, then joint 1 from wherever that has put the part.
+    fn farthest_motion(&self, pair: Pair, q: Configuration, moves: [f64; 2]) -> (f64, f64) {
+        let arm = self.arm();
+        let part = self.part(pair);
+        let from_base = part.at(&arm.pose(pair.link, q)).reach_from(arm.base);
+        let second = match arm.joints[1].joint_type {
+            _ if pair.link == 0 => 0.0,
+            JointType::Revolute { .. } => moves[1] * part.reach_from(Point::origin()),
+            JointType::Prismatic { .. } => moves[1],
+        };
+        let first = match arm.joints[0].joint_type {
+            _ if pair.link == 2 => 0.0,
+            JointType::Revolute { .. } => moves[0] * (from_base + second),
+            JointType::Prismatic { .. } => moves[0],
+        };
+        let scale = from_base + self.piece(pair).reach_from(arm.base) + arm.base.coords.norm() + first + second;
+        (first + second, scale)
+    }
+}

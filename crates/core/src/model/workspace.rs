@@ -1,0 +1,224 @@
+//! Obstacles in the plane.
+
+use super::scene_error::are_small;
+use super::{Mover, Preference};
+use cplan_geometry::{Convex, ConvexError, Point, PolygonError, Pose, SimplePolygon};
+use serde::{Deserialize, Serialize};
+
+/// Extent along the plane's normal, metres.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Heights {
+    /// The lower end of the extent.
+    #[serde(with = "cplan_text::number")]
+    pub lower: f64,
+    /// The upper end of the extent.
+    #[serde(with = "cplan_text::number")]
+    pub upper: f64,
+}
+
+/// Heights are sums of products of what the files say: they are known to this, metres, at least.
+const ROUNDING: f64 = 1e-9;
+
+/// Depth along the plane's normal to which an object may reach into what it rests on without a contact, metres: above the rounding of
+/// heights that drawings state and stacks add up, far below what any gripper yields.
+pub const RESTING_TOLERANCE: f64 = 1e-6;
+
+impl Heights {
+    /// The extent that holds all heights.
+    pub const ALL: Heights = Heights { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
+
+    /// From the lower of two floors to the higher of two tops.
+    #[must_use]
+    pub fn and(self, other: Heights) -> Heights {
+        Heights { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
+    }
+
+    /// Whether the two extents may share a height: touching counts, and so does what is apart by mere rounding.
+    #[must_use]
+    pub fn meet(self, other: Heights) -> bool {
+        self.meet_within(other, ROUNDING)
+    }
+
+    /// Whether the two extents share a height for certain, by more than rounding.
+    #[must_use]
+    pub fn surely_meet(self, other: Heights) -> bool {
+        self.meet_within(other, -ROUNDING)
+    }
+
+    /// Whether an object at these heights may be in contact with something at others: as [`Heights::meet`], but it rests on what its
+    /// bottom touches to within [`RESTING_TOLERANCE`].
+    #[must_use]
+    pub fn object_meets(self, other: Heights) -> bool {
+        self.meet(other) && !self.is_above(other, RESTING_TOLERANCE - ROUNDING)
+    }
+
+    /// Whether an object at these heights shares a height with something at others for certain, by more than rounding, and does not rest
+    /// on it.
+    #[must_use]
+    pub fn object_surely_meets(self, other: Heights) -> bool {
+        self.surely_meet(other) && !self.is_above(other, RESTING_TOLERANCE + ROUNDING)
+    }
+
+    /// Whether these heights begin where the others end, or less than `into` below that.
+    fn is_above(self, other: Heights, into: f64) -> bool {
+        other.upper - self.lower <= into
+    }
+
+    fn meet_within(self, other: Heights, apart: f64) -> bool {
+        self.lower <= other.upper + apart && other.lower <= self.upper + apart
+    }
+}
+
+/// An obstacle's shape as the user gave it, for pictures and messages.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// Corners of a simple polygon, counter-clockwise.
+    Polygon(Vec<Point>),
+    /// A disc, by its centre and radius.
+    Circle {
+        /// The centre, plane coordinates.
+        center: Point,
+        /// Its radius, metres; 0 for a point.
+        radius: f64,
+    },
+    /// A thin wall.
+    Polyline(Vec<Point>),
+    /// The union of the obstacle's pieces, such as the occupied cells of a map.
+    Pieces,
+}
+
+impl Shape {
+    /// The shape moved by `pose`.
+    #[must_use]
+    pub fn at(&self, pose: &Pose) -> Self {
+        let moved = |points: &[Point]| points.iter().map(|p| pose * p).collect();
+        match self {
+            Shape::Polygon(corners) => Shape::Polygon(moved(corners)),
+            Shape::Circle { center, radius } => Shape::Circle { center: pose * center, radius: *radius },
+            Shape::Polyline(points) => Shape::Polyline(moved(points)),
+            Shape::Pieces => Shape::Pieces,
+        }
+    }
+
+    /// Leaves the shape if it consists of just these pieces; else they are the shape, for pictures are to show what is judged.
+    pub(super) fn hold_to(&mut self, pieces: &[Convex]) {
+        let own = match self {
+            // Predicates would overflow on others, of which no pieces are taken.
+            Shape::Polygon(corners) if are_small(corners.iter().flat_map(|p| [p.x, p.y])) => {
+                SimplePolygon::new(corners.clone()).map(|polygon| polygon.convex_pieces()).ok()
+            }
+            Shape::Circle { center, radius } => Convex::disc(*center, *radius).map(|disc| vec![disc]).ok(),
+            Shape::Polyline(points) => walls(points).ok(),
+            Shape::Polygon(_) | Shape::Pieces => None,
+        };
+        if own.is_none_or(|own| own != pieces) {
+            *self = Shape::Pieces;
+        }
+    }
+}
+
+/// The pieces of a thin wall.
+fn walls(points: &[Point]) -> Result<Vec<Convex>, ConvexError> {
+    match points {
+        [] | [_] => Ok(vec![Convex::new(points.to_vec(), 0.0)?]),
+        _ => points.windows(2).map(|ends| Convex::segment(ends[0], ends[1])).collect(),
+    }
+}
+
+/// Something the arm must not touch.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Obstacle {
+    /// The user's name for it, or `obstacle 3`.
+    pub name: String,
+    /// The shape as the user gave it.
+    pub shape: Shape,
+    /// The same as a union of convex pieces, without any clearance.
+    pub pieces: Vec<Convex>,
+    /// Where it is along the plane's normal.
+    pub heights: Heights,
+}
+
+/// The obstacles, the distance to keep from them, and where to be rather than elsewhere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Workspace {
+    /// The title of the world.
+    pub name: String,
+    /// In the order of the file.
+    pub obstacles: Vec<Obstacle>,
+    /// Least distance to keep from every obstacle, metres. With 0 any proven distance above zero will do.
+    pub clearance: f64,
+    /// Regions that field planners may prefer or avoid, in the order of the file; of several that hold the last counts.
+    pub preferences: Vec<Preference>,
+    /// Obstacles that move. What has no time knows nothing of them: planners, configuration spaces, paths and proofs. Motions are put in time
+    /// among them ([`crate::engine`]) and judged in time ([`crate::check::certify_in_time`]).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub movers: Vec<Mover>,
+}
+
+impl Obstacle {
+    /// A simple polygon, either orientation, at all heights. Corners in metres, in order round the shape.
+    ///
+    /// # Errors
+    /// Corners of no simple polygon.
+    pub fn polygon(name: &str, corners: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, PolygonError> {
+        let polygon = SimplePolygon::new(points(corners))?;
+        let (shape, pieces) = (Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces());
+        Ok(Self { name: name.into(), shape, pieces, heights: Heights::ALL })
+    }
+
+    /// A disc, metres.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, and a negative radius.
+    pub fn circle(name: &str, center: [f64; 2], radius: f64) -> Result<Self, ConvexError> {
+        let center = Point::from(center);
+        let pieces = vec![Convex::disc(center, radius)?];
+        Ok(Self { name: name.into(), shape: Shape::Circle { center, radius }, pieces, heights: Heights::ALL })
+    }
+
+    /// A thin wall through these points, metres: no area, still solid; a point if there is only one.
+    ///
+    /// # Errors
+    /// No point at all, and numbers that are not finite.
+    pub fn polyline(name: &str, through: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, ConvexError> {
+        let points = points(through);
+        let pieces = walls(&points)?;
+        Ok(Self { name: name.into(), shape: Shape::Polyline(points), pieces, heights: Heights::ALL })
+    }
+}
+
+impl Obstacle {
+    /// Moves it by `pose`.
+    pub(super) fn move_by(&mut self, pose: &Pose) {
+        self.shape = self.shape.at(pose);
+        self.pieces.iter_mut().for_each(|piece| *piece = piece.at(pose));
+    }
+}
+
+fn points(coordinates: impl IntoIterator<Item = [f64; 2]>) -> Vec<Point> {
+    coordinates.into_iter().map(Point::from).collect()
+}
+
+impl Workspace {
+    /// These obstacles, without a clearance to keep.
+    #[must_use]
+    pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
+        let obstacles = obstacles.into_iter().collect();
+        Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new(), movers: Vec::new() }
+    }
+
+    /// All obstacles as a scene numbers them: those that stay where they are, then those that move, in their own frames.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Obstacle> {
+        self.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
+    }
+
+    /// Holds the shapes to what is judged: for what is read as data.
+    pub(super) fn hold_shapes(&mut self) {
+        let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
+        self.obstacles.iter_mut().chain(moving).for_each(|obstacle| obstacle.shape.hold_to(&obstacle.pieces));
+    }
+}

@@ -1,0 +1,137 @@
+//! Joining configurations to cells of a grid.
+
+use super::Query;
+use super::grid_path::place;
+use crate::cspace::Grid;
+use crate::space::{Configuration, Segment};
+use cplan_text::listed;
+
+/// How many rings of cells around a blocked one are searched for a free one. An outer grid blocks some cells whose
+/// configurations are free; farther than this a straight piece to the grid is a guess not worth a try.
+const RINGS: i64 = 3;
+
+/// Where a configuration, or a segment of goals, is joined to the grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attachment {
+    /// The cell that contains the configuration if it is free, else the free cells of the nearest ring that has any,
+    /// nearest first; of a segment all free cells that hold any of it. At least one.
+    pub cells: Vec<usize>,
+    /// Whether it is the first case.
+    pub contained: bool,
+}
+
+/// A query joined to the grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joined {
+    /// The start, joined to the grid.
+    pub start: Attachment,
+    /// The goals that can be joined, within the domain; at least one.
+    pub goals: Vec<(Segment, Attachment)>,
+}
+
+impl Joined {
+    /// Joins start and goals; the reason if the start or every goal cannot be.
+    pub fn new(grid: &Grid, query: &Query) -> Result<Self, String> {
+        let start = attach(grid, query.start, "start")?;
+        let (mut goals, mut reasons) = (Vec::new(), Vec::new());
+        for goal in query.goals.pieces().iter().flat_map(|piece| in_domain(grid, piece)) {
+            match attach_goals(grid, &goal) {
+                Ok(attachment) => goals.push((goal, attachment)),
+                Err(reason) => reasons.push(reason),
+            }
+        }
+        if goals.is_empty() {
+            return Err(if reasons.is_empty() { "there is no goal".into() } else { listed(&reasons) });
+        }
+        Ok(Self { start, goals })
+    }
+
+    /// The cells joined to any goal.
+    pub fn sources(&self) -> Vec<usize> {
+        self.goals.iter().flat_map(|(_, attachment)| attachment.cells.iter().copied()).collect()
+    }
+}
+
+/// A piece as the grid has it: segments within the domain, a single configuration as it is.
+fn in_domain(grid: &Grid, piece: &Segment) -> Vec<Segment> {
+    if piece.is_point() { vec![*piece] } else { piece.within_domain(&grid.topology).collect() }
+}
+
+/// Joins goals within the domain to the grid; the reason if they cannot be.
+fn attach_goals(grid: &Grid, goals: &Segment) -> Result<Attachment, String> {
+    let [from, to] = goals.ends();
+    if goals.is_point() {
+        return attach(grid, from, "goal");
+    }
+    if !grid.topology.contains(from) || !grid.topology.contains(to) {
+        return Err(format!("the goals from {} to {} leave the configuration space", shown(from), shown(to)));
+    }
+    let cells: Vec<usize> = cells_along(grid, goals).into_iter().filter(|&cell| !grid.blocked[cell]).collect();
+    if cells.is_empty() {
+        return Err(format!("the goals from {} to {} are in no free cell", shown(from), shown(to)));
+    }
+    Ok(Attachment { cells, contained: true })
+}
+
+fn shown(q: Configuration) -> String {
+    format!("({:.4}, {:.4})", q[0], q[1])
+}
+
+/// The cells that hold any of a segment in the domain, ascending.
+fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
+    let step = grid.step();
+    let range = |k: usize, part: &Segment| {
+        let lower = grid.topology.ranges[k].domain().0;
+        let [from, to] = part.ends().map(|q| ((q[k] - lower) / step[k]).max(0.0) as usize);
+        let last = grid.cells[k] - 1;
+        from.min(to).min(last)..=from.max(to).min(last)
+    };
+    let in_row = |i: usize| {
+        let lower = grid.topology.ranges[0].domain().0 + step[0] * i as f64;
+        let mut sides = [[lower, f64::NEG_INFINITY], [lower + step[0], f64::INFINITY]];
+        let [from, to] = goals.ends();
+        if from[0] == to[0] {
+            // In this row whatever rounding makes of its sides.
+            (sides[0][0], sides[1][0]) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
+        let part = goals.within(sides[0], sides[1]);
+        part.into_iter().flat_map(move |part| range(1, &part).map(move |j| i * grid.cells[1] + j))
+    };
+    range(0, goals).flat_map(in_row).collect()
+}
+
+/// Joins `q` to the grid; the reason if it cannot be.
+fn attach(grid: &Grid, q: Configuration, name: &str) -> Result<Attachment, String> {
+    if !grid.topology.contains(q) {
+        return Err(format!("the {name} ({:.4}, {:.4}) lies outside the configuration space", q[0], q[1]));
+    }
+    let home = grid.locate(q);
+    if !grid.blocked[home] {
+        return Ok(Attachment { cells: vec![home], contained: true });
+    }
+    let columns = grid.cells[1];
+    for ring in 1..=RINGS {
+        let mut found: Vec<(f64, usize)> = Vec::new();
+        for di in -ring..=ring {
+            for dj in -ring..=ring {
+                if di.abs().max(dj.abs()) != ring {
+                    continue;
+                }
+                let i = place(grid, 0, (home / columns) as i64 + di);
+                let j = place(grid, 1, (home % columns) as i64 + dj);
+                if let (Some(i), Some(j)) = (i, j) {
+                    let cell = i * columns + j;
+                    if !grid.blocked[cell] {
+                        found.push((grid.topology.distance(q, grid.center(cell)), cell));
+                    }
+                }
+            }
+        }
+        if !found.is_empty() {
+            found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            found.dedup();
+            return Ok(Attachment { cells: found.into_iter().map(|(_, cell)| cell).collect(), contained: false });
+        }
+    }
+    Err(format!("the {name} ({:.4}, {:.4}) has no free cell within {RINGS} cells around it", q[0], q[1]))
+}

@@ -1,0 +1,156 @@
+//! Channels of cells: a roadmap's search over the cells of a decomposition, with costs that stand beside the portals.
+
+use super::decomposition::{CellPortal, Decomposition};
+use super::roadmap::{Question, RoadmapSearch, Searched, search};
+use super::terminals::Terminals;
+use crate::space::{Configuration, Measure, Metric, Segment};
+use cplan_geometry::Point;
+use petgraph::graph::{NodeIndex, UnGraph};
+use petgraph::visit::EdgeRef;
+
+/// Cells to pass, with the portals between them: one less than cells.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Channel {
+    pub start: Point,
+    /// Any of these will do, all in the last cell.
+    pub goals: Segment,
+    pub cells: Vec<usize>,
+    pub portals: Vec<usize>,
+}
+
+/// Which portals each cell has, and what ways through them cost.
+#[derive(Debug, Clone)]
+pub(super) struct Adjacency {
+    /// Nodes are cells, edges are portals.
+    cells: UnGraph<Place, Passage>,
+    /// Centres of the cells.
+    pub centers: Vec<Point>,
+    /// Middles of the portals.
+    pub middles: Vec<Point>,
+}
+
+/// Where a way leads to.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    /// The start, or a cell's centre.
+    At(Point),
+    /// The nearest of these goals.
+    Any(Segment),
+}
+
+impl Place {
+    /// The place nearest to `p`.
+    fn nearest(self, p: Point) -> Point {
+        match self {
+            Place::At(point) => point,
+            Place::Any(goals) => Point::from(goals.nearest(Measure::from(Metric::Euclidean), p.coords)),
+        }
+    }
+}
+
+/// A way from place to place.
+#[derive(Debug, Clone, Copy)]
+struct Passage {
+    /// The portal's number; none within a cell.
+    portal: Option<usize>,
+    /// Length of the way over the portal's middle.
+    cost: f64,
+}
+
+impl Adjacency {
+    /// Linear.
+    pub fn new(decomposition: &Decomposition, centers: Vec<Point>) -> Self {
+        let middles = decomposition.portals.iter().map(|portal| nalgebra::center(&portal.low, &portal.high)).collect();
+        let cells = UnGraph::with_capacity(centers.len(), decomposition.portals.len());
+        let mut adjacency = Self { cells, centers, middles };
+        for &center in &adjacency.centers {
+            adjacency.cells.add_node(Place::At(center));
+        }
+        for (number, portal) in decomposition.portals.iter().enumerate() {
+            let [left, right] = portal.cells;
+            let passage =
+                adjacency.passage([adjacency.centers[left], adjacency.centers[right]].map(Place::At), Some(number));
+            adjacency.cells.add_edge(NodeIndex::new(left), NodeIndex::new(right), passage);
+        }
+        adjacency
+    }
+
+    /// From a point to another, or to the nearest of some goals.
+    fn passage(&self, [from, to]: [Place; 2], portal: Option<usize>) -> Passage {
+        let from = from.nearest(Point::origin());
+        let last = portal.map_or(from, |portal| self.middles[portal]);
+        Passage { portal, cost: (last - from).norm() + (to.nearest(last) - last).norm() }
+    }
+
+    /// A channel from the start, given the cells that contain it, to any goal, and where the search came, in order: passing
+    /// from a cell to the next costs the way from the one's centre over the portal's middle to the other's, with the start and
+    /// the nearest goal for the centres of the end cells. By the usual search the cheapest, in `O(n log n)` for `n` cells.
+    pub fn channel(
+        &self,
+        portals: &[CellPortal],
+        terminals: &Terminals,
+        start_cells: &[usize],
+        how: RoadmapSearch,
+    ) -> (Option<Channel>, Vec<Configuration>) {
+        // Beside the cells that hold them the ends are nodes of their own, with the same portals.
+        let mut graph = self.cells.clone();
+        let at_start = Place::At(terminals.start);
+        let start = graph.add_node(at_start);
+        for &cell in start_cells {
+            for portal in self.cells.edges(NodeIndex::new(cell)) {
+                let passage = self.passage([at_start, graph[portal.target()]], portal.weight().portal);
+                graph.add_edge(start, portal.target(), passage);
+            }
+        }
+        let is_left = |cell: NodeIndex| start_cells.contains(&cell.index());
+        for &(cell, goals) in &terminals.parts {
+            let any = Place::Any(goals);
+            let (cell, goal) = (NodeIndex::new(cell as usize), graph.add_node(any));
+            for portal in self.cells.edges(cell) {
+                let number = portal.weight().portal;
+                graph.add_edge(portal.target(), goal, self.passage([graph[portal.target()], any], number));
+                if is_left(portal.target()) {
+                    graph.add_edge(start, goal, self.passage([at_start, any], number));
+                }
+            }
+            if is_left(cell) {
+                graph.add_edge(start, goal, self.passage([at_start, any], None));
+            }
+        }
+        let euclid = Measure::from(Metric::Euclidean);
+        let question = Question {
+            start,
+            is_goal: |node: NodeIndex| node > start,
+            cost: |passage: &Passage| passage.cost,
+            ahead: |node: NodeIndex| terminals.distance(euclid, graph[node].nearest(terminals.start)),
+            behind: |node: NodeIndex| (graph[node].nearest(terminals.start) - terminals.start).norm(),
+        };
+        let Searched { way, expanded } = search(&graph, how, &question);
+        let expanded = expanded.into_iter().map(|node| graph[node].nearest(terminals.start).coords).collect();
+        (way.map(|places| self.passed(portals, terminals, &graph, start, &places)), expanded)
+    }
+
+    /// The channel that leads from place to place.
+    fn passed(
+        &self,
+        portals: &[CellPortal],
+        terminals: &Terminals,
+        graph: &UnGraph<Place, Passage>,
+        start: NodeIndex,
+        places: &[NodeIndex],
+    ) -> Channel {
+        let cheapest = |pair: &[NodeIndex]| {
+            let between = graph.edges_connecting(pair[0], pair[1]).map(|portal| *portal.weight());
+            between.min_by(|a, b| a.cost.total_cmp(&b.cost))?.portal
+        };
+        let passed: Vec<usize> = places.windows(2).filter_map(cheapest).collect();
+        let (last, goals) = terminals.parts[places[places.len() - 1].index() - start.index() - 1];
+        let mut cells = vec![last as usize];
+        for &portal in passed.iter().rev() {
+            let [left, right] = portals[portal].cells;
+            cells.push(if left == cells[cells.len() - 1] { right } else { left });
+        }
+        cells.reverse();
+        Channel { start: terminals.start, goals, cells, portals: passed }
+    }
+}

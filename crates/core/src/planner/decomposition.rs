@@ -1,0 +1,296 @@
+//! Trapezoidal decomposition of polygonal free space.
+
+use super::NONE;
+use crate::space::Segment;
+use cplan_geometry::planar::{Boundary, Status};
+use cplan_geometry::{Orientation, Point, orientation};
+use cplan_interrupt::checkpoint;
+
+/// A trapezoid or triangle of free space between two sides and two verticals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cell {
+    /// Abscissae of its verticals.
+    pub left: f64,
+    pub right: f64,
+    /// Sides below and above, indices into [`Boundary::sides`].
+    pub floor: usize,
+    pub ceiling: usize,
+}
+
+impl Cell {
+    /// Whether the closed cell contains `p`; exact.
+    pub fn contains(&self, boundary: &Boundary, p: Point) -> bool {
+        let is_free = |side: usize| {
+            let (from, to) = boundary.ends(side);
+            orientation(from, to, p) != Orientation::Clockwise
+        };
+        self.left <= p.x && p.x <= self.right && is_free(self.floor) && is_free(self.ceiling)
+    }
+
+    /// The part of a segment in the closed cell.
+    fn part(&self, boundary: &Boundary, segment: &Segment) -> Option<Segment> {
+        let infinite = f64::INFINITY;
+        let between = segment.within([self.left, -infinite], [self.right, infinite])?;
+        let (floor, ceiling) = (boundary.ends(self.floor), boundary.ends(self.ceiling));
+        between.left_of(floor.0, floor.1)?.left_of(ceiling.0, ceiling.1)
+    }
+
+    /// Ordinates of floor and ceiling at the abscissa `x`, rounded into the cell.
+    pub fn span(&self, boundary: &Boundary, x: f64) -> (f64, f64) {
+        let [floor, ceiling] = [self.floor, self.ceiling].map(|side| boundary.ordinate(side, x));
+        (floor, ceiling)
+    }
+
+    /// Corners, counter-clockwise: three of a triangle, else four.
+    pub fn corners(&self, boundary: &Boundary) -> Vec<Point> {
+        let (left, right) = (self.span(boundary, self.left), self.span(boundary, self.right));
+        let mut corners = vec![
+            Point::new(self.left, left.0),
+            Point::new(self.right, right.0),
+            Point::new(self.right, right.1),
+            Point::new(self.left, left.1),
+        ];
+        corners.dedup();
+        if corners.first() == corners.last() {
+            corners.pop();
+        }
+        corners
+    }
+
+    /// The centre of area, rounded into the cell.
+    pub fn centroid(&self, boundary: &Boundary) -> Point {
+        let (left, right) = (self.span(boundary, self.left), self.span(boundary, self.right));
+        let (a, b) = (left.1 - left.0, right.1 - right.0);
+        // The centre lies on the line through the middles of the parallel sides.
+        let t = if a + b > 0.0 { (a + 2.0 * b) / (3.0 * (a + b)) } else { 0.5 };
+        let x = (self.left + t * (self.right - self.left)).clamp(self.left, self.right);
+        let (floor, ceiling) = self.span(boundary, x);
+        let middle = ((1.0 - t) * (left.0 + left.1) + t * (right.0 + right.1)) / 2.0;
+        Point::new(x, middle.min(ceiling).max(floor))
+    }
+}
+
+/// A piece of a vertical, of positive length, that two cells share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct CellPortal {
+    /// The cell to its left and the one to its right.
+    pub cells: [usize; 2],
+    /// Lower and upper end, in closed free space exactly.
+    pub low: Point,
+    pub high: Point,
+    /// Whether the ends are vertices, not places on a side.
+    pub at_vertices: [bool; 2],
+}
+
+/// Cells that do not overlap and cover closed free space, and the portals between them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Decomposition {
+    pub cells: Vec<Cell>,
+    pub portals: Vec<CellPortal>,
+}
+
+impl Decomposition {
+    /// Sweeps a vertical line over free space from left to right, `O(n log n)` for `n` vertices.
+    ///
+    /// All vertices of one abscissa are one event, so verticals through several vertices and vertical sides need no
+    /// special case: which portal joins which cells follows from the order of the vertices on the line alone, which is
+    /// exact.
+    pub fn new(boundary: &Boundary) -> Self {
+        let sides = boundary.sides.len();
+        let (status, cell_above) = (Status::new(sides), vec![NONE; sides]);
+        let mut sweep = Sweep { boundary, status, cell_above, result: Decomposition::default() };
+        let mut begin = 0;
+        for event in boundary.vertices.chunk_by(|a, b| a.x == b.x) {
+            checkpoint();
+            sweep.pass(begin, event.len());
+            begin += event.len();
+        }
+        sweep.result
+    }
+
+    /// The cells that contain `p`, borders included. Exact; linear.
+    pub fn cells_at<'a>(&'a self, boundary: &'a Boundary, p: Point) -> impl Iterator<Item = usize> + 'a {
+        (0..self.cells.len()).filter(move |&cell| self.cells[cell].contains(boundary, p))
+    }
+
+    /// The cells that hold any of a segment, and what. Linear.
+    pub fn parts_of(&self, boundary: &Boundary, segment: &Segment) -> Vec<(u32, Segment)> {
+        if segment.is_point() {
+            let [at, _] = segment.corners();
+            return self.cells_at(boundary, at).map(|cell| (cell as u32, *segment)).collect();
+        }
+        let part = |(cell, number): (&Cell, u32)| Some((number, cell.part(boundary, segment)?));
+        self.cells.iter().zip(0..).filter_map(part).collect()
+    }
+}
+
+/// Neighbouring vertices on the sweep line, and the sides next to them that go on: between those only sides lie that end
+/// at one of the vertices, or begin there.
+#[derive(Debug, Clone, Copy)]
+struct Cluster {
+    vertices: (usize, usize),
+    below: Option<usize>,
+    above: Option<usize>,
+}
+
+/// Free space between two neighbours in the status, ending or beginning at a cluster. Its ends on the line are given
+/// as ranks: 0 the side below the cluster, `i` the cluster's `i`th vertex, one more than the last the side above.
+#[derive(Debug, Clone, Copy)]
+struct Gap {
+    cell: usize,
+    low: usize,
+    high: usize,
+}
+
+struct Sweep<'a> {
+    boundary: &'a Boundary,
+    /// Sides that meet the line; none is vertical.
+    status: Status,
+    /// The unfinished cell above each of them, if free space lies there.
+    cell_above: Vec<u32>,
+    result: Decomposition,
+}
+
+impl Sweep<'_> {
+    /// Passes the vertical with vertices `begin..begin + count`.
+    fn pass(&mut self, begin: usize, count: usize) {
+        let boundary = self.boundary;
+        let mut clusters: Vec<Cluster> = Vec::new();
+        for v in begin..begin + count {
+            let at = boundary.vertices[v];
+            let mut ending = boundary.ending(v).filter(|&side| !boundary.is_vertical(side));
+            let (lowest, highest) = (ending.next(), ending.next_back());
+            let below = match lowest {
+                Some(lowest) => self.status.below(lowest),
+                None => self.status.last_where(|side| boundary.place(side, at) == Orientation::CounterClockwise),
+            };
+            let above = self.status.above(highest.or(lowest).or(below));
+            // The side below is either that below the last cluster or ends there.
+            let joins = |last: &Cluster| {
+                below == last.below
+                    || below.is_some_and(|side| boundary.sides[side].right_end() >= last.vertices.0)
+                        && below.is_some_and(|side| boundary.sides[side].right_end() < v)
+            };
+            match clusters.last_mut().filter(|last| joins(last)) {
+                Some(last) => (last.vertices.1, last.above) = (v + 1, above),
+                None => clusters.push(Cluster { vertices: (v, v + 1), below, above }),
+            }
+        }
+        for cluster in clusters {
+            self.replace(cluster);
+        }
+    }
+
+    /// Ends the cells left of a cluster, replaces the sides that end there by those that begin, starts the cells to
+    /// the right and joins them by portals.
+    fn replace(&mut self, cluster: Cluster) {
+        let (first, last) = cluster.vertices;
+        let x = self.boundary.vertices[first].x;
+        let left = self.gaps(cluster, |side| self.boundary.sides[side].right_end());
+        for gap in &left {
+            self.result.cells[gap.cell].right = x;
+        }
+        for v in first..last {
+            for side in self.boundary.ending(v).filter(|&side| !self.boundary.is_vertical(side)) {
+                self.status.remove(side);
+            }
+        }
+        let mut at = cluster.below;
+        for side in (first..last).flat_map(|v| self.boundary.beginning(v)) {
+            if !self.boundary.is_vertical(side) {
+                self.status.insert_above(at, side);
+                at = Some(side);
+            }
+        }
+        let mut floor = cluster.below;
+        loop {
+            let ceiling = self.status.above(floor);
+            if let Some(floor) = floor {
+                self.cell_above[floor] = ceiling.map_or(NONE, |ceiling| self.begin(floor, ceiling, x));
+            }
+            if ceiling.is_none() || ceiling == cluster.above {
+                break;
+            }
+            floor = ceiling;
+        }
+        let right = self.gaps(cluster, |side| self.boundary.sides[side].left_end());
+        self.join(cluster, &left, &right);
+    }
+
+    /// A new cell between two sides; none where that is an obstacle.
+    fn begin(&mut self, floor: usize, ceiling: usize, x: f64) -> u32 {
+        let sides = &self.boundary.sides;
+        if !sides[floor].is_floor() || sides[ceiling].is_floor() || is_slit(self.boundary, floor, ceiling) {
+            return NONE;
+        }
+        self.result.cells.push(Cell { left: x, right: x, floor, ceiling });
+        self.result.cells.len() as u32 - 1
+    }
+
+    /// The gaps at a cluster, from bottom to top, between sides that have an end there as given.
+    fn gaps(&self, cluster: Cluster, end: impl Fn(usize) -> usize) -> Vec<Gap> {
+        let (first, last) = cluster.vertices;
+        // A side without an end here is between those that have one only where sides cross.
+        let rank = |side: usize| end(side).checked_sub(first).map_or(0, |k| (k + 1).min(last - first + 1));
+        let mut gaps = Vec::new();
+        let mut floor = cluster.below;
+        loop {
+            let ceiling = self.status.above(floor);
+            if let Some(under) = floor.filter(|&side| self.cell_above[side] != NONE) {
+                let low = if floor == cluster.below { 0 } else { rank(under) };
+                let high = match ceiling.filter(|_| ceiling != cluster.above) {
+                    Some(over) => rank(over),
+                    None => last - first + 1,
+                };
+                gaps.push(Gap { cell: self.cell_above[under] as usize, low, high });
+            }
+            if ceiling.is_none() || ceiling == cluster.above {
+                return gaps;
+            }
+            floor = ceiling;
+        }
+    }
+
+    /// A portal wherever a gap on the left and one on the right, both in ascending order, overlap.
+    fn join(&mut self, cluster: Cluster, left: &[Gap], right: &[Gap]) {
+        let (mut i, mut j) = (0, 0);
+        while i < left.len() && j < right.len() {
+            let (a, b) = (left[i], right[j]);
+            let (low, high) = (a.low.max(b.low), a.high.min(b.high));
+            if low < high {
+                let portal = self.portal(cluster, [a.cell, b.cell], low, high);
+                self.result.portals.push(portal);
+            }
+            if a.high <= b.high {
+                i += 1;
+            } else {
+                j += 1;
+            }
+        }
+    }
+
+    /// The portal between two cells from one rank to another.
+    fn portal(&self, cluster: Cluster, cells: [usize; 2], low: usize, high: usize) -> CellPortal {
+        let (first, last) = cluster.vertices;
+        let vertices = &self.boundary.vertices;
+        let x = vertices[first].x;
+        let Cell { floor, ceiling, .. } = self.result.cells[cells[0]];
+        let on_side = |side: usize| Point::new(x, self.boundary.ordinate(side, x));
+        let vertex = |rank: usize| (1..=last - first).contains(&rank).then(|| vertices[first + rank - 1]);
+        let ends = (vertex(low), vertex(high));
+        // Rounding may put a point on a side beyond a vertex that is within rounding of it.
+        let (low, high) = match ends {
+            (Some(a), Some(b)) => (a, b),
+            (Some(a), None) => (a, Point::new(x, on_side(ceiling).y.max(a.y))),
+            (None, Some(b)) => (Point::new(x, on_side(floor).y.min(b.y)), b),
+            (None, None) => (on_side(floor), on_side(ceiling)),
+        };
+        CellPortal { cells, low, high, at_vertices: [ends.0.is_some(), ends.1.is_some()] }
+    }
+}
+
+/// Whether two sides coincide, so that nothing lies between them.
+fn is_slit(boundary: &Boundary, floor: usize, ceiling: usize) -> bool {
+    let (floor, ceiling) = (boundary.sides[floor], boundary.sides[ceiling]);
+    (floor.from, floor.to) == (ceiling.to, ceiling.from)
+}

@@ -1,0 +1,204 @@
+//! From cells to a path.
+//!
+//! A field's path is the curve along it: within 0.05 cells of that (`simplify`), to the goal itself rather than the
+//! centre of its cell, and then certified as it is. What fails the certificate gets a finer grid.
+
+use super::attach::{Attachment, Joined};
+use super::simplify::simplified;
+use super::{PathKind, Query, shortcut};
+use crate::cspace::Grid;
+use crate::space::{Configuration, Measure, Metric, Path};
+use cplan_harmonic::{Guide, Place, follow};
+
+/// Number `at` of the unbounded lattice along an axis as a row or column of the grid; nothing beyond a limit.
+pub fn place(grid: &Grid, axis: usize, at: i64) -> Option<usize> {
+    let n = grid.cells[axis] as i64;
+    let at = if grid.topology.ranges[axis].is_circle() { at.rem_euclid(n) } else { at };
+    (0..n).contains(&at).then_some(at as usize)
+}
+
+/// The cell at a place of the unbounded lattice; none beyond a limit.
+pub fn cell(grid: &Grid, [i, j]: Place) -> Option<usize> {
+    Some(place(grid, 0, i)? * grid.cells[1] + place(grid, 1, j)?)
+}
+
+/// A polyline in lattice units: unwrapped, cell `(i, j)` covers `[i, i + 1] x [j, j + 1]`.
+pub type Line = Vec<[f64; 2]>;
+
+/// Lattice units of an unwrapped configuration.
+pub fn to_lattice(grid: &Grid, q: Configuration) -> [f64; 2] {
+    let step = grid.step();
+    [0, 1].map(|k| (q[k] - grid.topology.ranges[k].domain().0) / step[k])
+}
+
+/// The unwrapped configuration at a point in lattice units.
+fn from_lattice(grid: &Grid, at: [f64; 2]) -> Configuration {
+    let step = grid.step();
+    let [a, b] = [0, 1].map(|k| grid.topology.ranges[k].domain().0 + at[k] * step[k]);
+    Configuration::new(a, b)
+}
+
+/// The centres of neighbouring `cells`, unwrapped: the first is the copy nearest to `near`, and each next one lies one
+/// cell away, across a seam too.
+pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
+    let columns = grid.cells[1];
+    let near = to_lattice(grid, near);
+    let split = |cell: usize| [cell / columns, cell % columns];
+    let mut line = Line::with_capacity(cells.len() + 2);
+    let Some(&first) = cells.first() else { return line };
+    let mut last = split(first);
+    let mut at = [0, 1].map(|k| {
+        let (center, n) = (last[k] as f64 + 0.5, grid.cells[k] as f64);
+        if grid.topology.ranges[k].is_circle() { center + n * ((near[k] - center) / n).round() } else { center }
+    });
+    line.push(at);
+    for &cell in &cells[1..] {
+        let next = split(cell);
+        for k in [0, 1] {
+            // One step, or all the way round to the other side of a seam: which is one step too.
+            at[k] += match next[k] as i64 - last[k] as i64 {
+                step @ -1..=1 => step as f64,
+                step => -step.signum() as f64,
+            };
+        }
+        last = next;
+        line.push(at);
+    }
+    line
+}
+
+/// The goal that a path ending at `cell` goes to: of those joined there, and in the cell if they are along a segment, the
+/// nearest to `near` (the unwrapped centre of the cell), as its nearest copy.
+fn goal_at<'a>(
+    grid: &Grid,
+    joined: &'a Joined,
+    cell: usize,
+    near: Configuration,
+) -> Option<(Configuration, &'a Attachment)> {
+    let (center, step) = (grid.center(cell), grid.step());
+    let [lower, upper] = [-0.5, 0.5].map(|half| [0, 1].map(|k| center[k] + half * step[k]));
+    let here =
+        joined.goals.iter().filter(|(_, attachment)| attachment.cells.contains(&cell)).map(|(piece, attachment)| {
+            let within = if piece.is_point() { None } else { piece.within(lower, upper) };
+            let goal = within.unwrap_or(*piece).nearest(Measure::from(Metric::Euclidean), center);
+            (grid.topology.lift(goal, near), attachment)
+        });
+    here.min_by(|a, b| (a.0 - near).norm().total_cmp(&(b.0 - near).norm()))
+}
+
+/// The path from the exact start through the centres of `cells` (neighbours, the first joined to the start, the last to
+/// a goal) to the exact goal; pulled taut if wanted. The pieces between a configuration and a cell that does not contain
+/// it are not proven by the grid. Nothing if the cells are not such a chain.
+pub fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], kind: PathKind) -> Option<Path> {
+    let line = unwrap(grid, cells, query.start);
+    let goal = goal_at(grid, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
+    let line = completed(grid, query, joined, line, goal);
+    let line = if kind == PathKind::Taut { shortcut::shortcut(grid, &line) } else { line };
+    Some(between(grid, query.start, &line, goal.0))
+}
+
+/// How far a path may be off the curve along the field, in cells. Where the curve's radius is `r` cells, pieces are some
+/// `sqrt(r / 2.5)` cells long, and none deviates from the curve's direction by more than `1 / sqrt(10 r)`.
+const OFF_THE_CURVE: f64 = 0.05;
+
+/// The field knows the goal's cell, not where in it the goal is. Along so many cells before it the path goes over from the
+/// curve to the centre of that cell to one to the goal, so that it arrives in the curve's direction.
+const ARRIVAL: f64 = 12.0;
+
+/// The path from the exact start along a field ([`follow`]) to the exact goal, no farther off the curve than
+/// [`OFF_THE_CURVE`] but for the [`ARRIVAL`]; or pulled taut. It stays in free cells, but for the pieces between a
+/// configuration and a cell that does not contain it. `home` is the cell joined to the start.
+///
+/// # Errors
+/// Where the field does not lead to a goal.
+pub fn along<G: Guide>(
+    grid: &Grid,
+    query: &Query,
+    joined: &Joined,
+    guide: &mut G,
+    home: usize,
+    kind: PathKind,
+) -> Result<Path, G::Stuck> {
+    let center = unwrap(grid, &[home], query.start)[0];
+    let from = if joined.start.contained { within_cell(center, to_lattice(grid, query.start)) } else { center };
+    // Cells are counted from their corners here, from their centres there.
+    let streamline = follow(guide, grid.step(), from.map(|x| x - 0.5))?;
+    let mut line: Line = streamline.points.into_iter().map(|point| point.map(|x| x + 0.5)).collect();
+    let end = streamline.place.map(|x| x as f64 + 0.5);
+    let is_goal = |place: Place| cell(grid, place).filter(|_| guide.is_goal(place));
+    let at = is_goal(streamline.place).unwrap_or_else(|| unreachable!("a streamline ends in a goal's cell"));
+    let goal = goal_at(grid, joined, at, from_lattice(grid, end))
+        .unwrap_or_else(|| unreachable!("each goal's cell is joined to a goal"));
+    let is_far = line.len() > 1;
+    if (is_far || !goal.1.contained) && line[line.len() - 1] != end {
+        line.push(end);
+    }
+    if is_far && goal.1.contained {
+        line = arriving(grid, line, to_lattice(grid, goal.0));
+    }
+    let line = completed(grid, query, joined, line, goal);
+    let line = match kind {
+        PathKind::Own => simplified(grid, &line, OFF_THE_CURVE),
+        PathKind::Taut => shortcut::shortcut(grid, &line),
+    };
+    Ok(between(grid, query.start, &line, goal.0))
+}
+
+/// A point of the closed cell about `center`, off the sides that it shares with cells after it: those may be blocked, or beyond a
+/// limit.
+fn within_cell(center: [f64; 2], at: [f64; 2]) -> [f64; 2] {
+    const HALF: f64 = 0.5 - 1e-9;
+    [0, 1].map(|k| at[k].clamp(center[k] - HALF, center[k] + HALF))
+}
+
+/// The line with its end moved to `goal`, and what is before it by the less the farther it is away; the line itself where
+/// that would leave the free cells.
+fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
+    let end = line[line.len() - 1];
+    let by = [0, 1].map(|k| goal[k] - end[k]);
+    let mut left = vec![0.0; line.len()];
+    for k in (1..line.len()).rev() {
+        left[k - 1] = left[k] + (line[k][0] - line[k - 1][0]).hypot(line[k][1] - line[k - 1][1]);
+    }
+    let range = left[0].min(ARRIVAL);
+    let share = |left: f64| {
+        let x = (1.0 - left / range).max(0.0);
+        x * x * (3.0 - 2.0 * x)
+    };
+    let moved = line.iter().zip(&left).map(|(point, &left)| [0, 1].map(|k| point[k] + share(left) * by[k]));
+    let moved: Line = moved.collect();
+    let is_clear = |pieces: &[[f64; 2]]| pieces.windows(2).all(|w| shortcut::is_clear(grid, w[0], w[1]));
+    let first = left.partition_point(|&left| left >= range).saturating_sub(1);
+    if range > 0.0 && is_clear(&moved[first..]) { moved } else { line }
+}
+
+/// A line from the exact start to the exact goal.
+fn completed(
+    grid: &Grid,
+    query: &Query,
+    joined: &Joined,
+    mut line: Line,
+    (goal, attachment): (Configuration, &Attachment),
+) -> Line {
+    // A configuration that is at an end of the line, up to rounding, takes its place.
+    let (from, to) = (to_lattice(grid, query.start), to_lattice(grid, goal));
+    if line.len() == 1 && joined.start.contained && attachment.contained {
+        return vec![from, to];
+    }
+    let apart = |a: &[f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > shortcut::TOUCH;
+    let ends = line.len() - 1;
+    let mut at = 0..;
+    line.retain(|point| {
+        let k = at.next();
+        (k != Some(0) || apart(point, from)) && (k != Some(ends) || apart(point, to))
+    });
+    line.insert(0, from);
+    line.push(to);
+    line
+}
+
+/// A line as a path between the configurations at its ends.
+fn between(grid: &Grid, start: Configuration, line: &[[f64; 2]], goal: Configuration) -> Path {
+    let inner = line[1..line.len() - 1].iter().map(|&at| from_lattice(grid, at));
+    Path::new(std::iter::once(start).chain(inner).chain([goal]).collect())
+}

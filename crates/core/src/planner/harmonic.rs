@@ -1,0 +1,73 @@
+//! The harmonic field planner.
+
+use super::attach::Joined;
+use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
+use crate::cspace::Grid;
+use cplan_harmonic::{Component, Field, Lattice, Place, Uphill, harmonic};
+use cplan_interrupt::checkpoint;
+
+/// Solves Laplace's equation on the goal's component (1 at the goals, 0 on obstacles and beyond limits, periodic on
+/// circles) and climbs it along its gradient, interpolated between the cells (Connolly, Grupen 1993; [`follow`]).
+///
+/// [`follow`]: cplan_harmonic::follow()
+///
+/// Complete on the grid: whatever the length of a corridor, the field has no local maximum but the goals (see
+/// [`cplan_harmonic::harmonic`]), so no path is found only if there is none between the cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Harmonic {
+    /// [`PathKind::Own`] is the curve along the gradient.
+    pub path: PathKind,
+}
+
+impl Default for Harmonic {
+    fn default() -> Self {
+        Self { path: PathKind::Own }
+    }
+}
+
+impl Planner for Harmonic {
+    const NAME: &'static str = "harmonic";
+    type Space = Grid;
+    type Map = Lattice;
+
+    fn build(&self, space: &Grid) -> Lattice {
+        Lattice::from(space)
+    }
+
+    fn query(&self, space: &Grid, map: &Lattice, query: &Query) -> Run {
+        let gave_up = |reason: String| Run {
+            outcome: Proposal::GaveUp(reason),
+            trace: Trace::Field { cells: space.cells, potential: vec![f64::NEG_INFINITY; space.blocked.len()] },
+            size: Size::Windows { cells: 0, windows: 0 },
+            note: None,
+        };
+        let joined = match Joined::new(space, query) {
+            Ok(joined) => joined,
+            Err(reason) => return gave_up(reason),
+        };
+        checkpoint();
+        let wave = map.wave(&joined.sources());
+        checkpoint();
+        let component = Component::new(map, wave);
+        let size = |windows: usize| Size::Windows { cells: component.len(), windows };
+        // The nearest cell of the start that the wave came to.
+        let Some(start) = joined.start.cells.iter().find_map(|&cell| component.position_of(cell)) else {
+            let size = size(0);
+            return Run {
+                outcome: Proposal::NoPath,
+                trace: Trace::Harmonic { component, potential: None },
+                size,
+                note: None,
+            };
+        };
+        let Field { potential, windows } = harmonic(&component);
+        let at = |place: Place| component.position_of(grid_path::cell(space, place)?);
+        let mut guide = Uphill::new(&component, &potential, at);
+        let outcome = match grid_path::along(space, query, &joined, &mut guide, component.cell(start), self.path) {
+            Ok(path) => Proposal::Found(path),
+            Err(_) => Proposal::GaveUp("the field has a local maximum".into()),
+        };
+        let size = size(windows);
+        Run { outcome, trace: Trace::Harmonic { component, potential: Some(potential) }, size, note: None }
+    }
+}

@@ -1,0 +1,96 @@
+//! Convex corners of obstacles, as free space sees them.
+
+use super::{next, previous};
+use crate::planner::NONE;
+use cplan_geometry::planar::HalfEdges;
+use cplan_geometry::{Orientation, Point, orientation};
+
+/// A convex corner of an obstacle: a vertex and one sector of free space there of more than half a turn. Where
+/// obstacles touch in a vertex it has several sectors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corner {
+    /// The vertex of the mesh that it is at.
+    pub at: Point,
+    /// The end of the side from which free space lies counter-clockwise.
+    pub right: Point,
+    /// The end of the side up to which free space lies.
+    pub left: Point,
+    /// The half-edge along the side to the right.
+    pub first: u32,
+}
+
+/// How the line from a point to a corner passes the obstacle there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tangency {
+    /// It enters the obstacle: no shortest path turns here.
+    None,
+    /// The obstacle is to its left.
+    Left,
+    /// The obstacle is to its right.
+    Right,
+    /// Along an obstacle without width.
+    Both,
+}
+
+impl Corner {
+    /// How the line from `p`, another point, passes.
+    pub fn tangency(&self, p: Point) -> Tangency {
+        let sides = [self.right, self.left].map(|end| orientation(p, self.at, end));
+        match (sides.contains(&Orientation::CounterClockwise), sides.contains(&Orientation::Clockwise)) {
+            (true, true) => Tangency::None,
+            (true, false) => Tangency::Left,
+            (false, true) => Tangency::Right,
+            (false, false) => Tangency::Both,
+        }
+    }
+}
+
+/// All corners, and which of them each half-edge begins at.
+#[derive(Debug, Clone)]
+pub struct Corners {
+    pub list: Vec<Corner>,
+    /// `NONE` where the sector is no more than half a turn.
+    pub of_half_edge: Vec<u32>,
+}
+
+impl Corners {
+    /// Linear.
+    pub fn new(vertices: &[Point], edges: &HalfEdges) -> Self {
+        let at = |h: u32| vertices[edges.origin[h as usize] as usize];
+        let mut list = Vec::new();
+        let mut of_half_edge = vec![NONE; edges.origin.len()];
+        // In the order of the vertices, which makes neighbours neighbours in memory.
+        let mut sides: Vec<u32> = (0..edges.origin.len() as u32).filter(|&h| edges.twin[h as usize] == NONE).collect();
+        sides.sort_by_key(|&h| edges.origin[h as usize]);
+        for first in sides {
+            let mut h = first;
+            while edges.twin[previous(h) as usize] != NONE {
+                h = edges.twin[previous(h) as usize];
+            }
+            let corner = Corner { at: at(first), right: at(next(first)), left: at(previous(h)), first };
+            if !is_convex(&corner) {
+                continue;
+            }
+            let number = list.len() as u32;
+            list.push(corner);
+            loop {
+                of_half_edge[h as usize] = number;
+                if h == first {
+                    break;
+                }
+                h = next(edges.twin[h as usize]);
+            }
+        }
+        Self { list, of_half_edge }
+    }
+}
+
+/// Whether the sector is more than half a turn.
+fn is_convex(corner: &Corner) -> bool {
+    match orientation(corner.at, corner.right, corner.left) {
+        Orientation::CounterClockwise => false,
+        Orientation::Clockwise => true,
+        // A sector has width, so sides in one direction enclose a whole turn: the end of a wall without width.
+        Orientation::Collinear => (corner.right - corner.at).dot(&(corner.left - corner.at)) > 0.0,
+    }
+}

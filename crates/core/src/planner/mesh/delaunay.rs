@@ -1,0 +1,57 @@
+//! Flipping edges until no triangle has the far corner of a neighbour in its circumcircle.
+
+use super::{next, previous};
+use crate::planner::NONE;
+use cplan_geometry::planar::HalfEdges;
+use cplan_geometry::{Orientation, Point, in_circle, orientation};
+use cplan_interrupt::checkpoint;
+
+/// Most flips a half-edge. Some two are usual; adversarial point sets could ask for a number that grows like the
+/// square. The triangulation is then less good to walk through, and as right.
+const FLIPS: usize = 16;
+
+/// Makes a triangulation the constrained Delaunay triangulation (Lawson 1977): short edges, so that lines of sight cross
+/// few. The boundary stays. Of cocircular corners any triangulation will do.
+pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
+    let at = |v: u32| vertices[v as usize];
+    let mut left = FLIPS * edges.origin.len();
+    let mut stack: Vec<u32> = (0..edges.origin.len() as u32).filter(|&h| h < edges.twin[h as usize]).collect();
+    while let Some(h) = stack.pop() {
+        checkpoint();
+        let g = edges.twin[h as usize];
+        if g == NONE {
+            continue;
+        }
+        let origin = |h: u32| edges.origin[h as usize];
+        let (a, b, c, d) = (origin(h), origin(g), origin(previous(h)), origin(previous(g)));
+        if !in_circle([at(a), at(b), at(c)], at(d))
+            || !is_triangle(at(d), at(b), at(c))
+            || !is_triangle(at(c), at(a), at(d))
+        {
+            continue;
+        }
+        if left == 0 {
+            return;
+        }
+        left -= 1;
+        // The quadrilateral a d b c with the diagonal a b gets the diagonal d c.
+        let around = [next(h), previous(h), next(g), previous(g)];
+        let [bc, ca, ad, db] = around.map(|h| edges.twin[h as usize]);
+        for (slot, from, twin) in
+            [(next(h), c, ca), (previous(h), a, ad), (next(g), d, db), (previous(g), b, bc), (h, d, g), (g, c, h)]
+        {
+            edges.origin[slot as usize] = from;
+            edges.twin[slot as usize] = twin;
+            if twin != NONE {
+                edges.twin[twin as usize] = slot;
+            }
+        }
+        stack.extend(around);
+    }
+}
+
+/// Whether three corners are in counter-clockwise order. Those of a flipped edge always are, but for numbers so small
+/// that the circle's sign underflows.
+fn is_triangle(a: Point, b: Point, c: Point) -> bool {
+    orientation(a, b, c) == Orientation::CounterClockwise
+}

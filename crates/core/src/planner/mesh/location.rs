@@ -1,0 +1,79 @@
+//! Which triangle contains a point?
+
+use cplan_geometry::planar::HalfEdges;
+use cplan_geometry::{Orientation, Point, orientation};
+
+/// Triangles by vertical strips, as many as the root of their number.
+#[derive(Debug, Clone)]
+pub struct Columns {
+    left: f64,
+    /// Strips per unit of length.
+    density: f64,
+    /// Those of strip `k` are `triangles[first[k]..first[k + 1]]`.
+    first: Vec<u32>,
+    triangles: Vec<Entry>,
+}
+
+/// A triangle and its range in y.
+#[derive(Debug, Clone, Copy, Default)]
+struct Entry {
+    low: f64,
+    high: f64,
+    triangle: u32,
+}
+
+impl Columns {
+    /// `O(n)` entries among triangles of even size, `O(n sqrt n)` if all are as wide as free space.
+    pub fn new(vertices: &[Point], edges: &HalfEdges) -> Self {
+        let count = edges.origin.len() / 3;
+        let strips = (count as f64).sqrt().ceil().max(1.0);
+        // Vertices are in order of abscissae.
+        let (left, right) = (vertices.first().map_or(0.0, |p| p.x), vertices.last().map_or(0.0, |p| p.x));
+        let density = if right > left { strips / (right - left) } else { 0.0 };
+        let mut columns = Self { left, density, first: vec![0; strips as usize + 1], triangles: Vec::new() };
+        let range = |t: usize| {
+            let x = [0, 1, 2].map(|k| vertices[edges.origin[3 * t + k] as usize].x);
+            columns.strip(x[0].min(x[1]).min(x[2]))..=columns.strip(x[0].max(x[1]).max(x[2]))
+        };
+        let ranges: Vec<_> = (0..count).map(range).collect();
+        for strip in ranges.iter().cloned().flatten() {
+            columns.first[strip + 1] += 1;
+        }
+        for k in 1..columns.first.len() {
+            columns.first[k] += columns.first[k - 1];
+        }
+        let mut place = columns.first.clone();
+        columns.triangles = vec![Entry::default(); columns.first.last().map_or(0, |&n| n as usize)];
+        for (t, range) in ranges.into_iter().enumerate() {
+            let y = [0, 1, 2].map(|k| vertices[edges.origin[3 * t + k] as usize].y);
+            let (low, high) = (y[0].min(y[1]).min(y[2]), y[0].max(y[1]).max(y[2]));
+            for strip in range {
+                columns.triangles[place[strip] as usize] = Entry { low, high, triangle: t as u32 };
+                place[strip] += 1;
+            }
+        }
+        columns
+    }
+
+    /// The strip of an abscissa, the outermost one if it is outside. Monotone, even when rounded, so a point within a
+    /// triangle's range in x is in one of its strips.
+    fn strip(&self, x: f64) -> usize {
+        // A cast from a float saturates: 0 to the left of all.
+        (((x - self.left) * self.density) as usize).min(self.first.len() - 2)
+    }
+
+    pub fn triangles_at<'a>(
+        &'a self,
+        vertices: &'a [Point],
+        edges: &'a HalfEdges,
+        p: Point,
+    ) -> impl Iterator<Item = u32> + 'a {
+        let strip = self.strip(p.x);
+        let entries = &self.triangles[self.first[strip] as usize..self.first[strip + 1] as usize];
+        let contains = move |t: u32| {
+            let [a, b, c] = [0, 1, 2].map(|k| vertices[edges.origin[3 * t as usize + k] as usize]);
+            [(a, b), (b, c), (c, a)].iter().all(|&(a, b)| orientation(a, b, p) != Orientation::Clockwise)
+        };
+        entries.iter().filter(move |e| e.low <= p.y && p.y <= e.high).map(|e| e.triangle).filter(move |&t| contains(t))
+    }
+}

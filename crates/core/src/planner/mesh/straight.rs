@@ -1,0 +1,41 @@
+//! Straight motions from triangle to triangle.
+
+use super::Mesh;
+use cplan_geometry::{Orientation, Point, orientation};
+
+impl Mesh {
+    /// Whether the segment from `a` to `b` lies in free space. Exact; one that passes through a vertex, or along a side into
+    /// another triangle, counts as not free, which no two points drawn at random come across. Time in the number of triangles
+    /// crossed.
+    pub fn is_clear(&self, a: Point, b: Point) -> bool {
+        self.triangles_at(a).any(|triangle| self.walk(triangle, a, b).is_some())
+    }
+
+    /// The portals, as half-edges, by which the segment from `a`, in a triangle, to `b` leaves triangles; none as [`Mesh::is_clear`] has it.
+    pub fn walk(&self, triangle: u32, a: Point, b: Point) -> Option<Vec<u32>> {
+        let mut portals = Vec::new();
+        let mut at = triangle;
+        loop {
+            let sides = 3 * at..3 * at + 3;
+            let is_beyond = |side: u32| {
+                let [from, to] = self.ends(side);
+                orientation(from, to, b) == Orientation::Clockwise
+            };
+            if !sides.clone().any(is_beyond) {
+                return Some(portals);
+            }
+            let leaves = |&side: &u32| {
+                let [right, left] = self.ends(side).map(|end| orientation(a, b, end));
+                right == Orientation::Clockwise && left == Orientation::CounterClockwise && is_beyond(side)
+            };
+            let portal = sides.clone().find(leaves)?;
+            portals.push(portal);
+            at = self.twin(portal)? / 3;
+        }
+    }
+
+    /// The sides of a triangle that it shares with another one.
+    pub fn portals(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
+        (3 * triangle..3 * triangle + 3).filter(|&side| !self.is_wall(side))
+    }
+}

@@ -1,0 +1,269 @@
+//! Shortest paths through triangulated free space.
+//!
+//! No search for petgraph, which asks a node for all its arcs at once: here arcs wait on the open list before they are known.
+
+use super::NONE;
+use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};
+use super::terminals::Terminals;
+use crate::space::{Measure, Segment};
+use cplan_geometry::{OpenList, Orientation, Point, cross, orientation};
+use cplan_interrupt::checkpoint;
+use std::cmp::Reverse;
+
+/// Two lines whose directions enclose less than this sine are not intersected: rounding would be magnified by its
+/// inverse.
+const PARALLEL: f64 = 1e-6;
+
+/// A* over the reduced visibility graph whose arcs are found while they are needed.
+///
+/// The open list holds, beside nodes that have been reached, *cones*: what a node sees through an edge of the
+/// triangulation. A cone's estimate is a lower bound on the way through it, so a node's arcs are found in the order in
+/// which they matter, and most never. This is the search of Polyanya (Cui, Harabor, Grastien 2017), with cones
+/// bounded by lines through vertices rather than by rounded points, so that what is seen is decided exactly, and with
+/// turns as nodes of their own. It holds for any norm: pulling a path taut never makes it longer.
+pub(super) struct Polyanya<'a> {
+    mesh: &'a Mesh,
+    measure: Measure,
+    terminals: &'a Terminals,
+    /// Whether a triangle holds a goal.
+    has_goal: Vec<bool>,
+    nodes: Vec<Node>,
+    /// Least cost of each corner so far.
+    reached: Vec<f64>,
+    open: OpenList<Open>,
+    cones: Vec<(Cone, u32)>,
+    /// Entries ever put on the open list.
+    pushed: u32,
+    /// Arcs found: ends.
+    pub arcs: Vec<[Point; 2]>,
+}
+
+/// A point that is reached, and how.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    at: Point,
+    cost: f64,
+    parent: u32,
+    /// `NONE` for the start and goals.
+    corner: u32,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Step {
+    /// To look around at a node.
+    Turn(u32),
+    /// To follow a cone, an index into [`Polyanya::cones`].
+    Look(u32),
+    /// A goal, as a node.
+    Arrive(u32),
+}
+
+/// An entry of the open list: whether it is an arrival, its number, and what to do. Of equal estimates an arrival comes
+/// first, then the latest.
+type Open = (Reverse<bool>, Reverse<u32>, Step);
+
+impl<'a> Polyanya<'a> {
+    pub fn new(mesh: &'a Mesh, measure: Measure, terminals: &'a Terminals) -> Self {
+        let mut has_goal = vec![false; mesh.triangles()];
+        terminals.parts.iter().for_each(|(triangle, _)| has_goal[*triangle as usize] = true);
+        Self {
+            mesh,
+            measure,
+            terminals,
+            has_goal,
+            nodes: Vec::new(),
+            reached: vec![f64::INFINITY; mesh.corners().len()],
+            open: OpenList::default(),
+            cones: Vec::new(),
+            pushed: 0,
+            arcs: Vec::new(),
+        }
+    }
+
+    /// Nodes looked at: the start, goals in sight, corners.
+    pub fn nodes(&self) -> usize {
+        let corners = self.reached.iter().filter(|cost| cost.is_finite()).count();
+        corners + self.nodes.iter().filter(|node| node.corner == NONE).count()
+    }
+
+    /// The shortest path from start to any goal; none if there is none. Waypoints are not collinear.
+    pub fn path(&mut self) -> Option<Vec<Point>> {
+        let start = self.terminals.start;
+        self.nodes.push(Node { at: start, cost: 0.0, parent: NONE, corner: NONE });
+        let mesh = self.mesh;
+        let mut seen = Vec::new();
+        for triangle in mesh.triangles_at(start) {
+            self.find_goals(0, triangle, |part| Some(*part));
+            for successor in mesh.successors_within(triangle, start) {
+                seen.extend(successor.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge)));
+                self.push_cone(0, successor.cone, self.estimate(0, &successor.cone));
+            }
+        }
+        // Triangles share corners.
+        seen.sort_unstable();
+        seen.dedup();
+        seen.into_iter().for_each(|corner| self.see(0, corner));
+        while let Some((_, (.., step))) = self.open.pop() {
+            checkpoint();
+            match step {
+                Step::Arrive(node) => return Some(self.waypoints(node)),
+                Step::Turn(node) => self.turn(node),
+                Step::Look(cone) => {
+                    let (cone, root) = self.cones[cone as usize];
+                    self.follow(cone, root);
+                }
+            }
+        }
+        None
+    }
+
+    /// Whether a shorter way to the same corner has been found since.
+    fn is_stale(&self, Node { corner, cost, .. }: Node) -> bool {
+        corner != NONE && self.reached[corner as usize] < cost
+    }
+
+    /// Looks at what lies beyond a corner for one who turns there.
+    fn turn(&mut self, number: u32) {
+        let node = self.nodes[number as usize];
+        if self.is_stale(node) {
+            return;
+        }
+        let mesh = self.mesh;
+        let corner = &mesh.corners()[node.corner as usize];
+        let Some(gaze) = corner.beyond(self.nodes[node.parent as usize].at) else { return };
+        for successor in mesh.successors(corner, gaze) {
+            self.find_goals(number, successor.cone.edge / 3, |part| Some(*part));
+            let seen = successor.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge));
+            seen.for_each(|corner| self.see(number, corner));
+            self.push_cone(number, successor.cone, self.estimate(number, &successor.cone));
+        }
+    }
+
+    /// Follows a cone while it is the best of all.
+    fn follow(&mut self, mut cone: Cone, root: u32) {
+        let node = self.nodes[root as usize];
+        if self.is_stale(node) {
+            return;
+        }
+        while let Some(Crossing { entry, seen, beyond }) = self.mesh.cross(node.at, &cone) {
+            self.find_goals(root, entry / 3, |part| cone.part(part));
+            if let Some(corner) = seen.and_then(|half_edge| self.mesh.corner_at(half_edge)) {
+                self.see(root, corner);
+            }
+            cone = match beyond {
+                Beyond::Through(edge) => Cone { edge, ..cone },
+                Beyond::One(only) => only,
+                Beyond::Two(right, left) => {
+                    let estimates = [self.estimate(root, &right), self.estimate(root, &left)];
+                    let (better, best, worse, other) = if estimates[0] <= estimates[1] {
+                        (right, estimates[0], left, estimates[1])
+                    } else {
+                        (left, estimates[1], right, estimates[0])
+                    };
+                    self.push_cone(root, worse, other);
+                    if self.open.peek().is_some_and(|(least, _)| least < best) {
+                        self.push_cone(root, better, best);
+                        return;
+                    }
+                    better
+                }
+            };
+        }
+    }
+
+    /// Notes that a node sees a corner.
+    fn see(&mut self, root: u32, number: u32) {
+        let corner = &self.mesh.corners()[number as usize];
+        let node = self.nodes[root as usize];
+        if corner.tangency(node.at) == Tangency::None {
+            return;
+        }
+        self.arcs.push([node.at, corner.at]);
+        let cost = node.cost + self.measure.norm(corner.at - node.at);
+        if cost < self.reached[number as usize] {
+            self.reached[number as usize] = cost;
+            let estimate = cost + self.terminals.distance(self.measure, corner.at);
+            let next = self.push_node(Node { at: corner.at, cost, parent: root, corner: number });
+            self.push(estimate, Step::Turn(next));
+        }
+    }
+
+    /// Ends at the goals in a triangle, at the nearest place of what a node sees of each.
+    fn find_goals(&mut self, root: u32, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
+        if !self.has_goal[triangle as usize] {
+            return;
+        }
+        let terminals = self.terminals;
+        let Node { at: from, cost, .. } = self.nodes[root as usize];
+        for (_, part) in terminals.parts_in(triangle) {
+            if let Some(seen) = sees(part) {
+                let at = Point::from(seen.nearest(self.measure, from.coords));
+                self.arcs.push([from, at]);
+                let cost = cost + self.measure.norm(at - from);
+                let node = self.push_node(Node { at, cost, parent: root, corner: NONE });
+                self.push(cost, Step::Arrive(node));
+            }
+        }
+    }
+
+    fn push_node(&mut self, node: Node) -> u32 {
+        self.nodes.push(node);
+        self.nodes.len() as u32 - 1
+    }
+
+    /// A lower bound on the way by a node and through a cone; infinite at a wall.
+    fn estimate(&self, root: u32, cone: &Cone) -> f64 {
+        if self.mesh.is_wall(cone.edge) {
+            return f64::INFINITY;
+        }
+        let Node { at, cost, .. } = self.nodes[root as usize];
+        let line = self.mesh.ends(cone.edge);
+        let ends = [meeting(cone.right, line, line[0]), meeting(cone.left, line, line[1])];
+        let through = |goal: &Segment| self.measure.through(at, ends, line, goal);
+        cost + self.terminals.goals.iter().map(through).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Puts a cone on the open list, unless it ends at a wall.
+    fn push_cone(&mut self, root: u32, cone: Cone, estimate: f64) {
+        if estimate.is_finite() {
+            self.cones.push((cone, root));
+            self.push(estimate, Step::Look(self.cones.len() as u32 - 1));
+        }
+    }
+
+    fn push(&mut self, estimate: f64, step: Step) {
+        self.pushed += 1;
+        let is_arrival = matches!(step, Step::Arrive(_));
+        self.open.push(estimate, (Reverse(is_arrival), Reverse(self.pushed), step));
+    }
+
+    fn waypoints(&self, last: u32) -> Vec<Point> {
+        let mut reversed: Vec<Point> = Vec::new();
+        let mut at = last;
+        while at != NONE {
+            let Node { at: p, parent, .. } = self.nodes[at as usize];
+            if let [.., a, b] = reversed[..]
+                && orientation(a, b, p) == Orientation::Collinear
+            {
+                reversed.pop();
+            }
+            if reversed.last() != Some(&p) {
+                reversed.push(p);
+            }
+            at = parent;
+        }
+        reversed.reverse();
+        reversed
+    }
+}
+
+/// Where a ray meets the segment from `a` to `b`; `fallback` if it is drawn to that end, or nearly parallel.
+fn meeting(Bound { from, to }: Bound, [a, b]: [Point; 2], fallback: Point) -> Point {
+    let (line, edge) = (to - from, b - a);
+    let sine = cross(line, edge);
+    if to == fallback || sine * sine <= PARALLEL * PARALLEL * line.norm_squared() * edge.norm_squared() {
+        return fallback;
+    }
+    let t = cross(line, from - a) / sine;
+    a + edge * t.clamp(0.0, 1.0)
+}

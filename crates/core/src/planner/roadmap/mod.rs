@@ -1,0 +1,163 @@
+//! Roadmaps: graphs whose nodes are configurations and whose edges are straight motions between them.
+//!
+//! A producer makes a [`Roadmap`] of a space once; a query adds its start and its goals as nodes ([`Asked`]), joins them
+//! with what they can reach, and has the whole searched.
+
+mod nearby;
+mod search;
+
+pub use nearby::Nearby;
+pub use search::{Question, Searched, search};
+pub use search::{RoadmapSearch, SearchOrder};
+
+use super::terminals::Terminals;
+use super::{Proposal, Run, Size, Trace};
+use crate::space::{Configuration, Measure};
+use cplan_geometry::Point;
+use petgraph::graph::{NodeIndex, UnGraph};
+use petgraph::unionfind::UnionFind;
+use petgraph::visit::EdgeRef;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A motion between two configurations.
+#[derive(Debug, Clone, Copy)]
+struct Road {
+    length: f64,
+    /// Its least distance from the boundary of free space; infinite where nobody asks for it.
+    width: f64,
+}
+
+/// Configurations and straight motions between them, which are as long as a measure says.
+#[derive(Debug, Clone)]
+pub struct Roadmap {
+    graph: UnGraph<Point, Road>,
+    measure: Measure,
+}
+
+impl Roadmap {
+    /// Without any node.
+    pub fn new(measure: Measure) -> Self {
+        Self { graph: UnGraph::new_undirected(), measure }
+    }
+
+    /// A node more; nodes are numbered as they come.
+    pub fn add(&mut self, at: Point) -> NodeIndex {
+        self.graph.add_node(at)
+    }
+
+    /// Joins two nodes by a motion, if they are not joined yet.
+    pub fn join(&mut self, a: NodeIndex, b: NodeIndex) {
+        self.join_of_width(a, b, f64::INFINITY);
+    }
+
+    /// The same by a motion that is so far from the boundary of free space.
+    pub fn join_of_width(&mut self, a: NodeIndex, b: NodeIndex, width: f64) {
+        if self.graph.find_edge(a, b).is_none() {
+            let length = self.measure.norm(self.graph[b] - self.graph[a]);
+            self.graph.add_edge(a, b, Road { length, width });
+        }
+    }
+
+    /// The same with a query's start.
+    pub fn asked(mut self, start: Point) -> Asked {
+        let start = self.add(start);
+        Asked { roadmap: self, start, goals: BTreeMap::new(), ends: BTreeSet::new() }
+    }
+}
+
+/// What a search of a roadmap came to; without one where it was given up before.
+pub fn run(outcome: Proposal, asked: Option<&Asked>, expanded: Vec<Configuration>) -> Run {
+    let [nodes, edges] = asked.map_or([0; 2], Asked::size);
+    let trace = Trace::Roads { edges: asked.map_or_else(Vec::new, Asked::edges), expanded };
+    Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
+}
+
+/// A roadmap with the ends of a query.
+#[derive(Debug, Clone)]
+pub struct Asked {
+    roadmap: Roadmap,
+    /// The node of the start.
+    pub start: NodeIndex,
+    /// Goals by the bits of their coordinates.
+    goals: BTreeMap<[u64; 2], NodeIndex>,
+    /// The same by their nodes.
+    ends: BTreeSet<NodeIndex>,
+}
+
+impl Asked {
+    /// The goal at a place, a node of its own.
+    pub fn goal(&mut self, at: Point) -> NodeIndex {
+        let roadmap = &mut self.roadmap;
+        let goal = *self.goals.entry([at.x.to_bits(), at.y.to_bits()]).or_insert_with(|| roadmap.add(at));
+        self.ends.insert(goal);
+        goal
+    }
+
+    /// A node more, which is no goal.
+    pub fn add(&mut self, at: Point) -> NodeIndex {
+        self.roadmap.add(at)
+    }
+
+    /// Joins two nodes by a motion, if they are not joined yet.
+    pub fn join(&mut self, a: NodeIndex, b: NodeIndex) {
+        self.roadmap.join(a, b);
+    }
+
+    /// The same by a motion that is so far from the boundary of free space.
+    pub fn join_of_width(&mut self, a: NodeIndex, b: NodeIndex, width: f64) {
+        self.roadmap.join_of_width(a, b, width);
+    }
+
+    /// What is left of it when all motions are left out that are narrower than the widest way from the start to a goal, of
+    /// those at least so wide; none if there is no such way. Sorts the motions.
+    pub fn widest(&self, least: f64) -> Option<Self> {
+        let graph = &self.roadmap.graph;
+        let mut order: Vec<_> = graph.edge_references().filter(|edge| edge.weight().width >= least).collect();
+        order.sort_by(|a, b| b.weight().width.total_cmp(&a.weight().width));
+        let mut joined = UnionFind::new(graph.node_count());
+        let mut width = None;
+        for edges in order.chunk_by(|a, b| a.weight().width == b.weight().width) {
+            for edge in edges {
+                joined.union(edge.source(), edge.target());
+            }
+            if self.ends.iter().any(|&end| joined.equiv(self.start, end)) {
+                width = Some(edges[0].weight().width);
+                break;
+            }
+        }
+        let width = width?;
+        let mut widest = self.clone();
+        widest.roadmap.graph.retain_edges(|graph, edge| graph[edge].width >= width);
+        Some(widest)
+    }
+
+    /// Where a node is.
+    pub fn at(&self, node: NodeIndex) -> Point {
+        self.roadmap.graph[node]
+    }
+
+    /// Nodes and edges.
+    pub fn size(&self) -> [usize; 2] {
+        [self.roadmap.graph.node_count(), self.roadmap.graph.edge_count()]
+    }
+
+    /// Both ends of each edge.
+    pub fn edges(&self) -> Vec<[Configuration; 2]> {
+        let edges = self.roadmap.graph.raw_edges().iter();
+        edges.map(|edge| [edge.source(), edge.target()].map(|node| self.at(node).coords)).collect()
+    }
+
+    /// Searches it; with the places that were expanded, in order.
+    pub fn search(&self, how: RoadmapSearch, terminals: &Terminals) -> (Option<Vec<NodeIndex>>, Vec<Configuration>) {
+        let Roadmap { graph, measure } = &self.roadmap;
+        let question = Question {
+            start: self.start,
+            is_goal: |node: NodeIndex| self.ends.contains(&node),
+            cost: |road: &Road| road.length,
+            ahead: |node: NodeIndex| terminals.distance(*measure, graph[node]),
+            behind: |node: NodeIndex| measure.norm(graph[node] - graph[self.start]),
+        };
+        let Searched { way, expanded } = search(graph, how, &question);
+        (way, expanded.into_iter().map(|node| graph[node].coords).collect())
+    }
+}

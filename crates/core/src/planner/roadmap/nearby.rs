@@ -1,0 +1,111 @@
+//! The nearest of many points.
+
+use cplan_geometry::{Ordered, Point};
+
+/// Points by square buckets, some of them in each.
+#[derive(Debug, Clone)]
+pub struct Nearby {
+    points: Vec<Point>,
+    lower: Point,
+    /// Side of a bucket.
+    side: f64,
+    /// Buckets along each axis.
+    shape: [usize; 2],
+    /// Those of bucket `k` are `order[first[k]..first[k + 1]]`.
+    first: Vec<usize>,
+    order: Vec<usize>,
+}
+
+/// Points a bucket, if they are spread evenly.
+const IN_BUCKET: f64 = 2.0;
+
+impl Nearby {
+    /// `O(n)`.
+    pub fn new(points: Vec<Point>) -> Self {
+        let infinite = Point::new(f64::INFINITY, f64::INFINITY);
+        let lower = points.iter().fold(infinite, |least, p| least.inf(p));
+        let upper = points.iter().fold(-infinite, |most, p| most.sup(p));
+        let extent = if points.is_empty() { [0.0; 2] } else { [upper.x - lower.x, upper.y - lower.y] };
+        // However slender the space, there are not more buckets than points.
+        let share = IN_BUCKET / points.len().max(1) as f64;
+        let side = (extent[0] * extent[1] * share).sqrt().max(extent[0].max(extent[1]) * share);
+        let side = if side > 0.0 { side } else { 1.0 };
+        let shape = extent.map(|extent| (extent / side) as usize + 1);
+        let first = vec![0; shape[0] * shape[1] + 1];
+        let mut nearby = Self { points, lower, side, shape, first, order: Vec::new() };
+        let bucket = |p: &Point| {
+            let [i, j] = nearby.place(*p);
+            i * nearby.shape[1] + j
+        };
+        let buckets: Vec<usize> = nearby.points.iter().map(bucket).collect();
+        for &bucket in &buckets {
+            nearby.first[bucket + 1] += 1;
+        }
+        for k in 1..nearby.first.len() {
+            nearby.first[k] += nearby.first[k - 1];
+        }
+        nearby.order = (0..buckets.len()).collect();
+        nearby.order.sort_by_key(|&point| buckets[point]);
+        nearby
+    }
+
+    /// The points, as they came.
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// The bucket that a point is in, or the nearest one.
+    fn place(&self, p: Point) -> [usize; 2] {
+        // A cast from a float saturates: 0 on the left of all.
+        [0, 1].map(|k| (((p[k] - self.lower[k]) / self.side) as usize).min(self.shape[k] - 1))
+    }
+
+    /// The `count` points nearest to `p`, nearest first, of equals the first. About `O(count)` where points are spread evenly.
+    pub fn nearest(&self, p: Point, count: usize) -> Vec<usize> {
+        let mut found: Vec<(Ordered, usize)> = Vec::new();
+        let home = self.place(p);
+        // What is beyond so many rings of buckets is at least as far away as they are wide: of places outside of all
+        // buckets even farther.
+        for ring in 0..self.shape[0].max(self.shape[1]) {
+            for i in home[0].saturating_sub(ring)..=(home[0] + ring).min(self.shape[0] - 1) {
+                for j in home[1].saturating_sub(ring)..=(home[1] + ring).min(self.shape[1] - 1) {
+                    if i.abs_diff(home[0]).max(j.abs_diff(home[1])) == ring {
+                        let bucket = i * self.shape[1] + j;
+                        let points = &self.order[self.first[bucket]..self.first[bucket + 1]];
+                        found.extend(points.iter().map(|&k| (Ordered((self.points[k] - p).norm()), k)));
+                    }
+                }
+            }
+            found.sort_unstable();
+            found.truncate(count);
+            if found.len() == count && found.last().is_none_or(|last| last.0.0 < self.side * ring as f64) {
+                break;
+            }
+        }
+        found.into_iter().map(|(_, point)| point).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// Against all distances, on a small lattice, where many are equal, and in a slender box.
+        #[test]
+        fn are_those_of_all_that_are_nearest(
+            places in proptest::collection::vec([0i8..9, 0i8..9], 0..60), from in [-4i8..13, -4i8..13], count in 0usize..12,
+            slender in prop_oneof![Just(1.0), Just(1e-3), Just(0.0)],
+        ) {
+            let point = |[x, y]: [i8; 2]| Point::new(f64::from(x), slender * f64::from(y));
+            let (points, from): (Vec<Point>, _) = (places.into_iter().map(point).collect(), point(from));
+            let mut all: Vec<usize> = (0..points.len()).collect();
+            all.sort_by(|&a, &b| (points[a] - from).norm().total_cmp(&(points[b] - from).norm()).then(a.cmp(&b)));
+            all.truncate(count);
+            prop_assert_eq!(Nearby::new(points).nearest(from, count), all);
+        }
+    }
+}

@@ -1,0 +1,352 @@
+//! One search over all roadmaps: what differs is which of the nodes that wait is expanded next.
+//!
+//! petgraph's throughout: its A\* is Dijkstra's algorithm without an estimate, and the greedy search where moves cost
+//! nothing; its walkers go breadth first and depth first, and do not recurse. What they do not keep is kept here: the
+//! order in which nodes are expanded, and from where a walker came.
+
+use cplan_interrupt::checkpoint;
+use petgraph::algo::astar;
+use petgraph::graph::{NodeIndex, UnGraph};
+use petgraph::visit::{Bfs, Dfs, VisitMap};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Which of the nodes that wait is expanded next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SearchOrder {
+    /// First in, first out: a path of fewest edges.
+    BreadthFirst,
+    /// Last in, first out: some path, seldom a short one.
+    DepthFirst,
+    /// The node of least cost: a shortest path.
+    Dijkstra,
+    /// The node of least cost and estimated rest, which is the straight distance: a shortest path, usually found sooner.
+    #[default]
+    AStar,
+    /// The node of least estimated rest: a path that is found soon, of any length.
+    Greedy,
+}
+
+impl SearchOrder {
+    /// All, in the order of the command line's help.
+    pub const ALL: [Self; 5] = [Self::BreadthFirst, Self::DepthFirst, Self::Dijkstra, Self::AStar, Self::Greedy];
+
+    /// Name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BreadthFirst => "bfs",
+            Self::DepthFirst => "dfs",
+            Self::Dijkstra => "dijkstra",
+            Self::AStar => "astar",
+            Self::Greedy => "greedy",
+        }
+    }
+
+    /// Whether what it finds is a shortest path on the roadmap.
+    #[must_use]
+    pub fn is_optimal(self) -> bool {
+        matches!(self, Self::Dijkstra | Self::AStar)
+    }
+}
+
+/// How a roadmap is searched (LaValle, *Planning Algorithms*, 2006, section 2.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RoadmapSearch {
+    /// Which node comes next.
+    pub order: SearchOrder,
+    /// From the goals to the start, rather than from the start to a goal.
+    pub backward: bool,
+}
+
+impl RoadmapSearch {
+    /// Whether it is what is done if nothing is said: A\* from the start.
+    #[must_use]
+    pub fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl fmt::Display for RoadmapSearch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", self.order.name(), if self.backward { ", backward" } else { "" })
+    }
+}
+
+/// What a search found out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Searched {
+    /// From the start to a goal, whichever way it was looked for; none if they are not joined.
+    pub way: Option<Vec<NodeIndex>>,
+    /// The nodes that were expanded, in that order, the one that ended the search among them.
+    pub expanded: Vec<NodeIndex>,
+}
+
+/// What a search asks of a graph. Estimates are never more than the cost of a way there, and consistent: straight distances.
+pub struct Question<G, C, A, B> {
+    /// The node from which the search begins.
+    pub start: NodeIndex,
+    /// Whether a node is a goal.
+    pub is_goal: G,
+    /// What an edge costs, not less than 0.
+    pub cost: C,
+    /// An estimate of the cost from a node to the nearest goal.
+    pub ahead: A,
+    /// An estimate of the cost from the start to a node.
+    pub behind: B,
+}
+
+/// Searches a graph from the start to any goal, or back. `O(n + m)` for `n` nodes and `m` edges breadth and depth first,
+/// `O((n + m) log n)` otherwise; both where only some of them are looked at, but for tables of all nodes.
+pub fn search<N, E, G, C, A, B>(graph: &UnGraph<N, E>, how: RoadmapSearch, question: &Question<G, C, A, B>) -> Searched
+where
+    G: Fn(NodeIndex) -> bool,
+    C: Fn(&E) -> f64,
+    A: Fn(NodeIndex) -> f64,
+    B: Fn(NodeIndex) -> f64,
+{
+    let Question { start, is_goal, cost, ahead, behind } = question;
+    if !how.backward {
+        return run(graph, *start, is_goal, how.order, cost, ahead);
+    }
+    // From all goals at once: from a node that is joined to each of them at no cost.
+    let mut turned = graph.map(|_, _| (), |_, edge| cost(edge));
+    let hub = turned.add_node(());
+    let mut nearest = f64::INFINITY;
+    for goal in graph.node_indices().filter(|&node| is_goal(node)) {
+        turned.add_edge(hub, goal, 0.0);
+        nearest = nearest.min(behind(goal));
+    }
+    let rest = |node: NodeIndex| if node == hub { nearest } else { behind(node) };
+    let mut searched = run(&turned, hub, |node| node == *start, how.order, |cost| *cost, rest);
+    searched.expanded.retain(|&node| node != hub);
+    if let Some(way) = &mut searched.way {
+        way.retain(|&node| node != hub);
+        way.reverse();
+        // Of goals in a row the first one is where the motion ends.
+        let end = way.iter().position(|&node| is_goal(node)).map_or(way.len(), |at| at + 1);
+        way.truncate(end);
+    }
+    searched
+}
+
+fn run<N, E>(
+    graph: &UnGraph<N, E>,
+    from: NodeIndex,
+    is_end: impl Fn(NodeIndex) -> bool,
+    order: SearchOrder,
+    cost: impl Fn(&E) -> f64,
+    estimate: impl Fn(NodeIndex) -> f64,
+) -> Searched {
+    let (guided, priced) = match order {
+        SearchOrder::BreadthFirst | SearchOrder::DepthFirst => return walk(graph, from, is_end, order),
+        SearchOrder::Dijkstra => (false, true),
+        SearchOrder::AStar => (true, true),
+        SearchOrder::Greedy => (true, false),
+    };
+    let (mut expanded, mut seen) = (Vec::new(), vec![false; graph.node_count()]);
+    let ends_at = |node: NodeIndex| {
+        // A node may come up again that a shorter way has reached since.
+        if !std::mem::replace(&mut seen[node.index()], true) {
+            expanded.push(node);
+        }
+        is_end(node)
+    };
+    let passing = |edge: petgraph::graph::EdgeReference<'_, E>| {
+        checkpoint();
+        if priced { cost(edge.weight()) } else { 0.0 }
+    };
+    // Nothing is left at an end, whatever rounding says.
+    let rest = |node: NodeIndex| if guided && !is_end(node) { estimate(node) } else { 0.0 };
+    let way = astar(graph, from, ends_at, passing, rest).map(|(_, way)| way);
+    Searched { way, expanded }
+}
+
+/// Breadth or depth first.
+fn walk<N, E>(
+    graph: &UnGraph<N, E>,
+    from: NodeIndex,
+    is_end: impl Fn(NodeIndex) -> bool,
+    order: SearchOrder,
+) -> Searched {
+    enum Walker<B, D> {
+        Breadth(B),
+        Depth(D),
+    }
+    let mut walker = match order {
+        SearchOrder::DepthFirst => Walker::Depth(Dfs::new(graph, from)),
+        _ => Walker::Breadth(Bfs::new(graph, from)),
+    };
+    let mut parents: Vec<Option<NodeIndex>> = vec![None; graph.node_count()];
+    let mut expanded = Vec::new();
+    loop {
+        checkpoint();
+        let next = match &mut walker {
+            Walker::Breadth(bfs) => bfs.next(graph),
+            Walker::Depth(dfs) => dfs.next(graph),
+        };
+        let Some(node) = next else { return Searched { way: None, expanded } };
+        expanded.push(node);
+        if is_end(node) {
+            let mut way: Vec<_> = std::iter::successors(Some(node), |at| parents[at.index()]).collect();
+            way.reverse();
+            return Searched { way: Some(way), expanded };
+        }
+        for neighbor in graph.neighbors(node).filter(|&neighbor| neighbor != from) {
+            let parent = &mut parents[neighbor.index()];
+            match &walker {
+                // Who came first has put it on the queue.
+                Walker::Breadth(_) => *parent = parent.or(Some(node)),
+                // Who came last is on top of the stack.
+                Walker::Depth(dfs) if !dfs.discovered.is_visited(&neighbor) => *parent = Some(node),
+                Walker::Depth(_) => {}
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Places in the plane and edges between them, as long as they are; some places are goals.
+    #[derive(Debug, Clone)]
+    struct Case {
+        places: Vec<[i16; 2]>,
+        edges: Vec<[usize; 2]>,
+        goals: Vec<usize>,
+    }
+
+    fn cases() -> impl Strategy<Value = Case> {
+        (1usize..12).prop_flat_map(|n| {
+            let places = proptest::collection::vec([-3i16..4, -3i16..4], n);
+            let edges = proptest::collection::vec([0..n, 0..n], 0..3 * n);
+            (places, edges, proptest::collection::vec(0..n, 0..4)).prop_map(|(places, edges, goals)| Case {
+                places,
+                edges,
+                goals,
+            })
+        })
+    }
+
+    impl Case {
+        fn apart(&self, a: usize, b: usize) -> f64 {
+            let [p, q] = [a, b].map(|k| self.places[k].map(f64::from));
+            (p[0] - q[0]).hypot(p[1] - q[1])
+        }
+
+        fn searched(&self, how: RoadmapSearch) -> Searched {
+            let mut graph = UnGraph::new_undirected();
+            let _: Vec<NodeIndex> = self.places.iter().map(|_| graph.add_node(())).collect();
+            for &[a, b] in &self.edges {
+                graph.add_edge(NodeIndex::new(a), NodeIndex::new(b), self.apart(a, b));
+            }
+            let question = Question {
+                start: NodeIndex::new(0),
+                is_goal: |node: NodeIndex| self.goals.contains(&node.index()),
+                cost: |length: &f64| *length,
+                ahead: |node: NodeIndex| {
+                    self.goals.iter().map(|&goal| self.apart(node.index(), goal)).fold(f64::INFINITY, f64::min)
+                },
+                behind: |node: NodeIndex| self.apart(0, node.index()),
+            };
+            search(&graph, how, &question)
+        }
+
+        /// Least sum of this over the edges of a way, between all pairs: Floyd and Warshall.
+        fn least(&self, of: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
+            let n = self.places.len();
+            let mut least = vec![vec![f64::INFINITY; n]; n];
+            (0..n).for_each(|k| least[k][k] = 0.0);
+            for &[a, b] in &self.edges {
+                least[a][b] = least[a][b].min(of(a, b));
+                least[b][a] = least[a][b];
+            }
+            for via in 0..n {
+                for a in 0..n {
+                    for b in 0..n {
+                        least[a][b] = least[a][b].min(least[a][via] + least[via][b]);
+                    }
+                }
+            }
+            least
+        }
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(512))]
+
+        /// A way is found if and only if there is one, along edges, with the length and the number of edges that its order
+        /// promises; backward as forward; no node is expanded twice.
+        #[test]
+        fn each_order_keeps_its_promise_both_ways(case in cases()) {
+            let to_goal = |all: &[Vec<f64>]| case.goals.iter().map(|&goal| all[0][goal]).fold(f64::INFINITY, f64::min);
+            let shortest = to_goal(&case.least(|a, b| case.apart(a, b)));
+            let fewest = to_goal(&case.least(|_, _| 1.0));
+            let ways = SearchOrder::ALL.into_iter().flat_map(|order| [false, true].map(|backward| (order, backward)));
+            for (order, backward) in ways {
+                let Searched { way, expanded } = case.searched(RoadmapSearch { order, backward });
+                let mut once = expanded.clone();
+                once.sort_unstable();
+                once.dedup();
+                prop_assert_eq!(once.len(), expanded.len());
+                prop_assert_eq!(way.is_some(), shortest.is_finite(), "{:?} {}", order, backward);
+                let Some(way) = way else { continue };
+                prop_assert!(way[0].index() == 0 && case.goals.contains(&way[way.len() - 1].index()));
+                let mut length = 0.0;
+                for pair in way.windows(2) {
+                    let [a, b] = [pair[0].index(), pair[1].index()];
+                    prop_assert!(case.edges.iter().any(|&edge| edge == [a, b] || edge == [b, a]));
+                    length += case.apart(a, b);
+                }
+                prop_assert!(length >= shortest - 1e-9);
+                if order.is_optimal() {
+                    prop_assert!((length - shortest).abs() < 1e-9, "{:?} {}: {} {}", order, backward, length, shortest);
+                }
+                if order == SearchOrder::BreadthFirst {
+                    prop_assert_eq!(way.len() - 1, fewest as usize);
+                }
+            }
+        }
+
+        /// An estimate saves work: A\* expands no node that is farther off than the goal, nor Dijkstra.
+        #[test]
+        fn nothing_beyond_the_goal_is_expanded(case in cases()) {
+            let least = case.least(|a, b| case.apart(a, b));
+            let nearest = case.goals.iter().map(|&goal| least[0][goal]).fold(f64::INFINITY, f64::min);
+            for order in [SearchOrder::Dijkstra, SearchOrder::AStar] {
+                for node in case.searched(RoadmapSearch { order, backward: false }).expanded {
+                    let rest = case.goals.iter().map(|&goal| case.apart(node.index(), goal)).fold(f64::INFINITY, f64::min);
+                    let estimate = if order == SearchOrder::AStar && nearest.is_finite() { rest } else { 0.0 };
+                    prop_assert!(least[0][node.index()] + estimate <= nearest + 1e-9, "{:?}", order);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn each_order_is_the_textbooks() {
+        // A square with a tail; the goal is the tail's end.
+        //   1 - 2
+        //   |   |
+        //   0 - 3 - 4
+        let case = Case {
+            places: vec![[0, 0], [0, 1], [1, 1], [1, 0], [2, 0]],
+            edges: vec![[0, 1], [1, 2], [2, 3], [0, 3], [3, 4]],
+            goals: vec![4],
+        };
+        let of = |order, backward| {
+            case.searched(RoadmapSearch { order, backward }).expanded.iter().map(|n| n.index()).collect::<Vec<_>>()
+        };
+        assert_eq!(of(SearchOrder::Greedy, false), [0, 3, 4]);
+        assert_eq!(of(SearchOrder::AStar, false), [0, 3, 4]);
+        assert_eq!(of(SearchOrder::Greedy, true), [4, 3, 0]);
+        // Neighbours of the start before all others.
+        let mut breadth = of(SearchOrder::BreadthFirst, false);
+        breadth[1..3].sort_unstable();
+        assert_eq!(breadth[..3], [0, 1, 3]);
+    }
+}

@@ -1,0 +1,94 @@
+//! Where a path over polygonal regions begins and may end.
+
+use super::Query;
+use super::mesh::Mesh;
+use crate::cspace::Regions;
+use crate::space::{Measure, Metric, Segment};
+use cplan_geometry::Point;
+use std::f64::consts::TAU;
+
+/// Places at which a segment of goals is tried, beside that nearest to the start.
+const PLACES: usize = 17;
+
+/// Ends of the paths that answer a query.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Terminals {
+    /// The start, in the window.
+    pub start: Point,
+    /// All copies of all goals that lie in the window and, in part, in closed free space; at least one.
+    pub goals: Vec<Segment>,
+    /// What of them is in which convex cell of free space: its number and the part; by number.
+    pub parts: Vec<(u32, Segment)>,
+}
+
+impl Terminals {
+    /// The ends for a query, or in words why there are none. `parts` says which cells of closed free space hold any of a
+    /// segment.
+    pub fn new(
+        regions: &Regions,
+        query: &Query,
+        parts_of: impl Fn(&Segment) -> Vec<(u32, Segment)>,
+    ) -> Result<Self, String> {
+        let start = Point::from(query.start);
+        if parts_of(&Segment::point(query.start)).is_empty() {
+            return Err(format!("the start {} is not in the free space of the representation", shown(start)));
+        }
+        let (Some(first), pieces) = (query.goals.pieces().first(), query.goals.pieces()) else {
+            return Err("the query has no goal".to_owned());
+        };
+        let (mut goals, mut parts) = (Vec::new(), Vec::new());
+        for copy in pieces.iter().flat_map(|piece| window_copies(regions, piece)) {
+            let found = parts_of(&copy);
+            if !found.is_empty() {
+                goals.push(copy);
+                parts.extend(found);
+            }
+        }
+        if goals.is_empty() {
+            let goal = shown(first.corners()[0]);
+            let others = if pieces.len() > 1 { format!(" (nor {} others)", pieces.len() - 1) } else { String::new() };
+            return Err(format!("the goal {goal}{others} is not in the free space of the representation"));
+        }
+        parts.sort_by_key(|part| part.0);
+        Ok(Self { start, goals, parts })
+    }
+
+    /// Goals as places, those of a mesh's free space: a point as it is; of a segment some, and that nearest to the start.
+    pub fn places<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Point> + 'a {
+        let places = self.goals.iter().flat_map(|goals| {
+            let count = if goals.is_point() { 1 } else { PLACES };
+            let along = (0..count).map(|k| goals.at(k as f64 / (PLACES - 1) as f64));
+            along.chain([goals.nearest(Measure::from(Metric::Euclidean), self.start.coords)])
+        });
+        places.map(Point::from).filter(|&at| mesh.triangles_at(at).next().is_some())
+    }
+
+    /// What of the goals is in a cell.
+    pub fn parts_in(&self, cell: u32) -> impl Iterator<Item = &(u32, Segment)> {
+        let begin = self.parts.partition_point(|part| part.0 < cell);
+        self.parts[begin..].iter().take_while(move |part| part.0 == cell)
+    }
+
+    /// Distance from `p` to the nearest goal: a lower bound on the length of any way there.
+    pub fn distance(&self, measure: Measure, p: Point) -> f64 {
+        self.goals.iter().map(|goal| goal.distance(measure, p.coords)).fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn shown(p: Point) -> String {
+    format!("({:.6}, {:.6})", p.x, p.y)
+}
+
+/// The copies of a piece, shifted by whole turns along circle axes, that are at least in part in the window; on intervals the
+/// piece as it is.
+fn window_copies(regions: &Regions, piece: &Segment) -> Vec<Segment> {
+    let [from, to] = piece.ends();
+    let turns = |k: usize| {
+        let (least, greatest) = (from[k].min(to[k]), from[k].max(to[k]));
+        let (lower, upper) = regions.window[k];
+        // From where the copy's greater end is in the window to where its lesser end is.
+        let copies = regions.topology.ranges[k].copies_within(least, (lower - (greatest - least), upper));
+        copies.map(move |copy| ((copy - least) / TAU).round())
+    };
+    turns(0).flat_map(|first| turns(1).map(move |second| piece.turned([first, second]))).collect()
+}

@@ -1,0 +1,163 @@
+//! Paths by exact cell decomposition: trapezoids, a channel, a funnel path.
+//!
+//! `decomposition` makes the cells, `channel` finds some that lead to the goal, [`crate::space::funnel_path`] pulls the string taut.
+
+use super::channel::{Adjacency, Channel};
+use super::decomposition::{CellPortal, Decomposition};
+use super::roadmap::RoadmapSearch;
+use super::terminals::Terminals;
+use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use crate::cspace::Regions;
+use crate::space::funnel::{Turn, turns};
+use crate::space::{Configuration, Measure, Metric, Path, Portal, Segment, nearest_end};
+use cplan_geometry::planar::Boundary;
+use cplan_geometry::{Orientation, Point, orientation};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The *trapezoidal decomposition*: finds a channel of cells from start to goal whenever there is one, and a path in it.
+///
+/// Cells are joined where they share a piece of vertical of positive length (a *portal*). A* finds the channel, or another
+/// search; passing from a cell to the next costs the way from the one's centre over the portal's middle to the other's, with start and
+/// goal for the centres of the end cells (Latombe, *Robot Motion Planning*, 1991, section 5.1). The path is free but
+/// not the shortest, even when taut: another channel may hold a shorter one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Trapezoid {
+    /// [`PathKind::Taut`] is pulled within the channel, so that it may touch obstacles; [`PathKind::Own`] leads through the
+    /// middles of its portals and the centres of its cells: start, `Q1`, `C2`, `Q2`, ..., goal (Latombe).
+    pub path: PathKind,
+    /// How the adjacency of cells is searched.
+    pub search: RoadmapSearch,
+}
+
+impl Default for Trapezoid {
+    fn default() -> Self {
+        Self { path: PathKind::Taut, search: RoadmapSearch::default() }
+    }
+}
+
+/// A decomposition and the adjacency of its cells.
+#[derive(Debug, Clone)]
+pub struct TrapezoidMap {
+    boundary: Boundary,
+    decomposition: Decomposition,
+    /// Corners of the cells.
+    corners: Arc<[Vec<Configuration>]>,
+    adjacency: Adjacency,
+}
+
+impl Planner for Trapezoid {
+    const NAME: &'static str = "trapezoid";
+    type Space = Regions;
+    type Map = TrapezoidMap;
+
+    fn build(&self, space: &Regions) -> TrapezoidMap {
+        let boundary = Boundary::new(&space.contours());
+        let decomposition = Decomposition::new(&boundary);
+        let corners_of = |points: Vec<Point>| points.into_iter().map(|p| p.coords).collect();
+        let corners = decomposition.cells.iter().map(|cell| corners_of(cell.corners(&boundary))).collect();
+        let centers = decomposition.cells.iter().map(|cell| cell.centroid(&boundary)).collect();
+        let adjacency = Adjacency::new(&decomposition, centers);
+        TrapezoidMap { boundary, decomposition, corners, adjacency }
+    }
+
+    fn query(&self, space: &Regions, map: &TrapezoidMap, query: &Query) -> Run {
+        let parts_of = |segment: &Segment| map.decomposition.parts_of(&map.boundary, segment);
+        let (outcome, channel, expanded) = match Terminals::new(space, query, parts_of) {
+            Err(reason) => (Proposal::GaveUp(reason), Vec::new(), Vec::new()),
+            Ok(terminals) => {
+                let start_cells: Vec<usize> = map.decomposition.cells_at(&map.boundary, terminals.start).collect();
+                let portals = &map.decomposition.portals;
+                let (channel, expanded) = map.adjacency.channel(portals, &terminals, &start_cells, self.search);
+                match channel {
+                    None => (Proposal::NoPath, Vec::new(), expanded),
+                    Some(channel) => {
+                        let waypoints = match self.path {
+                            PathKind::Taut => map.taut_path(&channel),
+                            PathKind::Own => map.middle_path(&channel),
+                        };
+                        let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
+                        (Proposal::Found(path), channel.cells, expanded)
+                    }
+                }
+            }
+        };
+        // The usual search is not what a picture of cells is about.
+        let expanded = if self.search.is_usual() { Vec::new() } else { expanded };
+        Run {
+            outcome,
+            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel, expanded },
+            size: Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.portals.len() },
+            note: None,
+        }
+    }
+}
+
+impl TrapezoidMap {
+    /// Through the middles of the portals, and the centres of the cells between them.
+    fn middle_path(&self, channel: &Channel) -> Vec<Point> {
+        let mut waypoints = vec![channel.start];
+        for (k, &cell_portal) in channel.portals.iter().enumerate() {
+            if k > 0 {
+                waypoints.push(self.adjacency.centers[channel.cells[k]]);
+            }
+            waypoints.push(self.adjacency.middles[cell_portal]);
+        }
+        let last = waypoints[waypoints.len() - 1];
+        waypoints.push(Point::from(channel.goals.nearest(Measure::from(Metric::Euclidean), last.coords)));
+        waypoints
+    }
+
+    /// The shortest way within the channel.
+    fn taut_path(&self, channel: &Channel) -> Vec<Point> {
+        let cell_portal = |k: usize| self.decomposition.portals[channel.portals[k]];
+        let portal = |k: usize| {
+            let CellPortal { cells: [from, _], low, high, .. } = cell_portal(k);
+            if from == channel.cells[k] { Portal { left: high, right: low } } else { Portal { left: low, right: high } }
+        };
+        let portals: Vec<Portal> = (0..channel.portals.len()).map(portal).collect();
+        let goal = nearest_end(channel.start, &channel.goals, &portals);
+        let path = turns(channel.start, goal, &portals);
+        // Where a portal ends in the middle of a side, its end is rounded into free space, and a string along the side
+        // turns there by a rounding error. A funnel path turns at vertices only: leave such turns out.
+        let is_vertex = |turn: &Turn| {
+            let CellPortal { low, at_vertices, .. } = cell_portal(turn.portal);
+            at_vertices[usize::from(turn.at != low)]
+        };
+        let mut waypoints = vec![channel.start];
+        // The first portal after the last waypoint.
+        let mut first = 0;
+        for run in path.chunk_by(|a, b| is_vertex(a) == is_vertex(b)) {
+            let after = run[run.len() - 1].portal + 1;
+            if !is_vertex(&run[0]) {
+                let rest = path.iter().find(|turn| turn.portal >= after);
+                let (end, to) = rest.map_or((portals.len(), goal), |turn| (turn.portal, turn.at));
+                if self.is_straight(channel, first..end, waypoints[waypoints.len() - 1], to) {
+                    continue;
+                }
+            }
+            waypoints.extend(run.iter().map(|turn| turn.at));
+            first = after;
+        }
+        waypoints.push(goal);
+        waypoints
+    }
+
+    /// Whether one can go straight from `a` to `b` through some of the channel's portals; exact. Linear in their number.
+    ///
+    /// Vertices at the ends of the portals decide that: each side between is straight, and `a`, `b` and these vertices are
+    /// on its free side.
+    fn is_straight(&self, channel: &Channel, portals: Range<usize>, a: Point, b: Point) -> bool {
+        let mut x = a.x;
+        portals.map(|k| self.decomposition.portals[channel.portals[k]]).all(
+            |CellPortal { low, high, at_vertices, .. }| {
+                let onwards = if a.x <= b.x { x <= low.x && low.x <= b.x } else { x >= low.x && low.x >= b.x };
+                x = low.x;
+                let (left, right) = if a.x <= b.x { (a, b) } else { (b, a) };
+                onwards
+                    && !(at_vertices[0] && orientation(left, right, low) == Orientation::CounterClockwise)
+                    && !(at_vertices[1] && orientation(left, right, high) == Orientation::Clockwise)
+            },
+        )
+    }
+}

@@ -1,0 +1,201 @@
+//! Shortest paths by visibility graph and A*.
+//!
+//! `mesh` triangulates free space and follows cones of sight from triangle to triangle. Cones are bounded by lines
+//! through vertices, so that exact predicates decide what is seen. `VisibilityMap::arcs` reads the whole reduced
+//! visibility graph off it. A query (`polyanya`) does not: it is A* over that graph, but keeps cones on the open list
+//! beside corners, each with a lower bound on the way through it, so that arcs are found in the order in which they
+//! matter (Polyanya). Other searches than that have the whole graph made. One search serves all metrics: shortest paths in any norm turn at the same corners, only lengths
+//! and bounds differ ([`crate::space::Measure`]).
+
+use super::mesh::{Cone, Mesh, Tangency};
+use super::polyanya::Polyanya;
+use super::roadmap::{Asked, Roadmap, RoadmapSearch};
+use super::terminals::Terminals;
+use super::{Planner, Proposal, Query, Run, Size, Trace};
+use crate::cspace::Regions;
+use crate::space::{Configuration, Measure, Metric, Path, Segment};
+use cplan_geometry::Point;
+use cplan_geometry::planar::Boundary;
+use cplan_interrupt::checkpoint;
+use petgraph::graph::NodeIndex;
+
+/// The *reduced visibility graph* and A* over it: finds the shortest path in closed free space.
+///
+/// Nodes are the convex corners of C-obstacles, the start and all copies of the goals; arcs are the segments in closed
+/// free space that are tangent to the obstacle at each end that is a corner. A shortest path turns only at convex
+/// corners and only around them, so the arcs left out are on none (Latombe, *Robot Motion Planning*, 1991, section
+/// 4.1). A path may touch obstacles, but does not squeeze between two that touch in a corner: it is always a limit of
+/// paths in the interior of free space.
+///
+/// Free space is triangulated (constrained Delaunay, `O(n log n)` for `n` corners and near-linear memory). What a corner
+/// sees is found by following its lines of sight from triangle to triangle, in time proportional to the triangles
+/// crossed; a query does so only as far as the estimate of A* asks for. Signs are exact, lengths rounded.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Visibility {
+    /// What is shortest. Of motions that take equally long, the one that is shortest in Euclid's sense.
+    pub metric: Metric,
+    /// How the graph is searched. The usual search makes no more of it than it needs; any other has it made as a whole.
+    pub search: RoadmapSearch,
+}
+
+/// Triangulated free space, from which the visibility graph is read.
+#[derive(Debug, Clone)]
+pub struct VisibilityMap {
+    mesh: Mesh,
+}
+
+impl Planner for Visibility {
+    const NAME: &'static str = "visibility";
+    type Space = Regions;
+    type Map = VisibilityMap;
+
+    fn build(&self, space: &Regions) -> VisibilityMap {
+        VisibilityMap { mesh: Mesh::new(Boundary::new(&space.contours())) }
+    }
+
+    /// The trace and the size are those of the part of the graph that the search looked at.
+    fn query(&self, space: &Regions, map: &VisibilityMap, query: &Query) -> Run {
+        let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
+            Ok(terminals) => terminals,
+            Err(reason) => {
+                return Run {
+                    outcome: Proposal::GaveUp(reason),
+                    trace: Trace::Roadmap { edges: Vec::new(), whole: false },
+                    size: Size::Graph { nodes: 0, edges: 0 },
+                    note: None,
+                };
+            }
+        };
+        if !self.search.is_usual() {
+            return self.whole(map, &terminals);
+        }
+        let mut search = Polyanya::new(&map.mesh, Measure::from(self.metric), &terminals);
+        let outcome = match search.path() {
+            Some(waypoints) => Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect())),
+            None => Proposal::NoPath,
+        };
+        let edges: Vec<_> = search.arcs.iter().map(|ends| ends.map(|p| p.coords)).collect();
+        let size = Size::Graph { nodes: search.nodes(), edges: edges.len() };
+        Run { outcome, trace: Trace::Roadmap { edges, whole: false }, size, note: None }
+    }
+}
+
+impl VisibilityMap {
+    /// Number of convex corners.
+    #[must_use]
+    pub fn corners(&self) -> usize {
+        self.mesh.corners().len()
+    }
+
+    /// All arcs between corners: the ends of each. In time proportional to the triangles that lines of sight cross.
+    #[must_use]
+    pub fn arcs(&self) -> Vec<[Configuration; 2]> {
+        let corners = self.mesh.corners();
+        self.pairs().into_iter().map(|pair| pair.map(|number| corners[number as usize].at.coords)).collect()
+    }
+
+    /// The corners at the ends of all arcs.
+    fn pairs(&self) -> Vec<[u32; 2]> {
+        let corners = self.mesh.corners();
+        let mut pairs = Vec::new();
+        let mut stack = Vec::new();
+        for (number, corner) in (0..).zip(corners) {
+            checkpoint();
+            let is_tangent = |other: u32| corners[other as usize].tangency(corner.at) != Tangency::None;
+            // Each arc is found from the end on its left: corners are numbered in that order.
+            let arc = |half_edge: u32| {
+                let other = self.mesh.corner_at(half_edge).filter(|&other| other > number && is_tangent(other))?;
+                Some([number, other])
+            };
+            for successor in corner.tangents().flat_map(|gaze| self.mesh.successors(corner, gaze)) {
+                pairs.extend(successor.seen.into_iter().flatten().filter_map(arc));
+                self.mesh.look_forward(corner.at, successor.cone, &mut stack, |half_edge| pairs.extend(arc(half_edge)));
+            }
+        }
+        pairs
+    }
+}
+
+impl Visibility {
+    /// A search of the whole graph.
+    fn whole(&self, map: &VisibilityMap, terminals: &Terminals) -> Run {
+        let asked = map.asked(Measure::from(self.metric), terminals);
+        let (way, expanded) = asked.search(self.search, terminals);
+        let outcome = match way {
+            Some(way) => Proposal::Found(Path::new(way.into_iter().map(|node| asked.at(node).coords).collect())),
+            None => Proposal::NoPath,
+        };
+        let [nodes, edges] = asked.size();
+        let trace = Trace::Roads { edges: asked.edges(), expanded };
+        Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
+    }
+}
+
+impl VisibilityMap {
+    /// The whole graph with a query's ends: what start and corners see of goals, at the place that is nearest to each.
+    fn asked(&self, measure: Measure, terminals: &Terminals) -> Asked {
+        let (mesh, corners) = (&self.mesh, self.mesh.corners());
+        let mut roadmap = Roadmap::new(measure);
+        let nodes: Vec<NodeIndex> = corners.iter().map(|corner| roadmap.add(corner.at)).collect();
+        for [a, b] in self.pairs() {
+            roadmap.join(nodes[a as usize], nodes[b as usize]);
+        }
+        let mut asked = roadmap.asked(terminals.start);
+        let mut ends = Ends { mesh, measure, terminals, asked: &mut asked, seen: Vec::new(), notes: true };
+        for triangle in mesh.triangles_at(terminals.start) {
+            ends.meet_goals(ends.asked.start, triangle, |part| Some(*part));
+            for successor in mesh.successors_within(triangle, terminals.start) {
+                ends.seen.extend(successor.seen.into_iter().flatten());
+                ends.look(ends.asked.start, successor.cone);
+            }
+        }
+        let of_start = std::mem::take(&mut ends.seen);
+        ends.notes = false;
+        for (node, corner) in nodes.iter().zip(corners) {
+            for successor in corner.tangents().flat_map(|gaze| mesh.successors(corner, gaze)) {
+                ends.meet_goals(*node, successor.cone.edge / 3, |part| Some(*part));
+                ends.look(*node, successor.cone);
+            }
+        }
+        let is_tangent = |corner: &u32| corners[*corner as usize].tangency(terminals.start) != Tangency::None;
+        let of_start = of_start.into_iter().filter_map(|half_edge| mesh.corner_at(half_edge)).filter(is_tangent);
+        of_start.for_each(|corner| asked.join(asked.start, nodes[corner as usize]));
+        asked
+    }
+}
+
+/// What is seen from node to node, as it goes into a graph.
+struct Ends<'a> {
+    mesh: &'a Mesh,
+    measure: Measure,
+    terminals: &'a Terminals,
+    asked: &'a mut Asked,
+    /// Half-edges at vertices seen, ...
+    seen: Vec<u32>,
+    /// ... where they are asked for.
+    notes: bool,
+}
+
+impl Ends<'_> {
+    /// Joins a node with the goals that it sees in a cone, and notes the vertices if they are asked for.
+    fn look(&mut self, root: NodeIndex, cone: Cone) {
+        checkpoint();
+        self.mesh.look(self.asked.at(root), cone, |crossing, cone| {
+            if self.notes {
+                self.seen.extend(crossing.seen);
+            }
+            self.meet_goals(root, crossing.entry / 3, |part| cone.part(part));
+        });
+    }
+
+    /// Joins a node with what it sees of the goals in a triangle.
+    fn meet_goals(&mut self, root: NodeIndex, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
+        for (_, part) in self.terminals.parts_in(triangle) {
+            if let Some(seen) = sees(part) {
+                let at = seen.nearest(self.measure, self.asked.at(root).coords);
+                let goal = self.asked.goal(Point::from(at));
+                self.asked.join(root, goal);
+            }
+        }
+    }
+}

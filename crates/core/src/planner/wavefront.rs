@@ -1,0 +1,151 @@
+//! Searches of a grid: the wavefront, whose labels are the distances from the goal, and the textbook searches beside it.
+
+use super::attach::Joined;
+use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
+use crate::cspace::Grid;
+use crate::waves::search::{Order, Search, Ties};
+use crate::waves::{FreeCells, Neighborhood, StepLabels};
+use cplan_harmonic::UNREACHED;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
+/// How the cells of a grid are searched. All begin at the goal, like the wave, so that a label counts the moves to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GridSearch {
+    /// Labels the goal's whole component, then descends: a path of fewest moves. All moves count alike.
+    #[default]
+    Wave,
+    /// Breadth-first, until the start is met: fewest moves.
+    BreadthFirst,
+    /// Depth-first: some path.
+    DepthFirst,
+    /// Least cost, where a diagonal move counts as the square root of 2 straight ones.
+    Dijkstra,
+    /// The same cost, led by the distance from the start.
+    AStar,
+    /// The cell nearest to the start: some path, found soon.
+    Greedy,
+}
+
+impl GridSearch {
+    /// All, in the order of the command line's help.
+    pub const ALL: [Self; 6] =
+        [Self::Wave, Self::BreadthFirst, Self::DepthFirst, Self::Dijkstra, Self::AStar, Self::Greedy];
+
+    /// Name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wave => "wave",
+            Self::BreadthFirst => "bfs",
+            Self::DepthFirst => "dfs",
+            Self::Dijkstra => "dijkstra",
+            Self::AStar => "astar",
+            Self::Greedy => "greedy",
+        }
+    }
+
+    /// The order in which cells are expanded one by one; none for the wave, which has no need of one.
+    fn order(self) -> Option<Order> {
+        match self {
+            Self::Wave => None,
+            Self::BreadthFirst => Some(Order::BreadthFirst),
+            Self::DepthFirst => Some(Order::DepthFirst),
+            Self::Dijkstra => Some(Order::Dijkstra),
+            Self::AStar => Some(Order::AStar(Ties::Farthest)),
+            Self::Greedy => Some(Order::Greedy),
+        }
+    }
+}
+
+impl fmt::Display for GridSearch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for GridSearch {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        GridSearch::ALL.into_iter().find(|search| search.name() == name).ok_or_else(|| {
+            let known: Vec<&str> = GridSearch::ALL.iter().map(|search| search.name()).collect();
+            format!("no search is called \"{name}\"; choose one of {}", known.join(", "))
+        })
+    }
+}
+
+/// Labels cells with the number of moves to the nearest goal (0 there), over cells that share a side (or a corner too),
+/// and goes from the start down the labels until a goal is reached. With the default settings that is a path of cells
+/// shortest in the `L1` metric (Latombe 1991, the navigation function in that metric).
+///
+/// Linear in the number of cells; Dijkstra and A\* times a logarithm, of as many cells as they look at. Complete on the
+/// grid whatever the search: no path is found only if there is none between the cells. A diagonal move needs both cells beside
+/// it free, so eight neighbours connect no more cells than four.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wavefront {
+    /// How cells are searched.
+    pub search: GridSearch,
+    /// To which cells a move leads.
+    pub neighborhood: Neighborhood,
+    /// [`PathKind::Own`] is the staircase from cell to cell.
+    pub path: PathKind,
+}
+
+impl Default for Wavefront {
+    fn default() -> Self {
+        Self { search: GridSearch::Wave, neighborhood: Neighborhood::Four, path: PathKind::Taut }
+    }
+}
+
+impl Planner for Wavefront {
+    const NAME: &'static str = "wavefront";
+    type Space = Grid;
+    type Map = FreeCells;
+
+    fn build(&self, space: &Grid) -> FreeCells {
+        FreeCells::new(space)
+    }
+
+    fn query(&self, space: &Grid, map: &FreeCells, query: &Query) -> Run {
+        let joined = match Joined::new(space, query) {
+            Ok(joined) => joined,
+            Err(reason) => {
+                let labels = vec![UNREACHED; space.blocked.len()];
+                return Run {
+                    outcome: Proposal::GaveUp(reason),
+                    trace: Trace::Wavefront { cells: space.cells, labels, expanded: Vec::new() },
+                    size: Size::Grid { cells: 0, sweeps: 0 },
+                    note: None,
+                };
+            }
+        };
+        let (cells, trace, size) = self.cells(map, &joined);
+        let path = cells.and_then(|cells| grid_path::path(space, query, &joined, &cells, self.path));
+        Run { outcome: path.map_or(Proposal::NoPath, Proposal::Found), trace, size, note: None }
+    }
+}
+
+impl Wavefront {
+    /// The cells from the nearest of the start's that is connected with a goal, if one is; what the search saw; and how many
+    /// cells were looked at.
+    fn cells(&self, map: &FreeCells, joined: &Joined) -> (Option<Vec<usize>>, Trace, Size) {
+        let sources = joined.sources();
+        let Some(order) = self.search.order() else {
+            let wave = StepLabels::new(map, &sources, self.neighborhood);
+            let cells = joined.start.cells.iter().find_map(|&cell| wave.descend(map, cell));
+            let size = Size::Grid { cells: wave.reached(), sweeps: wave.levels() };
+            let trace = Trace::Wavefront { cells: map.cells(), labels: wave.into_labels(), expanded: Vec::new() };
+            return (cells, trace, size);
+        };
+        // A search that does not meet its target has labelled all that is connected with a goal, other cells of
+        // the start among them.
+        let search = Search::new(map, self.neighborhood, order, &sources, joined.start.cells[0]);
+        let cells = joined.start.cells.iter().find_map(|&cell| search.way_back(cell));
+        let size = Size::Search { expanded: search.expanded.len(), labelled: search.labelled };
+        let trace = Trace::Wavefront { cells: map.cells(), labels: search.labels(), expanded: search.expanded };
+        (cells, trace, size)
+    }
+}

@@ -1,0 +1,214 @@
+//! Corners cut short by parabolas.
+
+use super::{Configuration, Path, Piece};
+
+/// Share of a blend's radius by which a motion may be off its parabola, in each joint, and still follow it: certificates
+/// hold for all of that tube, so that a reader that joins a motion's samples by cubics is covered, too.
+pub const HAIR: f64 = 1e-6;
+
+/// Points of a blend in pictures.
+const DRAWN: u8 = 12;
+
+/// A parabola that leaves one straight piece at `from` and joins the next at `to`, tangent to both: the quadratic Bézier
+/// curve with the corner for its middle control point. Both ends are equally far from the corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Blend {
+    /// Where it leaves the first leg.
+    pub from: Configuration,
+    /// Where the legs meet; not on the curve.
+    pub corner: Configuration,
+    /// Where it joins the second leg.
+    pub to: Configuration,
+}
+
+impl Blend {
+    /// The corner of the legs `before`-`corner` and `corner`-`after`, cut from `radius` before it to `radius` behind it.
+    /// The radius is positive and no longer than either leg.
+    #[must_use]
+    pub fn new([before, corner, after]: [Configuration; 3], radius: f64) -> Self {
+        let toward = |end: Configuration| corner + (end - corner) * (radius / (end - corner).norm());
+        Self { from: toward(before), corner, to: toward(after) }
+    }
+
+    /// Euclidean distance from the corner to either end, in joint space.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        (self.corner - self.from).norm()
+    }
+
+    /// The point at a share of the curve; exact at the ends.
+    #[must_use]
+    pub fn at(&self, u: f64) -> Configuration {
+        let mix = |a: Configuration, b: Configuration| a * (1.0 - u) + b * u;
+        mix(mix(self.from, self.corner), mix(self.corner, self.to))
+    }
+
+    /// The same curve in cubic form.
+    #[must_use]
+    pub fn piece(&self) -> Piece {
+        Piece::quadratic(0.0, 1.0, [self.from, self.corner, self.to])
+    }
+}
+
+/// What a motion along a path with blends consists of. Two straight pieces in a row meet in a corner where it stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stretch {
+    /// A straight piece between two corners or their blends.
+    Line {
+        /// The configuration at which it begins.
+        from: Configuration,
+        /// The configuration at which it ends.
+        to: Configuration,
+    },
+    /// Around a corner.
+    Blend(Blend),
+}
+
+/// A path some of whose corners are blended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlendedPath {
+    path: Path,
+    /// A waypoint's radius; 0 where the path turns on the spot, and at both ends.
+    radii: Vec<f64>,
+}
+
+impl From<Path> for BlendedPath {
+    /// The path as it is: without blends.
+    fn from(path: Path) -> Self {
+        Self { radii: vec![0.0; path.waypoints().len()], path }
+    }
+}
+
+impl BlendedPath {
+    /// The straight path.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The radius of each waypoint's blend, in joint units (radians and metres as they come); 0 without one.
+    #[must_use]
+    pub fn radii(&self) -> &[f64] {
+        &self.radii
+    }
+
+    /// The blend at a waypoint, if there is one.
+    #[must_use]
+    pub fn blend(&self, waypoint: usize) -> Option<Blend> {
+        let q = self.path.waypoints();
+        let radius = self.radii[waypoint];
+        (radius > 0.0).then(|| Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius))
+    }
+
+    /// The same path with another radius at an inner waypoint; 0 takes the blend away.
+    ///
+    /// # Panics
+    /// If the waypoint is an end of the path, or if the radii of the two ends of a leg together are not less than its
+    /// length.
+    #[must_use]
+    pub fn with(mut self, waypoint: usize, radius: f64) -> Self {
+        let q = self.path.waypoints();
+        assert!(0 < waypoint && waypoint + 1 < q.len(), "only corners are blended");
+        for other in [waypoint - 1, waypoint + 1] {
+            let leg = (q[other] - q[waypoint]).norm();
+            assert!(radius == 0.0 || radius + self.radii[other] < leg, "blends of one leg overlap");
+        }
+        self.radii[waypoint] = radius;
+        self
+    }
+
+    /// Followed by another one that begins where this ends, with a corner between them.
+    #[must_use]
+    pub fn then(self, next: &BlendedPath) -> Self {
+        let waypoints = self.path.waypoints().iter().chain(next.path.waypoints()).copied().collect();
+        let last = self.radii.len() - 1;
+        let radii = self.radii[..last].iter().chain(&next.radii).copied().collect();
+        Self { path: Path::new(waypoints), radii }
+    }
+
+    /// Straight pieces and blends from start to goal.
+    #[must_use]
+    pub fn stretches(&self) -> Vec<Stretch> {
+        let q = self.path.waypoints();
+        let mut stretches = Vec::new();
+        let mut from = self.path.start();
+        for (waypoint, &corner) in q.iter().enumerate().skip(1) {
+            let blend = self.blend(waypoint);
+            stretches.push(Stretch::Line { from, to: blend.map_or(corner, |b| b.from) });
+            stretches.extend(blend.map(Stretch::Blend));
+            from = blend.map_or(corner, |b| b.to);
+        }
+        stretches
+    }
+
+    /// A polyline for pictures: blends by points on them.
+    #[must_use]
+    pub fn outline(&self) -> Path {
+        let mut points = vec![self.path.start()];
+        for stretch in self.stretches() {
+            match stretch {
+                Stretch::Line { to, .. } => points.push(to),
+                Stretch::Blend(blend) => {
+                    points.extend((1..=DRAWN).map(|i| blend.at(f64::from(i) / f64::from(DRAWN))));
+                }
+            }
+        }
+        Path::new(points)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn q(a: f64, b: f64) -> Configuration {
+        Configuration::new(a, b)
+    }
+
+    #[test]
+    fn stretches_join() {
+        let path = Path::new(vec![q(0.0, 0.0), q(1.0, 0.0), q(1.0, 2.0), q(-1.0, 2.0)]);
+        let straight = BlendedPath::from(path.clone());
+        assert_eq!((straight.stretches().len(), straight.outline()), (3, path));
+        let blended = straight.with(1, 0.25);
+        assert_eq!(blended.radii(), [0.0, 0.25, 0.0, 0.0]);
+        let stretches = blended.stretches();
+        let corner = Blend { from: q(0.75, 0.0), corner: q(1.0, 0.0), to: q(1.0, 0.25) };
+        let line = |from, to| Stretch::Line { from, to };
+        let expected = [
+            line(q(0.0, 0.0), corner.from),
+            Stretch::Blend(corner),
+            line(corner.to, q(1.0, 2.0)),
+            line(q(1.0, 2.0), q(-1.0, 2.0)),
+        ];
+        assert_eq!(stretches, expected);
+        assert_eq!(blended.with(1, 0.0).stretches().len(), 3);
+    }
+
+    #[test]
+    #[should_panic(expected = "overlap")]
+    fn blends_do_not_overlap() {
+        let path = Path::new(vec![q(0.0, 0.0), q(1.0, 0.0), q(1.0, 1.0), q(2.0, 1.0)]);
+        let _ = BlendedPath::from(path).with(1, 0.6).with(2, 0.6);
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// A parabola tangent to both legs: its ends lie on them, its middle halfway between the corner and the middle of
+        /// the ends, and its cubic form is the same curve.
+        #[test]
+        fn blends_are_parabolas(legs in prop::array::uniform4(-2.0..2.0_f64), radius in 0.01..0.2_f64, u in 0.0..1.0_f64) {
+            let (corner, before, after) = (q(0.3, -0.2), q(legs[0], legs[1]), q(legs[2], legs[3]));
+            prop_assume!((before - corner).norm() > radius && (after - corner).norm() > radius);
+            let blend = Blend::new([before, corner, after], radius);
+            prop_assert!((blend.radius() - radius).abs() < 1e-14);
+            let on_leg = |p: Configuration, end: Configuration| (p - corner).perp(&(end - corner)).abs() < 1e-14;
+            prop_assert!(on_leg(blend.from, before) && on_leg(blend.to, after));
+            prop_assert_eq!((blend.at(0.0), blend.at(1.0)), (blend.from, blend.to));
+            prop_assert!((blend.at(0.5) - (corner + (blend.from + blend.to) / 2.0) / 2.0).norm() < 1e-14);
+            prop_assert!((blend.at(u) - blend.piece().at(u)).norm() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! Pieces of motions.
+
+use super::Configuration;
+use super::bernstein::Polynomial;
+
+/// What of a motion is looked at: its value or a derivative by time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Derivative {
+    /// The joint values themselves.
+    Position,
+    /// The first derivative, per second.
+    Velocity,
+    /// Per second squared.
+    Acceleration,
+    /// Per second cubed.
+    Jerk,
+}
+
+/// A piece of a motion: for each joint a polynomial in time, of the fifth degree at the most; straight ones included.
+///
+/// In Bernstein form: with `u` from 0 to 1 over the piece and `n` its degree,
+/// `q(u) = sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The piece lies in the box of its control points `c_i`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piece {
+    /// Time at which it begins, seconds; without a clock, the number of its first waypoint.
+    pub from: f64,
+    /// Where it ends, in the same unit.
+    pub to: f64,
+    curve: Polynomial<Configuration>,
+}
+
+/// What is given at an end of a piece: position, velocity, acceleration.
+pub type State = [Configuration; 3];
+
+impl Piece {
+    fn new<const N: usize>(from: f64, to: f64, points: [Configuration; N]) -> Self {
+        Self { from, to, curve: Polynomial::new(points) }
+    }
+
+    /// From `a` to `b` at constant velocity.
+    #[must_use]
+    pub fn line(from: f64, to: f64, a: Configuration, b: Configuration) -> Self {
+        Self::new(from, to, [a, a + (b - a) / 3.0, b - (b - a) / 3.0, b])
+    }
+
+    /// The cubic with these values and velocities at its ends (Hermite).
+    #[must_use]
+    pub fn hermite(from: f64, to: f64, [a, va]: [Configuration; 2], [b, vb]: [Configuration; 2]) -> Self {
+        let third = (to - from) / 3.0;
+        Self::new(from, to, [a, a + va * third, b - vb * third, b])
+    }
+
+    /// The polynomial of the fourth degree with this position, velocity and acceleration at its beginning, and position and
+    /// velocity at its end.
+    #[must_use]
+    pub fn quartic(from: f64, to: f64, [a, va, aa]: State, [b, vb]: [Configuration; 2]) -> Self {
+        let h = to - from;
+        Self::new(from, to, [a, a + va * (h / 4.0), a + va * (h / 2.0) + aa * (h * h / 12.0), b - vb * (h / 4.0), b])
+    }
+
+    /// The polynomial of the fifth degree with these positions, velocities and accelerations at its ends.
+    #[must_use]
+    pub fn quintic(from: f64, to: f64, [a, va, aa]: State, [b, vb, ab]: State) -> Self {
+        let h = to - from;
+        let (one, two, bend) = (h / 5.0, h * 2.0 / 5.0, h * h / 20.0);
+        Self::new(from, to, [a, a + va * one, a + va * two + aa * bend, b - vb * two + ab * bend, b - vb * one, b])
+    }
+
+    /// The quadratic curve with these control points, raised to a cubic.
+    #[must_use]
+    pub fn quadratic(from: f64, to: f64, [a, b, c]: [Configuration; 3]) -> Self {
+        Self::new(from, to, [a, (a + b * 2.0) / 3.0, (b * 2.0 + c) / 3.0, c])
+    }
+
+    /// Its control points, the ends first and last: one more than its degree.
+    #[must_use]
+    pub fn control(&self) -> &[Configuration] {
+        self.curve.coefficients()
+    }
+
+    /// The degree of its polynomials: 3, 4 or 5. Those of straight pieces are raised.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.curve.degree()
+    }
+
+    /// Time at a share of the piece.
+    #[must_use]
+    pub fn time(&self, u: f64) -> f64 {
+        if u == 1.0 { self.to } else { self.from + u * (self.to - self.from) }
+    }
+
+    /// Configuration at a share of the piece; exact at the ends.
+    #[must_use]
+    pub fn at(&self, u: f64) -> Configuration {
+        self.curve.at(u)
+    }
+
+    /// Value of a derivative by time at a share of the piece. A piece without duration stands still.
+    #[must_use]
+    pub fn derivative(&self, of: Derivative, u: f64) -> Configuration {
+        let duration = self.to - self.from;
+        if of == Derivative::Position {
+            return self.at(u);
+        }
+        if duration <= 0.0 {
+            return Configuration::zeros();
+        }
+        let order = of as usize;
+        let Some(scaled) = self.curve.differences(order) else { return Configuration::zeros() };
+        // Divided one by one: a power of a short duration is far smaller.
+        (0..order).fold(scaled.at(u), |value, k| value * ((self.degree() - k) as f64 / duration))
+    }
+
+    /// Shares of the piece among which one joint's value (or derivative) is least and greatest: both ends, and where its
+    /// own derivative vanishes.
+    pub fn critical(&self, of: Derivative, joint: usize) -> impl Iterator<Item = f64> {
+        let slope = self.curve.differences(of as usize + 1).map(|slope| slope.map(|d| d[joint]));
+        [0.0, 1.0].into_iter().chain(slope.map_or(Vec::new(), |slope| slope.zeros()))
+    }
+
+    /// A bound on the magnitude of each joint's second derivative by `u` between two shares; of cubics the greatest there is.
+    #[must_use]
+    pub fn bend(&self, from: f64, to: f64) -> [f64; 2] {
+        let factor = (self.degree() * (self.degree() - 1)) as f64;
+        let Some(second) = self.curve.differences(2) else { return [0.0; 2] };
+        [0, 1].map(|k| {
+            let part = second.map(|d| d[k]).restricted(from, to);
+            part.coefficients().iter().map(|c| (c * factor).abs()).fold(0.0, f64::max)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn q(a: f64, b: f64) -> Configuration {
+        Configuration::new(a, b)
+    }
+
+    #[test]
+    fn the_cubic_of_a_quadratic_motion_is_that_motion() {
+        // 1 + 0.5 t - 0.75 t^2 from t = 2 to 2.5.
+        let position = |t: f64| 1.0 + 0.5 * t - 0.75 * t * t;
+        let velocity = |t: f64| 0.5 - 1.5 * t;
+        let ends = [2.0, 2.5].map(|t| [q(position(t), -3.0 * position(t)), q(velocity(t), -3.0 * velocity(t))]);
+        let piece = Piece::hermite(2.0, 2.5, ends[0], ends[1]);
+        for i in 0..=10 {
+            let u = f64::from(i) / 10.0;
+            let t = piece.time(u);
+            for (of, value) in [
+                (Derivative::Position, position(t)),
+                (Derivative::Velocity, velocity(t)),
+                (Derivative::Acceleration, -1.5),
+            ] {
+                assert!((piece.derivative(of, u) - q(value, -3.0 * value)).norm() < 1e-12, "{of:?} at {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_still_piece_has_no_rates() {
+        let piece = Piece::line(1.0, 1.0, q(0.3, 0.4), q(0.3, 0.4));
+        assert_eq!(piece.at(0.7), q(0.3, 0.4));
+        assert_eq!(piece.derivative(Derivative::Velocity, 0.5), q(0.0, 0.0));
+        assert_eq!(piece.bend(0.0, 1.0), [0.0; 2]);
+    }
+
+    /// A piece of each degree through the same states.
+    fn pieces(duration: f64, [a, va, aa, b, vb, ab]: [f64; 6]) -> [Piece; 3] {
+        let (first, last) = ([q(a, b), q(va, vb), q(aa, ab)], [q(b, a), q(vb, va), q(ab, aa)]);
+        let two = |[p, v, _]: State| [p, v];
+        [
+            Piece::hermite(0.0, duration, two(first), two(last)),
+            Piece::quartic(0.0, duration, first, two(last)),
+            Piece::quintic(0.0, duration, first, last),
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// What was asked for at the ends, by differences of the motion itself; and the jerk by those of the acceleration.
+        #[test]
+        fn a_piece_has_the_states_of_its_ends(
+            values in prop::array::uniform6(-3.0..3.0_f64), duration in 0.1..5.0_f64, u in 0.001..0.999_f64,
+        ) {
+            let [a, va, aa, b, vb, ab] = values;
+            for piece in pieces(duration, values) {
+                let at = |of, u| piece.derivative(of, u);
+                prop_assert_eq!([piece.at(0.0), piece.at(1.0)], [q(a, b), q(b, a)]);
+                prop_assert!((at(Derivative::Velocity, 0.0) - q(va, vb)).amax() < 1e-10);
+                prop_assert!((at(Derivative::Velocity, 1.0) - q(vb, va)).amax() < 1e-10);
+                if piece.degree() > 3 {
+                    prop_assert!((at(Derivative::Acceleration, 0.0) - q(aa, ab)).amax() < 1e-9);
+                }
+                if piece.degree() > 4 {
+                    prop_assert!((at(Derivative::Acceleration, 1.0) - q(ab, aa)).amax() < 1e-9);
+                }
+                const STEP: f64 = 1e-4;
+                for (of, next) in [
+                    (Derivative::Position, Derivative::Velocity),
+                    (Derivative::Velocity, Derivative::Acceleration),
+                    (Derivative::Acceleration, Derivative::Jerk),
+                ] {
+                    let slope = (at(of, u + STEP) - at(of, u - STEP)) / (2.0 * STEP * duration);
+                    let size = 1.0 + (0..=20).map(|i| at(next, f64::from(i) / 20.0).amax()).fold(0.0, f64::max);
+                    prop_assert!((slope - at(next, u)).amax() < 1e-4 * size, "{:?} of {}", next, piece.degree());
+                }
+            }
+        }
+
+        /// Extremes against 2000 samples; what is bounded against what was seen, and never far from it.
+        #[test]
+        fn extremes_bound_the_samples(
+            values in prop::array::uniform6(prop_oneof![Just(0.0), -3.0..3.0_f64]), duration in 0.01..5.0_f64,
+            degree in 0..3_usize,
+        ) {
+            let piece = pieces(duration, values)[degree];
+            for of in [Derivative::Position, Derivative::Velocity, Derivative::Acceleration, Derivative::Jerk] {
+                for joint in 0..2 {
+                    let value = |u: f64| piece.derivative(of, u)[joint];
+                    let greatest = piece.critical(of, joint).map(value).fold(f64::NEG_INFINITY, f64::max);
+                    let least = piece.critical(of, joint).map(value).fold(f64::INFINITY, f64::min);
+                    let seen = (0..=2000).map(|i| value(f64::from(i) / 2000.0));
+                    let (low, high) = seen.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+                    let size = 1e-12 * (1.0 + greatest.abs().max(least.abs()));
+                    prop_assert!(high <= greatest + size && least <= low + size);
+                    let step = (greatest - least) * 3e-3 + size;
+                    prop_assert!(greatest <= high + step && low - step <= least);
+                }
+            }
+        }
+
+        #[test]
+        fn a_piece_stays_as_near_to_its_chord_as_its_bend_says(
+            values in prop::array::uniform6(-3.0..3.0_f64), ends in (0.0..1.0_f64, 0.0..1.0_f64), at in 0.0..1.0_f64,
+            degree in 0..3_usize,
+        ) {
+            let piece = pieces(1.5, values)[degree];
+            let (from, to) = (ends.0.min(ends.1), ends.0.max(ends.1));
+            let chord = piece.at(from) + (piece.at(to) - piece.at(from)) * at;
+            let far = piece.at(from + (to - from) * at) - chord;
+            for (k, bend) in piece.bend(from, to).into_iter().enumerate() {
+                prop_assert!(far[k].abs() <= bend * (to - from) * (to - from) / 8.0 + 1e-13);
+            }
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! Shortest way through a sequence of portals.
+
+use super::{Measure, Metric, Segment};
+use cplan_geometry::{Orientation, Point, orientation};
+use std::collections::VecDeque;
+
+/// A portal as seen by one who passes it: its ends to the left and to the right hand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Portal {
+    /// The end to the left.
+    pub left: Point,
+    /// The end to the right.
+    pub right: Point,
+}
+
+/// The shortest polyline from `start` to `goal` that crosses all portals in order: the path that the funnel algorithm pulls taut.
+///
+/// Consecutive portals must lie on the border of a common convex cell; start and goal in the first and the last one.
+/// The *funnel* algorithm (Lee, Preparata 1984), linear. Turns are decided exactly, so every piece passes its portals in exact
+/// arithmetic.
+#[must_use]
+pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> {
+    let turns = turns(start, goal, portals).into_iter().map(|turn| turn.at);
+    let mut path: Vec<Point> = std::iter::once(start).chain(turns).chain([goal]).collect();
+    path.dedup();
+    path
+}
+
+/// The place on a segment to which the funnel path through the portals is shortest.
+///
+/// That length is a convex function of the place, whose least value a search by golden section closes in on; as the string is
+/// straight after its last turn, the place nearest to that turn is the very least if it is as good. Some dozens of strings.
+#[must_use]
+pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
+    let euclid = Measure::from(Metric::Euclidean);
+    let length = |share: f64| {
+        let path = funnel_path(start, Point::from(goals.at(share)), portals);
+        let last = path[path.len().saturating_sub(2)];
+        (path.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>(), last)
+    };
+    if goals.is_point() {
+        return goals.corners()[0];
+    }
+    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let (mut lower, mut upper) = (0.0, 1.0);
+    for _ in 0..SECTIONS {
+        let [a, b] = [upper - golden * (upper - lower), lower + golden * (upper - lower)];
+        if length(a).0 <= length(b).0 { upper = b } else { lower = a }
+    }
+    let tried = [0.0, f64::midpoint(lower, upper), 1.0].map(|share| (length(share), goals.at(share)));
+    let [first, rest @ ..] = tried;
+    let ((shortest, last), best) = rest.into_iter().fold(first, |a, b| if b.0.0 < a.0.0 { b } else { a });
+    let foot = Point::from(goals.nearest(euclid, last.coords));
+    let path = funnel_path(start, foot, portals);
+    let to_foot: f64 = path.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+    if to_foot <= shortest * (1.0 + SETTLED) { foot } else { Point::from(best) }
+}
+
+/// Golden sections: they leave less than a millionth of the segment.
+const SECTIONS: usize = 30;
+
+/// Share by which a length may be greater for rounding.
+const SETTLED: f64 = 1e-12;
+
+/// Where the funnel path turns, in order, start and goal left out.
+pub fn turns(start: Point, goal: Point, portals: &[Portal]) -> Vec<Turn> {
+    let mut funnel = Funnel { apex: start, chains: Default::default(), path: Vec::new() };
+    for (portal, ends) in portals.iter().enumerate() {
+        funnel.narrow(portal, *ends);
+    }
+    if goal != funnel.apex {
+        funnel.add(RIGHT, Turn { at: goal, portal: portals.len() });
+    }
+    let Funnel { chains: [to_goal, _], mut path, .. } = funnel;
+    path.extend(to_goal.into_iter().filter(|turn| turn.portal < portals.len()));
+    path
+}
+
+/// An end of a portal that bounds the funnel, and at which the string may turn.
+#[derive(Debug, Clone, Copy)]
+pub struct Turn {
+    /// Where it lies.
+    pub at: Point,
+    /// Which portal.
+    pub portal: usize,
+}
+
+const RIGHT: usize = 0;
+const LEFT: usize = 1;
+
+/// The shortest ways from the apex to both ends of a portal: chains that turn outwards.
+struct Funnel {
+    apex: Point,
+    chains: [VecDeque<Turn>; 2],
+    /// Where the string turns until the apex, and there.
+    path: Vec<Turn>,
+}
+
+impl Funnel {
+    /// Narrows the funnel to the next portal.
+    fn narrow(&mut self, portal: usize, Portal { left, right }: Portal) {
+        if left != self.apex && right != self.apex {
+            self.add(RIGHT, Turn { at: right, portal });
+            self.add(LEFT, Turn { at: left, portal });
+        }
+        if left == self.apex || right == self.apex {
+            // Passed at the apex itself, in any direction.
+            self.chains.iter_mut().for_each(VecDeque::clear);
+        }
+    }
+
+    /// Makes a point the end of a chain. Where it is beyond the other chain, the string turns at that.
+    fn add(&mut self, side: usize, turn: Turn) {
+        let [inwards, outwards] = match side {
+            RIGHT => [Orientation::CounterClockwise, Orientation::Clockwise],
+            _ => [Orientation::Clockwise, Orientation::CounterClockwise],
+        };
+        let own = &mut self.chains[side];
+        while let Some(last) = own.back() {
+            let before = own.iter().nth_back(1).map_or(self.apex, |before| before.at);
+            if orientation(before, last.at, turn.at) == outwards {
+                break;
+            }
+            own.pop_back();
+        }
+        if own.is_empty() {
+            let other = &mut self.chains[1 - side];
+            while let Some(&first) = other.front()
+                && orientation(self.apex, first.at, turn.at) == inwards
+            {
+                other.pop_front();
+                self.apex = first.at;
+                self.path.push(first);
+            }
+        }
+        self.chains[side].push_back(turn);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn portal(left: (f64, f64), right: (f64, f64)) -> Portal {
+        Portal { left: Point::new(left.0, left.1), right: Point::new(right.0, right.1) }
+    }
+
+    fn points(path: &[(f64, f64)]) -> Vec<Point> {
+        path.iter().map(|&(x, y)| Point::new(x, y)).collect()
+    }
+
+    #[test]
+    fn without_portals_the_path_is_straight() {
+        let [a, b] = [Point::new(0.0, 0.0), Point::new(1.0, 2.0)];
+        assert_eq!(funnel_path(a, b, &[]), vec![a, b]);
+        assert_eq!(funnel_path(a, a, &[]), vec![a]);
+    }
+
+    #[test]
+    fn an_open_portal_does_not_bend_it() {
+        let open = portal((1.0, 1.0), (1.0, -1.0));
+        let path = funnel_path(Point::new(0.0, 0.0), Point::new(2.0, 0.5), &[open]);
+        assert_eq!(path, points(&[(0.0, 0.0), (2.0, 0.5)]));
+    }
+
+    #[test]
+    fn it_turns_at_the_nearer_end_of_a_portal_aside() {
+        let above = [portal((1.0, 3.0), (1.0, 2.0)), portal((2.0, 3.0), (2.0, 1.5))];
+        let path = funnel_path(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &above);
+        assert_eq!(path, points(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.5), (3.0, 0.0)]));
+    }
+
+    #[test]
+    fn a_turn_back_on_one_vertical_goes_around_what_is_between() {
+        // Right below the wall, left above it; the wall ends at (2, 1) and (2, 1.5).
+        let wall = [portal((2.0, 1.0), (2.0, 0.0)), portal((2.0, 1.5), (2.0, 3.0))];
+        let path = funnel_path(Point::new(0.0, 0.5), Point::new(0.0, 2.0), &wall);
+        assert_eq!(path, points(&[(0.0, 0.5), (2.0, 1.0), (2.0, 1.5), (0.0, 2.0)]));
+    }
+
+    #[test]
+    fn a_start_on_the_line_of_a_portal_follows_it() {
+        let below = [portal((0.0, -1.0), (0.0, -2.0)), portal((1.0, 5.0), (1.0, -5.0))];
+        let path = funnel_path(Point::new(0.0, 0.0), Point::new(2.0, 0.0), &below);
+        assert_eq!(path, points(&[(0.0, 0.0), (0.0, -1.0), (2.0, 0.0)]));
+    }
+
+    #[test]
+    fn collinear_ends_do_not_bend_it() {
+        let along = [portal((1.0, 1.0), (1.0, 0.0)), portal((2.0, 1.0), (2.0, 0.0))];
+        let path = funnel_path(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &along);
+        assert_eq!(path, points(&[(0.0, 0.0), (3.0, 0.0)]));
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(2000))]
+
+        /// Against the shortest of all ways from end to end of portals that pass those between. On a coarse lattice many ends are
+        /// in line.
+        #[test]
+        fn no_way_from_end_to_end_is_shorter(
+            ends in prop::collection::vec((-4..4i32, 0..4i32), 0..12), start in -4..4i32, goal in -4..4i32,
+        ) {
+            let gates: Vec<[Point; 2]> = std::iter::once([start; 2])
+                .chain(ends.iter().map(|&(lower, size)| [lower, lower + size]))
+                .chain([[goal; 2]])
+                .enumerate()
+                .map(|(x, gate)| gate.map(|y| Point::new(x as f64, f64::from(y))))
+                .collect();
+            let passes = |a: Point, b: Point| {
+                gates[a.x as usize..=b.x as usize].iter().all(|[lower, upper]| {
+                    let y = a.y + (b.y - a.y) * ((lower.x - a.x) / (b.x - a.x));
+                    (lower.y - 1e-9..=upper.y + 1e-9).contains(&y)
+                })
+            };
+            let mut least = vec![[f64::INFINITY; 2]; gates.len()];
+            least[0] = [0.0; 2];
+            for j in 1..gates.len() {
+                for (i, a) in (0..j).flat_map(|i| [(i, 0), (i, 1)]) {
+                    for b in 0..2 {
+                        let (from, to) = (gates[i][a], gates[j][b]);
+                        if passes(from, to) {
+                            least[j][b] = least[j][b].min(least[i][a] + (to - from).norm());
+                        }
+                    }
+                }
+            }
+            let last = gates.len() - 1;
+            let portals: Vec<Portal> =
+                gates[1..last].iter().map(|&[right, left]| Portal { left, right }).collect();
+            let path = funnel_path(gates[0][0], gates[last][0], &portals);
+            let length: f64 = path.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
+            prop_assert!((length - least[last][0]).abs() < 1e-9, "{length}, not {}: {path:?}", least[last][0]);
+            prop_assert!(path.windows(2).all(|ends| passes(ends[0], ends[1])), "{path:?}");
+        }
+    }
+}

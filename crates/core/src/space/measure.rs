@@ -1,0 +1,162 @@
+//! A metric as shortest path searches use it.
+
+use super::{Metric, Segment};
+use cplan_geometry::{Point, Vector, cross};
+
+/// Weight of the Euclidean length beside travel time. Among motions that take equally long it prefers the shortest; no
+/// path that it chooses takes longer than the quickest by more than this part of its Euclidean length at the higher of
+/// the top speeds. Far above the rounding of sums of lengths.
+const TIE: f64 = 1e-10;
+
+/// A norm whose balls have no flat sides, so that pulling a path taut makes it shorter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Measure {
+    /// Euclidean length after both coordinates have been multiplied by weights.
+    Ellipse([f64; 2]),
+    /// The greater of both coordinates multiplied by weights, and a little of the Euclidean length.
+    Rectangle([f64; 2]),
+}
+
+impl From<Metric> for Measure {
+    fn from(metric: Metric) -> Self {
+        match metric {
+            Metric::Euclidean => Self::Ellipse([1.0; 2]),
+            Metric::Weighted { weights } => Self::Ellipse(weights),
+            Metric::Time { speeds } => Self::Rectangle(speeds.map(|speed| 1.0 / speed)),
+        }
+    }
+}
+
+impl Measure {
+    /// Length of a displacement.
+    #[must_use]
+    pub fn norm(self, d: Vector) -> f64 {
+        match self {
+            Self::Ellipse([u, v]) => ((u * d.x) * (u * d.x) + (v * d.y) * (v * d.y)).sqrt(),
+            Self::Rectangle([u, v]) => {
+                (u * d.x.abs()).max(v * d.y.abs()) + TIE * u.min(v) * (d.x * d.x + d.y * d.y).sqrt()
+            }
+        }
+    }
+
+    /// By what each coordinate is multiplied.
+    #[must_use]
+    pub fn weights(self) -> [f64; 2] {
+        let (Self::Ellipse(weights) | Self::Rectangle(weights)) = self;
+        weights
+    }
+
+    /// Whether balls are ellipses.
+    #[must_use]
+    pub fn is_ellipse(self) -> bool {
+        matches!(self, Self::Ellipse(_))
+    }
+
+    /// A lower bound on the length of the ways from `root` to the nearest of the `goals` through a segment, from `right` to
+    /// `left` as seen from the root; it is the length of the shortest, but for [`Measure::Rectangle`] and goals on the
+    /// root's side. The line of the segment is given by two points farther apart, in the same direction: the segment may be
+    /// a point.
+    #[must_use]
+    pub fn through(self, root: Point, ends: [Point; 2], line: [Point; 2], goals: &Segment) -> f64 {
+        let along = line[1] - line[0];
+        let [from, to] = goals.corners().map(|goal| cross(along, goal - line[0]));
+        if from <= 0.0 && to <= 0.0 {
+            return self.across(root, ends, goals);
+        }
+        let beyond = goals.where_positive(-from, -to).map_or(f64::INFINITY, |beyond| self.across(root, ends, &beyond));
+        let Some(before) = goals.where_positive(from, to) else { return beyond };
+        let Self::Ellipse([u, v]) = self else { return beyond.min(before.distance(self, root.coords)) };
+        // There and back is as long as to the mirror image.
+        let product = |a: Vector, b: Vector| u * u * a.x * b.x + v * v * a.y * b.y;
+        let mirrored = |goal: Point| {
+            let foot = line[0] + along * (product(goal - line[0], along) / product(along, along));
+            (foot + (foot - goal)).coords
+        };
+        let [a, b] = before.corners().map(mirrored);
+        beyond.min(self.across(root, ends, &Segment::new(a, b)))
+    }
+
+    /// The same where all goals lie beyond the segment.
+    ///
+    /// The way over a point of the segment's line is a convex function of that point, and least where the straight way to
+    /// the nearest goal crosses the line. Where that is not in the segment, it is least at the end nearer to it.
+    fn across(self, root: Point, [right, left]: [Point; 2], goals: &Segment) -> f64 {
+        let goal = goals.nearest(self, root.coords) - root.coords;
+        let via = |end: Point| self.norm(end - root) + goals.distance(self, end.coords);
+        if cross(right - root, goal) < 0.0 {
+            via(right)
+        } else if cross(left - root, goal) > 0.0 {
+            via(left)
+        } else {
+            self.norm(goal)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// Against the least over the points of the segment, a convex function: thirds that do not hold it are left out.
+        #[test]
+        fn bounds_are_the_least_way_through(
+            root in (-3.0..3.0, 0.1..2.0f64), goal in (-3.0..3.0, -2.0..2.0f64), ends in (-2.0..1.9f64, 0.05..2.0f64),
+        ) {
+            // The root lies above the axis and looks down through a piece of it.
+            let (root, goal) = (Point::new(root.0, root.1), Point::new(goal.0, goal.1));
+            let (right, left) = (Point::new(ends.0, 0.0), Point::new(ends.0 + ends.1, 0.0));
+            let metrics = [
+                Metric::Euclidean,
+                Metric::Weighted { weights: [2.0, 0.5] },
+                Metric::Time { speeds: [0.7, 2.0] },
+            ];
+            for metric in metrics {
+                let by_way_of = |share: f64| {
+                    let p = right + (left - right) * share;
+                    metric.norm(p - root) + metric.norm(goal - p)
+                };
+                let (mut from, mut to) = (0.0, 1.0);
+                for _ in 0..100 {
+                    let third = (to - from) / 3.0;
+                    let shares = [from + third, to - third];
+                    if by_way_of(shares[0]) <= by_way_of(shares[1]) { to = shares[1] } else { from = shares[0] }
+                }
+                let least = by_way_of(from).min(by_way_of(to));
+                let bound = Measure::from(metric).through(root, [right, left], [right, left], &Segment::point(goal.coords));
+                prop_assert!(bound <= least + 1e-8, "{metric:?}: {bound} > {least}");
+                let is_exact = !matches!(metric, Metric::Time { .. }) || goal.y <= 0.0;
+                prop_assert!(!is_exact || bound >= least - 1e-5, "{metric:?}: {bound} < {least}");
+            }
+        }
+
+        /// Goals all along a segment: against the least over many of them.
+        #[test]
+        fn bounds_are_the_least_way_to_any_of_the_goals(
+            root in (-3.0..3.0, 0.1..2.0f64),
+            ends in (-2.0..1.9f64, 0.05..2.0f64),
+            from in (-3.0..3.0, -2.0..2.0f64),
+            to in (-3.0..3.0, -2.0..2.0f64),
+            axis in 0..3usize,
+        ) {
+            let root = Point::new(root.0, root.1);
+            let (right, left) = (Point::new(ends.0, 0.0), Point::new(ends.0 + ends.1, 0.0));
+            let to = [(to.0, to.1), (from.0, to.1), (to.0, from.1)][axis];
+            let goals = Segment::new(Vector::new(from.0, from.1), Vector::new(to.0, to.1));
+            for metric in [Metric::Euclidean, Metric::Weighted { weights: [2.0, 0.5] }, Metric::Time { speeds: [0.7, 2.0] }] {
+                let measure = Measure::from(metric);
+                let each = (0..=400).map(|k| Segment::point(goals.at(f64::from(k) / 400.0)));
+                let least = each
+                    .map(|goal| measure.through(root, [right, left], [right, left], &goal))
+                    .fold(f64::INFINITY, f64::min);
+                let bound = measure.through(root, [right, left], [right, left], &goals);
+                prop_assert!(bound <= least + 1e-9, "{metric:?}: {bound} > {least}");
+                let is_exact = !matches!(metric, Metric::Time { .. });
+                prop_assert!(!is_exact || bound >= least - 2e-2, "{metric:?}: {bound} < {least}");
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! Configurations, motions, and the topology of the space they live in.
+//!
+//! Goals are a set ([`GoalSet`]): configurations, and segments where a tip goal leaves a joint free. Roadmaps end where
+//! their last leg meets a segment at right angles or at an end of what is free of it, fields begin in all its free cells,
+//! boxes that meet it are goals for certificates and proofs, and bounds are to the nearest of it.
+//!
+//! ```
+//! use cplan::space::{Configuration, JointRange, Topology};
+//!
+//! let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }] };
+//! let (from, to) = (Configuration::new(3.0, 0.0), Configuration::new(-3.0, 0.0));
+//! // The short way leads across the seam, and the path goes on counting there.
+//! assert!((topology.distance(from, to) - (std::f64::consts::TAU - 6.0)).abs() < 1e-12);
+//! assert!(topology.lift(to, from)[0] > 3.0);
+//! ```
+
+mod bernstein;
+mod blend;
+mod copies;
+mod curve;
+mod draws;
+pub mod funnel;
+mod goal_set;
+mod interpolation;
+mod measure;
+mod metric;
+mod path;
+mod recording;
+mod segment;
+mod topology;
+
+pub use blend::{Blend, BlendedPath, HAIR, Stretch};
+pub use curve::{Derivative, Piece, State};
+pub use draws::Draws;
+pub use funnel::{Portal, funnel_path, nearest_end};
+pub use goal_set::GoalSet;
+pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
+pub use measure::Measure;
+pub use metric::Metric;
+pub use path::Path;
+pub use recording::{Recording, RecordingError};
+pub use segment::Segment;
+pub use topology::{JointRange, Topology};
+
+/// Values of the two joints, in the order base to tip; radians for a revolute joint, metres for a prismatic one.
+pub type Configuration = nalgebra::Vector2<f64>;

@@ -1,0 +1,177 @@
+//! Straight segments of configurations.
+
+use super::{Configuration, Measure};
+use cplan_geometry::{Orientation, Point, cross, orientation};
+use serde::{Deserialize, Serialize};
+
+/// All configurations on a straight line from one to another; a single one where both ends are the same.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "[Configuration; 2]", into = "[Configuration; 2]")]
+pub struct Segment {
+    from: Configuration,
+    to: Configuration,
+}
+
+impl Segment {
+    /// From one configuration to another, both included.
+    #[must_use]
+    pub fn new(from: Configuration, to: Configuration) -> Self {
+        Self { from, to }
+    }
+
+    /// A single configuration.
+    #[must_use]
+    pub fn point(q: Configuration) -> Self {
+        Self { from: q, to: q }
+    }
+
+    /// Its two ends.
+    #[must_use]
+    pub fn ends(&self) -> [Configuration; 2] {
+        [self.from, self.to]
+    }
+
+    /// Its ends as points of the plane.
+    #[must_use]
+    pub fn corners(&self) -> [Point; 2] {
+        self.ends().map(Point::from)
+    }
+
+    /// Whether it is a single configuration.
+    #[must_use]
+    pub fn is_point(&self) -> bool {
+        self.from == self.to
+    }
+
+    /// The distance of its ends in joint space.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        (self.to - self.from).norm()
+    }
+
+    /// At a share of the way from end to end. A coordinate that both ends have in common keeps all its bits.
+    #[must_use]
+    pub fn at(&self, share: f64) -> Configuration {
+        match share {
+            _ if share <= 0.0 => self.from,
+            _ if share >= 1.0 => self.to,
+            _ => self.from + (self.to - self.from) * share,
+        }
+    }
+
+    /// The same elsewhere.
+    #[must_use]
+    pub fn shifted(&self, by: Configuration) -> Self {
+        Self { from: self.from + by, to: self.to + by }
+    }
+
+    /// The part on which an affine function is not negative, given its values at both ends.
+    #[must_use]
+    pub fn where_positive(&self, at_from: f64, at_to: f64) -> Option<Self> {
+        let share = at_from / (at_from - at_to);
+        match (at_from >= 0.0, at_to >= 0.0) {
+            (true, true) => Some(*self),
+            (false, false) => None,
+            (true, false) => Some(Self { to: self.at(share), ..*self }),
+            (false, true) => Some(Self { from: self.at(share), ..*self }),
+        }
+    }
+
+    /// The part to the left of the directed line from `a` to `b`, and on it.
+    #[must_use]
+    pub fn left_of(&self, a: Point, b: Point) -> Option<Self> {
+        let [from, to] = self.corners().map(|p| cross(b - a, p - a));
+        self.where_positive(from, to)
+    }
+
+    /// The part in a convex polygon, counter-clockwise.
+    #[must_use]
+    pub fn within_polygon(&self, corners: &[Point]) -> Option<Self> {
+        let n = corners.len();
+        (0..n).try_fold(*self, |part, k| part.left_of(corners[k], corners[(k + 1) % n]))
+    }
+
+    /// The part in a box, which may have infinite sides.
+    #[must_use]
+    pub fn within(&self, lower: [f64; 2], upper: [f64; 2]) -> Option<Self> {
+        (0..2).try_fold(*self, |part, k| {
+            let above = part.where_positive(part.from[k] - lower[k], part.to[k] - lower[k])?;
+            above.where_positive(upper[k] - above.from[k], upper[k] - above.to[k])
+        })
+    }
+
+    /// Whether any of it lies in a box, its sides included. Exact.
+    #[must_use]
+    pub fn meets(&self, lower: [f64; 2], upper: [f64; 2]) -> bool {
+        let overlaps = |k: usize| {
+            let (least, greatest) = (self.from[k].min(self.to[k]), self.from[k].max(self.to[k]));
+            least <= upper[k] && lower[k] <= greatest
+        };
+        if !(overlaps(0) && overlaps(1)) {
+            return false;
+        }
+        if self.from[0] == self.to[0] || self.from[1] == self.to[1] {
+            return true;
+        }
+        // A slanted one misses a box that it overlaps along both axes if all corners lie to one side of it.
+        let [a, b] = self.corners();
+        let sides = [[lower[0], lower[1]], [upper[0], lower[1]], [upper[0], upper[1]], [lower[0], upper[1]]]
+            .map(|[x, y]| orientation(a, b, Point::new(x, y)));
+        [Orientation::Clockwise, Orientation::CounterClockwise].iter().all(|side| sides.iter().any(|s| s != side))
+    }
+
+    /// Its place that is nearest to `p`, the first of several; exact up to rounding.
+    #[must_use]
+    pub fn nearest(&self, measure: Measure, p: Configuration) -> Configuration {
+        if self.is_point() {
+            return self.from;
+        }
+        let way = self.to - self.from;
+        let [u, v] = measure.weights();
+        let product = |a: Configuration, b: Configuration| u * u * a[0] * b[0] + v * v * a[1] * b[1];
+        let there = p - self.from;
+        let foot = product(there, way) / product(way, way);
+        if measure.is_ellipse() {
+            return self.at(foot);
+        }
+        // The greater of two parts is least at an end, where one part vanishes, or where both count the same.
+        let share = |rate: f64, value: f64| if rate == 0.0 { 0.0 } else { value / rate };
+        let shares = [
+            foot,
+            0.0,
+            1.0,
+            share(way[0], there[0]),
+            share(way[1], there[1]),
+            share(u * way[0] - v * way[1], u * there[0] - v * there[1]),
+            share(u * way[0] + v * way[1], u * there[0] + v * there[1]),
+        ];
+        let better = |best: Configuration, next: Configuration| {
+            if measure.norm(next - p) < measure.norm(best - p) { next } else { best }
+        };
+        shares.into_iter().map(|share| self.at(share)).reduce(better).unwrap_or(self.from)
+    }
+
+    /// Length of the shortest way from `p` to it.
+    #[must_use]
+    pub fn distance(&self, measure: Measure, p: Configuration) -> f64 {
+        measure.norm(self.nearest(measure, p) - p)
+    }
+}
+
+impl From<[Configuration; 2]> for Segment {
+    fn from([from, to]: [Configuration; 2]) -> Self {
+        Self { from, to }
+    }
+}
+
+impl From<Segment> for [Configuration; 2] {
+    fn from(segment: Segment) -> Self {
+        segment.ends()
+    }
+}
+
+impl From<Configuration> for Segment {
+    fn from(q: Configuration) -> Self {
+        Self::point(q)
+    }
+}

@@ -1,0 +1,260 @@
+//! Intervals and circles: the only code that wraps configurations.
+
+use super::Configuration;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, TAU};
+
+/// What the double [`TAU`] lacks of a whole turn, to double precision: after 80 000 turns (half a million radians) it
+/// amounts to 2e-11 rad, far more than the margins of certificates.
+const BEYOND_TAU: f64 = 2.449_293_598_294_706_4e-16;
+
+/// `turns` whole turns, as a sum of two doubles; exact to far below a rounding of the second. `turns` is a whole number.
+fn whole_turns(turns: f64) -> [f64; 2] {
+    let high = turns * TAU;
+    // What rounding left out of the product, exactly.
+    let left_out = turns.mul_add(TAU, -high);
+    [high, left_out + turns * BEYOND_TAU]
+}
+
+/// A sum as one double and what rounding left out of it, exactly (Knuth 1969).
+fn two_sum(a: f64, b: f64) -> [f64; 2] {
+    let sum = a + b;
+    let of_b = sum - a;
+    [sum, (a - (sum - of_b)) + (b - of_b)]
+}
+
+/// `value` and so many whole turns, correct to two roundings of the result, also where the two cancel.
+fn turned(value: f64, turns: f64) -> f64 {
+    if turns == 0.0 {
+        return value;
+    }
+    let [high, low] = whole_turns(turns);
+    let [sum, left_out] = two_sum(value, high);
+    sum + (left_out + low)
+}
+
+/// The values one joint can take.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JointRange {
+    /// From `lower` to `upper`, both included. For a revolute joint it may be longer than a full turn: then poses
+    /// repeat within it, but configurations do not.
+    Interval {
+        /// The least value of the joint.
+        lower: f64,
+        /// The greatest value of the joint.
+        upper: f64,
+    },
+    /// A joint without limits: values that differ by whole turns are one configuration.
+    Circle,
+}
+
+impl JointRange {
+    /// Whether this is a circle.
+    #[must_use]
+    pub fn is_circle(self) -> bool {
+        matches!(self, JointRange::Circle)
+    }
+
+    /// The interval that represents every value once: the limits, or `[-pi, pi]`.
+    #[must_use]
+    pub fn domain(self) -> (f64, f64) {
+        match self {
+            JointRange::Interval { lower, upper } => (lower, upper),
+            JointRange::Circle => (-PI, PI),
+        }
+    }
+
+    /// Length of [`JointRange::domain`].
+    #[must_use]
+    pub fn extent(self) -> f64 {
+        let (lower, upper) = self.domain();
+        upper - lower
+    }
+
+    /// Whether `value` is allowed. Circles allow all.
+    #[must_use]
+    pub fn contains(self, value: f64) -> bool {
+        match self {
+            JointRange::Interval { lower, upper } => lower <= value && value <= upper,
+            JointRange::Circle => value.is_finite(),
+        }
+    }
+
+    /// The representative of `value` in the domain: itself on an interval, in `[-pi, pi)` on a circle. Within 1e-15 of what
+    /// it is in truth, for magnitudes up to 1e15: turns are taken off with more digits of pi than a double has. (Beyond, a
+    /// double does not tell one angle from the next.)
+    #[must_use]
+    pub fn wrap(self, value: f64) -> f64 {
+        if self != JointRange::Circle || (-PI..PI).contains(&value) {
+            return value;
+        }
+        let near = turned(value, -(value / TAU).round_ties_even());
+        // The quotient is rounded, too, so that one turn more may be needed beside the seam.
+        match near {
+            near if near >= PI => turned(near, -1.0).max(-PI),
+            near if near < -PI => Some(turned(near, 1.0)).filter(|wrapped| *wrapped < PI).unwrap_or(-PI),
+            near => near,
+        }
+    }
+
+    /// The shortest signed way from `from` to `to`; on a circle in `[-pi, pi)`, as exact as [`JointRange::wrap`].
+    #[must_use]
+    pub fn displacement(self, from: f64, to: f64) -> f64 {
+        match self {
+            JointRange::Interval { .. } => to - from,
+            JointRange::Circle => {
+                let [way, left_out] = two_sum(to, -from);
+                self.wrap(self.wrap(way) + left_out)
+            }
+        }
+    }
+
+    /// The copy of `value` nearest to `near`; exactly `value` on an interval, and on a circle where no turn is added. Else
+    /// correct to two roundings: half a million radians from zero doubles lie 6e-11 rad apart.
+    #[must_use]
+    pub fn lift(self, value: f64, near: f64) -> f64 {
+        match self {
+            JointRange::Interval { .. } => value,
+            JointRange::Circle => turned(value, ((near - value) / TAU).round_ties_even()),
+        }
+    }
+
+    /// `value` and so many whole turns, a whole number of them, correct to two roundings of the result.
+    #[must_use]
+    pub fn turned(self, value: f64, turns: f64) -> f64 {
+        turned(value, turns)
+    }
+
+    /// The copies of `value` from `lower` to `upper`, ascending: on an interval only the value itself, wherever it lies.
+    /// The bounds must be finite.
+    pub fn copies_within(self, value: f64, (lower, upper): (f64, f64)) -> impl Iterator<Item = f64> {
+        let turns = match self {
+            JointRange::Interval { .. } => 0..=0,
+            JointRange::Circle => ((lower - value) / TAU).ceil() as i64..=((upper - value) / TAU).floor() as i64,
+        };
+        turns.map(move |turn| turned(value, turn as f64))
+    }
+}
+
+/// The configuration space as a manifold: a product of two axes (rectangle, cylinder or torus).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Topology {
+    /// Base to tip.
+    pub ranges: [JointRange; 2],
+}
+
+impl Topology {
+    /// Whether both values are allowed.
+    #[must_use]
+    pub fn contains(&self, q: Configuration) -> bool {
+        self.ranges[0].contains(q[0]) && self.ranges[1].contains(q[1])
+    }
+
+    /// The representative of `q` in the fundamental domain.
+    #[must_use]
+    pub fn wrap(&self, q: Configuration) -> Configuration {
+        Configuration::new(self.ranges[0].wrap(q[0]), self.ranges[1].wrap(q[1]))
+    }
+
+    /// The shortest displacement from `from` to `to`.
+    #[must_use]
+    pub fn displacement(&self, from: Configuration, to: Configuration) -> Configuration {
+        Configuration::new(self.ranges[0].displacement(from[0], to[0]), self.ranges[1].displacement(from[1], to[1]))
+    }
+
+    /// Euclidean length of the shortest displacement.
+    #[must_use]
+    pub fn distance(&self, from: Configuration, to: Configuration) -> f64 {
+        self.displacement(from, to).norm()
+    }
+
+    /// The copy of `q` nearest to `near`, axis by axis as [`JointRange::lift`].
+    #[must_use]
+    pub fn lift(&self, q: Configuration, near: Configuration) -> Configuration {
+        Configuration::new(self.ranges[0].lift(q[0], near[0]), self.ranges[1].lift(q[1], near[1]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_rational::BigRational;
+    use proptest::prelude::*;
+
+    #[test]
+    fn lifting_to_where_the_value_is_changes_no_bit() {
+        let interval = JointRange::Interval { lower: -7.0, upper: 7.0 };
+        for (value, near) in [(0.1, 0.7), (-2.9, 3.0), (6.5, -6.5), (0.3, 1e9)] {
+            assert_eq!(interval.lift(value, near), value);
+        }
+        for (value, near) in [(0.1, 0.7), (1e-17, 0.3), (3.0, 0.1), (-2.0, 1.0), (0.0, PI)] {
+            assert_eq!(JointRange::Circle.lift(value, near), value);
+        }
+        let cylinder = Topology { ranges: [JointRange::Circle, interval] };
+        let lifted = cylinder.lift(Configuration::new(-3.0, 0.1), Configuration::new(3.0, -5.0));
+        assert!((lifted - Configuration::new(TAU - 3.0, 0.1)).amax() < 1e-15, "{lifted}");
+    }
+
+    #[test]
+    fn copies_within_a_window_are_whole_turns_apart() {
+        let copies = |axis: JointRange, value, window| axis.copies_within(value, window).collect::<Vec<_>>();
+        assert_eq!(copies(JointRange::Circle, 1.0, (-TAU, TAU)), [1.0 - TAU, 1.0]);
+        assert_eq!(copies(JointRange::Circle, 0.0, (-TAU, TAU)), [-TAU, 0.0, TAU]);
+        assert!(copies(JointRange::Circle, 0.0, (1.0, 2.0)).is_empty());
+        assert_eq!(copies(JointRange::Interval { lower: 0.0, upper: 1.0 }, 0.5, (2.0, 3.0)), [0.5]);
+    }
+
+    fn exact(value: f64) -> BigRational {
+        BigRational::from_float(value).expect("a finite number")
+    }
+
+    /// 2 pi to more than forty decimals, by Machin's formula: `pi / 4 = 4 atan(1/5) - atan(1/239)`.
+    fn whole_turn() -> BigRational {
+        let atan = |inverse: f64, terms: u8| {
+            let (x, square) = (exact(1.0) / exact(inverse), exact(inverse * inverse));
+            let term = |k: u8| exact(if k.is_multiple_of(2) { 1.0 } else { -1.0 }) / exact(f64::from(2 * k + 1));
+            // The series by Horner's scheme.
+            (0..terms).rev().fold(exact(0.0), |sum, k| sum / &square + term(k)) * x
+        };
+        (atan(5.0, 32) * exact(4.0) - atan(239.0, 10)) * exact(8.0)
+    }
+
+    /// Whether a difference is a number of whole turns, up to `by`.
+    fn is_whole(difference: BigRational, by: f64) -> bool {
+        let turn = whole_turn();
+        let rest = &difference - (&difference / &turn).round() * turn;
+        -exact(by) <= rest && rest <= exact(by)
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// Against exact arithmetic, for angles of any size that a world may state.
+        #[test]
+        fn turns_are_taken_off_exactly(
+            mantissa in -10.0..10.0_f64, decade in 0..6_i32, other in -10.0..10.0_f64, far in -1e6..1e6_f64,
+        ) {
+            let value = mantissa * 10f64.powi(decade);
+            let wrapped = JointRange::Circle.wrap(value);
+            prop_assert!((-PI..PI).contains(&wrapped));
+            prop_assert!(is_whole(exact(value) - exact(wrapped), 1e-15), "{} wraps to {}", value, wrapped);
+            let lifted = JointRange::Circle.lift(other, value);
+            prop_assert!(is_whole(exact(lifted) - exact(other), f64::EPSILON * lifted.abs().max(PI)), "{}", lifted);
+            let way = JointRange::Circle.displacement(far, value);
+            prop_assert!((-PI..PI).contains(&way));
+            prop_assert!(is_whole(exact(value) - exact(far) - exact(way), 1e-15), "{} {}: {}", far, value, way);
+        }
+
+        #[test]
+        fn copies_are_the_same_pose_and_the_lift_is_the_nearest(value in -50.0..50.0_f64, near in -50.0..50.0_f64) {
+            let lifted = JointRange::Circle.lift(value, near);
+            for copy in [lifted, JointRange::Circle.wrap(value), near + JointRange::Circle.displacement(near, value)] {
+                prop_assert!((copy.sin() - value.sin()).hypot(copy.cos() - value.cos()) < 1e-12);
+            }
+            prop_assert!((-PI..PI).contains(&JointRange::Circle.wrap(value)));
+            prop_assert!((lifted - near).abs() <= PI + 1e-12);
+            prop_assert!(((lifted - near).abs() - JointRange::Circle.displacement(near, value).abs()).abs() < 1e-12);
+        }
+    }
+}

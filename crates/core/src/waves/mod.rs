@@ -1,0 +1,17 @@
+//! Steps to the goal: waves over the free cells of a grid, and the classical searches beside them.
+//!
+//! A wave goes over rows where free cells come in long runs (`run_wave`), over tiles of 8 x 8 cells, a bit each, in mazes
+//! and noise (`tile_wave`), cell by cell where diagonal moves count (`queue_wave`).
+
+mod free_cells;
+mod lattice;
+mod queue_wave;
+mod run_wave;
+pub mod search;
+mod step_labels;
+mod tile_wave;
+
+pub use free_cells::{FreeCells, Move, Neighborhood};
+pub use step_labels::StepLabels;
+
+use cplan_harmonic::UNREACHED;

@@ -1,0 +1,253 @@
+//! The wave run by run: many cells at a time.
+
+use super::{FreeCells, UNREACHED};
+use cplan_geometry::farthest;
+use std::ops::Range;
+
+/// Stretches wait in buckets of this many levels. Within one they are taken last in, first out, so that a stretch is
+/// worked on while the row that it came from is still in the cache; wider buckets make more labels that are too great at
+/// first and have to be written again.
+const BUCKET: usize = 16;
+
+/// Work of handling a stretch, in cells: what its look-ups cost beside copying one more cell (measured; some 100 ns).
+const STRETCH: usize = 64;
+
+/// The wave is given up when the work exceeds this many times the number of cells: by then a queue had done it.
+const MOST_WORK: usize = 5;
+
+/// Labels of every cell that a wave from `sources` (free cells) reaches over the cells that share a side, and
+/// [`UNREACHED`] for all others; nothing if it turned out not to be worth it.
+///
+/// In each row the labels of free cells beside one another differ by one at most. So if a stretch of a row is copied to
+/// the row beside it, plus one and where that is less, that row keeps this property but at the ends of what was copied; and
+/// from there the labels rise by one from cell to cell until they meet lesser ones, or a wall. Both are
+/// loops without a branch over plain arrays. What has changed in a row, one stretch, is passed on to the next rows, least labels
+/// first; a stretch reaches ahead of its least label, so that some labels are corrected later by another one that
+/// comes the shorter way. When no stretch waits, no label is greater than a neighbour's plus one: these are the
+/// distances, whatever the order was.
+pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> {
+    let [rows, columns] = free.cells();
+    let mut labels = vec![UNREACHED; rows * columns];
+    let most = MOST_WORK.saturating_mul(labels.len().max(STRETCH));
+    let mut wave = RunWave { free, labels: &mut labels, queue: Queue::new(columns), work: 0 };
+    // One after the other: rows keep the property.
+    for &source in sources {
+        wave.labels[source] = 0;
+        let (row, column) = (source / columns, source % columns);
+        wave.queue.push(0, Stretch { row, columns: column..column + 1, ways: Ways::BOTH });
+        wave.spread(row, column, Side::Before, 1, Ways::BOTH);
+        wave.spread(row, column + 1, Side::After, 1, Ways::BOTH);
+    }
+    while let Some(stretch) = wave.queue.pop() {
+        let [before, after] = free.beside(0, stretch.row);
+        if let Some(to) = before.filter(|_| stretch.ways.before) {
+            wave.pass_on(&stretch, to, Ways { before: true, after: false });
+        }
+        if let Some(to) = after.filter(|_| stretch.ways.after) {
+            wave.pass_on(&stretch, to, Ways { before: false, after: true });
+        }
+        if wave.work > most {
+            return None;
+        }
+    }
+    Some(labels)
+}
+
+/// To which of the neighbouring rows.
+#[derive(Debug, Clone, Copy)]
+struct Ways {
+    before: bool,
+    after: bool,
+}
+
+impl Ways {
+    const BOTH: Ways = Ways { before: true, after: true };
+
+    fn opposite(self) -> Self {
+        Self { before: self.after, after: self.before }
+    }
+}
+
+/// Neighbouring free cells of a row whose labels are to be passed on.
+#[derive(Debug, Clone)]
+struct Stretch {
+    row: usize,
+    columns: Range<usize>,
+    ways: Ways,
+}
+
+/// In which direction of a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Side {
+    Before,
+    After,
+}
+
+struct RunWave<'a> {
+    free: &'a FreeCells,
+    labels: &'a mut [u32],
+    queue: Queue,
+    /// In cells, see [`STRETCH`].
+    work: usize,
+}
+
+impl RunWave<'_> {
+    /// Improves row `to`, beside that of the stretch, and enters what has changed there.
+    fn pass_on(&mut self, stretch: &Stretch, to: usize, ways: Ways) {
+        let (from, columns) = (stretch.row, self.free.cells()[1]);
+        self.work += STRETCH;
+        // A circle of one row.
+        if from == to {
+            return;
+        }
+        let mut end = stretch.columns.start;
+        loop {
+            let start = self.free.next(to, end, stretch.columns.end, true);
+            if start == stretch.columns.end {
+                break;
+            }
+            end = self.free.next(to, start, stretch.columns.end, false);
+            self.work += end - start;
+            let (source, target) = two_lines(self.labels, [from * columns, to * columns], &(start..end));
+            let Some((improved, least)) = improve(source, target) else { continue };
+            let (first, last) = (start + improved.start, start + improved.end);
+            let mut changed = first..last;
+            // What goes on along the row lies below cells that are not free, and can come out behind them: it is passed
+            // back as well.
+            if first == start {
+                let value = self.labels[to * columns + first] + 1;
+                changed.start = self.spread(to, first, Side::Before, value, ways.opposite());
+            }
+            if last == end {
+                let value = self.labels[to * columns + last - 1] + 1;
+                changed.end = self.spread(to, last, Side::After, value, ways.opposite());
+            }
+            self.queue.push(least, Stretch { row: to, columns: changed, ways });
+        }
+    }
+
+    /// Improves a row from `edge` on to one side with `value`, `value + 1`, ..., and enters what has changed, to be
+    /// passed on to `ways`; beyond a seam to both. The new edge on this side of the seam.
+    fn spread(&mut self, row: usize, edge: usize, side: Side, value: u32, ways: Ways) -> usize {
+        let columns = self.free.cells()[1];
+        let limit = if side == Side::Before { 0 } else { columns };
+        let (here, next) = self.rise(row, edge, side, value, ways);
+        if here == limit && self.free.circles()[1] {
+            self.rise(row, columns - limit, side, next, Ways::BOTH);
+        }
+        here
+    }
+
+    /// The same up to a limit or the seam; the new edge and the value that comes next.
+    fn rise(&mut self, row: usize, edge: usize, side: Side, value: u32, ways: Ways) -> (usize, u32) {
+        let columns = self.free.cells()[1];
+        let run = match side {
+            Side::Before => self.free.run_start(row, edge)..edge,
+            Side::After => edge..self.free.next(row, edge, columns, false),
+        };
+        let line = &mut self.labels[row * columns + run.start..row * columns + run.end];
+        let label = |k: usize| value + k as u32;
+        let changed = match side {
+            Side::Before => {
+                let rising = prefix(line.len(), |k| line[line.len() - 1 - k] > label(k));
+                line.iter_mut().rev().take(rising).zip(value..).for_each(|(cell, label)| *cell = label);
+                run.end - rising..run.end
+            }
+            Side::After => {
+                let rising = prefix(line.len(), |k| line[k] > label(k));
+                line[..rising].iter_mut().zip(value..).for_each(|(cell, label)| *cell = label);
+                run.start..run.start + rising
+            }
+        };
+        self.work += changed.len();
+        let (next, here) = (label(changed.len()), if side == Side::Before { changed.start } else { changed.end });
+        if !changed.is_empty() {
+            self.queue.push(value, Stretch { row, columns: changed, ways });
+        }
+        (here, next)
+    }
+}
+
+/// The same columns of two different lines, which begin at `at`: the first to read, the second to write.
+fn two_lines<'a>(labels: &'a mut [u32], at: [usize; 2], columns: &Range<usize>) -> (&'a [u32], &'a mut [u32]) {
+    let (low, high) = labels.split_at_mut(at[0].max(at[1]));
+    let low_line = |at: usize| at + columns.start..at + columns.end;
+    if at[0] < at[1] {
+        (&low[low_line(at[0])], &mut high[columns.clone()])
+    } else {
+        (&high[columns.clone()], &mut low[low_line(at[1])])
+    }
+}
+
+/// Writes `source + 1` where that is less than `target`. From the first to the last cell that has changed, and the least
+/// label there.
+fn improve(source: &[u32], target: &mut [u32]) -> Option<(Range<usize>, u32)> {
+    let better = |(source, target): (&u32, &u32)| *target > *source + 1;
+    let first = source.iter().zip(&*target).position(better)?;
+    let last = source.iter().zip(&*target).rposition(better)?;
+    let mut least = UNREACHED;
+    for (source, target) in source[first..=last].iter().zip(&mut target[first..=last]) {
+        *target = (source + 1).min(*target);
+        least = least.min(*target);
+    }
+    Some((first..last + 1, least))
+}
+
+/// How many of the first `length` numbers satisfy a condition that fails for all after the first for which it fails.
+fn prefix(length: usize, condition: impl Fn(usize) -> bool) -> usize {
+    if length == 0 || condition(length - 1) {
+        return length;
+    }
+    farthest(0, length - 1, |count| condition(count - 1))
+}
+
+/// Stretches by their least label, in a ring of buckets.
+struct Queue {
+    buckets: Vec<Vec<Stretch>>,
+    /// Number of the bucket that is being emptied, counted round the ring without end.
+    current: usize,
+    waiting: usize,
+}
+
+impl Queue {
+    /// A stretch is no longer than a row, and its labels rise by one from cell to cell at most: so far ahead can they be.
+    fn new(columns: usize) -> Self {
+        Self { buckets: vec![Vec::new(); columns / BUCKET + 3], current: 0, waiting: 0 }
+    }
+
+    /// Out of order where the label is below those that are dealt with, or too far ahead: that costs time only.
+    fn push(&mut self, label: u32, stretch: Stretch) {
+        let ring = self.buckets.len();
+        let bucket = (label as usize / BUCKET).clamp(self.current, self.current + ring - 1);
+        self.buckets[bucket % ring].push(stretch);
+        self.waiting += 1;
+    }
+
+    fn pop(&mut self) -> Option<Stretch> {
+        if self.waiting == 0 {
+            return None;
+        }
+        let ring = self.buckets.len();
+        loop {
+            if let Some(stretch) = self.buckets[self.current % ring].pop() {
+                self.waiting -= 1;
+                return Some(stretch);
+            }
+            self.current += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::prefix;
+
+    #[test]
+    fn a_prefix_is_found_by_doubling_and_bisection() {
+        for length in 0..70 {
+            for expected in 0..=length {
+                assert_eq!(prefix(length, |k| k < expected), expected);
+            }
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! Textbook searches over the cells of a grid, which look no farther than they must.
+//!
+//! Own ones, not petgraph's: numbers of cells expanded, ties and exact costs are what they are there to show, and cells are
+//! places in arrays where petgraph keeps a hash table. The tests compare their costs with petgraph's.
+
+use super::{FreeCells, Neighborhood, UNREACHED};
+use cplan_geometry::{OpenList, Ordered};
+use cplan_interrupt::checkpoint;
+use std::cmp::Reverse;
+use std::collections::VecDeque;
+use std::f64::consts::SQRT_2;
+
+/// In which order cells are expanded. All are one algorithm with a different list of cells that wait.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// First in, first out: fewest moves.
+    BreadthFirst,
+    /// Last in, first out: some path, seldom a short one.
+    DepthFirst,
+    /// The cell of least cost: a shortest path.
+    Dijkstra,
+    /// The cell of least cost and estimated cost of the rest: a shortest path, usually found sooner. The estimate is the
+    /// cost if nothing were in the way, so that no cell is expanded twice.
+    AStar(Ties),
+    /// The cell of least estimated rest, and of equals the one that came last: some path.
+    Greedy,
+}
+
+/// Which of several cells with the same estimate is expanded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Ties {
+    /// The one that has come farther, and of equals the one that came last: goes straight ahead.
+    #[default]
+    Farthest,
+    /// The one that came first: all that are equally promising are expanded in rounds, one step at a time.
+    First,
+}
+
+/// What a way from cell to cell costs: 1 for a straight move and the square root of 2 for a diagonal one, in cells,
+/// whatever their size in the configuration space. Exact, since it is kept as two integers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cost {
+    /// How many moves are straight.
+    pub straight: u32,
+    /// How many moves are diagonal.
+    pub diagonal: u32,
+}
+
+impl Cost {
+    /// The cost as a number. Different costs below some 10^7 moves are different numbers, in the right order.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        f64::from(self.straight) + SQRT_2 * f64::from(self.diagonal)
+    }
+
+    /// Number of moves.
+    #[must_use]
+    pub fn moves(self) -> u32 {
+        self.straight + self.diagonal
+    }
+
+    fn and(self, other: Cost) -> Cost {
+        Cost { straight: self.straight + other.straight, diagonal: self.diagonal + other.diagonal }
+    }
+}
+
+/// What a search found out, cell by cell of the grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search {
+    costs: Vec<Cost>,
+    /// The cell from which a cell was labelled, itself for sources; [`UNREACHED`] for cells without a label.
+    parents: Vec<u32>,
+    /// Cells that were taken off the list, in that order.
+    pub expanded: Vec<u32>,
+    /// Cells that were put on the list, sources included.
+    pub labelled: usize,
+}
+
+/// So many cells are expanded in less than a millisecond.
+const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
+
+impl Search {
+    /// Searches from all free cells among `sources` at once until `target` is expanded, or all that can be reached.
+    ///
+    /// Breadth-first, depth-first and greedy search label a cell once, when they first come by; the others lower the cost of a
+    /// cell until it is expanded. Linear in the number of labelled cells, and for Dijkstra and A\* times their logarithm; filling
+    /// the tables is linear in the size of the grid.
+    #[must_use]
+    pub fn new(free: &FreeCells, neighborhood: Neighborhood, order: Order, sources: &[usize], target: usize) -> Self {
+        let [rows, columns] = free.cells();
+        let size = rows * columns;
+        let costs = vec![Cost::default(); size];
+        let mut search = Self { costs, parents: vec![UNREACHED; size], expanded: Vec::new(), labelled: 0 };
+        let mut open = Open::new(order);
+        let estimate = |cell: usize| match order {
+            Order::AStar(_) | Order::Greedy => straight_cost(free, neighborhood, cell, target),
+            _ => Cost::default(),
+        };
+        for &source in sources {
+            if free.is_free(source) && search.parents[source] == UNREACHED {
+                search.parents[source] = source as u32;
+                search.labelled += 1;
+                open.push(source, Cost::default(), estimate(source));
+            }
+        }
+        while let Some((cell, cost)) = open.pop() {
+            // An entry that a lower cost has outdated.
+            if cost != search.costs[cell] {
+                continue;
+            }
+            search.expanded.push(cell as u32);
+            if search.expanded.len().is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
+                checkpoint();
+            }
+            if cell == target {
+                break;
+            }
+            for next in free.moves(cell, neighborhood) {
+                let (straight, diagonal) = (u32::from(!next.is_diagonal), u32::from(next.is_diagonal));
+                let reached = cost.and(Cost { straight, diagonal });
+                let is_new = search.parents[next.to] == UNREACHED;
+                if is_new || (open.relaxes() && reached.value() < search.costs[next.to].value()) {
+                    search.labelled += usize::from(is_new);
+                    search.parents[next.to] = cell as u32;
+                    search.costs[next.to] = reached;
+                    open.push(next.to, reached, estimate(next.to));
+                }
+            }
+        }
+        search
+    }
+
+    /// Cost of the way by which `cell` was reached, if it was: that of a shortest one for cells that Dijkstra or A\* have
+    /// expanded, of one with fewest moves after a breadth-first search.
+    #[must_use]
+    pub fn cost(&self, cell: usize) -> Option<Cost> {
+        (self.parents[cell] != UNREACHED).then(|| self.costs[cell])
+    }
+
+    /// Number of moves on the way by which each cell was reached, [`UNREACHED`] where there is none.
+    #[must_use]
+    pub fn labels(&self) -> Vec<u32> {
+        let label = |(cost, &parent): (&Cost, &u32)| if parent == UNREACHED { UNREACHED } else { cost.moves() };
+        self.costs.iter().zip(&self.parents).map(label).collect()
+    }
+
+    /// The cells from `cell` back to the source, if it was reached.
+    #[must_use]
+    pub fn way_back(&self, cell: usize) -> Option<Vec<usize>> {
+        if self.parents[cell] == UNREACHED {
+            return None;
+        }
+        let mut cells = vec![cell];
+        let mut at = cell;
+        while self.parents[at] as usize != at {
+            at = self.parents[at] as usize;
+            cells.push(at);
+        }
+        Some(cells)
+    }
+}
+
+/// Cost of the way between two cells if nothing were in it, the shorter way round on circles.
+fn straight_cost(free: &FreeCells, neighborhood: Neighborhood, from: usize, to: usize) -> Cost {
+    let cells = free.cells();
+    let apart = |axis: usize| {
+        let at = |cell: usize| if axis == 0 { cell / cells[1] } else { cell % cells[1] };
+        let apart = at(from).abs_diff(at(to));
+        if free.circles()[axis] { apart.min(cells[axis] - apart) as u32 } else { apart as u32 }
+    };
+    let (a, b) = (apart(0), apart(1));
+    match neighborhood {
+        Neighborhood::Four => Cost { straight: a + b, diagonal: 0 },
+        Neighborhood::Eight => Cost { straight: a.abs_diff(b), diagonal: a.min(b) },
+    }
+}
+
+/// A cell that waits, by estimate; of equals by [`Ties`].
+type Waiting = (Reverse<Ordered>, Reverse<u64>, usize, [u32; 2]);
+
+/// The list of cells that wait to be expanded.
+enum Open {
+    Queue(VecDeque<(usize, Cost)>),
+    Stack(Vec<(usize, Cost)>),
+    /// The least first. With how many have been put there.
+    Least(OpenList<Waiting>, Ties, u64),
+    /// The least rest first, and the latest of equals. With how many have been put there.
+    Nearest(OpenList<Waiting>, u64),
+}
+
+impl Open {
+    fn new(order: Order) -> Self {
+        match order {
+            Order::BreadthFirst => Self::Queue(VecDeque::new()),
+            Order::DepthFirst => Self::Stack(Vec::new()),
+            Order::Dijkstra => Self::Least(OpenList::default(), Ties::First, 0),
+            Order::AStar(ties) => Self::Least(OpenList::default(), ties, 0),
+            Order::Greedy => Self::Nearest(OpenList::default(), 0),
+        }
+    }
+
+    /// Whether cells can be labelled anew.
+    fn relaxes(&self) -> bool {
+        matches!(self, Self::Least(..))
+    }
+
+    fn push(&mut self, cell: usize, cost: Cost, rest: Cost) {
+        match self {
+            Self::Queue(queue) => queue.push_back((cell, cost)),
+            Self::Stack(stack) => stack.push((cell, cost)),
+            Self::Least(open, ties, count) => {
+                *count += 1;
+                let (farther, turn) = match ties {
+                    Ties::Farthest => (cost.value(), *count),
+                    Ties::First => (0.0, u64::MAX - *count),
+                };
+                let tie = (Reverse(Ordered(farther)), Reverse(turn));
+                open.push(cost.and(rest).value(), (tie.0, tie.1, cell, [cost.straight, cost.diagonal]));
+            }
+            Self::Nearest(open, count) => {
+                *count += 1;
+                let tie = (Reverse(Ordered(0.0)), Reverse(*count));
+                open.push(rest.value(), (tie.0, tie.1, cell, [cost.straight, cost.diagonal]));
+            }
+        }
+    }
+
+    fn pop(&mut self) -> Option<(usize, Cost)> {
+        match self {
+            Self::Queue(queue) => queue.pop_front(),
+            Self::Stack(stack) => stack.pop(),
+            Self::Least(open, ..) | Self::Nearest(open, _) => {
+                open.pop().map(|(_, (.., cell, [straight, diagonal]))| (cell, Cost { straight, diagonal }))
+            }
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! The wave level by level, on tiles of cells that fit in a word.
+
+use super::{FreeCells, UNREACHED};
+use std::collections::VecDeque;
+
+/// Rows and columns of a tile. Its cell `(i, j)` is bit `SIDE i + j`.
+const SIDE: usize = 8;
+
+/// The first row of a tile.
+const ROW: u64 = 0xff;
+
+/// The first column of a tile.
+const COLUMN: u64 = 0x0101_0101_0101_0101;
+
+/// Labels of every cell that a wave from `sources` (free cells) reaches over the cells that share a side, and
+/// [`UNREACHED`] for all others.
+///
+/// Where the wave can go on is kept in one bit a cell, and what it does in a tile in one step is a few shifts of words:
+/// the labels, many times as large, are written once each and never read.
+pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
+    let [rows, columns] = free.cells();
+    let mut labels = vec![UNREACHED; rows * columns];
+    let mut wave = TileWave::new(free);
+    for &source in sources {
+        let (i, j) = (source / columns, source % columns);
+        wave.enter(0, i / SIDE * wave.across + j / SIDE, 1 << (i % SIDE * SIDE + j % SIDE));
+    }
+    while let Some([tile, level]) = wave.queue.pop_front() {
+        let at = &mut wave.tiles[tile as usize];
+        let front = std::mem::take(&mut at.front[level as usize % 2]);
+        let mut left = front;
+        while left != 0 {
+            let bit = left.trailing_zeros() as usize;
+            labels[at.corner as usize + bit / SIDE * columns + bit % SIDE] = level;
+            left &= left - 1;
+        }
+        wave.advance(tile as usize, front, level + 1);
+    }
+    labels
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Tile {
+    /// Free cells where the wave has not come.
+    waiting: u64,
+    /// Cells that it has come to and not gone on from, of even and of odd levels.
+    front: [u64; 2],
+    /// Index of its first cell.
+    corner: u32,
+    /// Tiles before it in its row.
+    column: u32,
+}
+
+struct TileWave {
+    tiles: Vec<Tile>,
+    /// Tiles a row.
+    across: usize,
+    /// Tiles with a front, and its level: never more than two levels at a time, in order.
+    queue: VecDeque<[u32; 2]>,
+    /// Whether the last row (column) borders on the first.
+    circles: [bool; 2],
+    /// Place of the last row (column) of the grid in its tile.
+    last: [usize; 2],
+}
+
+impl TileWave {
+    fn new(free: &FreeCells) -> Self {
+        let [rows, columns] = free.cells();
+        let across = columns.div_ceil(SIDE);
+        let mut tiles = vec![Tile::default(); rows.div_ceil(SIDE) * across];
+        for (k, tile) in tiles.iter_mut().enumerate() {
+            let (i, j) = (k / across, k % across);
+            (tile.corner, tile.column) = ((i * SIDE * columns + j * SIDE) as u32, j as u32);
+        }
+        for (i, words) in free.bits().chunks_exact(free.words().max(1)).enumerate() {
+            let line = &mut tiles[i / SIDE * across..(i / SIDE + 1) * across];
+            for (tile, byte) in line.iter_mut().zip(words.iter().flat_map(|word| word.to_le_bytes())) {
+                tile.waiting |= u64::from(byte) << (i % SIDE * SIDE);
+            }
+        }
+        let last = free.cells().map(|n| n.wrapping_sub(1) % SIDE);
+        Self { tiles, across, queue: VecDeque::new(), circles: free.circles(), last }
+    }
+
+    /// Those of the cells that wait become part of the tile's front.
+    #[inline(always)]
+    fn enter(&mut self, level: u32, tile: usize, cells: u64) {
+        let at = &mut self.tiles[tile];
+        let new = cells & at.waiting;
+        if new != 0 {
+            at.waiting ^= new;
+            let front = &mut at.front[level as usize % 2];
+            if *front == 0 {
+                self.queue.push_back([tile as u32, level]);
+            }
+            *front |= new;
+        }
+    }
+
+    /// Enters the neighbours of a tile's front.
+    #[inline(always)]
+    fn advance(&mut self, tile: usize, front: u64, level: u32) {
+        let (size, across) = (self.tiles.len(), self.across);
+        let column = self.tiles[tile].column as usize;
+        let (first_column, last_column) = (front & COLUMN, front >> (SIDE - 1) & COLUMN);
+        let sideways = (front & !(COLUMN << (SIDE - 1))) << 1 | (front & !COLUMN) >> 1;
+        self.enter(level, tile, front << SIDE | front >> SIDE | sideways);
+        if tile >= across {
+            if front & ROW != 0 {
+                self.enter(level, tile - across, front << (SIDE * (SIDE - 1)));
+            }
+        } else if self.circles[0] {
+            self.enter(level, tile + size - across, (front & ROW) << (SIDE * self.last[0]));
+        }
+        if tile + across < size {
+            if front >> (SIDE * (SIDE - 1)) != 0 {
+                self.enter(level, tile + across, front >> (SIDE * (SIDE - 1)));
+            }
+        } else if self.circles[0] {
+            self.enter(level, column, front >> (SIDE * self.last[0]) & ROW);
+        }
+        if column > 0 {
+            if first_column != 0 {
+                self.enter(level, tile - 1, first_column << (SIDE - 1));
+            }
+        } else if self.circles[1] {
+            self.enter(level, tile + across - 1, first_column << self.last[1]);
+        }
+        if column + 1 < across {
+            if last_column != 0 {
+                self.enter(level, tile + 1, last_column);
+            }
+        } else if self.circles[1] {
+            self.enter(level, tile - column, front >> self.last[1] & COLUMN);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::search::{Order, Search};
+    use super::super::{FreeCells, Neighborhood};
+    use super::tile_wave;
+    use crate::cspace::{Grid, Proves};
+    use crate::space::{JointRange, Topology};
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// Against a textbook search, on sizes that do and do not fill the tiles, some of a single row or column.
+        #[test]
+        fn labels_are_those_of_a_search(
+            rows in 1..28_usize, columns in 1..28_usize, circles in any::<[bool; 2]>(), seed in any::<u64>(), density in 0..45_u64,
+        ) {
+            let axes = circles.map(|c| if c { JointRange::Circle } else { JointRange::Interval { lower: 0.0, upper: 1.0 } });
+            let random = |k: usize| (seed ^ k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29) % 100;
+            let blocked: Vec<bool> = (0..rows * columns).map(|k| random(k) < density).collect();
+            let (cells, proves) = ([rows, columns], Proves::Sampled);
+            let free = FreeCells::new(&Grid { topology: Topology { ranges: axes }, proves, cells, blocked });
+            let sources = [0, rows * columns / 2, rows * columns - 1];
+            let sources: Vec<usize> = sources.into_iter().filter(|&source| free.is_free(source)).collect();
+            // A target that is never met: all is labelled.
+            let search = Search::new(&free, Neighborhood::Four, Order::BreadthFirst, &sources, usize::MAX);
+            prop_assert_eq!(tile_wave(&free, &sources), search.labels());
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! What the planner for any field is asked for.
+
+use crate::{Device, Difference, Direction, Equation, Khatib, Limits, Relaxation};
+use cplan_core::cspace::ZonedGrid;
+use cplan_core::planner::PathKind;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Which equation; arrays over the cells are made of the zones when a grid is there.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EquationChoice {
+    /// Laplace's equation.
+    Harmonic,
+    /// One drift everywhere.
+    Oriented {
+        /// Of the drift, in joint space.
+        direction: Direction,
+        /// Its strength, per cell.
+        epsilon: f64,
+        /// How slopes are discretised.
+        difference: Difference,
+    },
+    /// The drift of each zone within it, none elsewhere.
+    LocallyOriented {
+        /// For zones that have no direction of their own.
+        direction: Option<Direction>,
+        /// How slopes are discretised.
+        difference: Difference,
+    },
+    /// Preferences: the drift climbs the harmonic field.
+    Preference {
+        /// Strength outside all zones.
+        elsewhere: f64,
+        /// How slopes are discretised.
+        difference: Difference,
+    },
+    /// Altered preferences: the drift climbs the field itself.
+    AlteredPreference {
+        /// Strength outside all zones.
+        elsewhere: f64,
+    },
+}
+
+/// What a field is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FieldChoice {
+    /// An equation that is relaxed.
+    Relaxed {
+        /// The equation that is solved.
+        equation: EquationChoice,
+        /// The relaxation that solves it.
+        relaxation: Relaxation,
+        /// The field is relaxed until no value changes by more than this part of itself in a sweep.
+        tolerance: f64,
+        /// At most so many sweeps, of each stage.
+        max_sweeps: usize,
+        /// What it is relaxed on.
+        #[serde(default, skip_serializing_if = "Device::is_cpu")]
+        on: Device,
+    },
+    /// Attraction and repulsion.
+    Khatib(Khatib),
+}
+
+/// Computes a field with the goals' cells as its goals and follows it from the start. Values are those of
+/// [`Levels::PROBABILITY`](crate::Levels::PROBABILITY), relaxed in relative precision, as far as doubles (on a GPU single precision) go.
+///
+/// A path is found only where the field leads to a goal. Where it does not (a local minimum, a difference of values that
+/// doubles cannot tell, a relaxation that diverged) the planner gives up and says where and why. Only
+/// [`Proposal::NoPath`](cplan_core::planner::Proposal::NoPath) says that the cells hold none.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FieldPlanner {
+    /// The field whose gradient is followed.
+    pub field: FieldChoice,
+    /// What lies beyond the limits of intervals.
+    pub limits: Limits,
+    /// [`PathKind::Own`] is the curve along the gradient, or the force.
+    pub path: PathKind,
+}
+
+impl EquationChoice {
+    /// The equation on a grid. `O(cells)`.
+    ///
+    /// # Errors
+    /// Why there is none, in words: a zone without the direction that it needs.
+    pub fn on(self, space: &ZonedGrid) -> Result<Equation, String> {
+        let cells = 0..space.grid.blocked.len();
+        // A direction of joint space, in cells, which need not be square.
+        let step = space.grid.step();
+        let in_cells = |direction: Direction| {
+            let [a, b] = direction.components();
+            Direction::of([a / step[0], b / step[1]]).unwrap_or(direction)
+        };
+        let strengths = |elsewhere: f64| {
+            cells.clone().map(|cell| space.zone(cell).map_or(elsewhere, |zone| zone.epsilon)).collect()
+        };
+        Ok(match self {
+            Self::Harmonic => Equation::Harmonic,
+            Self::Oriented { direction, epsilon, difference } => {
+                Equation::Oriented { direction: in_cells(direction), epsilon, difference }
+            }
+            Self::Preference { elsewhere, difference } => {
+                Equation::Preference { epsilon: strengths(elsewhere), difference }
+            }
+            Self::AlteredPreference { elsewhere } => Equation::AlteredPreference { epsilon: strengths(elsewhere) },
+            Self::LocallyOriented { direction, difference } => {
+                let drift = |cell: usize| match space.zone(cell) {
+                    None => Ok([0.0; 2]),
+                    Some(zone) => zone
+                        .direction
+                        .and_then(Direction::of)
+                        .or(direction)
+                        .map(|direction| in_cells(direction).drift(zone.epsilon))
+                        .ok_or_else(|| format!("the preference \"{}\" has no direction", zone.name)),
+                };
+                Equation::LocallyOriented { drift: cells.clone().map(drift).collect::<Result<_, _>>()?, difference }
+            }
+        })
+    }
+}
+
+impl fmt::Display for EquationChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Harmonic => write!(f, "harmonic"),
+            Self::Oriented { direction, epsilon, difference } => {
+                let [a, b] = direction.components();
+                write!(f, "oriented, epsilon {epsilon}, direction ({a:.4}, {b:.4}), {difference}")
+            }
+            Self::LocallyOriented { difference, .. } => write!(f, "oriented by region, {difference}"),
+            Self::Preference { elsewhere, difference } => {
+                write!(f, "preferences, epsilon {elsewhere} outside of regions, {difference}")
+            }
+            Self::AlteredPreference { elsewhere } => {
+                write!(f, "altered preferences, epsilon {elsewhere} outside of regions")
+            }
+        }
+    }
+}
+
+impl fmt::Display for FieldPlanner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.field {
+            FieldChoice::Relaxed { equation, relaxation, on, .. } => {
+                write!(f, "{equation}; {relaxation}")?;
+                if !on.is_cpu() {
+                    write!(f, "; on {}", on.adapter().ok().flatten().unwrap_or("a GPU"))?;
+                }
+            }
+            FieldChoice::Khatib(Khatib { attraction, repulsion, saturated }) => {
+                write!(
+                    f,
+                    "attraction {attraction}, repulsion {repulsion}{}",
+                    if saturated { ", saturated" } else { "" }
+                )?;
+            }
+        }
+        write!(f, "; limits {}", if self.limits == Limits::High { "high" } else { "reflecting" })
+    }
+}

@@ -1,0 +1,165 @@
+//! The planner for any field of the family.
+
+use crate::field_choice::{EquationChoice, FieldChoice, FieldPlanner};
+use crate::{
+    Cell, Device, Domain, Downforce, Equation, ForceField, Khatib, Levels, Limits, Measure, Relaxation, Relaxed, Slope,
+    Stopping, Stuck, Trap, relax_on,
+};
+use cplan_core::cspace::{Grid, ZonedGrid};
+use cplan_core::planner::attach::Joined;
+use cplan_core::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
+use cplan_core::space::{Configuration, Path};
+use cplan_harmonic::Place;
+
+/// What became of a field.
+struct Followed {
+    /// The way, or why there is none.
+    path: Result<Path, String>,
+    trace: Trace,
+    sweeps: usize,
+    note: Option<Note>,
+}
+
+impl Planner for FieldPlanner {
+    const NAME: &'static str = "harmonic";
+    type Space = ZonedGrid;
+    type Map = ();
+
+    /// Nothing: what a field is depends on the goals.
+    fn build(&self, _: &ZonedGrid) {}
+
+    fn query(&self, space: &ZonedGrid, (): &(), query: &Query) -> Run {
+        let grid = &space.grid;
+        let nothing = || Trace::Field { cells: grid.cells, potential: vec![f64::NEG_INFINITY; grid.blocked.len()] };
+        let ended =
+            |outcome, cells| Run { outcome, trace: nothing(), size: Size::Grid { cells, sweeps: 0 }, note: None };
+        let joined = match Joined::new(grid, query) {
+            Ok(joined) => joined,
+            Err(reason) => return ended(Proposal::GaveUp(reason), 0),
+        };
+        let goals = joined.sources();
+        let domain = Domain::of_grid(grid, &goals, self.limits, Levels::PROBABILITY);
+        let reached = |&cell: &usize| domain.kinds()[cell] != Cell::Obstacle;
+        let cells = domain.kinds().iter().filter(|&&kind| kind != Cell::Obstacle).count();
+        // The nearest cell of the start that is connected with a goal.
+        let Some(start) = joined.start.cells.iter().copied().find(reached) else {
+            return ended(Proposal::NoPath, cells);
+        };
+        let task = Task { space, query, joined: &joined, start, kind: self.path };
+        let followed = match self.field {
+            FieldChoice::Khatib(laws) => task.follow_forces(laws, &goals, self.limits),
+            FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on } => {
+                let stopping = Stopping { measure: Measure::GreatestRelativeChange, below: tolerance, max_sweeps };
+                match task.follow_relaxed(&domain, equation, &relaxation, &stopping, on) {
+                    Ok(followed) => followed,
+                    Err(reason) => return ended(Proposal::GaveUp(reason), cells),
+                }
+            }
+        };
+        let outcome = followed.path.map_or_else(Proposal::GaveUp, Proposal::Found);
+        let size = Size::Grid { cells, sweeps: followed.sweeps };
+        Run { outcome, trace: followed.trace, size, note: followed.note }
+    }
+}
+
+/// The cells of a field for a query: what each is, with the levels that [`FieldPlanner`] takes. `O(cells)`.
+///
+/// # Errors
+/// Where start or goal cannot be joined to the grid, in words.
+pub fn field_domain(grid: &Grid, query: &Query, limits: Limits) -> Result<Domain, String> {
+    let goals = Joined::new(grid, query)?.sources();
+    Ok(Domain::of_grid(grid, &goals, limits, Levels::PROBABILITY))
+}
+
+/// A way that is looked for.
+struct Task<'a> {
+    space: &'a ZonedGrid,
+    query: &'a Query,
+    joined: &'a Joined,
+    /// The cell of the start, or the one that it is joined to.
+    start: usize,
+    kind: PathKind,
+}
+
+impl Task<'_> {
+    /// Follows attraction and repulsion.
+    fn follow_forces(&self, laws: Khatib, goals: &[usize], limits: Limits) -> Followed {
+        let grid = &self.space.grid;
+        let centers: Vec<Configuration> = goals.iter().map(|&cell| grid.center(cell)).collect();
+        let field = ForceField::new(grid, laws, &centers, limits);
+        let heights = (0..grid.blocked.len()).map(|cell| match grid.blocked[cell] {
+            true => f64::INFINITY,
+            false => field.potential(cell),
+        });
+        let trace = Trace::Potential { cells: grid.cells, heights: heights.collect() };
+        let at = |place: Place| grid_path::cell(grid, place).filter(|&cell| !grid.blocked[cell]);
+        let mut guide = Downforce::new(&field, goals, at);
+        let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
+        let path = path.map_err(|Trap { cell, value, minimum }| {
+            let at = shown(grid, cell);
+            match minimum {
+                true => format!("the potential has a local minimum at {at}, of value {value:.4e}"),
+                false => format!("the forces trap the arm at {at}, where they add up to {value:.4e}"),
+            }
+        });
+        Followed { path, trace, sweeps: 0, note: None }
+    }
+
+    /// Relaxes and climbs; the reason if there is no field.
+    fn follow_relaxed(
+        &self,
+        domain: &Domain,
+        choice: EquationChoice,
+        relaxation: &Relaxation,
+        stopping: &Stopping,
+        on: Device,
+    ) -> Result<Followed, String> {
+        let grid = &self.space.grid;
+        let equation = choice.on(self.space)?;
+        let field = relax_on(on, domain, &equation, relaxation, stopping).map_err(|error| error.to_string())?;
+        let mut guide = Slope::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
+        let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
+        let path = path.map_err(|stuck| {
+            format!("{} at {}: {}", what(&stuck), shown(grid, stuck.cell), why(&stuck, &equation, &field, on))
+        });
+        let logarithm = |(value, kind): (&f64, &Cell)| match kind {
+            Cell::Obstacle => f64::NEG_INFINITY,
+            // What is not monotone may fall below the obstacles' zero.
+            _ => value.max(0.0).ln(),
+        };
+        let potential = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
+        let (sweeps, change) = (field.sweeps(), field.change());
+        // On a GPU what ends before the limit has come to the end of its precision.
+        let is_floor = field.stages.iter().all(|stage| stage.sweeps < stopping.max_sweeps);
+        let note = (!field.converged()).then_some(match is_floor {
+            true => Note::Floor { sweeps, change },
+            false => Note::Unconverged { sweeps, change },
+        });
+        let trace = Trace::Field { cells: domain.cells(), potential };
+        Ok(Followed { path, trace, sweeps: field.sweeps(), note })
+    }
+}
+
+/// What a climb is stuck on.
+fn what(stuck: &Stuck) -> &'static str {
+    if stuck.flat { "the field is flat" } else { "the field has a local maximum" }
+}
+
+/// Why a climb is stuck, as far as that can be told.
+fn why(stuck: &Stuck, equation: &Equation, field: &Relaxed, on: Device) -> String {
+    match stuck {
+        _ if !equation.is_monotone() => match equation {
+            Equation::AlteredPreference { .. } => "the equation is not monotone; take a smaller epsilon".into(),
+            _ => "the equation is not monotone; take upwind differences, or a smaller epsilon".into(),
+        },
+        _ if !field.converged() => format!("it is not converged after {} sweeps", field.sweeps()),
+        Stuck { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
+        Stuck { value, .. } => format!("values around {value} differ by less than {} can tell", on.precision()),
+    }
+}
+
+fn shown(grid: &Grid, cell: usize) -> String {
+    let center = grid.center(cell);
+    let [i, j] = [cell / grid.cells[1], cell % grid.cells[1]];
+    format!("({:.4}, {:.4}), cell ({i}, {j})", center[0], center[1])
+}

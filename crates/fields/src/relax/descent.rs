@@ -1,0 +1,167 @@
+//! The way to a goal: from cell to cell, and the slope at each for the way between them.
+
+use super::{Cell, Domain, Neighbor};
+use cplan_harmonic::{Guide, Place};
+use std::collections::{BTreeMap, VecDeque};
+
+/// Where a descent ended without a goal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stuck {
+    /// The cell in which it ended.
+    pub cell: usize,
+    /// The value of the field there.
+    pub value: f64,
+    /// Whether a free neighbour has the very same value; otherwise all are worse.
+    pub flat: bool,
+}
+
+/// Goes from cell to neighbouring cell, always to the one whose value is nearest to the goals' (the first of equals), until
+/// it comes to a goal: down if obstacles are high, up if they are low. Where all neighbours are worse or equal it crosses
+/// the cells of equal value to the nearest better one: a field may be level about a point where it is symmetric. It does not
+/// cross cells with the very value of obstacles or goals: there the field says nothing any more. No cell comes twice.
+///
+/// # Errors
+/// [`Stuck`] where there is no better value to go to. The fields of monotone equations, relaxed to convergence, have no
+/// such cell, but where their values differ by less than doubles can tell, and where no obstacle can be reached but by way
+/// of goals: there the field is constant.
+///
+/// # Panics
+/// If there is not one value a cell, or `from` is no cell.
+pub fn descend(domain: &Domain, values: &[f64], from: usize) -> Result<Vec<usize>, Stuck> {
+    assert_eq!(values.len(), domain.kinds().len(), "one value a cell");
+    let slope = Values { domain, values };
+    let mut cells = vec![from];
+    let mut at = from;
+    while domain.kinds()[at] != Cell::Goal {
+        match slope.lowest(at) {
+            Some(next) => cells.push(next),
+            None => cells.extend(slope.across(at)?),
+        }
+        at = cells[cells.len() - 1];
+    }
+    Ok(cells)
+}
+
+#[derive(Clone, Copy)]
+struct Values<'a> {
+    domain: &'a Domain,
+    values: &'a [f64],
+}
+
+impl Values<'_> {
+    fn neighbors(&self, cell: usize) -> impl Iterator<Item = usize> + '_ {
+        self.domain.neighbors(cell).into_iter().filter_map(|neighbor| match neighbor {
+            Neighbor::Cell(next) if self.domain.kinds()[next] != Cell::Obstacle => Some(next),
+            _ => None,
+        })
+    }
+
+    /// The value as obstacles are high.
+    fn height(&self, cell: usize) -> f64 {
+        self.domain.levels().orientation() * self.values[cell]
+    }
+
+    /// The best neighbour, if it is strictly better.
+    fn lowest(&self, cell: usize) -> Option<usize> {
+        let lower = |best, next| if self.height(next) < self.height(best) { next } else { best };
+        let best = self.neighbors(cell).fold(cell, lower);
+        (best != cell).then_some(best)
+    }
+
+    /// The cells after `from`, all of its value, to the nearest one that has a better neighbour.
+    fn across(&self, from: usize) -> Result<Vec<usize>, Stuck> {
+        let value = self.values[from];
+        let is_level = |cell: usize| self.values[cell] == value && self.domain.kinds()[cell] == Cell::Free;
+        let stuck = Stuck { cell: from, value, flat: self.neighbors(from).any(|next| self.values[next] == value) };
+        let levels = self.domain.levels();
+        if value == levels.obstacle || value == levels.goal {
+            return Err(stuck);
+        }
+        let mut before = BTreeMap::from([(from, from)]);
+        let mut queue = VecDeque::from([from]);
+        while let Some(cell) = queue.pop_front() {
+            if cell != from && self.lowest(cell).is_some() {
+                let mut way = vec![cell];
+                while before[&way[way.len() - 1]] != from {
+                    way.push(before[&way[way.len() - 1]]);
+                }
+                way.reverse();
+                return Ok(way);
+            }
+            for next in self.neighbors(cell).filter(|&next| is_level(next)) {
+                before.entry(next).or_insert_with(|| {
+                    queue.push_back(next);
+                    cell
+                });
+            }
+        }
+        Err(stuck)
+    }
+}
+
+/// The values of a field as a [`Guide`]: towards the goals' along the gradient of the logarithm of their distance from the
+/// obstacles' value, by central differences.
+pub struct Slope<'a, F> {
+    values: Values<'a>,
+    /// The cell at a place; none beyond limits.
+    at: F,
+}
+
+impl<'a, F: Fn(Place) -> Option<usize>> Slope<'a, F> {
+    /// `at` tells the cell at a place of the lattice.
+    ///
+    /// # Panics
+    /// If there is not one value a cell.
+    pub fn new(domain: &'a Domain, values: &'a [f64], at: F) -> Self {
+        assert_eq!(values.len(), domain.kinds().len(), "one value a cell");
+        Self { values: Values { domain, values }, at }
+    }
+
+    /// The cell at a place, if it is of this kind.
+    fn of_kind(&self, place: Place, kind: Cell) -> Option<usize> {
+        (self.at)(place).filter(|&cell| self.values.domain.kinds()[cell] == kind)
+    }
+}
+
+impl<F: Fn(Place) -> Option<usize>> Guide for Slope<'_, F> {
+    type Stuck = Stuck;
+
+    fn slope(&self, place: Place) -> Option<[f64; 2]> {
+        let cell = self.of_kind(place, Cell::Free)?;
+        let Values { domain, values } = self.values;
+        let depth = |value: f64| (domain.levels().obstacle - value) * domain.levels().orientation();
+        let here = depth(values[cell]);
+        let [down, up, left, right] = domain.neighbors(cell).map(|neighbor| match neighbor {
+            Neighbor::Cell(next) => depth(values[next]),
+            Neighbor::Limit => 0.0,
+            Neighbor::Mirror => here,
+        });
+        // Where an equation is not monotone a value may be beyond the obstacles', and has no logarithm.
+        let scale = if here > 0.0 { 2.0 * here } else { 1.0 };
+        Some([(up - down) / scale, (right - left) / scale])
+    }
+
+    fn is_goal(&self, place: Place) -> bool {
+        self.of_kind(place, Cell::Goal).is_some()
+    }
+
+    fn comes_on(&mut self, from: Place, to: Place) -> bool {
+        match ((self.at)(from), (self.at)(to)) {
+            (Some(from), Some(to)) => self.values.height(to) < self.values.height(from),
+            _ => false,
+        }
+    }
+
+    fn onward(&mut self, from: Place) -> Result<Vec<Place>, Stuck> {
+        let cell = (self.at)(from).unwrap_or_else(|| unreachable!("a way stays in free cells"));
+        let cells = self.values.lowest(cell).map_or_else(|| self.values.across(cell), |next| Ok(vec![next]))?;
+        let mut place = from;
+        let step = |next: usize| {
+            let [i, j] = place;
+            let around = [[i - 1, j], [i + 1, j], [i, j - 1], [i, j + 1]];
+            place = around.into_iter().find(|&to| (self.at)(to) == Some(next))?;
+            Some(place)
+        };
+        Ok(cells.into_iter().map_while(step).collect())
+    }
+}

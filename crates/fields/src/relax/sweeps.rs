@@ -1,0 +1,399 @@
+//! Relaxing an equation on a domain.
+
+use super::relaxation::{Precision, Relaxation, Scheme};
+use super::stages::{Stages, in_stages};
+use super::stencil::{Altered, Mean, Stencil, Weighted};
+use super::stopping::{Convergence, Greatest, Measure, Relative, Squares, Stopping, Sum, Tally};
+use super::{Boundary, Cell, Difference, Direction, Domain, Equation, Neighbor};
+use cplan_interrupt::checkpoint;
+use std::fmt;
+
+/// A relaxed field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Relaxed {
+    /// One a cell; those of obstacles and goals are their levels.
+    pub values: Vec<f64>,
+    /// How each stage ended: with preferences the first is the harmonic field that they start from; otherwise there is one.
+    pub stages: Vec<Convergence>,
+}
+
+impl Relaxed {
+    /// Passes over all cells, of all stages.
+    #[must_use]
+    pub fn sweeps(&self) -> usize {
+        self.stages.iter().map(|stage| stage.sweeps).sum()
+    }
+
+    /// Whether every stage converged.
+    #[must_use]
+    pub fn converged(&self) -> bool {
+        self.stages.iter().all(|stage| stage.converged)
+    }
+
+    /// The measure in the very last sweep.
+    #[must_use]
+    pub fn change(&self) -> f64 {
+        self.stages.last().map_or(f64::INFINITY, |stage| stage.change)
+    }
+}
+
+/// Why there is no relaxed field.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RelaxError {
+    /// What was asked for makes no sense: why, in words.
+    Refused(String),
+    /// Values grew without bound, or are numbers no more.
+    Diverged {
+        /// Passes over all cells until it was noticed.
+        sweeps: usize,
+        /// The first cell with such a value, as row and column.
+        cell: [usize; 2],
+        /// The value of that cell.
+        value: f64,
+        /// What the reason may be, and what to do, in words.
+        hint: String,
+    },
+}
+
+impl fmt::Display for RelaxError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Refused(reason) => f.write_str(reason),
+            Self::Diverged { sweeps, cell: [i, j], value, hint } => {
+                write!(
+                    f,
+                    "the relaxation diverged: after {sweeps} sweeps cell ({i}, {j}) has the value {value:e}; {hint}"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for RelaxError {}
+
+/// A value greater than all at the start by this factor will not come back. Over-relaxation overshoots: under a drift `b`
+/// on the way against it by `exp(b / 2)` a cell, which may be many orders of magnitude, and converges all the same.
+const BEYOND: f64 = 1e100;
+
+/// Every so many sweeps values are looked at for divergence.
+const LOOKED_AT: usize = 16;
+
+/// Relaxes from [`Domain::start`]. A sweep costs some nanoseconds a free cell.
+///
+/// ```
+/// use cplan::field::*;
+///
+/// let kinds = [Cell::Goal, Cell::Free, Cell::Free, Cell::Obstacle].to_vec();
+/// let domain = Domain::new([1, 4], kinds, [Boundary::Reflecting; 2], Levels::PUBLISHED);
+/// let relaxation = Relaxation::sor(Factor::Given(1.1), Order::Corners(Lines::Rows));
+/// let stopping = Stopping { measure: Measure::SumOfChange, below: 1e-12, max_sweeps: 1_000 };
+/// let field = relax(&domain, &Equation::Harmonic, &relaxation, &stopping)?;
+/// assert!((field.values[1] - 1.0 / 3.0).abs() < 1e-9 && (field.values[2] - 2.0 / 3.0).abs() < 1e-9);
+/// # Ok::<(), RelaxError>(())
+/// ```
+///
+/// # Errors
+/// [`RelaxError::Refused`] where equation and domain differ in size, or a factor is not positive; [`RelaxError::Diverged`].
+/// A relaxation that neither diverges nor converges ends after `stopping.max_sweeps` (of each stage), and its
+/// [`Convergence`] says so.
+pub fn relax(
+    domain: &Domain,
+    equation: &Equation,
+    relaxation: &Relaxation,
+    stopping: &Stopping,
+) -> Result<Relaxed, RelaxError> {
+    relax_from(domain, equation, relaxation, stopping, domain.start())
+}
+
+/// Relaxes from other values, such as those of a field for obstacles that have moved a little since. Those of obstacles
+/// and goals are set to their levels.
+///
+/// # Errors
+/// As [`relax`], and where there is not one value a cell.
+pub fn relax_from(
+    domain: &Domain,
+    equation: &Equation,
+    relaxation: &Relaxation,
+    stopping: &Stopping,
+    start: Vec<f64>,
+) -> Result<Relaxed, RelaxError> {
+    relax_watched(domain, equation, relaxation, stopping, start, &mut |_| {})
+}
+
+/// The values after a sweep, while a field is relaxed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Watched<'a> {
+    /// The stage, from 0: with preferences 0 is the harmonic field, 1 that with them.
+    pub stage: usize,
+    /// Sweeps of this stage so far; 0 before the first.
+    pub sweep: usize,
+    /// One a cell.
+    pub values: &'a [f64],
+}
+
+/// As [`relax_from`], and `watch` sees the values before the first sweep of each stage and after every one. What it sees may be
+/// no numbers any more, where the relaxation diverges.
+///
+/// # Errors
+/// As [`relax_from`].
+pub fn relax_watched(
+    domain: &Domain,
+    equation: &Equation,
+    relaxation: &Relaxation,
+    stopping: &Stopping,
+    start: Vec<f64>,
+    watch: &mut dyn FnMut(Watched),
+) -> Result<Relaxed, RelaxError> {
+    if let Some(refusal) = refusal(domain, equation, relaxation) {
+        return Err(refusal);
+    }
+    let mut engine = Engine::new(domain, equation, relaxation, stopping, begun(domain, start)?, watch);
+    in_stages(equation, domain, &mut engine)?;
+    engine.values.pop();
+    Ok(Relaxed { values: engine.values, stages: engine.stages })
+}
+
+/// Why what is asked for makes no sense, if it does not.
+pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxation) -> Option<RelaxError> {
+    if let Some(refusal) = equation.refusal(domain) {
+        return Some(RelaxError::Refused(refusal));
+    }
+    let factor = relaxation.factor(domain.cells());
+    if !(factor.is_finite() && factor > 0.0) {
+        return Some(RelaxError::Refused(format!("a relaxation factor must be positive, this one is {factor}")));
+    }
+    if let Some([low, high]) = relaxation.clamp
+        && (low > high || low.is_nan() || high.is_nan())
+    {
+        return Some(RelaxError::Refused(format!("values cannot be brought into the empty range {low}..{high}")));
+    }
+    None
+}
+
+/// The free cells that have neighbours, rising. A cell that has no neighbour but itself keeps its value.
+pub(super) fn unknowns(domain: &Domain) -> Vec<u32> {
+    (0..domain.kinds().len()).filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
+}
+
+/// Places of the values around each unknown, among those that begin as [`begun`].
+pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> {
+    let beyond = domain.kinds().len() as u32;
+    let around = unknowns.iter().map(|&cell| {
+        domain.neighbors(cell as usize).map(|neighbor| match neighbor {
+            Neighbor::Cell(next) => next as u32,
+            Neighbor::Limit => beyond,
+            Neighbor::Mirror => cell,
+        })
+    });
+    around.collect()
+}
+
+/// Values to begin with: those of obstacles and goals are set to their levels, and one more is what lies beyond limits.
+pub(super) fn begun(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64>, RelaxError> {
+    if start.len() != domain.kinds().len() {
+        return Err(RelaxError::Refused("there must be one value a cell to start from".into()));
+    }
+    let fixed = start.into_iter().zip(domain.kinds()).map(|(value, &kind)| domain.fixed(kind).unwrap_or(value));
+    Ok(fixed.chain([domain.levels().obstacle]).collect())
+}
+
+/// `epsilon / 4` of altered preferences, with the sign that the levels ask for; one a cell.
+pub(super) fn strengths(domain: &Domain, epsilon: &[f64]) -> Vec<f64> {
+    let quarter = 0.25 * domain.levels().orientation();
+    epsilon.iter().map(|epsilon| quarter * epsilon).collect()
+}
+
+/// What may be the reason of a divergence, and what to do.
+pub(super) fn hint(equation: &Equation, factor: f64) -> String {
+    if equation.is_monotone() {
+        format!("the factor {factor:.4} is too great for this equation")
+    } else if matches!(equation, Equation::AlteredPreference { .. }) {
+        "the altered equation is monotone only for an |epsilon| of less than 2 a cell: take a smaller one".into()
+    } else {
+        "central differences are monotone only for an |epsilon| of less than 2 a cell: take upwind ones, or a smaller \
+         epsilon"
+            .into()
+    }
+}
+
+/// The direction in which each free cell's value rises towards that of obstacles, by central differences; 0 where values
+/// around it are level.
+pub(super) fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 2]> {
+    let levels = domain.levels();
+    let at = |cell: usize| {
+        if domain.kinds()[cell] != Cell::Free {
+            return [0.0; 2];
+        }
+        let [a, b, c, d] = domain.neighbors(cell).map(|neighbor| match neighbor {
+            Neighbor::Cell(next) => values[next],
+            Neighbor::Limit => levels.obstacle,
+            Neighbor::Mirror => values[cell],
+        });
+        Direction::of([b - a, d - c].map(|rise| levels.orientation() * rise)).map_or([0.0; 2], Direction::components)
+    };
+    (0..domain.kinds().len()).map(at).collect()
+}
+
+/// A field under way.
+struct Engine<'a> {
+    domain: &'a Domain,
+    equation: &'a Equation,
+    relaxation: &'a Relaxation,
+    stopping: &'a Stopping,
+    /// One a cell, and last that of obstacles, for what lies beyond limits.
+    values: Vec<f64>,
+    /// Greatest absolute value before the first sweep.
+    greatest: f64,
+    /// The free cells that have neighbours, rising.
+    unknowns: Vec<u32>,
+    /// Places of their neighbours' values.
+    around: Vec<[u32; 4]>,
+    stages: Vec<Convergence>,
+    watch: &'a mut dyn FnMut(Watched),
+}
+
+impl Stages for Engine<'_> {
+    fn harmonic(&mut self) -> Result<(), RelaxError> {
+        if self.has_mirrors() { self.linear(|_| [0.0; 2], Difference::Central) } else { self.run(&Mean) }
+    }
+
+    fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError> {
+        let stencil = Weighted::new(self.domain, &self.unknowns, drift, difference);
+        self.run(&stencil)
+    }
+
+    fn altered(&mut self, strengths: Vec<f64>) -> Result<(), RelaxError> {
+        let strength = self.unknowns.iter().map(|&cell| strengths[cell as usize]).collect();
+        self.run(&Altered { strength })
+    }
+
+    fn values(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+impl<'a> Engine<'a> {
+    fn new(
+        domain: &'a Domain,
+        equation: &'a Equation,
+        relaxation: &'a Relaxation,
+        stopping: &'a Stopping,
+        values: Vec<f64>,
+        watch: &'a mut dyn FnMut(Watched),
+    ) -> Self {
+        let unknowns = unknowns(domain);
+        let around = places_around(domain, &unknowns);
+        let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
+        Self { domain, equation, relaxation, stopping, values, greatest, unknowns, around, stages: Vec::new(), watch }
+    }
+
+    fn has_mirrors(&self) -> bool {
+        self.domain.boundaries().contains(&Boundary::Reflecting) || self.domain.cells().contains(&1)
+    }
+
+    /// Relaxes one stage, with the norm that the stopping rule asks for.
+    fn run<S: Stencil>(&mut self, stencil: &S) -> Result<(), RelaxError> {
+        match self.stopping.measure {
+            Measure::SumOfChange | Measure::DifferenceOfSums => self.stage::<S, Sum>(stencil),
+            Measure::SumOfSquares => self.stage::<S, Squares>(stencil),
+            Measure::GreatestChange => self.stage::<S, Greatest>(stencil),
+            Measure::GreatestRelativeChange => self.stage::<S, Relative>(stencil),
+        }
+    }
+
+    fn stage<S: Stencil, T: Tally>(&mut self, stencil: &S) -> Result<(), RelaxError> {
+        let Self { relaxation, stopping, .. } = *self;
+        let factor = relaxation.factor(self.domain.cells());
+        let passes = match relaxation.scheme {
+            Scheme::Simultaneous { .. } => Vec::new(),
+            Scheme::Successive { order, .. } => order.passes(self.domain.cells(), &self.unknowns),
+        };
+        let step = Step { stencil, factor, clamp: relaxation.clamp, precision: relaxation.precision };
+        let mut next = vec![0.0; if passes.is_empty() { self.unknowns.len() } else { 0 }];
+        let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: self.unknowns.is_empty() };
+        let mut before = f64::INFINITY;
+        self.show(0);
+        while !stage.converged && stage.sweeps < stopping.max_sweeps {
+            checkpoint();
+            let total = match passes.len() {
+                0 => self.at_once::<S, T>(&step, &mut next),
+                count => self.in_turn::<S, T>(&step, &passes[stage.sweeps % count]),
+            };
+            stage.sweeps += 1;
+            self.show(stage.sweeps);
+            stage.change = if stopping.measure == Measure::DifferenceOfSums { (total - before).abs() } else { total };
+            before = total;
+            stage.converged = stage.change < stopping.below || total == 0.0;
+            if stage.sweeps.is_multiple_of(LOOKED_AT) || stage.converged || stage.sweeps == stopping.max_sweeps {
+                self.look_for_divergence(stage.sweeps)?;
+            }
+        }
+        self.stages.push(stage);
+        Ok(())
+    }
+
+    fn show(&mut self, sweep: usize) {
+        // Without the last, which is what lies beyond limits.
+        let values = &self.values[..self.values.len() - 1];
+        (self.watch)(Watched { stage: self.stages.len(), sweep, values });
+    }
+
+    fn at_once<S: Stencil, T: Tally>(&mut self, step: &Step<S>, next: &mut [f64]) -> f64 {
+        let mut total = 0.0;
+        for (k, next) in next.iter_mut().enumerate() {
+            let old = self.values[self.unknowns[k] as usize];
+            *next = step.new_value(k, old, self.around[k].map(|n| self.values[n as usize]));
+            total = T::add(total, old, *next);
+        }
+        for (&cell, &new) in self.unknowns.iter().zip(&*next) {
+            self.values[cell as usize] = new;
+        }
+        total
+    }
+
+    fn in_turn<S: Stencil, T: Tally>(&mut self, step: &Step<S>, pass: &[u32]) -> f64 {
+        let mut total = 0.0;
+        for &k in pass {
+            let k = k as usize;
+            let cell = self.unknowns[k] as usize;
+            let old = self.values[cell];
+            let new = step.new_value(k, old, self.around[k].map(|n| self.values[n as usize]));
+            self.values[cell] = new;
+            total = T::add(total, old, new);
+        }
+        total
+    }
+
+    fn look_for_divergence(&self, sweeps: usize) -> Result<(), RelaxError> {
+        let lost = |&&cell: &&u32| {
+            let value = self.values[cell as usize];
+            value.is_nan() || value.abs() > BEYOND * self.greatest
+        };
+        let Some(&cell) = self.unknowns.iter().find(lost) else { return Ok(()) };
+        let (cell, columns) = (cell as usize, self.domain.cells()[1]);
+        let hint = hint(self.equation, self.relaxation.factor(self.domain.cells()));
+        Err(RelaxError::Diverged { sweeps, cell: [cell / columns, cell % columns], value: self.values[cell], hint })
+    }
+}
+
+/// How far a cell goes.
+struct Step<'a, S> {
+    stencil: &'a S,
+    factor: f64,
+    clamp: Option<[f64; 2]>,
+    precision: Precision,
+}
+
+impl<S: Stencil> Step<'_, S> {
+    fn new_value(&self, position: usize, old: f64, around: [f64; 4]) -> f64 {
+        let asked = self.stencil.asked(position, old, around);
+        // With factor 1 exactly what is asked, without the rounding of a detour.
+        let new = if self.factor == 1.0 { asked } else { old + self.factor * (asked - old) };
+        // Not `clamp`: the bounds are checked once, for all cells.
+        let new = self.clamp.map_or(new, |[low, high]| new.max(low).min(high));
+        match self.precision {
+            Precision::Double => new,
+            Precision::Single => f64::from(new as f32),
+        }
+    }
+}

@@ -1,0 +1,438 @@
+//! Shapes of adjoining convex pieces, smaller by what their corners move into them.
+//!
+//! Pieces adjoin where their sides have stretches in common, exactly; they do not overlap. What several share moves with all of them, so they go
+//! on adjoining. `O(n log n)` for `n` sides, and for each the corners below and above it.
+
+use super::{
+    BoxTree, Convex, Orientation, Point, SimplePolygon, Vector, cross, hull, orientation, perpendicular,
+    point_on_segment, shapes_meet,
+};
+use std::collections::BTreeMap;
+
+/// Corners that bend by less, radians, are none: rounding bends those that people write down on a line.
+const STRAIGHT: f64 = 1e-7;
+
+/// What is left of each of these pieces, convex too, where each corner of their union moves into it by `distance`, halfway between the
+/// sides there: a side moves by `distance` times the sine of half the angle at its ends. A corner stays that would leave the union, and where parts are
+/// too fine, so that they would turn over, the hull of their corners is left: in either case what lies deeper than `distance` is.
+/// Rounded outlines lose of their radius first.
+#[must_use]
+pub fn drawn_in(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
+    let (all, together) = within(pieces, distance);
+    let left = |piece: &Convex| match piece.radius() {
+        0.0 => {
+            let hull_of = |ring: &[Point]| vec![Convex::trusted(hull(&together.ring(ring)), 0.0)];
+            together.of(piece.core()).unwrap_or_else(|| hull_of(piece.core()))
+        }
+        radius if radius >= distance => vec![piece.grown(-distance)],
+        radius => drawn_in(&[piece.grown(-radius)], distance - radius).concat(),
+    };
+    all.iter().map(|parts| parts.iter().flat_map(left).collect()).collect()
+}
+
+/// Whether no corner would leave what they are drawn into, and none is one of several rings that touch there.
+#[must_use]
+pub fn can_be_drawn_in(pieces: &[Convex], distance: f64) -> bool {
+    let (_, together) = within(pieces, distance);
+    !together.touches && !together.leaves
+}
+
+/// Whether each piece, cut from corner to corner, is drawn in to one convex shape, so that its corners name that, and no corner is all but on a line.
+#[must_use]
+pub fn stays_convex(pieces: &[Convex], distance: f64) -> bool {
+    let (all, together) = within(pieces, distance);
+    let is_one = |piece: &Convex| together.of(piece.core()).is_some_and(|left| left.len() == 1);
+    !together.is_straight && all.iter().flatten().filter(is_sharp).all(is_one)
+}
+
+/// Pieces cut from corner to corner, and where their corners go within them.
+fn within(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, Moved) {
+    let all = corner_to_corner(pieces);
+    let mut together = Moved::new(all.iter().flatten().filter(is_sharp), distance);
+    let tree = BoxTree::new(pieces.iter().map(Convex::bounds).collect());
+    let mut found = Vec::new();
+    for [corner, to] in together.to.values_mut() {
+        found.clear();
+        tree.meeting(&[*to; 2], &mut found);
+        if !found.iter().any(|&piece| shapes_meet(&pieces[piece as usize], &Convex::point(*to))) {
+            *to = *corner;
+            together.leaves = true;
+        }
+    }
+    (all, together)
+}
+
+fn is_sharp(piece: &&Convex) -> bool {
+    piece.radius() == 0.0
+}
+
+/// Each piece cut so that where pieces adjoin no corner of one is between those of a side of another. No new corners.
+#[must_use]
+pub fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
+    let has_sides = |piece: &&Convex| is_sharp(piece) && piece.core().len() > 2;
+    let mut corners: Vec<Point> = pieces.iter().filter(has_sides).flat_map(Convex::core).copied().collect();
+    corners.sort_by(|p, q| p.x.total_cmp(&q.x));
+    let parts = |piece: &Convex| {
+        if !has_sides(&piece) {
+            return vec![piece.clone()];
+        }
+        cut(with_corners(piece.core(), &corners)).into_iter().map(|core| Convex::trusted(core, 0.0)).collect()
+    };
+    pieces.iter().map(parts).collect()
+}
+
+/// A convex ring as rings without corners on their sides.
+fn cut(ring: Vec<Point>) -> Vec<Vec<Point>> {
+    let (mut todo, mut all) = (vec![ring], Vec::new());
+    while let Some(ring) = todo.pop() {
+        let count = ring.len();
+        let turn = |a: usize, b: usize, c: usize| orientation(ring[a], ring[b], ring[c]);
+        let is_straight = |&k: &usize| turn((k + count - 1) % count, k, (k + 1) % count) == Orientation::Collinear;
+        let straight: Vec<usize> = (0..count).filter(is_straight).collect();
+        // Halfway, so that it is cut few times one after the other.
+        let across = straight.get(straight.len() / 2).and_then(|&at| {
+            let is_off = |k: &usize| turn(at, (at + 1) % count, *k) != Orientation::Collinear;
+            let off: Vec<usize> = (2..count - 1).map(|by| (at + by) % count).filter(is_off).collect();
+            Some((at, *off.get(off.len() / 2)?))
+        });
+        let Some((at, across)) = across else {
+            all.push(ring);
+            continue;
+        };
+        let from = |first: usize, last: usize| {
+            let long = (last + count - first) % count;
+            (0..=long).map(|by| ring[(first + by) % count]).collect()
+        };
+        todo.extend([from(at, across), from(across, at)]);
+    }
+    all
+}
+
+/// A ring with the corners of others that lie on its sides; these in the order of their `x`.
+fn with_corners(core: &[Point], corners: &[Point]) -> Vec<Point> {
+    let side = |k: usize| {
+        let [from, to] = [core[k], core[(k + 1) % core.len()]];
+        let is_between = |p: &&Point| **p != from && **p != to && point_on_segment(**p, from, to);
+        let first = corners.partition_point(|p| p.x < from.x.min(to.x));
+        let near = corners[first..].iter().take_while(|p| p.x <= from.x.max(to.x));
+        let mut between: Vec<Point> = near.filter(is_between).copied().collect();
+        between.sort_by(|p, q| (p - from).norm_squared().total_cmp(&(q - from).norm_squared()));
+        between.dedup();
+        std::iter::once(from).chain(between)
+    };
+    (0..core.len()).flat_map(side).collect()
+}
+
+/// The corners after and before one of a ring.
+fn beside(ring: &[Point], k: usize) -> [Point; 2] {
+    [1, ring.len() - 1].map(|by| ring[(k + by) % ring.len()])
+}
+
+type Key = [u64; 2];
+
+fn key(p: Point) -> Key {
+    // Adding 0.0 turns -0.0 into 0.0.
+    [p.x, p.y].map(|v| (v + 0.0).to_bits())
+}
+
+/// Where corners of pieces go.
+struct Moved {
+    /// From where to where, by corner and the one after it in its piece. Those that pieces lie all round stay, and are not in it.
+    to: BTreeMap<[Key; 2], [Point; 2]>,
+    /// Whether corners would have left the union, and have stayed.
+    leaves: bool,
+    /// Whether a corner of the union is that of several rings, or twice one of the same.
+    touches: bool,
+    /// Whether corners of the union do not bend.
+    is_straight: bool,
+}
+
+/// A corner of the union, between the side that begins there and the one that ends there.
+struct Corner {
+    at: Point,
+    next: Point,
+    last: Point,
+    /// Where its parts' corners are looked up.
+    parts: Vec<[Key; 2]>,
+    /// The direction halfway between the sides, and cosine and sine of half the angle between them; none where sides are not told apart.
+    way: Option<(Vector, [f64; 2])>,
+}
+
+impl Corner {
+    fn is_straight(&self) -> bool {
+        self.way.is_some_and(|(_, [cosine, _])| cosine.abs() < STRAIGHT / 2.0)
+    }
+}
+
+impl Moved {
+    /// Of pieces that are cut from corner to corner.
+    fn new<'a>(pieces: impl IntoIterator<Item = &'a Convex>, distance: f64) -> Self {
+        let mut sectors: BTreeMap<[Key; 2], [Point; 3]> = BTreeMap::new();
+        for ring in pieces.into_iter().map(Convex::core) {
+            for (k, &corner) in ring.iter().enumerate() {
+                let [next, last] = beside(ring, k);
+                sectors.insert([key(corner), key(next)], [corner, next, last]);
+            }
+        }
+        // From each side of the union on counter-clockwise about its first corner, to the next one.
+        let mut corners = Vec::new();
+        for &[at, next, _] in sectors.values() {
+            if sectors.contains_key(&[key(next), key(at)]) {
+                continue;
+            }
+            let (mut last, mut parts) = (next, Vec::new());
+            while let Some(sector) = sectors.get(&[key(at), key(last)]).filter(|_| parts.len() < sectors.len()) {
+                parts.push([key(at), key(last)]);
+                last = sector[2];
+            }
+            corners.push(Corner { at, next, last, parts, way: inwards(at, next, last) });
+        }
+        let number = |of: fn(&Corner) -> Point| -> BTreeMap<[Key; 2], usize> {
+            corners.iter().enumerate().map(|(k, corner)| ([key(corner.at), key(of(corner))], k)).collect()
+        };
+        let (by_next, by_last) = (number(|corner| corner.next), number(|corner| corner.last));
+        // The first corner that bends, along the union's sides.
+        let ahead = |from: usize, forwards: bool| {
+            let mut at = from;
+            for _ in 0..corners.len() {
+                let Corner { at: own, next, last, .. } = &corners[at];
+                let beyond = if forwards {
+                    by_last.get(&[key(*next), key(*own)])
+                } else {
+                    by_next.get(&[key(*last), key(*own)])
+                };
+                at = *beyond?;
+                if !corners[at].is_straight() {
+                    let along =
+                        |(_, [cosine, sine]): (Vector, [f64; 2])| (corners[at].at, distance * cosine, distance * sine);
+                    return corners[at].way.map(along);
+                }
+            }
+            None
+        };
+        let mut to = BTreeMap::new();
+        for (k, corner) in corners.iter().enumerate() {
+            let moved = match corner.way {
+                None => corner.at,
+                Some((way, _)) if !corner.is_straight() => corner.at + way * distance,
+                // As deep as the side between the corners at its ends is there.
+                Some((way, _)) => ahead(k, false).zip(ahead(k, true)).map_or(corner.at, |(from, to)| {
+                    let [behind, before] = [&from, &to].map(|end| (corner.at - end.0).norm());
+                    let [start, end] = [from.1, behind + before - to.1];
+                    let share = ((behind - start) / (end - start)).clamp(0.0, 1.0);
+                    corner.at + way * (from.2 + share * (to.2 - from.2))
+                }),
+            };
+            to.extend(corner.parts.iter().map(|part| (*part, [corner.at, moved])));
+        }
+        let mut places: Vec<Key> = corners.iter().map(|corner| key(corner.at)).collect();
+        places.sort_unstable();
+        let touches = places.windows(2).any(|pair| pair[0] == pair[1]);
+        Self { to, leaves: false, touches, is_straight: corners.iter().any(Corner::is_straight) }
+    }
+
+    fn ring(&self, ring: &[Point]) -> Vec<Point> {
+        let to = |k: usize| self.to.get(&[key(ring[k]), key(beside(ring, k)[0])]).map_or(ring[k], |[_, to]| *to);
+        (0..ring.len()).map(to).collect()
+    }
+
+    /// What is left of a piece with these corners; none where sides turn over.
+    fn of(&self, ring: &[Point]) -> Option<Vec<Convex>> {
+        let moved = self.ring(ring);
+        if ring.len() < 3 || moved == ring {
+            return Some(vec![Convex::trusted(ring.to_vec(), 0.0)]);
+        }
+        let is_along = |k: usize| (beside(&moved, k)[0] - moved[k]).dot(&(beside(ring, k)[0] - ring[k])) > 0.0;
+        let left = SimplePolygon::new(moved.clone()).ok()?;
+        // A thin piece turns over though its sides hardly turn.
+        (left.corners() == moved && (0..ring.len()).all(is_along)).then(|| left.convex_pieces())
+    }
+}
+
+/// The direction halfway between two sides of a corner, counter-clockwise from the first, and cosine and sine of half the angle between them. None where
+/// sides are not told apart.
+fn inwards(corner: Point, first: Point, last: Point) -> Option<(Vector, [f64; 2])> {
+    let unit = |v: Vector| v.try_normalize(0.0);
+    let [first, last] = [unit(first - corner)?, unit(last - corner)?];
+    let way = unit(perpendicular(first - last))?;
+    Some((way, [first.dot(&way), cross(first, way)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Polygon, separation};
+    use proptest::prelude::*;
+
+    fn points(corners: &[[f64; 2]]) -> Vec<Point> {
+        corners.iter().map(|corner| Point::from(*corner)).collect()
+    }
+
+    fn rectangle([x, y]: [f64; 2], [right, top]: [f64; 2]) -> Convex {
+        Convex::trusted(points(&[[x, y], [right, y], [right, top], [x, top]]), 0.0)
+    }
+
+    fn covers(pieces: &[Vec<Convex>], point: Point) -> bool {
+        pieces.iter().flatten().any(|piece| separation(piece, &Convex::point(point)).distance <= 0.0)
+    }
+
+    #[test]
+    fn corners_move_halfway_between_sides() {
+        let left = drawn_in(&[rectangle([0., 0.], [4., 1.])], 0.1 * 2f64.sqrt());
+        let corners = points(&[[0.1, 0.1], [3.9, 0.1], [3.9, 0.9], [0.1, 0.9]]);
+        let is_near = |p: &Point| corners.iter().any(|corner| (p - corner).norm() < 1e-12);
+        assert!(matches!(&left[..], [one] if one.len() == 1 && one[0].core().iter().all(is_near)), "{left:?}");
+        let disc = [Convex::point(Point::origin()).grown(0.3)];
+        let radii = [0.1, 0.4].map(|by| drawn_in(&disc, by)[0][0].radius());
+        assert_eq!(radii, [0.3 - 0.1, 0.0]);
+    }
+
+    /// Pieces of a bar with a bar upon it: a side of the one goes on beyond the other, on both sides.
+    #[test]
+    fn pieces_go_on_adjoining() {
+        let left = drawn_in(&[rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.])], 0.1 * 2f64.sqrt());
+        let within = [[0.11, 0.5], [1.11, 1.0], [1.89, 1.0], [1.5, 1.89], [0.5, 0.89], [1.11, 0.95], [3., 0.89]];
+        let without = [[0.09, 0.5], [1.09, 1.0], [1.91, 1.0], [1.5, 1.91], [0.5, 0.91], [1.09, 0.95], [3., 0.91]];
+        for (all, is_covered) in [(within, true), (without, false)] {
+            for point in all {
+                assert_eq!(covers(&left, point.into()), is_covered, "{point:?} {left:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn pieces_are_cut_from_corner_to_corner() {
+        let pieces = [rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.]), rectangle([3., 1.], [4., 2.])];
+        let parts = corner_to_corner(&pieces);
+        assert_eq!(parts[1..], [vec![pieces[1].clone()], vec![pieces[2].clone()]]);
+        let area: f64 = parts[0].iter().map(Convex::area).sum();
+        assert_eq!((parts[0].len(), area), (4, 4.0));
+        let mut own: Vec<Point> = pieces.iter().flat_map(Convex::core).copied().collect();
+        own.sort_by(|p, q| p.x.total_cmp(&q.x));
+        for part in parts.iter().flatten() {
+            assert_eq!(with_corners(part.core(), &own), part.core(), "{parts:?}");
+            assert!(Convex::new(part.core().to_vec(), 0.0).is_ok(), "{part:?}");
+        }
+    }
+
+    /// A hole comes so near the outer ring that sides cross where they move.
+    #[test]
+    fn thin_pieces_do_not_turn_over() {
+        let outer = points(&[[1.34375, 0.0], [-0.58984375, 1.0224609375], [-0.818359375, -1.4169921875]]);
+        let hole = points(&[[0.2, 0.0], [0.14, 0.14], [0.0, 0.6982421875], [-0.14, 0.14], [-0.2, 0.0], [0.0, -0.2]]);
+        let pieces = Polygon::new(outer, vec![hole]).unwrap().convex_pieces();
+        assert!(stays_convex(&pieces, 0.005) && !stays_convex(&pieces, 0.01));
+        assert!(can_be_drawn_in(&pieces, 0.01) && !can_be_drawn_in(&pieces, 0.019));
+        let is_in = |corner: &Point| covers(std::slice::from_ref(&pieces), *corner);
+        assert!(drawn_in(&pieces, 0.019).iter().flatten().flat_map(Convex::core).all(is_in));
+    }
+
+    #[test]
+    fn what_is_too_fine_stays() {
+        // A triangle that its corners would cross.
+        let small = Convex::trusted(points(&[[0., 0.], [1., 0.], [0.5, 0.8]]), 0.0);
+        let left = drawn_in(std::slice::from_ref(&small), 2.0);
+        assert_eq!(left, [[small]]);
+        // A needle of which no sides are told apart.
+        let needle = Convex::trusted(points(&[[0., 0.], [1., 0.], [1., 1e-200]]), 0.0);
+        assert!(drawn_in(&[needle], 0.01)[0].iter().flat_map(Convex::core).all(|p| p.x.is_finite() && p.y.is_finite()));
+    }
+
+    /// Corners about the origin, on a grid on which halves of sides are exact.
+    fn star(far: [f64; 2]) -> impl Strategy<Value = Vec<Point>> {
+        prop::collection::vec(far[0]..far[1], 3..9).prop_map(|far| {
+            let angle = |k: usize| std::f64::consts::TAU * k as f64 / far.len() as f64;
+            let on_grid = |v: f64| (v * 1024.0).round() / 1024.0;
+            let corner = |k: usize| Point::new(on_grid(far[k] * angle(k).cos()), on_grid(far[k] * angle(k).sin()));
+            (0..far.len()).map(corner).collect()
+        })
+    }
+
+    /// The same with straight corners halfway along some of its sides.
+    fn with_straight(ring: &[Point], some: u8) -> Vec<Point> {
+        let halfway = |k: usize| (some >> k & 1 == 1).then(|| nalgebra::center(&ring[k], &beside(ring, k)[0]));
+        (0..ring.len()).flat_map(|k| std::iter::once(ring[k]).chain(halfway(k))).collect()
+    }
+
+    /// A ring whose corners are moved, by the angles of its sides.
+    fn by_angles(ring: &[Point], distance: f64) -> Vec<Point> {
+        let angle = |v: Vector| v.y.atan2(v.x);
+        let corner = |k: usize| {
+            let [next, last] = beside(ring, k).map(|p| angle(p - ring[k]));
+            let half = (last - next).rem_euclid(std::f64::consts::TAU) / 2.0;
+            ring[k] + distance * Vector::new((next + half).cos(), (next + half).sin())
+        };
+        (0..ring.len()).map(corner).collect()
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(600))]
+
+        /// Of a polygon with a hole it is the polygon whose rings are moved; and however fine it is, what is deep is left.
+        #[test]
+        fn it_is_what_moved_rings_surround(
+            outer in star([1.0, 3.0]), hole in star([0.2, 0.7]), some in any::<[u8; 2]>(), by in 0.0..0.03f64,
+            at in prop::collection::vec((-3.0..3.0f64, -3.0..3.0f64), 60),
+        ) {
+            let given = [with_straight(&outer, some[0]), with_straight(&hole, some[1])];
+            let polygon = Polygon::new(given[0].clone(), vec![given[1].clone()]);
+            prop_assume!(polygon.is_ok());
+            let pieces = polygon.unwrap().convex_pieces();
+            let is_too_fine = !can_be_drawn_in(&pieces, by) || !turns_over_nothing(&pieces, by);
+            let left = drawn_in(&pieces, by);
+            let clockwise: Vec<Point> = hole.iter().rev().copied().collect();
+            let own = [outer, clockwise];
+            let moved = own.clone().map(|ring| by_angles(&ring, by));
+            let sides = |rings: &[Vec<Point>; 2]| -> Vec<[Point; 2]> {
+                rings.iter().flat_map(|ring| (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]])).collect()
+            };
+            let (own_sides, moved_sides) = (sides(&own), sides(&moved));
+            let off = |sides: &[[Point; 2]], p: Point| {
+                let to = |[a, b]: &[Point; 2]| separation(&Convex::between(*a, *b), &Convex::point(p)).distance;
+                sides.iter().map(to).fold(f64::INFINITY, f64::min)
+            };
+            let is_inside = |sides: &[[Point; 2]], p: Point| {
+                let crosses = |[a, b]: &&[Point; 2]| {
+                    (a.y > p.y) != (b.y > p.y) && a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x
+                };
+                sides.iter().filter(crosses).count() % 2 == 1
+            };
+            let near = moved.iter().flatten().map(|corner| corner + Vector::new(at[0].0, at[0].1) * 0.01);
+            for p in at.iter().map(|(x, y)| Point::new(*x, *y)).chain(near) {
+                if !is_too_fine {
+                    let is_left = is_inside(&moved_sides, p);
+                    prop_assert!(off(&moved_sides, p) < 1e-9 || covers(&left, p) == is_left, "{} {:?}", p, left);
+                } else if off(&own_sides, p) > by + 1e-9 && is_inside(&own_sides, p) {
+                    prop_assert!(covers(&left, p), "{} {:?}", p, left);
+                }
+            }
+        }
+    }
+
+    /// Whether no part of these pieces turns over where they are drawn in.
+    fn turns_over_nothing(pieces: &[Convex], distance: f64) -> bool {
+        let (all, together) = within(pieces, distance);
+        all.iter().flatten().all(|part| together.of(part.core()).is_some())
+    }
+
+    /// A comb on a straight side: each root is a corner on that of the piece below.
+    #[test]
+    fn combs_have_parts_for_each_tooth() {
+        let teeth = 4000;
+        let tooth = |k: usize| points(&[[k as f64, 1.0], [k as f64 + 0.5, 2.0]]);
+        let comb = points(&[[0.0, 0.0]])
+            .into_iter()
+            .chain((0..teeth).flat_map(tooth))
+            .chain(points(&[[4000.0, 1.0], [4000.0, 0.0]]));
+        let mut corners: Vec<Point> = comb.collect();
+        corners.reverse();
+        let pieces = SimplePolygon::new(corners).unwrap().convex_pieces();
+        let left = drawn_in(&pieces, 0.01);
+        assert!(left.iter().flatten().count() >= teeth, "{}", left.len());
+        for (at, is_covered) in
+            [([100.5, 1.98], true), ([100.5, 1.995], false), ([100.0, 0.98], true), ([100.0, 0.995], false)]
+        {
+            assert_eq!(covers(&left, at.into()), is_covered, "{at:?}");
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Plane geometry: exact predicates, convex shapes, Minkowski differences, at which angles (or along which stretch) a
+//! moving convex shape meets a fixed one, sets of intervals.
+//!
+//! Lengths are metres, angles radians. Polygons are counter-clockwise lists of corners without repetition of the
+//! first. Every *sign* (which side, do they meet) comes from adaptive exact arithmetic; every *measure* (distance,
+//! depth) is a plain `f64`. Touching counts as contact, everywhere.
+//!
+//! ```
+//! use cplan::geometry::{Convex, Point, penetration_depth, shapes_meet};
+//!
+//! let square = |x: f64| Convex::new([[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(Point::from).to_vec(), 0.0);
+//! let (a, b) = (square(0.0)?, square(0.75)?);
+//! // `b` may be moved by any vector inside the Minkowski difference of `a` and `b` and still meets `a`.
+//! assert_eq!(a.minkowski_difference(&b).area(), 4.0);
+//! assert!(shapes_meet(&a, &b));
+//! assert_eq!(penetration_depth(&a, &b), 0.25);
+//! # Ok::<(), cplan::geometry::ConvexError>(())
+//! ```
+
+mod box_tree;
+mod convex;
+mod decompose;
+mod drawn_in;
+mod erosion;
+mod galloping;
+mod hull;
+mod inset;
+mod intervals;
+mod meet;
+mod minkowski;
+mod open_list;
+mod ordered;
+mod penetration;
+pub mod planar;
+mod pole;
+mod polygon;
+mod predicates;
+mod rings;
+mod separation;
+mod sliding;
+mod turning;
+
+pub use box_tree::{Bounds, BoxTree};
+pub use convex::reach;
+pub use convex::{Convex, ConvexError};
+pub use decompose::{MOST_CORNERS, decompose};
+pub use drawn_in::{can_be_drawn_in, corner_to_corner, drawn_in, stays_convex};
+pub use galloping::farthest;
+pub use hull::hull;
+pub use inset::{common, inset};
+pub use intervals::{Interval, merge_in_place};
+pub use meet::shapes_meet;
+pub use minkowski::minkowski_difference;
+pub use minkowski::penetration_depth;
+pub use open_list::OpenList;
+pub use ordered::Ordered;
+pub use penetration::{
+    CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,
+};
+pub use pole::pole_of_inaccessibility;
+pub use polygon::{PolygonError, SimplePolygon};
+pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
+pub use rings::{Polygon, RingError, RingSide};
+pub use separation::{Separation, separation};
+pub use separation::{gap_along, separation_at};
+pub use sliding::sliding;
+pub use sliding::{along_and_across, sliding_tracks};
+pub use turning::{Features, Hits, ROUNDING, turning, turning_from};
+pub use turning::{normalized, product};
+
+/// A point of the plane, metres.
+pub type Point = nalgebra::Point2<f64>;
+/// A displacement in the plane, metres.
+pub type Vector = nalgebra::Vector2<f64>;
+/// A rigid motion of the plane: rotation, then translation.
+pub type Pose = nalgebra::Isometry2<f64>;
+
+/// `v` turned a quarter turn counter-clockwise.
+#[must_use]
+pub fn perpendicular(v: Vector) -> Vector {
+    Vector::new(-v.y, v.x)
+}
+
+/// The z component of the cross product: positive when `b` lies counter-clockwise of `a`.
+#[must_use]
+pub fn cross(a: Vector, b: Vector) -> f64 {
+    a.x * b.y - a.y * b.x
+}

@@ -1,0 +1,91 @@
+//! The stretch along which a sliding convex shape meets a fixed one.
+
+use super::turning::ROUNDING;
+use super::{Convex, Point, Vector, cross};
+
+/// Closed interval of `s` for which `part` moved by `s * direction` comes within `grow` of `piece` (or as deep as minus that, but no
+/// deeper than both are round); as both are convex there is one or none. `direction` is a unit vector. Exact up to [`ROUNDING`]; touching counts. `O(n m)`.
+#[must_use]
+pub fn sliding(part: &Convex, direction: Vector, piece: &Convex, grow: f64) -> Option<[f64; 2]> {
+    let part_track = along_and_across(part.core().iter(), Vector::zeros(), direction);
+    let piece_track = along_and_across(piece.core().iter(), Vector::zeros(), direction);
+    sliding_tracks(&part_track, &piece_track, part.radius() + piece.radius() + grow)
+}
+
+/// Corners relative to `origin`, as coordinates along and across `direction`.
+pub fn along_and_across<'a>(
+    corners: impl Iterator<Item = &'a Point>,
+    origin: Vector,
+    direction: Vector,
+) -> Vec<Vector> {
+    corners
+        .map(|p| {
+            let v = p.coords - origin;
+            Vector::new(direction.dot(&v), cross(direction, v))
+        })
+        .collect()
+}
+
+/// [`sliding`] for cores given along and across the direction.
+///
+/// The values of `s` are those on the line of motion within the Minkowski difference of piece and part, grown by
+/// `radius`. Its outline consists of differences of a corner of the one and a side of the other, and all such
+/// differences belong to it: so the interval reaches from the least to the greatest crossing of any of them.
+pub fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<[f64; 2]> {
+    debug_assert!(radius >= 0.0, "shapes that overlap do not touch: {radius}");
+    let mut interval: Option<[f64; 2]> = None;
+    let mut include = |s: f64| {
+        interval = Some(interval.map_or([s, s], |[low, high]| [low.min(s), high.max(s)]));
+    };
+    for a in part {
+        for p in piece {
+            let d = p - a;
+            // A corner on the line up to rounding counts as on it.
+            let square = radius * radius - d.y * d.y;
+            if square >= 0.0 || d.y.abs() <= radius + ROUNDING / 2.0 {
+                let half = square.max(0.0).sqrt();
+                include(d.x - half);
+                include(d.x + half);
+            }
+        }
+    }
+    for (p, q) in sides(piece) {
+        for a in part {
+            cross_line(p - a, q - a, radius, &mut include);
+        }
+    }
+    for (a, b) in sides(part) {
+        for p in piece {
+            cross_line(p - b, p - a, radius, &mut include);
+        }
+    }
+    interval
+}
+
+/// The sides of a core.
+fn sides(core: &[Vector]) -> impl Iterator<Item = (Vector, Vector)> + '_ {
+    let count = match core.len() {
+        0 | 1 => 0,
+        2 => 1,
+        n => n,
+    };
+    (0..count).map(|i| (core[i], core[(i + 1) % core.len()]))
+}
+
+/// Where the segment from `p` to `q`, moved by `radius` to either hand, crosses the first axis.
+fn cross_line(p: Vector, q: Vector, radius: f64, include: &mut impl FnMut(f64)) {
+    let along = q - p;
+    // A segment along the axis has its ends there, and those are looked at by themselves.
+    if along.y == 0.0 {
+        return;
+    }
+    let shift = along / along.norm() * radius;
+    let shifts: &[f64] = if radius > 0.0 { &[-1.0, 1.0] } else { &[0.0] };
+    for hand in shifts {
+        let start = p + Vector::new(-shift.y, shift.x) * *hand;
+        let t = -start.y / along.y;
+        if (0.0..=1.0).contains(&t) {
+            include(start.x + t * along.x);
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! A bar about the joint against a convex polygon: closed form, two arc tangents a pair.
+//!
+//! A point at distance `r` from the joint touches the sides of a bar of half-width `w` when the bar's axis is
+//! `asin(w / r)` off the point's direction, as long as `r` is at most the reach of the bar's front corners. Let `K` be
+//! the polygon within that reach. If `K` keeps farther from the joint than the bar's rear and comes as near as its front
+//! side, the directions at which the bar meets it are *one* arc: it runs from the least to the greatest such direction
+//! over the points of `K`, because between two of them the points of `K` on the segment to its nearest one leave no gap.
+//! Both are attained at corners of `K`: corners of the polygon, and places where its sides cross the circle of the
+//! reach. All these directions lie within a right angle of the one towards the polygon, so that signs of cross products
+//! order them. No comparison decides more than its own rounding: of two candidates that tie either will do.
+
+use super::features::{Features, quotient};
+use super::{Hits, wrap};
+use crate::{Convex, Point, Vector, cross, perpendicular};
+use std::f64::consts::TAU;
+
+/// Lengths that differ by less count as equal, metres: more than the rounding of coordinates up to some 100 m, and far
+/// below [`super::ROUNDING`].
+const BLUR: f64 = 1e-11;
+
+/// A bar is at least this wide for its reach. The arcs are then far wider than the rounding of their ends.
+const LEAST_WIDTH: f64 = 1e-6;
+
+/// The rectangle from `rear` to `front` along the axis, symmetric about it, with the joint at the origin.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Bar {
+    /// Unit vector from the joint to the middle of the front side.
+    axis: Vector,
+    front: f64,
+    half_width: f64,
+    /// Squared distance of the front corners from the joint.
+    reach2: f64,
+    /// Distance of the rear corners from the joint.
+    rear: f64,
+}
+
+impl Bar {
+    /// The shape as a bar, if it is one.
+    pub fn of(shape: &Convex) -> Option<Self> {
+        let core: &[Point; 4] = shape.core().try_into().ok()?;
+        (0..4).find_map(|k| {
+            let [right, left, rear_left, rear_right] = [0, 1, 2, 3].map(|i| core[(k + i) % 4].coords);
+            let axis = (-perpendicular(left - right)).try_normalize(0.0)?;
+            let (front, half_width) = (axis.dot(&right), (left - right).norm() / 2.0);
+            let back = axis.dot(&rear_left);
+            let corner = |along: f64, across: f64| axis * along + perpendicular(axis) * across;
+            let is = |at: Vector, along: f64, across: f64| (at - corner(along, across)).norm() <= BLUR;
+            let rectangle = is(right, front, -half_width)
+                && is(left, front, half_width)
+                && is(rear_left, back, half_width)
+                && is(rear_right, back, -half_width);
+            let reach = front.hypot(half_width);
+            (rectangle && back.abs() < front && half_width > LEAST_WIDTH * reach).then(|| Self {
+                axis,
+                front,
+                half_width,
+                reach2: reach * reach,
+                rear: back.hypot(half_width),
+            })
+        })
+    }
+
+    /// [`super::turning_from`] where nothing is rounded or grown; `None` where the joint is too near to the piece, or
+    /// only the bar's front corners reach it. `O(n)`.
+    pub fn arc(&self, pivot: Point, zero: Vector, piece: &Features, out: &mut Vec<[f64; 2]>) -> Option<Hits> {
+        let side_gap = |normal: Vector, offset: f64| normal.dot(&pivot.coords) - offset;
+        let (gap, toward) = piece
+            .sides
+            .iter()
+            .map(|s| (side_gap(s.normal, s.offset), -s.normal))
+            .fold((self.rear + BLUR, Vector::zeros()), |best, next| if next.0 > best.0 { next } else { best });
+        if toward == Vector::zeros() {
+            return None;
+        }
+        if gap * gap > self.reach2 {
+            return Some(Hits::Never);
+        }
+        let mut extremes = Extremes { first: perpendicular(toward), last: -perpendicular(toward) };
+        let (mut touched, mut blocks_front, mut all_inside) = (false, false, true);
+        let reach = self.reach2.sqrt() + BLUR;
+        for corner in &piece.corners {
+            let at = corner.at - pivot.coords;
+            let distance2 = at.norm_squared();
+            if distance2 <= reach * reach {
+                extremes.add(at, (distance2 - self.half_width * self.half_width).sqrt(), self.half_width);
+                touched = true;
+                blocks_front |= distance2 <= self.front * self.front;
+            } else {
+                all_inside = false;
+            }
+        }
+        if !all_inside {
+            for side in &piece.sides {
+                let along = -side_gap(side.normal, side.offset);
+                let across2 = self.reach2 - along * along;
+                if across2 < 0.0 {
+                    continue;
+                }
+                let shift = cross(side.normal, pivot.coords);
+                let (from, to) = (side.from - shift, side.to - shift);
+                let root = across2.sqrt();
+                for across in [root, -root] {
+                    if from <= across && across <= to {
+                        let at = side.normal * along + perpendicular(side.normal) * across;
+                        extremes.add(at, self.front, self.half_width);
+                        touched = true;
+                    }
+                }
+                blocks_front |= from <= 0.0 && 0.0 <= to && along.abs() <= self.front;
+            }
+        }
+        match (touched, blocks_front) {
+            (false, _) => Some(Hits::Never),
+            (true, false) => None,
+            (true, true) => {
+                let angle = |direction| {
+                    let direction = quotient(quotient(direction, self.axis), zero);
+                    wrap(direction.y.atan2(direction.x))
+                };
+                let (start, end) = (angle(extremes.first), angle(extremes.last));
+                out.push([start, if end < start { end + TAU } else { end }]);
+                Some(Hits::Within)
+            }
+        }
+    }
+}
+
+/// The first and the last direction of the bar's axis at which it meets one of some points; of any length.
+struct Extremes {
+    first: Vector,
+    last: Vector,
+}
+
+impl Extremes {
+    /// Takes in a point whose foot on the bar's axis is `along` from the joint when it lies `across` beside it.
+    fn add(&mut self, at: Vector, along: f64, across: f64) {
+        let first = Vector::new(along * at.x + across * at.y, along * at.y - across * at.x);
+        let last = Vector::new(along * at.x - across * at.y, along * at.y + across * at.x);
+        if cross(first, self.first) > 0.0 {
+            self.first = first;
+        }
+        if cross(self.last, last) > 0.0 {
+            self.last = last;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::critical::critical_arcs;
+    use super::super::touching::Placement;
+    use super::*;
+    use crate::{Pose, ROUNDING, separation};
+    use proptest::prelude::*;
+    use std::f64::consts::PI;
+
+    fn bar(length: f64, back: f64, half_width: f64, turn: f64) -> Convex {
+        let corners = [(back, -half_width), (length, -half_width), (length, half_width), (back, half_width)];
+        Convex::trusted(corners.map(|(x, y)| Pose::rotation(turn) * Point::new(x, y)).to_vec(), 0.0)
+    }
+
+    #[test]
+    fn only_bars_about_the_joint_are_bars() {
+        let corners = |list: [(f64, f64); 4]| Convex::trusted(list.map(|(x, y)| Point::new(x, y)).to_vec(), 0.0);
+        assert!(Bar::of(&bar(0.8, -0.1, 0.05, 0.7)).is_some());
+        assert!(Bar::of(&bar(0.8, 0.1, 0.05, -2.0)).is_some());
+        assert!(Bar::of(&bar(0.8, 0.0, 1e-9, 0.0)).is_none(), "hardly a width");
+        assert!(Bar::of(&bar(0.1, -0.1, 0.1, 0.0)).is_none(), "no end is the front");
+        assert!(Bar::of(&corners([(0.0, -0.05), (0.8, -0.05), (0.8, 0.06), (0.0, 0.06)])).is_none(), "off the axis");
+        assert!(Bar::of(&corners([(0.0, -0.05), (0.8, -0.04), (0.8, 0.04), (0.0, 0.05)])).is_none(), "tapered");
+        assert!(Bar::of(&Convex::trusted(vec![Point::origin(), Point::new(1.0, 0.0)], 0.0)).is_none());
+    }
+
+    /// Rounding has the corner that touches on the inner side of the bar's by more than the distance along its normal says.
+    #[test]
+    fn what_touches_is_not_apart() {
+        let part = bar(0.8, 0.14258016639302604, 0.01648044041409189, -1.856738282955592);
+        let corner = |k: u32| {
+            let angle = 6.086385869499533 + TAU * f64::from(k) / 4.0;
+            Point::new(0.07625734473771464 * angle.cos(), 0.07625734473771464 * angle.sin())
+        };
+        let piece = Convex::trusted((0..4).map(corner).collect(), 0.0);
+        let away = Vector::new(0.7598922895925858_f64.cos(), 0.7598922895925858_f64.sin()) * 0.4827191507635857;
+        for touching in [-1.6011286936056064, -1.273965092817372] {
+            for nudge in -8_i32..=8 {
+                let angle = touching + f64::from(nudge) * 2.0 * f64::EPSILON + 0.8_f64.atan2(0.6);
+                let distance = separation(&part.at(&Pose::new(away, angle)), &piece).distance;
+                assert!(distance.abs() < ROUNDING, "{touching} {nudge}: {distance}");
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(20_000))]
+
+        /// All critical angles, sorted, with one distance between neighbours, give the same arcs; and the shapes touch
+        /// at the ends, by an independent distance. Corners at the very reach of the bar are among the positions.
+        #[test]
+        fn arcs_are_those_of_all_critical_angles(
+            (back, half_width, turn) in (-0.2..0.2f64, 0.01..0.15f64, -PI..PI),
+            (corners, size, own_turn) in (2usize..8, 0.02..0.5f64, 0.0..TAU),
+            (distance, direction) in (0.05..1.3f64, -PI..PI),
+            at_reach in prop_oneof![Just(None), (0..8usize).prop_map(Some)],
+        ) {
+            let part = bar(0.8, back, half_width, turn);
+            let corner = |k: usize| {
+                let angle = own_turn + TAU * k as f64 / corners as f64;
+                Point::new(size * angle.cos(), size * angle.sin())
+            };
+            let piece = Convex::trusted((0..corners).map(corner).collect(), 0.0);
+            let away = Vector::new(direction.cos(), direction.sin());
+            let pivot = match at_reach {
+                None => Point::from(away * distance),
+                Some(k) => piece.core()[k % corners] + away * 0.8_f64.hypot(half_width),
+            };
+            let zero = Vector::new(0.6, 0.8);
+            let (part, piece) = (Features::new(&part), Features::new(&piece));
+            let bar = part.bar.clone().expect("a bar");
+            let (mut arcs, mut exhaustive) = (Vec::new(), Vec::new());
+            let Some(hits) = bar.arc(pivot, zero, &piece, &mut arcs) else { return Ok(()) };
+            let reach = (0.0, f64::INFINITY);
+            let expected =
+                critical_arcs(&Placement { part: &part, pivot, zero, piece: &piece, radius: 0.0, reach }, &mut exhaustive);
+            let distance = |angle: f64| {
+                let pose = Pose::new(pivot.coords, angle + zero.y.atan2(zero.x));
+                separation(&part.shape().at(&pose), piece.shape()).distance
+            };
+            if hits == Hits::Never {
+                // What the exhaustive way calls contact within rounding may be none.
+                prop_assert!(expected == Hits::Never || exhaustive.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));
+            } else if expected == Hits::Never {
+                prop_assert!(arcs.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));
+            } else {
+                prop_assert_eq!((hits, arcs.len(), exhaustive.len()), (Hits::Within, 1, 1));
+                for k in 0..2 {
+                    prop_assert!(wrap(arcs[0][k] - exhaustive[0][k]).abs() < 1e-4, "{:?} {:?}", arcs, exhaustive);
+                    prop_assert!(distance(arcs[0][k]).abs() < ROUNDING, "{:?} {}", arcs, distance(arcs[0][k]));
+                }
+            }
+        }
+    }
+}

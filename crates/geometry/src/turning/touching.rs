@@ -1,0 +1,234 @@
+//! True contacts of a turning shape with a fixed one: the ends of the forbidden arcs.
+
+use super::features::{Corner, Features, product, quotient};
+use crate::{Point, Vector};
+use std::f64::consts::{PI, TAU};
+
+/// A comparison of lengths closer than this, in metres, is not trusted to rounding, nor are ends nearer to each other
+/// than this in radians. Coordinates up to some 100 m lose about 1e-11 m where a path is not grazing.
+const DOUBT: f64 = 1e-9;
+
+/// A corner whose path grazes a line: relative excess of its squared distance below which the square root has lost too
+/// many digits (half of them at 1e-16) for [`DOUBT`].
+const GRAZING: f64 = 1e-8;
+
+/// Directions between corners `r` apart lose digits as `r` shrinks: their doubt grows by this, in square metres, over
+/// `r`.
+const DOUBT_OF_DIRECTIONS: f64 = 1e-13;
+
+/// Two circles graze when the gap between their radii is nearer than this fraction to the distance that counts as
+/// contact.
+const GRAZING_CIRCLES: f64 = 1e-6;
+
+/// Arcs of one pair of convex shapes beyond which the exhaustive way takes over; more than two are rare.
+const MOST_ARCS: usize = 8;
+
+/// A comparison was too close for rounding.
+pub(super) struct Doubtful;
+
+/// Which shapes, and where.
+#[derive(Clone, Copy)]
+pub(super) struct Placement<'a> {
+    /// Turns about its origin.
+    pub part: &'a Features,
+    /// Where that origin is.
+    pub pivot: Point,
+    /// Unit vector of angle 0.
+    pub zero: Vector,
+    /// The shape that stands still.
+    pub piece: &'a Features,
+    /// Distance of the cores that counts as contact.
+    pub radius: f64,
+    /// No corner of the part nearer to the pivot or farther from it than this touches.
+    pub reach: (f64, f64),
+}
+
+/// Where the forbidden arcs begin and end; angles in `[-pi, pi)`.
+#[derive(Default)]
+pub(super) struct Ends {
+    starts: [f64; MOST_ARCS],
+    ends: [f64; MOST_ARCS],
+    count: [usize; 2],
+}
+
+impl Ends {
+    /// Whether nothing begins or ends: the shapes meet at all angles or at none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.count == [0, 0]
+    }
+
+    /// Notes a start (or an end) at the angle of `direction`.
+    fn push(&mut self, start: bool, direction: Vector) -> Result<(), Doubtful> {
+        let angle = direction.y.atan2(direction.x);
+        let (list, count) =
+            if start { (&mut self.starts, &mut self.count[0]) } else { (&mut self.ends, &mut self.count[1]) };
+        *list.get_mut(*count).ok_or(Doubtful)? = if angle >= PI { -PI } else { angle };
+        *count += 1;
+        Ok(())
+    }
+
+    /// Joins each start with the end that follows it; in doubt, pushes nothing.
+    pub(super) fn arcs(mut self, out: &mut Vec<[f64; 2]>) -> Result<(), Doubtful> {
+        let n = self.count[0];
+        if n != self.count[1] {
+            return Err(Doubtful);
+        }
+        let (starts, ends) = (&mut self.starts[..n], &mut self.ends[..n]);
+        if n > 1 {
+            starts.sort_unstable_by(f64::total_cmp);
+            ends.sort_unstable_by(f64::total_cmp);
+        }
+        if ends[0] < starts[0] {
+            ends.rotate_left(1);
+            ends[n - 1] += TAU;
+        }
+        let next_start = |i: usize| if i + 1 < n { starts[i + 1] } else { starts[0] + TAU };
+        if (0..n).any(|i| ends[i] - starts[i] <= DOUBT || next_start(i) - ends[i] <= DOUBT) {
+            return Err(Doubtful);
+        }
+        out.extend((0..n).map(|i| [starts[i], ends[i]]));
+        Ok(())
+    }
+}
+
+impl Placement<'_> {
+    /// All true contacts.
+    pub(super) fn ends(&self) -> Result<Ends, Doubtful> {
+        let mut ends = Ends::default();
+        self.corners_on_fixed_sides(&mut ends)?;
+        for corner in &self.piece.corners {
+            let at = corner.at - self.pivot.coords;
+            let distance2 = at.norm_squared();
+            // A corner on the pivot is met at all angles or at none.
+            if distance2 > 0.0 {
+                self.corner_on_turning_sides(corner, at, distance2, &mut ends)?;
+                if self.radius > 0.0 {
+                    self.corners_apart(corner, at, distance2.sqrt(), &mut ends)?;
+                }
+            }
+        }
+        Ok(ends)
+    }
+
+    /// The part's corners that can touch, and are not on the pivot.
+    fn corners_in_reach(&self) -> impl Iterator<Item = &Corner> {
+        let (near, far) = self.reach;
+        self.part.corners.iter().filter(move |c| c.distance > 0.0 && near <= c.distance && c.distance <= far)
+    }
+
+    /// Corners of the part on sides of the piece.
+    fn corners_on_fixed_sides(&self, ends: &mut Ends) -> Result<(), Doubtful> {
+        for side in &self.piece.sides {
+            // Seen from the pivot, the side moved out by the radius.
+            let along = side.offset - side.normal.dot(&self.pivot.coords) + self.radius;
+            let shift = side.normal.x * self.pivot.y - side.normal.y * self.pivot.x;
+            let (from, to) = (side.from - shift, side.to - shift);
+            for corner in self.corners_in_reach() {
+                for (across, start) in crossings(corner.distance2, along, from, to, [true, false])? {
+                    let position = Vector::new(along, across);
+                    // Both neighbours of the corner must lie beyond the side, too.
+                    let margin = corner.polar().iter().map(|&w| product(position, w).x).fold(f64::INFINITY, f64::min);
+                    if is_positive(margin.min(foot_margin(across, from, to)), DOUBT)? {
+                        ends.push(start, quotient(quotient(product(position, side.normal), corner.at), self.zero))?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A corner of the piece, `at` from the pivot, on sides of the part: the same in the part's frame, which sees the
+    /// corner turn the other way.
+    fn corner_on_turning_sides(
+        &self,
+        corner: &Corner,
+        at: Vector,
+        distance2: f64,
+        ends: &mut Ends,
+    ) -> Result<(), Doubtful> {
+        for side in &self.part.sides {
+            let along = side.offset + self.radius;
+            for (across, start) in crossings(distance2, along, side.from, side.to, [false, true])? {
+                let position = Vector::new(along, across);
+                let neighbors = corner.to_neighbors().iter();
+                let margin = neighbors.map(|&v| product(position, quotient(v, at)).x).fold(f64::INFINITY, f64::min);
+                if is_positive((margin / distance2).min(foot_margin(across, side.from, side.to)), DOUBT)? {
+                    ends.push(start, quotient(quotient(quotient(at, self.zero), position), side.normal))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Corners of the part at the contact distance from a corner of the piece, `at` and `distance` from the pivot.
+    fn corners_apart(&self, fixed: &Corner, at: Vector, distance: f64, ends: &mut Ends) -> Result<(), Doubtful> {
+        let radius = self.radius;
+        let doubt = DOUBT + DOUBT_OF_DIRECTIONS / radius;
+        let toward = at / distance;
+        for corner in self.corners_in_reach() {
+            let (excess, sum) = (corner.distance - distance, corner.distance + distance);
+            let gap = radius - excess.abs();
+            // The corner's circle is outside the one around the fixed corner, or inside it.
+            if gap < -GRAZING_CIRCLES * radius || sum - radius < -DOUBT {
+                continue;
+            }
+            if gap < GRAZING_CIRCLES * radius || sum - radius < DOUBT {
+                return Err(Doubtful);
+            }
+            // Along the direction from the pivot to the fixed corner, and across it, the turned corner lies at `beyond`
+            // and `across` from that corner. Products of sums and differences keep the digits of a small radius.
+            let beyond = (excess * sum - radius * radius) / (2.0 * distance);
+            let across2 = (sum - radius) * (sum + radius) * gap * (radius + excess.abs());
+            let root = across2.sqrt() / (2.0 * distance);
+            for (across, start) in [(-root, true), (root, false)] {
+                let turned = Vector::new(distance + beyond, across);
+                let apart = Vector::new(beyond, across);
+                // The direction between the corners must lie in the normal cones of both.
+                let direction = product(apart, toward);
+                let own = quotient(turned, apart);
+                let of_fixed = fixed.to_neighbors().iter().map(|v| -direction.dot(v));
+                let of_part = corner.polar().iter().map(|&w| product(own, w).x);
+                let margin = of_fixed.chain(of_part).fold(f64::INFINITY, f64::min) / radius;
+                if is_positive(margin, doubt)? {
+                    ends.push(start, quotient(quotient(product(turned, toward), corner.at), self.zero))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Where a circle about the origin crosses the side `along` its normal, `from`..`to` along its tangent: up to two
+/// places, each with its sign from `[at the positive root, at the negative one]`. Those clearly off the side are left
+/// out; doubtful if the circle grazes the side.
+fn crossings(
+    distance2: f64,
+    along: f64,
+    from: f64,
+    to: f64,
+    start: [bool; 2],
+) -> Result<impl Iterator<Item = (f64, bool)>, Doubtful> {
+    let across2 = distance2 - along * along;
+    let grazes = GRAZING * distance2;
+    let root = if across2 >= grazes {
+        across2.sqrt()
+    } else {
+        let blur = 2.0 * grazes.sqrt() + DOUBT;
+        if across2 > -grazes && from <= blur && to >= -blur {
+            return Err(Doubtful);
+        }
+        f64::NAN
+    };
+    let on_side = move |across: f64| foot_margin(across, from, to) >= -DOUBT;
+    Ok([(root, start[0]), (-root, start[1])].into_iter().filter(move |&(across, _)| on_side(across)))
+}
+
+/// How far a place on a side's line is from leaving the side.
+fn foot_margin(across: f64, from: f64, to: f64) -> f64 {
+    (across - from).min(to - across)
+}
+
+/// Whether a length is positive; doubtful when it is too small to tell.
+fn is_positive(margin: f64, doubt: f64) -> Result<bool, Doubtful> {
+    if margin.abs() <= doubt { Err(Doubtful) } else { Ok(margin > 0.0) }
+}

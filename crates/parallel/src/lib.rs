@@ -1,0 +1,205 @@
+//! Work on several threads, whose results come in order.
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::channel;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+/// Pieces of work that begin before the one that is due has ended, at the most, for each thread: their results wait.
+const WAITING: usize = 64;
+
+/// Does one piece of many, whose panic is not to end the others.
+///
+/// # Errors
+/// That it panicked, in words. Work that is stopped from outside unwinds, too, and goes on doing so.
+pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
+        let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+        match said {
+            Some(said) => format!("cplan failed, which is a mistake in it: {said}"),
+            None => resume_unwind(panic),
+        }
+    })
+}
+
+/// Does `count` pieces of work on `jobs` threads, and hands the results to `each` on this thread, in order, each as soon as all before it
+/// are there; until one is refused. Panics of the work are panics here.
+///
+/// # Errors
+/// What `each` refuses with; work that has begun ends, no other begins.
+pub fn in_order<T: Send, E>(
+    count: usize,
+    jobs: usize,
+    work: impl Fn(usize) -> T + Sync,
+    mut each: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
+    if jobs <= 1 {
+        return (0..count).try_for_each(|i| each(work(i)));
+    }
+    let next = AtomicUsize::new(0);
+    let turns = Turns { state: Mutex::new((0, false)), moved: Condvar::new(), most: WAITING * jobs };
+    std::thread::scope(|scope| {
+        let (sender, results) = channel();
+        for _ in 0..jobs.min(count) {
+            let sender = sender.clone();
+            let (next, turns, work) = (&next, &turns, &work);
+            scope.spawn(move || {
+                loop {
+                    let i = next.fetch_add(1, Ordering::Relaxed);
+                    if i >= count || !turns.may_begin(i) {
+                        break;
+                    }
+                    match catch_unwind(AssertUnwindSafe(|| work(i))) {
+                        // Nobody takes results any more once one was refused.
+                        Ok(result) => drop(sender.send((i, result))),
+                        Err(panic) => {
+                            turns.end();
+                            resume_unwind(panic);
+                        }
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let _over = Over(&turns);
+        let (mut early, mut due) = (BTreeMap::new(), 0);
+        for (i, result) in results {
+            early.insert(i, result);
+            while let Some(result) = early.remove(&due) {
+                each(result)?;
+                due += 1;
+                turns.reach(due);
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Which result is due, and whether no other work is to begin.
+struct Turns {
+    state: Mutex<(usize, bool)>,
+    moved: Condvar,
+    most: usize,
+}
+
+impl Turns {
+    fn state(&self) -> MutexGuard<'_, (usize, bool)> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits until few enough results wait for this one's predecessors; false when it is over.
+    fn may_begin(&self, i: usize) -> bool {
+        let is_early = |(due, is_over): &mut (usize, bool)| !*is_over && i >= *due + self.most;
+        !self.moved.wait_while(self.state(), is_early).unwrap_or_else(PoisonError::into_inner).1
+    }
+
+    fn reach(&self, due: usize) {
+        self.state().0 = due;
+        self.moved.notify_all();
+    }
+
+    fn end(&self) {
+        self.state().1 = true;
+        self.moved.notify_all();
+    }
+}
+
+/// However results stop being taken, by a refusal or a panic too, nobody waits for a turn any more.
+struct Over<'a>(&'a Turns);
+
+impl Drop for Over<'_> {
+    fn drop(&mut self) {
+        self.0.end();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_come_in_order_whatever_is_done_when() {
+        for jobs in [1, 2, 7, 100] {
+            let mut seen = Vec::new();
+            let work = |i: usize| {
+                // The first takes longest.
+                (0..10_000 * usize::from(i == 0)).for_each(|_| std::thread::yield_now());
+                i * i
+            };
+            let done: Result<(), ()> = in_order(50, jobs, work, |result| {
+                seen.push(result);
+                Ok(())
+            });
+            assert_eq!((done, seen), (Ok(()), (0..50).map(|i| i * i).collect()), "{jobs} jobs");
+        }
+    }
+
+    #[test]
+    fn a_refusal_ends_the_work() {
+        for jobs in [1, 3] {
+            let begun = AtomicUsize::new(0);
+            let work = |i: usize| {
+                begun.fetch_add(1, Ordering::Relaxed);
+                i
+            };
+            let refused = in_order(1_000_000, jobs, work, |i| if i == 10 { Err("enough") } else { Ok(()) });
+            assert_eq!(refused, Err("enough"));
+            assert!(begun.load(Ordering::Relaxed) < 10_000);
+        }
+    }
+
+    #[test]
+    fn a_panic_is_caught_and_what_is_stopped_is_not() {
+        assert_eq!(caught(|| 7), Ok(7));
+        let why = caught(|| -> u8 { panic!("corner {}", 3) });
+        assert_eq!(why, Err("cplan failed, which is a mistake in it: corner 3".into()));
+        let interrupt = cplan_interrupt::Interrupt::new();
+        let stopped = interrupt.run(|| {
+            caught(|| {
+                interrupt.set();
+                cplan_interrupt::checkpoint();
+            })
+        });
+        assert_eq!(stopped, Err(cplan_interrupt::Interrupted::Set));
+    }
+
+    #[test]
+    fn few_results_wait_for_a_slow_one() {
+        let begun = AtomicUsize::new(0);
+        let work = |i: usize| {
+            begun.fetch_add(1, Ordering::SeqCst);
+            if i == 0 {
+                // As many as may, and no more, however long it takes.
+                while begun.load(Ordering::SeqCst) < 3 * WAITING {
+                    std::thread::yield_now();
+                }
+                std::thread::sleep(std::time::Duration::from_millis(20));
+                assert_eq!(begun.load(Ordering::SeqCst), 3 * WAITING);
+            }
+            i
+        };
+        assert_eq!(in_order(1000, 3, work, |_| Ok::<_, ()>(())), Ok(()));
+    }
+
+    #[test]
+    fn a_panic_ends_the_work() {
+        let begun = AtomicUsize::new(0);
+        let work = |i: usize| {
+            begun.fetch_add(1, Ordering::SeqCst);
+            assert_ne!(i, 10, "this one fails");
+        };
+        let all = catch_unwind(AssertUnwindSafe(|| in_order(1_000_000, 3, work, |()| Ok::<_, ()>(()))));
+        assert!(all.is_err() && begun.load(Ordering::SeqCst) < 10_000);
+    }
+
+    #[test]
+    fn a_panic_of_who_takes_results_ends_the_work() {
+        let begun = AtomicUsize::new(0);
+        let work = |_| begun.fetch_add(1, Ordering::SeqCst);
+        let all = catch_unwind(AssertUnwindSafe(|| {
+            in_order(1_000_000, 3, work, |_| -> Result<(), ()> { panic!("none is taken") })
+        }));
+        assert!(all.is_err() && begun.load(Ordering::SeqCst) < 10_000);
+    }
+}

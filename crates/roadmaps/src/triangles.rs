@@ -1,0 +1,191 @@
+//! Paths by triangles of free space: from the middle of a side to that of another.
+
+use cplan_core::cspace::Regions;
+use cplan_core::planner::mesh::Mesh;
+use cplan_core::planner::roadmap::{Roadmap, RoadmapSearch};
+use cplan_core::planner::terminals::Terminals;
+use cplan_core::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use cplan_core::space::{Configuration, Measure, Metric, Path, Portal, Segment, funnel_path, nearest_end};
+use cplan_geometry::Point;
+use cplan_geometry::planar::{Boundary, NONE};
+use petgraph::graph::NodeIndex;
+use std::sync::Arc;
+
+/// The *triangular decomposition*: finds a channel of triangles from start to goal whenever there is one, and a path in it.
+///
+/// Free space is triangulated (constrained Delaunay). The roadmap's nodes are the middles of the sides that two triangles share;
+/// those of one triangle are joined by straight motions, which lie within it (LaValle, *Planning Algorithms*, 2006, section
+/// 6.3.2). The path is free but not the shortest, even when taut: another channel may hold a shorter one. `O(n log n)` for `n`
+/// corners, whatever the search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Triangles {
+    /// [`PathKind::Taut`] is pulled within the channel, so that it may touch obstacles; [`PathKind::Own`] leads through the
+    /// middles of sides.
+    pub path: PathKind,
+    /// How the roadmap is searched.
+    pub search: RoadmapSearch,
+}
+
+impl Default for Triangles {
+    fn default() -> Self {
+        Self { path: PathKind::Taut, search: RoadmapSearch::default() }
+    }
+}
+
+/// Triangulated free space, and the roadmap through the middles of its sides.
+#[derive(Debug, Clone)]
+pub struct TrianglesMap {
+    mesh: Mesh,
+    /// Corners of the triangles.
+    corners: Arc<[Vec<Configuration>]>,
+    roadmap: Roadmap,
+    /// Of each node one of the two half-edges that it is the middle of.
+    sides: Vec<u32>,
+    /// The node at the middle of each half-edge, `NONE` where that is part of the boundary.
+    middles: Vec<u32>,
+}
+
+impl Planner for Triangles {
+    const NAME: &'static str = "triangles";
+    type Space = Regions;
+    type Map = TrianglesMap;
+
+    fn build(&self, space: &Regions) -> TrianglesMap {
+        TrianglesMap::new(Mesh::new(Boundary::new(&space.contours())))
+    }
+
+    fn query(&self, space: &Regions, map: &TrianglesMap, query: &Query) -> Run {
+        let (outcome, channel, expanded) = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
+            Err(reason) => (Proposal::GaveUp(reason), Vec::new(), Vec::new()),
+            Ok(terminals) => {
+                let (way, expanded) = map.way(&terminals, self.search);
+                match way {
+                    None => (Proposal::NoPath, Vec::new(), expanded),
+                    Some(Way { own, channel, portals, goals }) => {
+                        let waypoints = match self.path {
+                            PathKind::Own => own,
+                            PathKind::Taut => taut(&map.mesh, terminals.start, &goals, &portals),
+                        };
+                        let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
+                        (
+                            Proposal::Found(path),
+                            channel.into_iter().map(|triangle| triangle as usize).collect(),
+                            expanded,
+                        )
+                    }
+                }
+            }
+        };
+        Run {
+            outcome,
+            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel, expanded },
+            size: Size::Graph { nodes: map.mesh.triangles(), edges: map.sides.len() },
+            note: None,
+        }
+    }
+}
+
+/// The shortest way from the start to the nearest of some goals through sides of triangles, each seen from the triangle that is
+/// left.
+pub(super) fn taut(mesh: &Mesh, start: Point, goals: &Segment, sides: &[u32]) -> Vec<Point> {
+    let portal = |&side: &u32| {
+        let [right, left] = mesh.ends(side);
+        Portal { left, right }
+    };
+    let portals: Vec<Portal> = sides.iter().map(portal).collect();
+    funnel_path(start, nearest_end(start, goals, &portals), &portals)
+}
+
+/// A way on the roadmap.
+struct Way {
+    /// Start, middles, goal.
+    own: Vec<Point>,
+    /// The triangles that it passes.
+    channel: Vec<u32>,
+    /// The sides by which it leaves them, one less.
+    portals: Vec<u32>,
+    /// The goals in the last triangle that it can end at.
+    goals: Segment,
+}
+
+impl TrianglesMap {
+    fn new(mesh: Mesh) -> Self {
+        let triangles = 0..mesh.triangles() as u32;
+        let corners_of = |triangle: u32| (0..3).map(|k| mesh.ends(3 * triangle + k)[0].coords).collect();
+        let corners = triangles.clone().map(corners_of).collect();
+        let mut roadmap = Roadmap::new(Measure::from(Metric::Euclidean));
+        let (mut sides, mut middles) = (Vec::new(), vec![NONE; 3 * mesh.triangles()]);
+        for side in 0..3 * mesh.triangles() as u32 {
+            if let Some(twin) = mesh.twin(side).filter(|&twin| side < twin) {
+                let [right, left] = mesh.ends(side);
+                let node = roadmap.add(nalgebra::center(&right, &left)).index() as u32;
+                (middles[side as usize], middles[twin as usize]) = (node, node);
+                sides.push(side);
+            }
+        }
+        let node = |side: u32| NodeIndex::new(middles[side as usize] as usize);
+        for triangle in triangles {
+            let portals: Vec<NodeIndex> = mesh.portals(triangle).map(node).collect();
+            for (k, &a) in portals.iter().enumerate() {
+                portals[k + 1..].iter().for_each(|&b| roadmap.join(a, b));
+            }
+        }
+        Self { mesh, corners, roadmap, sides, middles }
+    }
+
+    /// The way that a search finds, and where it came, in order.
+    fn way(&self, terminals: &Terminals, how: RoadmapSearch) -> (Option<Way>, Vec<Configuration>) {
+        let (mesh, start) = (&self.mesh, terminals.start);
+        let euclid = Measure::from(Metric::Euclidean);
+        let node = |side: u32| NodeIndex::new(self.middles[side as usize] as usize);
+        let first: Vec<u32> = mesh.triangles_at(start).collect();
+        let mut asked = self.roadmap.clone().asked(start);
+        let begin = asked.start;
+        for side in first.iter().flat_map(|&triangle| mesh.portals(triangle)) {
+            asked.join(begin, node(side));
+        }
+        // Of each goal the triangle and the part that it is of.
+        let mut goals: Vec<(NodeIndex, u32, Segment)> = Vec::new();
+        for &(triangle, part) in &terminals.parts {
+            let mut join = |from: NodeIndex| {
+                let goal = asked.goal(Point::from(part.nearest(euclid, asked.at(from).coords)));
+                asked.join(from, goal);
+                goals.push((goal, triangle, part));
+            };
+            mesh.portals(triangle).for_each(|side| join(node(side)));
+            if first.contains(&triangle) {
+                join(begin);
+            }
+        }
+        let (way, expanded) = asked.search(how, terminals);
+        let way = way.map(|nodes| {
+            // The triangles that a node is on.
+            let around = |node: NodeIndex| -> Vec<u32> {
+                if let Some(&side) = self.sides.get(node.index()) {
+                    return [Some(side), mesh.twin(side)].into_iter().flatten().map(|side| side / 3).collect();
+                }
+                if node == begin {
+                    return first.clone();
+                }
+                goals.iter().filter(|goal| goal.0 == node).map(|goal| goal.1).collect()
+            };
+            let (mut channel, mut portals): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
+            for pair in nodes.windows(2) {
+                let [a, b] = [pair[0], pair[1]].map(around);
+                let Some(&triangle) = a.iter().find(|triangle| b.contains(triangle)) else { continue };
+                if let Some(&last) = channel.last().filter(|&&last| last != triangle) {
+                    portals.extend(mesh.portals(last).find(|&side| node(side) == pair[0]));
+                }
+                if channel.last() != Some(&triangle) {
+                    channel.push(triangle);
+                }
+            }
+            let end = nodes[nodes.len() - 1];
+            let part = goals.iter().find(|goal| goal.0 == end && Some(&goal.1) == channel.last()).map(|goal| goal.2);
+            let own: Vec<Point> = nodes.iter().map(|&node| asked.at(node)).collect();
+            let goals = part.unwrap_or_else(|| Segment::point(own[own.len() - 1].coords));
+            Way { own, channel, portals, goals }
+        });
+        (way, expanded)
+    }
+}

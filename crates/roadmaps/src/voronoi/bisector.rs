@@ -1,0 +1,153 @@
+//! Bisectors, as functions of the parameter of a site's rays.
+
+use super::site::{Site, TOUCH};
+use cplan_geometry::cross;
+use std::f64::consts::PI;
+
+/// Sides whose directions differ by less are one after the other: they have no bisector.
+const PARALLEL: f64 = 1e-9;
+
+/// How far up its rays a site is as near as another one.
+///
+/// Of that height `h` a quadratic polynomial of the parameter `t` is kept that grows with it: over a side the height itself, over a
+/// corner `-(1 + t^2) / h`. Where one of two is nearer is so the sign of a third.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Bisector {
+    /// Of `1, t, t^2`.
+    coefficients: [f64; 3],
+    on_side: bool,
+    /// Where the nearest point of the other site is none of its ends.
+    pub from: f64,
+    pub to: f64,
+    /// The other one.
+    pub other: usize,
+}
+
+impl Bisector {
+    /// Those of a site and another one, of which `other` is the number: two where a corner sees both ends of a side better than
+    /// its middle.
+    pub fn between(site: &Site, with: &Site, other: usize) -> impl Iterator<Item = Self> + use<> {
+        let (parts, on_side) = match (site.is_side, with.is_side) {
+            (true, true) => ([side_and_side(site, with), None, None], true),
+            (true, false) => ([side_and_point(site, with), None, None], true),
+            (false, true) => (point_and_side(site, with), false),
+            (false, false) => ([point_and_point(site, with), None, None], false),
+        };
+        let [first, last] = site.range;
+        let made = move |(coefficients, from, to): Part| {
+            let (from, to) = (f64::max(from, first), f64::min(to, last));
+            (from <= to).then_some(Self { coefficients, on_side, from, to, other })
+        };
+        parts.into_iter().flatten().filter_map(made)
+    }
+
+    /// Its value; the least one is the nearest.
+    pub fn value(&self, t: f64) -> f64 {
+        let [a, b, c] = self.coefficients;
+        a + t * (b + t * c)
+    }
+
+    /// Its slope.
+    pub fn slope(&self, t: f64) -> f64 {
+        let [_, b, c] = self.coefficients;
+        b + 2.0 * t * c
+    }
+
+    /// The height that the value stands for.
+    pub fn height(&self, t: f64) -> f64 {
+        let value = self.value(t);
+        match self.on_side {
+            true => value.max(0.0),
+            false if value < 0.0 => -(1.0 + t * t) / value,
+            false => f64::INFINITY,
+        }
+    }
+
+    /// How far a chord of length `step` is from a parabola over a side.
+    pub fn sag(&self, step: f64) -> f64 {
+        if self.on_side { self.coefficients[2] * step * step / 4.0 } else { 0.0 }
+    }
+
+    /// Where its value falls below another's: there is one such place at most.
+    pub fn falls_below(&self, other: &Self) -> Option<f64> {
+        let [c, b, a] = [0, 1, 2].map(|k| self.coefficients[k] - other.coefficients[k]);
+        let square = b * b - 4.0 * a * c;
+        if square <= 0.0 {
+            return None;
+        }
+        // Of both zeros the one with a falling slope, without cancellation.
+        let root = square.sqrt();
+        let at = if b > 0.0 { (-b - root) / (2.0 * a) } else { 2.0 * c / (root - b) };
+        at.is_finite().then_some(at)
+    }
+}
+
+/// The polynomial for `a + b cos + c sin` of twice the angle of which the parameter is the tangent.
+fn of_wave([a, b, c]: [f64; 3]) -> [f64; 3] {
+    [a + b, 2.0 * c, a - b]
+}
+
+/// Coefficients, and from where to where.
+type Part = ([f64; 3], f64, f64);
+
+fn side_and_point(site: &Site, point: &Site) -> Option<Part> {
+    let there = point.at - site.at;
+    let (x, y) = (there.dot(&site.along), there.dot(&site.normal()));
+    let parabola = || ([(x * x + y * y) / (2.0 * y), -x / y, 1.0 / (2.0 * y)], f64::NEG_INFINITY, f64::INFINITY);
+    (y > TOUCH).then(parabola)
+}
+
+fn side_and_side(site: &Site, side: &Site) -> Option<Part> {
+    // The height is the distance of the foot from the other side by how much slower the height over that one changes.
+    let turned = site.normal() - side.normal();
+    let apart = turned.norm_squared() / 2.0;
+    if turned.norm() < PARALLEL {
+        return None;
+    }
+    let there = site.at - side.at;
+    let height = [there.dot(&side.normal()) / apart, site.along.dot(&side.normal()) / apart];
+    let rise = site.normal().dot(&side.along);
+    let foot = [there.dot(&side.along) + height[0] * rise, site.along.dot(&side.along) + height[1] * rise];
+    let range = [(height[0], height[1]), (foot[0], foot[1]), (side.range[1] - foot[0], -foot[1])];
+    let (from, to) = range.into_iter().fold((f64::NEG_INFINITY, f64::INFINITY), |(from, to), (value, slope)| {
+        // Where `value + slope * t` is not negative.
+        match -value / slope {
+            at if slope > 0.0 => (at.max(from), to),
+            at if slope < 0.0 => (from, at.min(to)),
+            _ if value >= 0.0 => (from, to),
+            _ => (f64::INFINITY, f64::NEG_INFINITY),
+        }
+    });
+    (from <= to).then_some(([height[0], height[1], 0.0], from, to))
+}
+
+fn point_and_point(site: &Site, point: &Site) -> Option<Part> {
+    let there = point.at - site.at;
+    let square = there.norm_squared();
+    let wave = || {
+        let rate = -2.0 / square;
+        let wave = [0.0, rate * there.dot(&site.along), rate * there.dot(&site.normal())];
+        (of_wave(wave), f64::NEG_INFINITY, f64::INFINITY)
+    };
+    (square > TOUCH * TOUCH).then(wave)
+}
+
+fn point_and_side(site: &Site, side: &Site) -> [Option<Part>; 3] {
+    let there = site.at - side.at;
+    let away = there.dot(&side.normal());
+    if away <= TOUCH {
+        return [None; 3];
+    }
+    let wave = [-1.0 / away, side.normal().dot(&site.along) / away, side.normal().dot(&site.normal()) / away];
+    // Half the angles from the middle ray to those with a foot at either end: its tangent from the ray that goes straight to the
+    // side is the foot's place there by the distance.
+    let straight = -side.normal();
+    let begin = 0.5 * cross(site.along, straight).atan2(site.along.dot(&straight));
+    let foot = there.dot(&side.along);
+    let ends = [-foot, side.range[1] - foot].map(|along| begin + (along / away).atan());
+    let least = [0, 1].map(|k| site.range[k].atan());
+    [-PI, 0.0, PI].map(|turn| {
+        let [from, to] = [(ends[0] + turn).max(least[0]), (ends[1] + turn).min(least[1])];
+        (from <= to).then(|| (of_wave(wave), from.tan(), to.tan()))
+    })
+}

@@ -1,0 +1,227 @@
+//! The Voronoi diagram of the sites on the boundary of free space.
+
+use super::bisector::Bisector;
+use super::cell::{Arc, border};
+use super::site::{Site, TOUCH};
+use super::ways::NARROW;
+use cplan_core::cspace::Regions;
+use cplan_core::planner::mesh::Mesh;
+use cplan_core::space::{Configuration, JointRange, Segment};
+use cplan_geometry::{Bounds, BoxTree, Point};
+use cplan_interrupt::checkpoint;
+use std::f64::consts::{PI, TAU};
+
+/// Chords of a parabola are nearer to it than this, radians or metres, ...
+const SAG: f64 = 1e-3;
+
+/// ... and than this share of its distance from the boundary, so that they keep that.
+const SHARE: f64 = 0.01;
+
+/// A straight piece of the diagram, or a chord of a parabola.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Chord {
+    pub ends: Segment,
+    /// Its least distance from the two sites that it is between.
+    pub width: f64,
+}
+
+/// The diagram of one turn of each circle, all of which look alike, and of intervals as they are.
+#[derive(Debug, Clone)]
+pub(super) struct Diagram {
+    /// Sites of that part, sides cut at its borders, and then their copies around it.
+    sites: Vec<Site>,
+    /// Of each the number of the original, and the turns from there.
+    originals: Vec<(usize, [i32; 2])>,
+    lower: [f64; 2],
+    ranges: [JointRange; 2],
+    /// A distance from the boundary that no configuration has.
+    most: f64,
+    pub chords: Vec<Chord>,
+}
+
+impl Diagram {
+    /// `O(n m)` for `n` sites with `m` others within twice the greatest distance that they are the nearest at.
+    pub fn new(space: &Regions, mesh: &Mesh) -> Self {
+        let ranges = space.topology.ranges;
+        let part = [0, 1].map(|k| {
+            let middle = 0.5 * (space.window[k].0 + space.window[k].1);
+            if ranges[k].is_circle() { (middle - PI, middle + PI) } else { (f64::NEG_INFINITY, f64::INFINITY) }
+        });
+        let (lower, upper) = (part.map(|p| p.0), part.map(|p| p.1));
+        let within = |ends: [Point; 2]| Segment::new(ends[0].coords, ends[1].coords).within(lower, upper);
+        let sides = mesh.walls().filter_map(within).filter(|side| !side.is_point());
+        let mut sites: Vec<Site> = sides.map(|side| Site::side(side.corners()[0], side.corners()[1])).collect();
+        let is_here = |p: Point| (0..2).all(|k| lower[k] <= p[k] && p[k] <= upper[k]);
+        sites.extend(mesh.corners().iter().filter(|corner| is_here(corner.at)).map(Site::corner));
+        let count = sites.len();
+        let most = farthest(space);
+        let around = [0, 1].map(|k| if ranges[k].is_circle() { (2.0 * most / TAU).ceil() as i32 } else { 0 });
+        let turns = (-around[0]..=around[0]).flat_map(|i| (-around[1]..=around[1]).map(move |j| [i, j]));
+        let mut originals: Vec<(usize, [i32; 2])> = (0..count).map(|site| (site, [0; 2])).collect();
+        for turns in turns.filter(|turns| *turns != [0; 2]) {
+            for site in 0..count {
+                let copy = sites[site].turned(turns.map(f64::from));
+                let is_near = |k: usize| {
+                    copy.at[k].min(copy.to[k]) <= upper[k] + 2.0 * most
+                        && copy.at[k].max(copy.to[k]) >= lower[k] - 2.0 * most
+                };
+                if is_near(0) && is_near(1) {
+                    sites.push(copy);
+                    originals.push((site, turns));
+                }
+            }
+        }
+        let mut diagram = Self { sites, originals, lower, ranges, most, chords: Vec::new() };
+        diagram.chords = diagram.drawn(count);
+        diagram
+    }
+
+    /// All chords, each once.
+    fn drawn(&self, count: usize) -> Vec<Chord> {
+        let bounds = |site: &Site| [site.at.inf(&site.to), site.at.sup(&site.to)];
+        let tree = BoxTree::new(self.sites.iter().map(bounds).collect());
+        let mut chords = Vec::new();
+        for number in 0..count {
+            let site = &self.sites[number];
+            for arc in self.cell(&tree, number, bounds(site)) {
+                let (other, turns) = self.originals[arc.bisector.other];
+                // From a side rather than a corner, where parabolas are polynomials; of two alike from the first.
+                if number < other || (number == other && turns > [0; 2]) {
+                    chord(site, &self.sites[arc.bisector.other], &arc, [arc.from, arc.to], &mut chords);
+                }
+            }
+        }
+        chords
+    }
+
+    /// The border of a site's cell: among others near by, of which it is known at last that they are all that matter.
+    fn cell(&self, tree: &BoxTree, number: usize, bounds: Bounds) -> Vec<Arc> {
+        let most = self.most;
+        let site = &self.sites[number];
+        let extent = site.range[1] - site.range[0];
+        let mut reach = extent.min(most);
+        loop {
+            let grow = Configuration::repeat(2.0 * reach);
+            let mut near = Vec::new();
+            tree.meeting(&[bounds[0] - grow, bounds[1] + grow], &mut near);
+            near.retain(|&other| other as usize != number);
+            let between = |&other: &u32| Bisector::between(site, &self.sites[other as usize], other as usize);
+            let bisectors: Vec<_> = near.iter().flat_map(between).collect();
+            let arcs = border(site, &self.sites, &bisectors);
+            let greatest = arcs.iter().map(Arc::greatest).fold(0.0, f64::max);
+            let covered: f64 = arcs.iter().map(|arc| arc.to - arc.from).sum();
+            let is_closed = greatest.is_finite() && covered > extent * (1.0 - 1e-6);
+            if (is_closed && greatest <= reach) || reach >= most {
+                return arcs;
+            }
+            reach = if is_closed { greatest.min(most) } else { (4.0 * reach).min(most) };
+        }
+    }
+
+    /// A place in the part that the diagram is of, and the turns from there back.
+    fn at_home(&self, p: Point) -> (Point, [f64; 2]) {
+        let turns =
+            [0, 1].map(|k| if self.ranges[k].is_circle() { ((p[k] - self.lower[k]) / TAU).floor() } else { 0.0 });
+        (moved(p, turns.map(|turn| -turn)), turns)
+    }
+
+    /// Where the straight way from a place, away from what it is nearest to, meets the diagram (O'Dunlaing, Yap 1985).
+    /// Linear.
+    pub fn retracted(&self, p: Point) -> Option<Point> {
+        let (home, turns) = self.at_home(p);
+        let distance = |site: &Site| (home - site.nearest(home)).norm();
+        let nearest = self.sites.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let from = nearest.nearest(home);
+        let way = home - from;
+        // On the boundary itself any of the site's rays will do.
+        let ray = if way.norm() > TOUCH {
+            (from, way.normalize())
+        } else {
+            (home, nearest.ray(0.5 * (nearest.range[0] + nearest.range[1])).1)
+        };
+        let others = self.sites.iter().filter(|site| !std::ptr::eq(*site, nearest));
+        let height = others.map(|site| site.limit(ray)).fold(f64::INFINITY, f64::min);
+        height.is_finite().then(|| moved(ray.0 + ray.1 * height, turns))
+    }
+
+    /// The distance of a free segment from the boundary. Linear in the sites, and in the length.
+    pub fn clearance(&self, a: Point, b: Point) -> f64 {
+        // Copies of sites reach no farther around the part than twice the greatest distance.
+        if (b - a).norm() > self.most {
+            let middle = a + (b - a) / 2.0;
+            return self.clearance(a, middle).min(self.clearance(middle, b));
+        }
+        let (home, _) = self.at_home(a);
+        let there = home + (b - a);
+        self.sites.iter().map(|site| site.distance(home, there)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// All chords in a window, with their copies.
+    pub fn repeated(&self, window: [(f64, f64); 2]) -> impl Iterator<Item = Chord> + '_ {
+        let (lower, upper) = (window.map(|w| w.0), window.map(|w| w.1));
+        self.chords.iter().flat_map(move |chord| {
+            let [a, b] = chord.ends.ends();
+            let turns = [0, 1].map(|k| match self.ranges[k] {
+                JointRange::Interval { .. } => 0..=0,
+                JointRange::Circle => {
+                    let turns = |value: f64| (value / TAU).ceil() as i32;
+                    turns(lower[k] - a[k].max(b[k]))..=-turns(a[k].min(b[k]) - upper[k])
+                }
+            });
+            let [first, second] = turns;
+            first.flat_map(move |i| second.clone().map(move |j| [f64::from(i), f64::from(j)])).filter_map(
+                move |turns| {
+                    let ends = chord.ends.turned(turns).within(lower, upper)?;
+                    (!ends.is_point()).then_some(Chord { ends, ..*chord })
+                },
+            )
+        })
+    }
+}
+
+/// A distance from the boundary that no configuration has: the sites of an interval's limits, or the copies of any site on two
+/// circles, are nearer.
+fn farthest(space: &Regions) -> f64 {
+    let extents = [0, 1].map(|k| space.window[k].1 - space.window[k].0);
+    let circles = space.topology.ranges.map(JointRange::is_circle);
+    let half = |k: usize| 0.5 * extents[k];
+    match circles {
+        [true, true] => PI.hypot(PI),
+        [true, false] => half(1),
+        [false, true] => half(0),
+        [false, false] => half(0).min(half(1)),
+    }
+}
+
+/// So many turns on.
+fn moved(p: Point, turns: [f64; 2]) -> Point {
+    Segment::point(p.coords).turned(turns).corners()[0]
+}
+
+/// Chords of an arc, halved until they are fine enough.
+fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mut Vec<Chord>) {
+    let heights = [from, to].map(|t| arc.bisector.height(t));
+    if !(heights[0] + heights[1]).is_finite() {
+        return;
+    }
+    // What is narrower is no way: where a corner all but touches a side, heights are rounding.
+    if arc.bisector.sag(to - from) > SAG.min(SHARE * heights[0].min(heights[1])).max(NARROW) {
+        checkpoint();
+        let middle = 0.5 * (from + to);
+        if from < middle && middle < to {
+            chord(site, other, arc, [from, middle], chords);
+            return chord(site, other, arc, [middle, to], chords);
+        }
+    }
+    let place = |t: f64, height: f64| match site.end(t) {
+        // Corners of free space as they are: rounded ones may lie outside.
+        Some(corner) if height < TOUCH => corner,
+        _ => {
+            let (at, direction) = site.ray(t);
+            at + direction * height
+        }
+    };
+    let [a, b] = [place(from, heights[0]), place(to, heights[1])];
+    let width = site.distance(a, b).min(other.distance(a, b));
+    chords.push(Chord { ends: Segment::new(a.coords, b.coords), width });
+}

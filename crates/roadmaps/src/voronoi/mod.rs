@@ -1,0 +1,84 @@
+//! Paths of greatest clearance, by the Voronoi diagram of free space.
+//!
+//! `site` has the sides and corners that the diagram is of, `bisector` where one is as near as another, `cell` the border of
+//! what is nearest to one, and `diagram` all of them. The borders of cells are lower envelopes of closed forms, so that nothing
+//! but their ends is rounded, and sites that touch or coincide need no case of their own.
+
+mod bisector;
+mod cell;
+mod diagram;
+mod site;
+mod ways;
+
+use crate::prm::along;
+use cplan_core::cspace::Regions;
+use cplan_core::planner::mesh::Mesh;
+use cplan_core::planner::roadmap::{self, RoadmapSearch};
+use cplan_core::planner::terminals::Terminals;
+use cplan_core::planner::{PathKind, Planner, Proposal, Query, Run};
+use cplan_geometry::planar::Boundary;
+use diagram::Diagram;
+use ways::Ways;
+
+/// The *generalised Voronoi diagram* of C-obstacles and joint limits, or medial axis of free space: a path that keeps the greatest
+/// distance from them, in joint space.
+///
+/// Sites are the open sides of free space's boundary and its corners; the diagram is where two of them are equally near
+/// (O'Dunlaing, Yap, *A "retraction" method for planning the motion of a disc*, 1985). Start and goals are joined to it by the straight
+/// way away from what they are nearest to. Of all ways along the diagram those are looked for whose least distance from the
+/// boundary is the greatest, and of these the shortest, or what another search finds. The limits of joints are walls; on circles
+/// sites are repeated across the seam.
+///
+/// Straight arcs are straight, and parabolas are cut into chords that are within 1e-3 rad or m of them, and within a hundredth of their
+/// distance from the boundary. Borders of cells are closed forms in floating point; that a motion is free is decided
+/// exactly, in triangulated free space. `O(n m)` for `n` sites with `m` others around them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Voronoi {
+    /// [`PathKind::Own`] is along the diagram; [`PathKind::Taut`] is pulled tight through the triangles that it crosses, so that it may
+    /// touch obstacles.
+    pub path: PathKind,
+    /// How the widest ways are searched.
+    pub search: RoadmapSearch,
+}
+
+impl Default for Voronoi {
+    fn default() -> Self {
+        Self { path: PathKind::Own, search: RoadmapSearch::default() }
+    }
+}
+
+/// The diagram in a window, and triangulated free space.
+#[derive(Debug, Clone)]
+pub struct VoronoiMap {
+    mesh: Mesh,
+    diagram: Diagram,
+    ways: Ways,
+}
+
+impl Planner for Voronoi {
+    const NAME: &'static str = "voronoi";
+    type Space = Regions;
+    type Map = VoronoiMap;
+
+    fn build(&self, space: &Regions) -> VoronoiMap {
+        let mesh = Mesh::new(Boundary::new(&space.contours()));
+        let diagram = Diagram::new(space, &mesh);
+        let ways = Ways::new(&mesh, diagram.repeated(space.window));
+        VoronoiMap { mesh, diagram, ways }
+    }
+
+    fn query(&self, space: &Regions, map: &VoronoiMap, query: &Query) -> Run {
+        let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
+            Ok(terminals) => terminals,
+            Err(reason) => return roadmap::run(Proposal::GaveUp(reason), None, Vec::new()),
+        };
+        let asked = map.ways.asked(&map.mesh, &map.diagram, &terminals);
+        let Some(widest) = asked.widest(ways::NARROW) else {
+            return roadmap::run(Proposal::NoPath, Some(&asked), Vec::new());
+        };
+        let (way, expanded) = widest.search(self.search, &terminals);
+        let own = |way: Vec<_>| way.into_iter().map(|node| widest.at(node)).collect();
+        let outcome = way.map_or(Proposal::NoPath, |way| along(&map.mesh, own(way), self.path));
+        roadmap::run(outcome, Some(&asked), expanded)
+    }
+}

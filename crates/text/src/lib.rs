@@ -1,0 +1,66 @@
+//! Text for people: what is shown of names, markup, numbers, numbers of things, long lists, two columns, lines of a width; and infinite numbers in data. Imports nothing, and all may import it.
+
+mod base64;
+mod columns;
+mod markup;
+pub mod number;
+mod plain;
+mod rounded;
+mod wrapped;
+
+pub use base64::base64;
+pub use columns::{Columns, INDENT};
+pub use markup::markup;
+pub use plain::plain_json;
+pub use plain::{plain, plain_line};
+pub use rounded::at_most;
+pub use rounded::{at_least, fixed, nonzero, percent, short, told_apart};
+pub use wrapped::wrapped;
+
+/// A number of things: `1 obstacle`, `3 obstacles`, `2 boxes`.
+#[must_use]
+pub fn counted(count: usize, thing: &str) -> String {
+    let ending = match count {
+        1 => "",
+        _ if thing.ends_with('x') => "es",
+        _ => "s",
+    };
+    format!("{count} {thing}{ending}")
+}
+
+/// More reasons than this are counted, not listed.
+const LISTED: usize = 6;
+
+/// Reasons in a row, all of them if they are few: `a; b; and 12 more`.
+#[must_use]
+pub fn listed(reasons: &[String]) -> String {
+    let [first, more] = [&reasons[..reasons.len().min(LISTED)], &reasons[reasons.len().min(LISTED)..]];
+    let rest = (!more.is_empty()).then(|| format!("and {} more", more.len()));
+    first.iter().cloned().chain(rest).collect::<Vec<_>>().join("; ")
+}
+
+/// The same as lines of their own.
+#[must_use]
+pub fn first_lines(lines: Vec<String>, more: impl Fn(usize) -> String) -> Vec<String> {
+    let rest = lines.len().saturating_sub(LISTED);
+    lines.into_iter().take(LISTED).chain((rest > 0).then(|| more(rest))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn long_lists_are_cut() {
+        let reasons = |count: usize| (0..count).map(|k| k.to_string()).collect::<Vec<_>>();
+        assert_eq!(super::listed(&reasons(6)), "0; 1; 2; 3; 4; 5");
+        assert_eq!(super::listed(&reasons(8)), "0; 1; 2; 3; 4; 5; and 2 more");
+        assert_eq!(super::listed(&[]), "");
+        assert_eq!(super::first_lines(reasons(7), |n| format!("{n} others"))[6], "1 others");
+        assert_eq!(super::first_lines(reasons(6), |n| format!("{n} others")).len(), 6);
+    }
+
+    #[test]
+    fn one_thing_is_singular() {
+        assert_eq!([0, 1, 2].map(|n| super::counted(n, "row")), ["0 rows", "1 row", "2 rows"]);
+        assert_eq!([1, 2].map(|n| super::counted(n, "box")), ["1 box", "2 boxes"]);
+    }
+}

@@ -1,0 +1,62 @@
+//! Names as they may be shown.
+
+use std::borrow::Cow;
+
+/// Whether a character does something to a terminal, or to the text around it, rather than being seen: controls, and those
+/// that change the direction of writing or break lines (Unicode 16, 23.2; UAX 9).
+fn acts(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
+}
+
+fn escaped(text: &str, spared: impl Fn(char) -> bool, escape: impl Fn(&mut String, char)) -> Cow<'_, str> {
+    let is_escaped = |c: char| acts(c) && !spared(c);
+    if !text.contains(is_escaped) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        if is_escaped(c) { escape(&mut shown, c) } else { shown.push(c) }
+    }
+    Cow::Owned(shown)
+}
+
+/// A text for people, of any number of lines: what would act on a terminal is written as an escape, `\u{1b}`.
+#[must_use]
+pub fn plain(text: &str) -> Cow<'_, str> {
+    escaped(text, |c| matches!(c, '\n' | '\t'), |shown, c| shown.extend(c.escape_default()))
+}
+
+/// The same of what is to stay in one line.
+#[must_use]
+pub fn plain_line(text: &str) -> Cow<'_, str> {
+    escaped(text, |_| false, |shown, c| shown.extend(c.escape_default()))
+}
+
+/// JSON with all that acts as escapes of JSON's: it reads as the same.
+
+#[must_use]
+pub fn plain_json(json: &str) -> Cow<'_, str> {
+    use std::fmt::Write;
+    let escape = |shown: &mut String, c: char| {
+        // None of them is beyond the first plane; writing to a string cannot fail.
+        let _ = write!(shown, "\\u{:04x}", u32::from(c));
+    };
+    escaped(json, |c| matches!(c, '\n' | '\t' | '\r'), escape)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_acts_is_seen_and_the_rest_stays() {
+        assert_eq!(plain("a\u{1b}[31m\tb\nc\u{9b}d\u{202e}e\r"), "a\\u{1b}[31m\tb\nc\\u{9b}d\\u{202e}e\\r");
+        assert_eq!(plain_line("a\nb\tc"), "a\\nb\\tc");
+        let usual = "shoulder \u{2192} \u{e4}\u{f6}\u{fc} \u{5d0}\u{1f916}";
+        assert!(matches!(plain_line(usual), Cow::Borrowed(text) if text == usual));
+        let json = serde_json::to_string("a\u{1b}\u{9b}\u{202e}\"").unwrap();
+        assert!(plain_json(&json).is_ascii());
+        assert_eq!(serde_json::from_str::<String>(&plain_json(&json)).unwrap(), "a\u{1b}\u{9b}\u{202e}\"");
+    }
+}

@@ -1,0 +1,159 @@
+//! Numbers for people: short, told apart where they differ, and if they are proven no more than what is proven.
+
+/// With more decimals than this numbers are written as they are.
+const MOST_DECIMALS: usize = 12;
+
+/// A number with some decimals, whose zero has no sign.
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if !rest.contains(|c: char| ('1'..='9').contains(&c)) && value.is_finite() => rest.to_owned(),
+        _ => text,
+    }
+}
+
+/// A number with some decimals; one that would look like zero, and is none, with two digits that count: `5.6e-7`.
+#[must_use]
+pub fn nonzero(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    if value != 0.0 && text.parse() == Ok(0.0) { format!("{value:.1e}") } else { text }
+}
+
+/// Numbers with these decimals, or with as many more as it takes for numbers that differ to look different.
+#[must_use]
+pub fn told_apart<const N: usize>(values: [f64; N], decimals: usize) -> [String; N] {
+    let are_told = |texts: &[String; N]| (0..N).all(|i| (0..i).all(|j| values[i] == values[j] || texts[i] != texts[j]));
+    let with = |decimals: usize| values.map(|value| fixed(value, decimals));
+    (decimals..=MOST_DECIMALS).map(with).find(are_told).unwrap_or_else(|| values.map(|value| (value + 0.0).to_string()))
+}
+
+/// A number to six digits that count, without zeros at its end.
+#[must_use]
+pub fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// A number with some decimals that is no more than this one, so that what is proven of it is proven of what is shown. One above zero
+/// that would look like zero has two digits that count: `5.6e-7`.
+#[must_use]
+pub fn at_least(value: f64, decimals: usize) -> String {
+    let text = shown(value, decimals, |shown| shown <= value, -1.0);
+    if value > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text }
+}
+
+/// The same, no less than this one.
+#[must_use]
+pub fn at_most(value: f64, decimals: usize) -> String {
+    shown(value, decimals, |shown| shown >= value, 1.0)
+}
+
+/// Two digits of a positive number that are no more than it.
+fn two_digits_below(value: f64) -> String {
+    let nearest = format!("{value:.1e}");
+    let Some((digits, exponent)) =
+        nearest.split_once('e').filter(|_| nearest.parse().is_ok_and(|shown: f64| shown > value))
+    else {
+        return nearest;
+    };
+    match (digits.parse::<f64>(), exponent.parse::<i32>()) {
+        (Ok(1.0), Ok(exponent)) => format!("9.9e{}", exponent - 1),
+        (Ok(digits), Ok(exponent)) => format!("{:.1}e{exponent}", digits - 0.1),
+        _ => nearest,
+    }
+}
+
+/// A share in words, rounded up: `0.04 %`, `8.5e-3 %`. That a quotient was rounded makes it no more.
+#[must_use]
+pub fn percent(share: f64) -> String {
+    let percent = 100.0 * (share - 2.0 * f64::EPSILON).max(0.0);
+    if percent == 0.0 || percent >= 0.01 {
+        return format!("{} %", at_most(percent, 2));
+    }
+    // Two digits that count.
+    let decimals = 1 - percent.log10().floor() as i32;
+    let shown = at_most(percent, decimals.unsigned_abs() as usize);
+    shown.parse().map_or(shown.clone(), |shown: f64| format!("{shown:.1e}")) + " %"
+}
+
+/// The nearest, or the next one in a direction.
+fn shown(value: f64, decimals: usize, holds: impl Fn(f64) -> bool, towards: f64) -> String {
+    let nearest = fixed(value, decimals);
+    match nearest.parse::<f64>() {
+        Ok(number) if value.is_finite() && !holds(number) => {
+            fixed(value + towards * 0.1_f64.powi(decimals as i32), decimals)
+        }
+        _ => nearest,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn by_hand() {
+        assert_eq!([at_least(1.66871, 3), at_most(1.66871, 3)], ["1.668", "1.669"]);
+        assert_eq!([at_least(7.627e-6, 6), at_least(4.0, 4), at_most(0.25, 2)], ["0.000007", "4.0000", "0.25"]);
+        assert_eq!([at_most(0.0301, 2), at_least(f64::INFINITY, 3)], ["0.04", "inf"]);
+    }
+
+    #[test]
+    fn short_numbers_keep_six_digits() {
+        let shown = [0.2617993877991494, 0.281882666843, 1e-4 / 3.0, 123_456.789, 0.1 + 0.2, -0.0, 1.0].map(short);
+        assert_eq!(shown, [0.261799, 0.281883, 3.33333e-5, 123_457.0, 0.3, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn shares_are_rounded_up_to_two_digits() {
+        let shown = [0.0, 1e-16, 0.0004, 0.00040001, 8.41e-5, 9.96e-5, 1.0e-9, 1.01e-9, 0.25].map(percent);
+        let asked = ["0.00 %", "0.00 %", "0.04 %", "0.05 %", "8.5e-3 %", "1.0e-2 %", "1.0e-7 %", "1.1e-7 %", "25.00 %"];
+        assert_eq!(shown, asked);
+    }
+
+    #[test]
+    fn zero_has_no_sign_and_no_proven_distance_looks_like_it() {
+        assert_eq!([fixed(-1e-9, 4), fixed(-0.0, 2), fixed(-0.1, 0), fixed(-0.1, 1)], ["0.0000", "0.00", "0", "-0.1"]);
+        assert_eq!([nonzero(4.64e-7, 6), nonzero(-5.6e-7, 4), nonzero(-0.0, 2)], ["4.6e-7", "-5.6e-7", "0.00"]);
+        assert_eq!([fixed(f64::NEG_INFINITY, 2), fixed(-20.0, 1)], ["-inf", "-20.0"]);
+        assert_eq!([at_least(5.6e-7, 6), at_least(5.68e-7, 6), at_least(9.96e-9, 6)], ["5.6e-7", "5.6e-7", "9.9e-9"]);
+        assert_eq!([at_least(1e-300, 4), at_least(0.0, 6), at_most(-1e-9, 6)], ["1.0e-300", "0.000000", "0.000000"]);
+    }
+
+    #[test]
+    fn numbers_that_differ_look_different() {
+        assert_eq!(told_apart([-1e-6, 0.0, 1.0], 4), ["-0.000001", "0.000000", "1.000000"]);
+        assert_eq!(told_apart([0.4, 0.0, 0.4], 4), ["0.4000", "0.0000", "0.4000"]);
+        assert_eq!(told_apart([0.400_000_1, 0.0, 0.4], 4), ["0.4000001", "0.0000000", "0.4000000"]);
+        assert_eq!(told_apart([0.4_f64.next_up(), 0.4], 4), ["0.4000000000000001", "0.4"]);
+        assert_eq!(told_apart([-0.0, 0.0], 1), ["0.0", "0.0"]);
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(500))]
+
+        #[test]
+        fn two_digits_are_below_by_a_unit_of_the_second_at_most(exponent in -30.0..0.0_f64, decimals in 0..7_usize) {
+            let value = 10_f64.powf(exponent);
+            let shown: f64 = at_least(value, decimals).parse().unwrap();
+            prop_assert!(0.0 < shown && shown <= value, "{value} {shown}");
+            prop_assert!(value - shown <= 0.1001 * value || value >= 0.1_f64.powi(decimals as i32), "{value} {shown}");
+        }
+
+        #[test]
+        fn shares_are_no_less(exponent in -14.0..0.5_f64) {
+            let share = 10_f64.powf(exponent);
+            let shown: f64 = percent(share).trim_end_matches(" %").parse().unwrap();
+            let unit = if share < 1e-4 { share } else { 1e-4 };
+            prop_assert!((-1e-15..=1.001 * unit).contains(&(shown / 100.0 - share)), "{share} {shown}");
+        }
+
+        #[test]
+        fn they_enclose_by_a_unit_at_most(value in -1e3..1e3_f64, decimals in 0..7_usize) {
+            let [low, high] = [at_least(value, decimals), at_most(value, decimals)].map(|text| text.parse::<f64>().unwrap());
+            let unit = 0.1_f64.powi(decimals as i32);
+            prop_assert!(low <= value && value <= high && high - low <= 1.001 * unit, "{low} {value} {high}");
+        }
+    }
+}
