@@ -43,9 +43,6 @@
 #![forbid(unsafe_code)]
 
 pub mod input;
-pub mod check;
-pub mod search;
-pub mod motion;
 pub mod engine;
 pub mod explore;
 pub mod draw;
@@ -68,8 +65,10 @@ pub mod cli;
 pub use cplan_core::{cspace, model, space};
 pub use cplan_geometry as geometry;
 pub use cplan_interrupt as interrupt;
+pub use cplan_motion as motion;
 #[cfg(feature = "program")]
 use cplan_parallel as parallel;
+pub use cplan_proofs as search;
 use cplan_text as text;
 pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
 pub use geometry::Point;
@@ -77,6 +76,13 @@ pub use input::InputError;
 pub use model::{Arm, Joint, Link, Obstacle, Outcome, Status, Workspace};
 pub use nalgebra;
 pub use space::Configuration;
+
+/// The judge of paths, proofs, bounds and recorded motions.
+pub mod check {
+    pub use cplan_core::check::*;
+    pub use cplan_motion::recorded::*;
+    pub use cplan_proofs::bound::*;
+}
 
 /// Planners: pure functions from a space and a query to a run.
 pub mod planner {

@@ -5,11 +5,12 @@ use super::motion_plan::MotionPlan;
 use super::options::Options;
 use super::problem::{Asked, Problem};
 use super::result::Report;
+use super::result::search_used;
 use super::task::{FailedStep, MessageError, TaskAnswer, TaskReplay, plan as plan_task};
 use super::{Answer, GridSpace, Kind, Replay, solve};
 use crate::check::CheckedProof;
 use crate::model::{Arm, MotionProblem, Outcome, RobotJoints, Status, Task};
-use crate::motion::{SearchUsed, TimingError, Trajectory};
+use crate::motion::{TimingError, Trajectory};
 use crate::text::percent;
 use std::borrow::Cow;
 use thiserror::Error;
@@ -125,7 +126,7 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
             (Kind::Task(TaskPlan { task, answer }), report)
         }
     };
-    report.search = SearchUsed::of(&options.planner);
+    report.search = search_used(&options.planner);
     report.space = options.planner.space().and_then(GridSpace::told);
     report.assumed = problem.robot().assumed.clone();
     if options.drive.torque {

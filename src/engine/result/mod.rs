@@ -202,14 +202,13 @@ impl From<Bound> for Optimum {
     }
 }
 
-impl SearchUsed {
-    /// How a planner searches its grid, or its roadmap if that is not by the usual search.
-    #[must_use]
-    pub fn of(planner: &Planner) -> Option<Self> {
-        if let Planner::Wavefront { search, neighborhood, .. } = planner {
-            return Some(Self { search: search.name(), neighbors: Some(neighborhood.count()), backward: None });
-        }
-        let search = planner.search().filter(|search| !search.is_usual())?;
-        Some(Self { search: search.order.name(), neighbors: None, backward: Some(search.backward) })
+/// How a planner searches its grid, or its roadmap if that is not by the usual search.
+#[must_use]
+pub fn search_used(planner: &Planner) -> Option<SearchUsed> {
+    if let Planner::Wavefront { search, neighborhood, .. } = planner {
+        let neighbors = Some(neighborhood.count());
+        return Some(SearchUsed { search: search.name(), neighbors, backward: None });
     }
+    let search = planner.search().filter(|search| !search.is_usual())?;
+    Some(SearchUsed { search: search.order.name(), neighbors: None, backward: Some(search.backward) })
 }

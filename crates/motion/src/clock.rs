@@ -1,0 +1,102 @@
+//! The clock of a motion: whole nanoseconds, in which ROS counts.
+//!
+//! Samples lie on this grid, and positions and velocities are those of that very nanosecond, so that no format rounds a
+//! time: of a cubic between samples `h` seconds apart, half a nanosecond would change the acceleration by `3e-9 v / h^2`.
+
+use cplan_geometry::Interval;
+
+/// Nanoseconds in a second.
+pub(super) const PER_SECOND: u64 = 1_000_000_000;
+
+/// Doublings of a unit in the last place that rounding up overlooks: what computing a time costs.
+const SLACK: f64 = 8.0 * f64::EPSILON;
+
+/// Seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::LONGEST_MOTION`], whose nanoseconds
+/// a double counts exactly.
+pub fn nanoseconds(time: f64) -> u64 {
+    (time * PER_SECOND as f64).round() as u64
+}
+
+/// Nanoseconds as seconds: the nearest double, so that it has no more than nine decimals when it is written down.
+pub fn seconds(nanoseconds: u64) -> f64 {
+    nanoseconds as f64 / PER_SECOND as f64
+}
+
+/// Times of this and more are not rounded, seconds: no motion lasts so long, and their nanoseconds are more than doubles count.
+const NEVER: f64 = 1e6;
+
+/// The first whole nanosecond that is not before a time, as seconds.
+pub fn not_before(time: f64) -> f64 {
+    if time >= NEVER {
+        return time;
+    }
+    let near = nanoseconds(time);
+    if seconds(near) < time { seconds(near + 1) } else { seconds(near) }
+}
+
+/// The last whole nanosecond that is not after a time from 0 on, as seconds.
+pub fn not_after(time: f64) -> f64 {
+    if time >= NEVER {
+        return time;
+    }
+    let near = nanoseconds(time);
+    if seconds(near) > time { seconds(near.saturating_sub(1)) } else { seconds(near) }
+}
+
+/// The whole nanosecond nearest to a time among those of an interval, its ends included, as seconds; none if the interval holds none.
+pub fn nearest_within(time: f64, [from, to]: Interval) -> Option<f64> {
+    let (first, last) = (not_before(from), not_after(to));
+    (first <= last).then(|| seconds(nanoseconds(time)).clamp(first, last))
+}
+
+/// A duration rounded up to whole nanoseconds; times that exceed them by no more than rounding are left as they are.
+#[must_use]
+pub fn whole_nanoseconds(duration: f64) -> f64 {
+    (duration * PER_SECOND as f64 * (1.0 - SLACK)).ceil() / PER_SECOND as f64
+}
+
+/// Share of an acceleration limit that has to stay unused next to a sample that is on the grid while the acceleration jumps
+/// half a nanosecond beside it, where samples are at least `interval` seconds apart.
+///
+/// The jump is at most twice the limit, and so the velocity of a sample at most one nanosecond times the limit off that of
+/// the polynomial on its other side. The cubic makes an acceleration of `(4 e0 + 2 e1) / h` of such differences at both ends,
+/// the polynomial of [`super::INTERPOLATION`] one of `6 (e0 + e1) / h`.
+pub(super) fn reserve(interval: f64) -> f64 {
+    12.0 / PER_SECOND as f64 / interval
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_are_rounded_up_to_the_grid() {
+        for (duration, expected) in [(0.5, 0.5), (1e-6, 1e-6), (0.1 + 0.2, 0.3), (1.0 / 3.0, 0.333_333_334), (0.0, 0.0)]
+        {
+            assert_eq!(whole_nanoseconds(duration), expected);
+        }
+        assert!(whole_nanoseconds(f64::INFINITY).is_infinite());
+    }
+
+    /// To the nearest nanosecond this window's beginning is before it, and its end after it.
+    #[test]
+    fn times_are_rounded_into_intervals() {
+        let [from, to] = [0.720_956_725_469_559_8, 0.820_956_725_669_559_8];
+        assert!(seconds(nanoseconds(from)) < from && to < seconds(nanoseconds(to)));
+        assert_eq!([not_before(from), not_after(to)], [0.720_956_726, 0.820_956_725]);
+        assert_eq!(
+            [from, 0.75, to].map(|time| nearest_within(time, [from, to])),
+            [Some(0.720_956_726), Some(0.75), Some(0.820_956_725)]
+        );
+        assert_eq!(nearest_within(from, [from, from + 1e-10]), None);
+        assert_eq!([not_before(0.3), not_after(0.3), not_after(f64::INFINITY)], [0.3, 0.3, f64::INFINITY]);
+        assert_eq!(nearest_within(2.0, [1.0, f64::INFINITY]), Some(2.0));
+    }
+
+    #[test]
+    fn nanoseconds_there_and_back() {
+        for n in [0, 1, 123_456_789, 999_999_999_999_999] {
+            assert_eq!(nanoseconds(seconds(n)), n);
+        }
+    }
+}

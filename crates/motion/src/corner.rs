@@ -1,0 +1,355 @@
+//! Speed around a blended corner.
+//!
+//! A blend of radius `r` between the directions `d1` and `d2` is run through by a parameter `s` from 0 to `2 r` with
+//! `q'(s) = (1 - u) d1 + u d2`, `u = s / (2 r)`, and the constant `q'' = (d2 - d1) / (2 r)`. At both ends `|q'| = 1`, so
+//! that on entering and leaving it `s` is the distance along the legs. The blend is cut into spans of equal length, and on
+//! each the second derivative of `s` by time is constant. So `z = (ds/dt)^2` is linear in `s`, and with the values `z0`
+//! and `z1` at a span's ends (a point in the phase plane each):
+//!
+//! - a joint's acceleration `q'' z + q' z' / 2` is linear in `s`: it keeps its limit if it does at both ends of the span;
+//! - its squared velocity `q'^2 z` is a cubic in `s`, which keeps its limit if its Bernstein coefficients do;
+//! - the tip keeps its limit if `z` keeps a bound that holds all over the span, which it does if it keeps it at both ends;
+//!
+//! and all of these are linear in `z0` and `z1`. `q(t)` is a polynomial of the fourth degree on each span.
+
+use super::clock::reserve;
+use super::limits::Limits;
+use super::profile::{Phase, State};
+use super::sample::{SHORTEST_INTERVAL, USUAL_INTERVAL};
+use super::tip::{Part, TIP_STEP};
+use cplan_core::space::{Blend, Configuration, HAIR};
+
+/// Spans of a blend to begin with.
+const SPANS: usize = 8;
+
+/// The same of a straight stretch, which may begin or end at rest.
+const SPANS_OF_LINES: usize = 32;
+
+/// Spans of a blend at the most, as long as what is known of them asks for more.
+const MOST_SPANS: usize = 256;
+
+/// Where more spans are tried, each is cut into so many, ...
+const PARTS: usize = 4;
+
+/// ... up to so many.
+const MOST_TRIED: usize = 1024;
+
+/// A joint's acceleration changes by no more than this share of its limit over a span, if more spans can help it: half of
+/// it goes unused where the limit is reached at one end of the span.
+const ACCELERATION_STEP: f64 = 0.1;
+
+/// Likewise the speed, by this share of it: where acceleration and deceleration meet within a span, half of that change
+/// is lost.
+const SPEED_STEP: f64 = 0.1;
+
+/// Share of the limits that is left unused on a blend, so that the cubic through positions and velocities of two samples,
+/// by which many controllers and checks read a trajectory, keeps them too. A little more is left for [`reserve`].
+const RESERVE: f64 = 1e-3;
+
+/// The same where the joints' torques have limits.
+const MOST_SPANS_OF_TORQUES: usize = 1024;
+
+/// A blend on its way through time; or a straight stretch, as a blend of two directions that are one, where its speed and acceleration are
+/// not limited alike all along it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Corner {
+    blend: Blend,
+    radius: f64,
+    directions: [Configuration; 2],
+    spans: usize,
+    /// Bound on the speed of the parameter.
+    fastest: f64,
+    /// Share of the speed that the limits allow.
+    share: f64,
+}
+
+/// Seconds that a blend of so many spans has to last: each of them the least interval between samples, though it is
+/// passed several times as fast as the others.
+fn shortest(spans: usize) -> f64 {
+    8.0 * SHORTEST_INTERVAL * spans as f64
+}
+
+impl Corner {
+    /// Prepares a blend; none if it is so small that it would be passed in hardly more than the interval between samples.
+    pub(super) fn new(blend: Blend, limits: &Limits, share: f64) -> Option<Self> {
+        let limits = &limits.scaled(share);
+        let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
+        let corner = Self { blend, radius: blend.radius(), directions, spans: SPANS, fastest: f64::INFINITY, share };
+        let bend = corner.second_derivative();
+        let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min).sqrt();
+        let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
+        (corner.length() / fastest >= shortest(SPANS)).then_some(Self { fastest, ..corner })
+    }
+
+    /// Prepares a straight stretch; none if it is as small.
+    pub(super) fn straight(from: Configuration, to: Configuration, limits: &Limits) -> Option<Self> {
+        let blend = Blend { from, corner: (from + to) / 2.0, to };
+        let offset = to - from;
+        let length = offset[0].hypot(offset[1]);
+        let directions = [offset / length; 2];
+        let fastest = limits.speed_along(directions[0]);
+        let corner = Self { blend, radius: length / 2.0, directions, spans: SPANS_OF_LINES, fastest, share: 1.0 };
+        (length / fastest >= shortest(SPANS_OF_LINES)).then_some(corner)
+    }
+
+    /// Share of the limits that is left unused.
+    fn reserve(&self) -> f64 {
+        let span = self.length() / self.spans as f64 / self.fastest;
+        RESERVE + reserve(span.clamp(SHORTEST_INTERVAL, USUAL_INTERVAL))
+    }
+
+    /// The same with twice the spans, if they are too coarse for these squared speeds at their ends.
+    pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
+        let bend = self.second_derivative();
+        let coarse = squared_speeds.windows(2).enumerate().any(|(i, z)| {
+            let step = (z[1] - z[0]).abs();
+            // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q'' times
+            // the change of z.
+            (0..2).any(|k| 1.5 * bend[k].abs() * step > ACCELERATION_STEP * limits.acceleration[k])
+                || (!self.is_straight() && step > 2.0 * SPEED_STEP * z[0].max(z[1]))
+                || limits.tip.is_some_and(|tip| tip.slack(&self.part(i)) * z[0].max(z[1]).sqrt() > TIP_STEP * tip.speed)
+                || limits.torque.is_some_and(|torque| torque.is_coarse(&self.part(i), [z[0], z[1]]))
+        });
+        let most = if limits.torque.is_some() { MOST_SPANS_OF_TORQUES } else { MOST_SPANS };
+        if coarse { self.cut(2, most, squared_speeds) } else { None }
+    }
+
+    /// The same with several times the spans, whatever they are worth.
+    pub(super) fn much_finer(&self, squared_speeds: &[f64]) -> Option<Self> {
+        self.cut(PARTS, MOST_TRIED, squared_speeds)
+    }
+
+    /// Each span cut into so many; none if there were too many, or too short ones.
+    fn cut(&self, parts: usize, most: usize, squared_speeds: &[f64]) -> Option<Self> {
+        let lasts: f64 = self.phases(squared_speeds).iter().map(|phase| phase.duration).sum();
+        let finer = Self { spans: parts * self.spans, ..self.clone() };
+        (finer.spans <= most && lasts >= shortest(finer.spans)).then_some(finer)
+    }
+
+    /// Whether it is a straight stretch.
+    pub(super) fn is_straight(&self) -> bool {
+        self.directions[0] == self.directions[1]
+    }
+
+    /// Range of the parameter.
+    pub(super) fn length(&self) -> f64 {
+        2.0 * self.radius
+    }
+
+    fn second_derivative(&self) -> Configuration {
+        (self.directions[1] - self.directions[0]) / self.length()
+    }
+
+    fn first_derivative(&self, u: f64) -> Configuration {
+        self.directions[0] * (1.0 - u) + self.directions[1] * u
+    }
+
+    /// A span as the tip sees it.
+    fn part(&self, span: usize) -> Part {
+        let middle = (span as f64 + 0.5) / self.spans as f64;
+        Part {
+            middle: self.blend.at(middle),
+            slope: self.first_derivative(middle),
+            bend: self.second_derivative(),
+            half: self.radius / self.spans as f64,
+        }
+    }
+
+    /// What the squared speeds at the ends of each span have to keep, in order.
+    pub(super) fn bounds(&self, limits: &Limits) -> Vec<Bounds> {
+        let limits = &limits.scaled(self.share);
+        let step = self.length() / self.spans as f64;
+        let (bend, share) = (self.second_derivative(), |i: usize| i as f64 / self.spans as f64);
+        let left = 1.0 - self.reserve();
+        let span = |i: usize| {
+            let ends = [share(i), share(i + 1)].map(|u| self.first_derivative(u));
+            let mut bounds = Bounds::default();
+            for k in 0..2 {
+                let (acceleration, velocity) = (left * limits.acceleration[k], (left * limits.velocity[k]).powi(2));
+                let [p, q] = ends.map(|end| end[k]);
+                // q'' z + q' (z1 - z0) / (2 step) at the first end and at the second, either way.
+                let [at_first, at_second] = [p, q].map(|slope| slope / (2.0 * step));
+                for row in [[bend[k] - at_first, at_first], [-at_second, bend[k] + at_second]] {
+                    let row = row.map(|c| c / acceleration);
+                    bounds.extend([row, row.map(|c| -c)]);
+                }
+                let bernstein =
+                    [[p * p, 0.0], [2.0 * p * q / 3.0, p * p / 3.0], [q * q / 3.0, 2.0 * p * q / 3.0], [0.0, q * q]];
+                bounds.extend(bernstein.map(|row| row.map(|c| c / velocity)));
+            }
+            if let Some(tip) = limits.tip {
+                let squared = (left * tip.allowed(&self.part(i))).powi(2);
+                bounds.extend([[1.0 / squared, 0.0], [0.0, 1.0 / squared]]);
+            }
+            if let Some(torque) = limits.torque {
+                bounds.extend(torque.rows(&self.part(i), left - RESERVE));
+            }
+            bounds
+        };
+        (0..self.spans).map(span).collect()
+    }
+
+    /// The phases for squared speeds at the ends of all spans.
+    pub(super) fn phases(&self, squared_speeds: &[f64]) -> Vec<Phase> {
+        let way = |i: usize| self.length() * (i as f64 / self.spans as f64);
+        let phase = |(i, z): (usize, &[f64])| Phase::between([way(i), way(i + 1)], [z[0].sqrt(), z[1].sqrt()]);
+        squared_speeds.windows(2).enumerate().map(phase).collect()
+    }
+
+    /// The longest interval between samples within a phase for which the cubic through positions and velocities keeps the
+    /// limits and stays within [`HAIR`] of the blend.
+    ///
+    /// The cubic misses a motion with the constant fourth derivative `d` by at most `d h^4 / 384`, in velocity by
+    /// `d h^3 / (72 sqrt 3)` and in acceleration by `d h^2 / 12`. With `a` the second derivative of the parameter,
+    /// `d = 3 q'' a^2`.
+    pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
+        let bend = self.second_derivative();
+        let torque = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
+        let longest = |k: usize| {
+            let fourth = 3.0 * bend[k].abs() * phase.acceleration * phase.acceleration;
+            let acceleration = (12.0 * RESERVE * limits.acceleration[k].min(torque[k]) / fourth).sqrt();
+            let velocity = (72.0 * 3f64.sqrt() * RESERVE * limits.velocity[k] / fourth).cbrt();
+            let position = (384.0 * HAIR * self.radius / fourth).sqrt().sqrt();
+            acceleration.min(velocity).min(position)
+        };
+        longest(0).min(longest(1)).max(2.0 * SHORTEST_INTERVAL)
+    }
+
+    /// Position, velocity and acceleration of the joints.
+    pub(super) fn at(&self, state: State) -> [Configuration; 3] {
+        let State { distance, speed, acceleration } = state;
+        let u = (distance / self.length()).clamp(0.0, 1.0);
+        let along = self.first_derivative(u);
+        let Blend { from, corner, to } = self.blend;
+        // Rounding must not carry a sample beyond the corner, which may lie on a joint limit.
+        let position = self.blend.at(u).zip_zip_map(
+            &from.inf(&corner).inf(&to),
+            &from.sup(&corner).sup(&to),
+            |value, least, greatest| value.clamp(least, greatest),
+        );
+        [position, along * speed, self.second_derivative() * (speed * speed) + along * acceleration]
+    }
+}
+
+/// Squared speeds `z0`, `z1` at the ends of a span: neither is negative, and `a z0 + b z1 <= 1` for each row `[a, b]`. A
+/// convex set that holds a neighbourhood of 0 in the quadrant.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Bounds {
+    /// The greatest `z0` by rows without `z1`.
+    most: f64,
+    /// Of each other row the `z1` at 0 and how it changes with `z0`: of those that bound it from above ...
+    above: Vec<[f64; 2]>,
+    /// ... and of those that bound it from below.
+    below: Vec<[f64; 2]>,
+}
+
+/// Rounding of a coefficient or of a squared speed, relative to the others: far above the one of doubles, far below
+/// [`RESERVE`].
+const ROUNDING: f64 = 1e-12;
+
+impl Default for Bounds {
+    fn default() -> Self {
+        // What a span has where no torques count.
+        let [above, below] = [0, 1].map(|_| Vec::with_capacity(8));
+        Self { most: f64::MAX, above, below }
+    }
+}
+
+impl Extend<[f64; 2]> for Bounds {
+    fn extend<T: IntoIterator<Item = [f64; 2]>>(&mut self, rows: T) {
+        for [a, b] in rows {
+            let line = [1.0 / b, -a / b];
+            // A second coefficient that is nothing but rounding would make of the rounding of the first anything.
+            if b.abs() <= ROUNDING * a.abs() {
+                self.most = if a > 0.0 { self.most.min(1.0 / a) } else { self.most };
+            } else if b > 0.0 {
+                self.above.push(line);
+            } else {
+                self.below.push(line);
+            }
+        }
+    }
+}
+
+impl Bounds {
+    /// The greatest `z1` up to `most` for a `z0` that has one.
+    pub(super) fn onward(&self, z0: f64, most: f64) -> f64 {
+        self.upper(z0, most).0.max(0.0)
+    }
+
+    /// The greatest `z0` for which there is a `z1` up to `most`.
+    ///
+    /// The room between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, not negative at
+    /// 0. Newton's method from above ends at its root, after no more steps than there are pairs of rows. What is returned is
+    /// smaller by more than the rounding, so that [`Bounds::onward`] finds room.
+    pub(super) fn back(&self, most: f64) -> f64 {
+        let mut z0 = self.most;
+        for _ in 0..=(self.above.len() + 1) * (self.below.len() + 1) {
+            let (upper, lower) = (self.upper(z0, most), self.lower(z0));
+            let (room, slope) = (upper.0 - lower.0, upper.1 - lower.1);
+            let next = z0 - room / slope;
+            // Rounding ends it, too.
+            if room >= 0.0 || next.is_nan() || next >= z0 {
+                break;
+            }
+            z0 = next.max(0.0);
+        }
+        z0 * (1.0 - ROUNDING)
+    }
+
+    /// The greatest `z1` for a `z0`, and how it changes with `z0`.
+    fn upper(&self, z0: f64, most: f64) -> (f64, f64) {
+        let lines = self.above.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
+        lines.fold((most, 0.0), |best, line| if line.0 < best.0 { line } else { best })
+    }
+
+    /// The least `z1` for a `z0`, and how it changes with `z0`.
+    fn lower(&self, z0: f64) -> (f64, f64) {
+        let lines = self.below.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
+        lines.fold((0.0, 0.0), |best, line| if line.0 > best.0 { line } else { best })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// Against the vertices of the polygon, by brute force.
+        #[test]
+        fn bounds_are_those_of_the_polygon(
+            rows in prop::collection::vec(prop::array::uniform2(prop_oneof![Just(0.0), -3.0..3.0_f64]), 1..9),
+            caps in (0.1..5.0_f64, 0.1..5.0_f64), most in 0.0..4.0_f64, share in 0.0..1.0_f64,
+        ) {
+            let mut rows = rows;
+            rows.extend([[1.0 / caps.0, 0.0], [0.0, 1.0 / caps.1]]);
+            let mut bounds = Bounds::default();
+            bounds.extend(rows.iter().copied());
+            // All lines as a z0 + b z1 = c.
+            let mut lines: Vec<[f64; 3]> = rows.iter().map(|[a, b]| [*a, *b, 1.0]).collect();
+            lines.extend([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, most]]);
+            let inside = |z0: f64, z1: f64| {
+                z0 >= -1e-9 && (-1e-9..=most + 1e-9).contains(&z1)
+                    && rows.iter().all(|[a, b]| a * z0 + b * z1 <= 1.0 + 1e-9)
+            };
+            let mut greatest = 0.0_f64;
+            for (i, [a, b, c]) in lines.iter().enumerate() {
+                for [d, e, f] in &lines[..i] {
+                    let determinant = a * e - b * d;
+                    let (z0, z1) = ((c * e - b * f) / determinant, (a * f - c * d) / determinant);
+                    if determinant.abs() > 1e-12 && inside(z0, z1) {
+                        greatest = greatest.max(z0);
+                    }
+                }
+            }
+            let back = bounds.back(most);
+            prop_assert!((back - greatest).abs() < 1e-6 * (1.0 + greatest), "{back} {greatest}");
+            let z0 = back * share;
+            let z1 = bounds.onward(z0, most);
+            prop_assert!(inside(z0, z1) && (z1 + 1e-6 > most || !inside(z0, z1 + 1e-6)), "{z0} {z1}");
+        }
+    }
+}

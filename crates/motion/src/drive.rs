@@ -1,0 +1,125 @@
+//! From a certified path to a motion: corners and time.
+
+use super::schedule::rough_duration;
+use super::shape::Shaping;
+use super::smooth::smoothed;
+use super::{Limits, Timed, TimingError, TipSpeed, TorqueLimit, time};
+use cplan_core::check::{CertifiedCurve, CertifiedPath, blend};
+use cplan_core::model::Scene;
+use serde::{Deserialize, Serialize};
+use std::cell::Cell;
+
+/// What is to be the least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Objective {
+    /// The length of the path; the motion is the fastest along it.
+    #[default]
+    Length,
+    /// The time of the motion: ways are compared by it, and the path is given the shape that makes the motion fast.
+    Time,
+}
+
+/// How to drive along a path.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drive {
+    /// What is to be the least.
+    #[serde(default)]
+    pub optimize: Objective,
+    /// Time between two samples, seconds.
+    pub period: f64,
+    /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space; 0 to stop at
+    /// every corner, infinite to let the clearance and the path decide.
+    #[serde(with = "cplan_text::number")]
+    pub blend: f64,
+    /// Greatest speed of the tip, metres a second; none if only the joints have limits.
+    pub tip_speed: Option<f64>,
+    /// Whether the joints keep within their efforts, where the world does not say so.
+    #[serde(default)]
+    pub torque: bool,
+}
+
+impl Default for Drive {
+    /// A sample every hundredth of a second, corners blended as the clearance allows, no limit of the tip.
+    fn default() -> Self {
+        Self { optimize: Objective::Length, period: 0.01, blend: f64::INFINITY, tip_speed: None, torque: false }
+    }
+}
+
+impl Drive {
+    /// The same with a stop at every corner, which takes a small part of the time to find.
+    #[must_use]
+    pub fn stopping_at_corners(self) -> Self {
+        Self { blend: 0.0, ..self }
+    }
+
+    /// A motion along a path at this share of the joints' top speeds (more than 0, at most 1), within the scene's clearance: the fastest, as
+    /// [`time`] has it. With limits on jerks the corners are moved off what they go around by as much as makes the motion fastest, since a
+    /// smooth motion needs room there; if time is to be the least ([`Drive::optimize`]), the whole path is given the shape that does.
+    ///
+    /// # Errors
+    /// A motion that lasts too long, or has too many samples; joints whose efforts do not hold the arm all along it.
+    pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<Timed, TimingError> {
+        let tip = self.tip_speed.map(|speed| TipSpeed { arm: scene.arm(), speed });
+        let torque = TorqueLimit::of(scene);
+        if let Some(torque) = &torque {
+            torque.held_along(path.path())?;
+        }
+        let limits = Limits { tip, torque, ..Limits::from(&scene.arm().joints) }.scaled(speed);
+        let (is_smooth, has_corners) = (limits.stops_at_corners(), path.path().waypoints().len() > 2);
+        let blended = |path: &CertifiedPath| {
+            if self.blend > 0.0 && !is_smooth {
+                blend(scene, path, self.blend, scene.workspace().clearance)
+            } else {
+                CertifiedCurve::from(path.clone())
+            }
+        };
+        let mut best = time(blended(path), &limits, self.period)?;
+        let is_shaped = has_corners || (is_smooth && torque.is_some());
+        if is_shaped && self.blend > 0.0 && (is_smooth || self.optimize == Objective::Time) {
+            let least = Cell::new(rough_duration(best.curve.curve(), &limits));
+            let drive = |path: &CertifiedPath, below: f64| {
+                if is_smooth {
+                    return smoothed(scene, path, self.blend, limits, self.period, below, false);
+                }
+                let curve = blended(path);
+                let rough = rough_duration(curve.curve(), &limits);
+                let timed = (rough < least.get()).then(|| time(curve, &limits, self.period).ok()).flatten();
+                let faster = timed.filter(|timed| timed.trajectory.duration() < below);
+                faster.inspect(|_| least.set(rough))
+            };
+            let shaping = Shaping::new(scene, drive);
+            let mut found = Vec::new();
+            if is_smooth {
+                let mut lifted = best.clone();
+                shaping.lifted(path, limits.reversal().min(self.blend), &mut lifted);
+                found.push(lifted);
+            }
+            if self.optimize == Objective::Time {
+                let (mut refined, most) = (best.clone(), limits.ramp().min(self.blend));
+                shaping.lifted(path, most, &mut refined);
+                shaping.refined(most, &mut refined);
+                found.push(refined);
+            }
+            if is_smooth {
+                // What is slower at first may be faster once it is driven along its own curve in the least time.
+                let retimed = |timed: &Timed| {
+                    let path = timed.curve.straight();
+                    smoothed(scene, &path, self.blend, limits, self.period, f64::INFINITY, true)
+                };
+                let retimed: Vec<Timed> = found.iter().filter_map(retimed).collect();
+                found.extend(retimed);
+            }
+            let faster = |best: Timed, other: Timed| {
+                if other.trajectory.duration() < best.trajectory.duration() { other } else { best }
+            };
+            best = found.into_iter().fold(best, faster);
+        }
+        if let Some(torque) = torque {
+            torque.kept(&best.trajectory.pieces())?;
+            best.trajectory.torque = torque.along(&best.trajectory);
+        }
+        Ok(best)
+    }
+}

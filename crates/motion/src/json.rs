@@ -1,0 +1,63 @@
+//! The layout of results in JSON.
+
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+use serde_json::ser::{CompactFormatter, Formatter};
+use std::io::{self, Write};
+
+/// A JSON object with a line a field, so that people can read it and long lists of numbers stay compact, and a line feed at
+/// its end. Numbers have as many digits as it takes to read the same `f64` back.
+///
+/// # Panics
+/// On what has no form in JSON: maps whose keys are no strings.
+pub fn line_a_field(object: &impl Serialize) -> String {
+    let mut text = Vec::new();
+    let mut serializer = serde_json::Serializer::with_formatter(&mut text, LineAField::default());
+    object.serialize(&mut serializer).expect("string keys and a buffer that takes all");
+    text.push(b'\n');
+    String::from_utf8(text).expect("JSON is UTF-8")
+}
+
+/// Pairs of a name and a value as one object, in their order.
+pub fn as_map<S: Serializer>(pairs: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(pairs.len()))?;
+    for (key, value) in pairs {
+        map.serialize_entry(key, value)?;
+    }
+    map.end()
+}
+
+/// The outermost object's fields on lines of their own, all within them compact with a blank after each comma and colon.
+#[derive(Default)]
+struct LineAField {
+    depth: usize,
+}
+
+impl Formatter for LineAField {
+    fn begin_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.depth += 1;
+        CompactFormatter.begin_object(writer)
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.depth -= 1;
+        writer.write_all(if self.depth == 0 { b"\n}" } else { b"}" })
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        writer.write_all(match (first, self.depth) {
+            (true, 1) => b"\n  ",
+            (false, 1) => b",\n  ",
+            (true, _) => b"",
+            (false, _) => b", ",
+        })
+    }
+
+    fn begin_object_value<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b": ")
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        writer.write_all(if first { b"" } else { b", " })
+    }
+}

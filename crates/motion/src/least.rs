@@ -1,0 +1,83 @@
+//! Times that no motion undercuts.
+
+use super::Limits;
+
+/// Halvings of an interval of times.
+const HALVINGS: usize = 64;
+
+/// What rounding may add to such a time, as a share of it.
+const ROUNDING: f64 = 1e-9;
+
+/// A lower bound on the seconds of every motion from rest to rest on a path that takes at least `length` seconds at the joints' top speeds
+/// ([`cplan_core::space::Metric::Time`]).
+///
+/// Let `f(t)` be the share of its top speed that some joint can have reached `t` seconds after it was at rest, by its acceleration and jerk.
+/// At the time `t` of a motion of `T` seconds no joint is faster than the share `min(1, f(t), f(T - t))`, so the path is no longer than the
+/// integral of that, which grows with `T`.
+#[must_use]
+pub fn least_duration(length: f64, limits: &Limits) -> f64 {
+    let rate = |of: &dyn Fn(usize) -> f64| of(0).max(of(1));
+    let acceleration = rate(&|k| limits.acceleration[k] / limits.velocity[k]);
+    let jerk = rate(&|k| limits.jerk[k].unwrap_or(f64::INFINITY) / limits.velocity[k]);
+    // When the jerk has made the acceleration what it may be, and when the speed is the greatest; 0 without a limit.
+    let grown = if jerk.is_finite() { (acceleration / jerk).min((2.0 / jerk).sqrt()) } else { 0.0 };
+    let lost = if jerk.is_finite() { jerk * grown * grown / 2.0 } else { 0.0 };
+    let top = if lost < 1.0 && acceleration.is_finite() { grown + (1.0 - lost) / acceleration } else { grown };
+    // The way from rest in so many seconds.
+    let way = |time: f64| {
+        let first = time.min(grown);
+        let second = (time.min(top) - grown).max(0.0);
+        let growing = if first > 0.0 { jerk * first * first * first / 6.0 } else { 0.0 };
+        let rising = if second > 0.0 { second * (lost + acceleration * second / 2.0) } else { 0.0 };
+        growing + rising + (time - top).max(0.0)
+    };
+    let (mut too_short, mut enough) = (length, length + 2.0 * top);
+    for _ in 0..HALVINGS {
+        let middle = (too_short + enough) / 2.0;
+        if 2.0 * way(middle / 2.0) < length {
+            too_short = middle;
+        } else {
+            enough = middle;
+        }
+    }
+    too_short * (1.0 - ROUNDING)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn limits(velocity: f64, acceleration: f64, jerk: Option<f64>) -> Limits<'static> {
+        Limits { velocity: [velocity; 2], acceleration: [acceleration; 2], jerk: [jerk; 2], tip: None, torque: None }
+    }
+
+    #[test]
+    fn bang_bang_with_and_without_top_speed() {
+        let close =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-7 * expected, "{found} {expected}");
+        // 6 rad at 2 rad/s with 4 rad/s2: 3 s and a ramp.
+        close(least_duration(3.0, &limits(2.0, 4.0, None)), 3.5);
+        // 0.5 rad: the top speed is not reached.
+        close(least_duration(0.25, &limits(2.0, 4.0, None)), 2.0 * (0.5_f64 / 4.0).sqrt());
+        close(least_duration(0.25, &limits(2.0, f64::INFINITY, None)), 0.25);
+    }
+
+    /// Against the way by small steps of time.
+    #[test]
+    fn with_a_jerk_as_integrated() {
+        for (length, jerk) in [(0.1, 5.0), (0.1, 500.0), (1.0, 20.0), (3.0, 1.0), (1e-4, 3.0)] {
+            let [velocity, acceleration] = [2.0, 4.0];
+            let found = least_duration(length, &limits(velocity, acceleration, Some(jerk)));
+            let (n, mut way, mut speed) = (200_000, 0.0, 0.0_f64);
+            let h = found / 2.0 / f64::from(n);
+            for i in 0..n {
+                let pull = (jerk * (f64::from(i) + 0.5) * h).min(acceleration);
+                let next = (speed + pull * h).min(velocity);
+                way += (speed + next) / 2.0 * h;
+                speed = next;
+            }
+            let expected = length * velocity;
+            assert!((2.0 * way - expected).abs() < 1e-4 * expected, "{length} {jerk}: {} {expected}", 2.0 * way);
+        }
+    }
+}

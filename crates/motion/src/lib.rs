@@ -1,0 +1,112 @@
+//! From a certified path to a motion in time, and to files.
+//!
+//! [`time`] puts a path with its blends under a clock within the joints' limits; [`csv`], [`ros_yaml`] and (a feature) `mcap` write
+//! motions, [`Format`] tells which a file's name asks for, and [`write_whole`] makes a file of it, whole or not at all.
+//!
+//! What each format promises to those who read it, by the way in which they join samples:
+//!
+//! | format | who reads it | how it joins samples |
+//! |---|---|---|
+//! | JSON `trajectory` | programs that know cplan | by [`INTERPOLATION`], which the file states |
+//! | CSV | tables, plots, other planners | cubics through positions and velocities |
+//! | YAML, MCAP `/joint_trajectory` | `joint_trajectory_controller` | cubics through positions and velocities |
+//! | the same with accelerations | `joint_trajectory_controller` | quintics |
+//! | MCAP `/tf`, `/scene`, `/outlines` | RViz, Foxglove, Rerun | nothing: a frame stays where it is until it moves |
+//! | MCAP `/joint_states` | `robot_state_publisher`, Foxglove | each state for itself; displays hold it or draw lines to the next |
+//!
+//! The cubics are the certified motion: on straight pieces exactly, on blends within [`cplan_core::space::HAIR`], which the
+//! certificate covers, and they keep the limits; while the arm stands the samples are equal and at rest. Quintics are that
+//! motion only where the acceleration does not jump, so accelerations are left out unless they are asked for, and refused
+//! where they do. States lie on the motion; lines between them leave it by no more than `a h^2 / 8` for accelerations up to
+//! `a` and states `h` seconds apart.
+//!
+//! ```
+//! use cplan::check::certify;
+//! use cplan::model::{Arm, Scene, Workspace};
+//! use cplan::motion::Drive;
+//! use cplan::space::{Configuration, Path};
+//!
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([]))?;
+//! let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+//! let path = certify(&scene, Path::new(corners.map(Configuration::from).to_vec()), 0.0).expect("nothing is in the way");
+//! let timed = Drive::default().along(&scene, &path, 1.0)?;
+//! let stopping = Drive { blend: 0.0, ..Drive::default() }.along(&scene, &path, 1.0)?;
+//! // The corner is rounded, which is faster than to stop there.
+//! assert!(timed.trajectory.duration() < stopping.trajectory.duration());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # How fast
+//!
+//! [`time`] drives along the curve within the limits: forward-backward integration of the squared speed, on straight
+//! pieces in closed form (`profile`), on a blend over spans with bounds that are linear in the squared speeds at their
+//! ends (`corner`), from one stop to the next (`schedule`). Every piece of the motion is a polynomial in time of the
+//! fourth degree at the most, and the samples say which. With a limit on a jerk `smooth` makes of that motion a cubic B-spline (`spline`), by the
+//! mean over a window that is long enough for the jerk, and passes those corners more slowly near which it is not shown to be free; `retime` drives it once
+//! more along its own curve, in the least time. Single
+//! straight pieces go from rest to rest by `jerk`, which takes
+//! Ruckig's times of the seven phases, brings them to the least interval between samples, and works out
+//! the phases from the times and the length alone, so that they end where they should and keep the limits whatever the
+//! solver's tolerances are. All samples lie at whole nanoseconds (`clock`). `shape` looks for the path along which a motion is fastest, and
+//! `least` knows a time that none undercuts.
+//!
+//! # Files
+//!
+//! `message` is a motion of all joints that a ROS 2 message names: `model::RobotJoints` says what sets each one's value,
+//! and in a task the engine adds the tool's strokes and the wrist's turns. Writers make files, whole or not at all. A
+//! recording (`mcap`, a feature) is a list of motions, each with the time at which it begins: a CDR writer of our own
+//! (`mcap/cdr`), the two messages with their definitions (`mcap/messages`), and the crate `mcap` for the container.
+
+mod clock;
+mod corner;
+mod csv;
+mod drive;
+mod field;
+mod format;
+mod jerk;
+mod json;
+mod least;
+mod limits;
+#[cfg(feature = "mcap")]
+mod mcap;
+mod message;
+mod profile;
+pub mod recorded;
+mod result;
+mod retime;
+mod ros;
+mod sample;
+mod schedule;
+mod shape;
+mod single;
+mod smooth;
+mod spline;
+mod tip;
+mod torque;
+mod whole_file;
+
+#[cfg(test)]
+mod tests;
+
+#[cfg(feature = "mcap")]
+pub use self::mcap::{Body, Solid, Stage, mcap};
+pub use clock::whole_nanoseconds;
+pub use clock::{nanoseconds, nearest_within, not_after, not_before, seconds};
+pub use cplan_core::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
+pub use csv::csv;
+pub use drive::{Drive, Objective};
+pub use field::FieldReport;
+pub use format::{Format, FormatError};
+pub use json::{as_map, line_a_field};
+pub use least::least_duration;
+pub use limits::Limits;
+pub use message::{AccelerationJump, JointMotion};
+pub use result::interpolation;
+pub use result::{Blends, Fastest, Optimum, SearchUsed};
+pub use ros::ros_yaml;
+pub use sample::after_pause;
+pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
+pub use single::single;
+pub use tip::TipSpeed;
+pub use torque::TorqueLimit;
+pub use whole_file::{WriteError, check_writable, write_whole, write_whole_set};

@@ -1,0 +1,167 @@
+//! What there is to see while a motion runs: bodies with a frame each, and where these are.
+
+use super::super::clock::nanoseconds;
+use cplan_core::model::{Heights, Plane};
+use cplan_geometry::{Convex, Point, Pose, Vector};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use std::f64::consts::TAU;
+
+/// Bodies in the plane, and their motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stage {
+    /// The plane of motion.
+    pub plane: Plane,
+    /// The first one does not move: what stays where it is.
+    pub bodies: Vec<Body>,
+    /// In the order of time: seconds from the beginning, the number of a body, its pose from then on, and by how much it is raised
+    /// along the plane's normal, metres.
+    pub poses: Vec<(f64, usize, Pose, f64)>,
+    /// The size of all this, metres: that of the arm.
+    pub size: f64,
+}
+
+/// Something rigid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// Of its frame. That of the first body is the frame of all others.
+    pub name: String,
+    /// In its frame, whose axes are the plane's two and a normal.
+    pub solids: Vec<Solid>,
+}
+
+/// Convex pieces of one colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solid {
+    /// A name for people.
+    pub name: String,
+    /// Red, green and blue, 0 to 1.
+    pub color: [f32; 3],
+    /// Each with its extent along the plane's normal.
+    pub pieces: Vec<(Convex, Heights)>,
+}
+
+/// A point of space, metres.
+pub type Place = [f64; 3];
+
+/// Corners of a round end: with a chord of less than 2 % of the radius.
+const ROUND: f64 = 16.0;
+
+/// Part of the size to which things are high that have no end, where nothing has one.
+const THIN: f64 = 0.02;
+
+/// Part of the size between points of outlines.
+const SPACING: f64 = 0.01;
+
+impl Stage {
+    /// The extent that stands for one without end: that of all that ends.
+    pub fn heights(&self) -> Heights {
+        let pieces = self.bodies.iter().flat_map(|body| &body.solids).flat_map(|solid| &solid.pieces);
+        let ends = pieces.flat_map(|(_, heights)| [heights.lower, heights.upper]).filter(|end| end.is_finite());
+        let (lower, upper) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, u), end| (l.min(end), u.max(end)));
+        if lower < upper { Heights { lower, upper } } else { Heights { lower: 0.0, upper: THIN * self.size } }
+    }
+
+    /// Where the plane's axes are in space: a rotation, whose third axis is the normal or against it.
+    fn basis(&self) -> Matrix3<f64> {
+        let Plane { u, v, .. } = self.plane;
+        Matrix3::from_columns(&[u, v, u.cross(&v)])
+    }
+
+    /// Along the third axis of frames.
+    fn up(&self) -> f64 {
+        self.basis().column(2).dot(&self.plane.normal).signum()
+    }
+
+    /// Place and orientation (x, y, z, w) of a body's frame in space.
+    fn transform(&self, pose: &Pose, raised: f64) -> (Place, [f64; 4]) {
+        let basis = Rotation3::from_matrix_unchecked(self.basis());
+        let at = basis * Vector3::new(pose.translation.x, pose.translation.y, raised * self.up());
+        let turn =
+            UnitQuaternion::from(basis) * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), pose.rotation.angle());
+        (at.into(), [turn.i, turn.j, turn.k, turn.w])
+    }
+
+    /// When and where to bodies move: nanoseconds, numbers and transforms. What stays where it was is left out.
+    pub fn moves(&self) -> Vec<(u64, usize, (Place, [f64; 4]))> {
+        let mut last = vec![None; self.bodies.len()];
+        let moved = |&(time, body, pose, raised): &(f64, usize, Pose, f64)| {
+            let at = self.transform(&pose, raised);
+            (last[body].replace(at) != Some(at)).then_some((nanoseconds(time), body, at))
+        };
+        self.poses.iter().filter_map(moved).collect()
+    }
+
+    /// Corners of triangles, three by three, of a solid in its frame.
+    pub fn triangles(&self, solid: &Solid) -> Vec<Place> {
+        let mut corners = Vec::new();
+        for (piece, heights) in &solid.pieces {
+            let [low, high] = self.ends(*heights);
+            let ring = ring(piece);
+            let at = |p: Point, height: f64| [p.x, p.y, height];
+            for k in 0..ring.len() {
+                let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
+                corners.extend([at(a, low), at(b, low), at(b, high), at(a, low), at(b, high), at(a, high)]);
+                if (1..ring.len() - 1).contains(&k) {
+                    corners.extend([at(ring[0], high), at(a, high), at(b, high)]);
+                    corners.extend([at(ring[0], low), at(b, low), at(a, low)]);
+                }
+            }
+        }
+        corners
+    }
+
+    /// Points along the lower and the upper rims of a body's pieces, in its frame.
+    pub fn rims(&self, body: &Body) -> Vec<Place> {
+        let mut points = Vec::new();
+        for (piece, heights) in body.solids.iter().flat_map(|solid| &solid.pieces) {
+            let (ring, ends) = (ring(piece), self.ends(*heights));
+            for k in 0..ring.len() {
+                let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
+                let count = ((b - a).norm() / (SPACING * self.size)).ceil().max(1.0) as usize;
+                for i in 0..count {
+                    let p = a + (b - a) * (i as f64 / count as f64);
+                    points.extend(ends.map(|height| [p.x, p.y, height]));
+                }
+            }
+        }
+        points
+    }
+
+    /// The ends of a piece along the third axis of its frame, the lower first.
+    fn ends(&self, heights: Heights) -> [f64; 2] {
+        let usual = self.heights();
+        let or = |end: f64, usual: f64| if end.is_finite() { end } else { usual };
+        let ends = [or(heights.lower, usual.lower), or(heights.upper, usual.upper)].map(|end| end * self.up());
+        if self.up() > 0.0 { ends } else { [ends[1], ends[0]] }
+    }
+}
+
+/// Corners round a piece, counter-clockwise, its round ends as chords.
+fn ring(piece: &Convex) -> Vec<Point> {
+    let (core, radius) = (piece.core(), piece.radius().max(0.0));
+    if radius == 0.0 {
+        return core.to_vec();
+    }
+    let n = core.len();
+    let outward = |k: usize| {
+        let side = core[(k + 1) % n] - core[k];
+        (-side.x).atan2(side.y)
+    };
+    let mut ring = Vec::new();
+    for (k, corner) in core.iter().enumerate() {
+        let (from, turn) = match n {
+            1 => (0.0, TAU),
+            _ => {
+                let from = outward((k + n - 1) % n);
+                (from, (outward(k) - from).rem_euclid(TAU))
+            }
+        };
+        let steps = (turn / TAU * ROUND).ceil().max(1.0);
+        let last = if n == 1 { steps as usize - 1 } else { steps as usize };
+        ring.extend((0..=last).map(|i| {
+            let angle = from + turn * i as f64 / steps;
+            corner + Vector::new(angle.cos(), angle.sin()) * radius
+        }));
+    }
+    ring
+}

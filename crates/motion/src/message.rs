@@ -1,0 +1,107 @@
+//! What a ROS 2 message says of a motion.
+
+use super::Trajectory;
+use cplan_core::model::{Drives, RobotJoints};
+use thiserror::Error;
+
+/// A motion of all joints that a message names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointMotion {
+    /// Names in the URDF.
+    pub joints: Vec<String>,
+    /// Seconds from the start, whole nanoseconds, strictly increasing.
+    pub time: Vec<f64>,
+    /// Of each sample, the value of each joint, radians or metres.
+    pub position: Vec<Vec<f64>>,
+    /// Of each sample, the rate of each joint.
+    pub velocity: Vec<Vec<f64>>,
+    /// Likewise the accelerations; none if readers are to join the samples by cubics.
+    pub acceleration: Option<Vec<Vec<f64>>>,
+}
+
+/// Accelerations that would mislead their readers.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error(
+    "accelerations cannot be written: at {time:.6} s they jump, and a controller that joins points by quintics would leave the \
+     certified motion; give both joints a limit on their jerk (--jerk 200,200, or [robot] jerk in the world file), or leave \
+     out --accelerations"
+)]
+pub struct AccelerationJump {
+    /// When they jump first, seconds.
+    pub time: f64,
+}
+
+/// Share of the greatest acceleration by which it may differ on both sides of a sample: far above what whole nanoseconds make
+/// of it, far below what a quintic would turn into a motion of its own.
+const SAME: f64 = 1e-6;
+
+/// Units in the last place of the greatest position that make the acceleration of a piece uncertain, over its squared duration.
+const ULPS: f64 = 256.0;
+
+impl JointMotion {
+    /// A motion of the planned joints, while the others stay where they are.
+    #[must_use]
+    pub fn new(robot: &RobotJoints, trajectory: &Trajectory, accelerations: bool) -> Self {
+        let positions = trajectory.position.iter().map(|&planned| robot.values(&robot.at_rest(planned)));
+        let rates = |rows: &[[f64; 2]]| {
+            let rate = |&planned: &[f64; 2]| robot.rates(&Drives { planned, ..Drives::default() });
+            rows.iter().map(rate).collect::<Vec<_>>()
+        };
+        Self {
+            joints: robot.names().map(str::to_owned).collect(),
+            time: trajectory.time.clone(),
+            position: positions.collect(),
+            velocity: rates(&trajectory.velocity),
+            acceleration: accelerations.then(|| rates(&trajectory.acceleration)),
+        }
+    }
+}
+
+impl JointMotion {
+    /// The same without what comes after all joints have come to rest.
+    #[must_use]
+    pub fn without_rest(mut self) -> Self {
+        while let [.., before, last] = &self.position[..]
+            && before == last
+        {
+            self.position.pop();
+            self.time.pop();
+            self.velocity.pop();
+            self.acceleration.iter_mut().for_each(|rows| drop(rows.pop()));
+        }
+        self
+    }
+
+    /// The same for readers that join samples by cubics.
+    #[must_use]
+    pub fn without_accelerations(self) -> Self {
+        Self { acceleration: None, ..self }
+    }
+}
+
+impl Trajectory {
+    /// Whether quintics through the samples are the motion: its acceleration does not jump.
+    ///
+    /// # Errors
+    /// When it jumps first.
+    pub fn check_accelerations(&self) -> Result<(), AccelerationJump> {
+        let greatest = |rows: &[[f64; 2]]| rows.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let (pull, size) = (greatest(&self.acceleration), greatest(&self.position));
+        let is_smooth = |k: usize| {
+            let h = self.time[k + 1] - self.time[k];
+            (0..2).all(|joint| {
+                let [p, v, a] = [&self.position, &self.velocity, &self.acceleration].map(|rows| rows[k][joint]);
+                let beyond = self.position[k + 1][joint] - p - v * h - a * h * h / 2.0;
+                let faster = self.velocity[k + 1][joint] - v - a * h;
+                // What INTERPOLATION makes of the acceleration at the end of the interval.
+                let end = a + 6.0 * (faster * h - 2.0 * beyond) / h / h;
+                let may = SAME * pull + ULPS * f64::EPSILON * size / h / h;
+                (end - self.acceleration[k + 1][joint]).abs() <= may
+            })
+        };
+        match (0..self.time.len().saturating_sub(1)).find(|&k| !is_smooth(k)) {
+            Some(k) => Err(AccelerationJump { time: self.time[k + 1] }),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Whether a motion follows a path.
+
+use cplan_core::space::{Configuration, Path, Recording};
+
+/// How far a motion may be off what it follows, in each joint, radians or metres: a thousand times what rounding makes of
+/// either, and the hair by which blends may be missed.
+pub(super) const NEAR: f64 = 1e-6;
+
+/// Places at which each piece of the motion is looked at.
+const LOOKS: u8 = 4;
+
+/// Whether a motion goes along a path from its beginning to its end, no farther off it than cut corners are: half of the
+/// greatest `radius` stated, none without a statement. Looked at in places all over the motion.
+///
+/// # Errors
+/// In words.
+pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -> Result<(), String> {
+    let q = path.waypoints();
+    let longest = path.segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
+    let largest = q.iter().map(|q| q.amax()).fold(0.0, f64::max);
+    // The middle of a parabola is halfway between its corner and the middle of its ends.
+    let within = NEAR + largest * f64::EPSILON * 16.0 + radius.map_or(0.0, |radius| radius.clamp(0.0, longest) / 2.0);
+    let last = q.len().saturating_sub(2);
+    let off = |at: Configuration, leg: usize| to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
+    // Where legs are close to each other, or turn back, it may be on any of several.
+    let (mut legs, mut before) = (vec![0], q[0]);
+    for (sample, piece) in recording.pieces().iter().enumerate() {
+        for look in 0..=LOOKS {
+            let at = piece.at(f64::from(look) / f64::from(LOOKS));
+            // Corners may be passed between two places, but only nearby.
+            let near = 2.0 * within + (at - before).norm();
+            let (mut found, mut next): (Vec<usize>, usize) = (Vec::new(), 0);
+            for &leg in &legs {
+                // From one that was passed it gets no farther.
+                if leg >= next {
+                    let passed = q[leg + 1..].iter().take_while(|corner| (*corner - at).norm() <= near).count();
+                    next = (leg + passed).min(last) + 1;
+                    found.extend((leg..next).filter(|leg| off(at, *leg) <= within));
+                }
+            }
+            if found.is_empty() {
+                let off = (0..=last).map(|leg| off(at, leg)).fold(f64::INFINITY, f64::min);
+                return Err(format!(
+                    "the motion does not follow it: after sample {sample} it is at ({}, {}), {off:.6} from it",
+                    at[0], at[1]
+                ));
+            }
+            (legs, before) = (found, at);
+        }
+    }
+    let first = legs.last().map_or(0, |leg| leg + 1);
+    if let Some(missed) = q[first..].iter().find(|corner| (*corner - before).norm() > within) {
+        return Err(format!("the motion does not follow it to the end: not to ({}, {})", missed[0], missed[1]));
+    }
+    Ok(())
+}
+
+/// Distance of a configuration from a straight piece.
+fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
+    let (along, off) = (to - from, at - from);
+    let length2 = along.norm_squared();
+    let share = if length2 > 0.0 { (along.dot(&off) / length2).clamp(0.0, 1.0) } else { 0.0 };
+    (off - along * share).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_followed(by: &[[f64; 2]], path: &[[f64; 2]], radius: Option<f64>) -> bool {
+        let all = |at: &[[f64; 2]]| at.iter().map(|q| Configuration::from(*q)).collect::<Vec<_>>();
+        let motion = Recording::new(all(by), None, None).unwrap();
+        follows(&Path::new(all(path)), &motion, radius).is_ok()
+    }
+
+    /// A slide of 100 m turns back while the other joint goes on by less than corners may be cut by.
+    #[test]
+    fn legs_that_turn_back_are_followed_to_the_end() {
+        let path = [[0.0, 0.0], [1.0, 100.0], [1.6, 60.0], [5.0, 60.0]];
+        assert!(is_followed(&path, &path, Some(4.0)));
+        assert!(is_followed(&[path[0], [0.99, 99.0], [1.01, 99.3], path[2], path[3]], &path, Some(4.0)));
+        for short in [&path[..2], &path[..3], &[path[0], [0.5, 50.0], path[2], path[3]]] {
+            assert!(!is_followed(short, &path, Some(4.0)), "{short:?}");
+        }
+        assert!(is_followed(&path, &path, None) && !is_followed(&[path[0], [0.99, 99.0], path[3]], &path, None));
+    }
+}

@@ -1,0 +1,230 @@
+//! Whether what a result says of its motion is true.
+//!
+//! The samples are the motion; everything else is a claim about it, which others may rely on.
+
+mod follow;
+mod steps;
+
+pub use steps::{step_claims_kept, task_claims_kept};
+
+use super::collision::{CollisionCheck, check_collision};
+use cplan_core::check::{Rejection, certify};
+use cplan_core::model::{Arm, BlendsClaim, Claims, OptimumClaim, Scene};
+use cplan_core::space::{Configuration, Path, Recording};
+use follow::follows;
+use std::fmt::Display;
+use thiserror::Error;
+
+/// Share by which a number may differ from the same number computed anew: a sum of as many terms as there are waypoints.
+const AGAIN: f64 = 1e-9;
+
+/// What computing a time anew may make of it, seconds: far above the rounding of clocks, far below what matters to a gripper.
+const TIME: f64 = 1e-6;
+
+/// A claim that is false.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{claim}: {why}")]
+pub struct FalseClaim {
+    /// The member of the result.
+    pub claim: String,
+    /// Why it is false, in words.
+    pub why: String,
+}
+
+/// Collects what is false.
+#[derive(Default)]
+struct Ledger {
+    found: Vec<FalseClaim>,
+    /// What stands before the names of members.
+    within: String,
+}
+
+impl Ledger {
+    fn note(&mut self, claim: &str, why: String) {
+        self.found.push(FalseClaim { claim: format!("{}{claim}", self.within), why });
+    }
+
+    /// A claim that is to be a certain value.
+    fn same<T: PartialEq + Display>(&mut self, claim: &str, stated: &T, is: &T) {
+        if stated != is {
+            self.note(claim, format!("stated as {stated}, but it is {is}"));
+        }
+    }
+
+    /// A number that is to be another, up to `within`.
+    fn number(&mut self, claim: &str, stated: Option<f64>, is: f64, within: f64) {
+        if let Some(stated) = stated.filter(|stated| (stated - is).abs() > within) {
+            self.note(claim, format!("stated as {stated}, but it is {is}"));
+        }
+    }
+
+    /// A share by which a length or a time exceeds a bound, and that the bound is none above it.
+    fn gap(&mut self, at: &str, length: f64, lower_bound: Option<f64>, gap: Option<f64>) {
+        let Some(bound) = lower_bound else { return };
+        if bound.is_nan() || bound > length * (1.0 + AGAIN) {
+            self.note(&format!("{at}lower_bound"), format!("stated as {bound}, but there is a motion of {length}"));
+        }
+        if bound > 0.0 {
+            let is = length / bound - 1.0;
+            self.number(&format!("{at}gap"), gap, is, AGAIN * (1.0 + is.abs()));
+        }
+    }
+
+    /// A path, its length, and the corners that are cut, beside the motion.
+    fn path(
+        &mut self,
+        scene: &Scene,
+        recording: &Recording,
+        path: &[Configuration],
+        length: Option<f64>,
+        blends: Option<BlendsClaim>,
+    ) {
+        let Some((&first, &last)) = path.first().zip(path.last()) else {
+            return self.note("path", "has no waypoint".into());
+        };
+        let path = Path::new(path.to_vec());
+        self.number("length", length, path.length(), AGAIN * (1.0 + path.length()));
+        if let Some(BlendsClaim { count, largest_radius }) = blends {
+            let corners = path.waypoints().len().saturating_sub(2);
+            if count > corners {
+                self.note("blends.count", format!("stated as {count}, but the path has {corners} corners"));
+            }
+            let longest = path.segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
+            if !(0.0..=longest * (1.0 + AGAIN)).contains(&largest_radius) {
+                let why = format!("stated as {largest_radius}, but the longest straight piece is {longest}");
+                self.note("blends.largest_radius", why);
+            }
+        }
+        if let Err(departure) = follows(&path, recording, blends.map(|blends| blends.largest_radius)) {
+            self.note("path", departure);
+        }
+        let ends = [(first, 0, "begins"), (last, recording.positions().len() - 1, "ends")];
+        for (end, sample, what) in ends {
+            let at = recording.positions()[sample];
+            if (end - at).amax() > follow::NEAR {
+                self.note("path", format!("{what} at ({}, {}), the motion at ({}, {})", end[0], end[1], at[0], at[1]));
+            }
+        }
+        match certify(scene, path, scene.workspace().clearance) {
+            Err(Rejection::TooClose(nearest)) => {
+                let (pair, at) = (scene.describe(nearest.contact.pair), nearest.at);
+                let distance = nearest.contact.separation.distance;
+                let why = format!("it is not free: {pair}, {distance:.6} m apart at ({}, {})", at[0], at[1]);
+                self.note("path", why);
+            }
+            Err(Rejection::OutOfLimits { waypoint, joint }) => {
+                let name = &scene.arm().joints[joint].name;
+                self.note("path", format!("waypoint {waypoint} is beyond the limits of joint \"{name}\""));
+            }
+            // Nearer to the clearance than can be told apart; or free.
+            Err(Rejection::Undecided(_)) | Ok(_) => {}
+        }
+    }
+
+    /// A distance that is said to be kept in a scene, by what was found of the motion with the clearance asked for.
+    fn clearance(&mut self, stated: Option<Option<f64>>, scene: &Scene, recording: &Recording, found: &CollisionCheck) {
+        let Some(stated) = stated else { return };
+        let nearest = match found {
+            CollisionCheck::Free { nearest, clearance } => {
+                if stated.is_some_and(|stated| stated <= *clearance) {
+                    return;
+                }
+                nearest.map(|nearest| nearest.contact)
+            }
+            CollisionCheck::Collision { deepest, .. } => Some(deepest.contact),
+            CollisionCheck::Undecided(nearest) => Some(nearest.contact),
+        };
+        let Some(nearest) = nearest else { return };
+        let Some(stated) = stated else {
+            let pair = scene.describe(nearest.pair);
+            return self.note("clearance", format!("stated as null, which is that nothing can be hit, but {pair} can"));
+        };
+        if let Some((distance, pair)) = nearer(scene, recording, stated, nearest.separation.distance, nearest.pair) {
+            let pair = scene.describe(pair);
+            self.note("clearance", format!("stated as {stated} m, but {pair} come as near as {distance} m"));
+        }
+    }
+}
+
+/// A distance below the one stated that the motion has somewhere, and whose it is.
+fn nearer(
+    scene: &Scene,
+    recording: &Recording,
+    stated: f64,
+    seen: f64,
+    pair: cplan_core::model::Pair,
+) -> Option<(f64, cplan_core::model::Pair)> {
+    // As much as two ways of computing a distance may differ by.
+    let stated = stated - AGAIN * stated.abs() - AGAIN * f64::EPSILON.sqrt();
+    if seen < stated {
+        return Some((seen, pair));
+    }
+    match check_collision(scene, recording, stated.max(0.0)) {
+        CollisionCheck::Collision { deepest, .. } => Some((deepest.contact.separation.distance, deepest.contact.pair)),
+        _ => None,
+    }
+}
+
+/// Which claims of a result are false, beside a motion through which `found` was found with the scene's clearance. What can
+/// be judged is: that there is a motion (`status`, `certified`), `units`, `duration`, that the motion follows the `path`, that the path
+/// itself is free and as long as stated, that no obstacle is nearer than the `clearance` stated, and that bounds and gaps go with
+/// lengths. That bounds are bounds is not.
+#[must_use]
+pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found: &CollisionCheck) -> Vec<FalseClaim> {
+    let mut ledger = Ledger::default();
+    ledger.general(scene.arm(), recording, claims);
+    if let Some(path) = &claims.path {
+        ledger.path(scene, recording, path, claims.length, claims.blends);
+        ledger.optimum(scene, path, claims.optimum.as_ref());
+    }
+    ledger.clearance(claims.clearance, scene, recording, found);
+    if let (Some(Some(stated)), Some(path)) = (claims.clearance, claims.path.as_ref().filter(|path| !path.is_empty())) {
+        ledger.clearance_of_path(scene, Path::new(path.clone()), stated);
+    }
+    ledger.found
+}
+
+impl Ledger {
+    /// What is said of any motion.
+    fn general(&mut self, arm: &Arm, recording: &Recording, claims: &Claims) {
+        // An exploration's motion is one, too, however it ended; what ends otherwise without a motion has none to judge.
+        let of_exploration = ["reached", "explored", "unreachable", "unknown"];
+        if let Some(status) = claims.status.as_ref().filter(|status| !of_exploration.contains(&status.as_str())) {
+            self.same("status", status, &"found".to_owned());
+        }
+        if let Some(certified) = claims.certified {
+            self.same("certified", &certified, &true);
+        }
+        if let Some(units) = &claims.units {
+            let is = arm.joints.each_ref().map(|joint| joint.unit()).join(", ");
+            self.same("units", &units.join(", "), &is);
+        }
+        if let Some(duration) = recording.duration() {
+            self.number("duration", claims.duration, duration, TIME);
+        }
+    }
+
+    fn optimum(&mut self, scene: &Scene, path: &[Configuration], claim: Option<&OptimumClaim>) {
+        let Some(claim) = claim.filter(|_| !path.is_empty()) else { return };
+        let speeds = scene.arm().joints.each_ref().map(|joint| joint.velocity);
+        match claim.metric(speeds) {
+            Some(metric) => {
+                let length = metric.length(&Path::new(path.to_vec()));
+                self.number("optimum.length", Some(claim.length), length, AGAIN * (1.0 + length));
+            }
+            None => self.note("optimum.metric", format!("\"{}\" is none", claim.metric)),
+        }
+        self.gap("optimum.", claim.length, Some(claim.lower_bound), claim.gap);
+    }
+
+    fn clearance_of_path(&mut self, scene: &Scene, path: Path, stated: f64) {
+        let asked = stated - AGAIN * stated.abs() - AGAIN * f64::EPSILON.sqrt();
+        if let Err(Rejection::TooClose(nearest)) = certify(scene, path, asked.max(0.0)) {
+            let (pair, distance) = (scene.describe(nearest.contact.pair), nearest.contact.separation.distance);
+            self.note(
+                "clearance",
+                format!("stated as {stated} m, but on the path {pair} come as near as {distance} m"),
+            );
+        }
+    }
+}

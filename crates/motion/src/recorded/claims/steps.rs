@@ -1,0 +1,150 @@
+//! What a result says of the steps of a task.
+
+use super::{FalseClaim, Ledger, TIME};
+use crate::recorded::replay::{AT, angle_between};
+use crate::recorded::wrist::turn_resolution;
+use crate::recorded::{Happening, ReplayedStep};
+use cplan_core::model::{Action, Claims, EventClaim, RecordedStep, Task};
+use cplan_core::space::{Configuration, Recording};
+use cplan_geometry::Point;
+
+/// Which claims of a result are false that are about one of its steps, the one of this `index`, beside what became of it.
+#[must_use]
+pub fn step_claims_kept(
+    task: &Task,
+    recording: &Recording,
+    replayed: &ReplayedStep,
+    whole: &Claims,
+    index: usize,
+) -> Vec<FalseClaim> {
+    let mut ledger = Ledger::default();
+    let ReplayedStep { scene, collision_check, .. } = replayed;
+    let Some(motion) = recording.part(replayed.recorded.samples.clone()) else { return Vec::new() };
+    ledger.clearance(whole.clearance, scene, &motion, collision_check);
+    ledger.turn(task, replayed, whole.clearance.filter(Option::is_some), "clearance");
+    ledger.within = format!("steps[{index}].");
+    let Some(claims) = whole.task.steps.get(index) else { return ledger.found };
+    let name = |object: Option<usize>| object.map_or("null".to_owned(), |object| task.objects[object].name.clone());
+    if let Some(action) = &claims.action {
+        let is = match replayed.step.action {
+            Action::Pick { .. } => "pick",
+            Action::Place { .. } => "place",
+            Action::Move(_) => "move",
+        };
+        ledger.same("action", action, &is.to_owned());
+    }
+    let objects = [("object", &claims.object, replayed.object), ("carried", &claims.carried, replayed.carried)];
+    for (what, claim, is) in objects {
+        if let Some(claim) = claim {
+            ledger.same(what, &claim.clone().unwrap_or_else(|| "null".into()), &name(is));
+        }
+    }
+    let [begin, arrival, end] = replayed.times;
+    ledger.number("begin", claims.begin, begin, TIME);
+    ledger.number("arrival", claims.arrival, arrival, TIME);
+    ledger.number("end", claims.end, end, TIME);
+    if let Some(path) = &claims.path {
+        ledger.path(scene, &motion, path, claims.length, claims.blends);
+    }
+    ledger.clearance(claims.clearance, scene, &motion, collision_check);
+    ledger.turn(task, replayed, claims.clearance.filter(Option::is_some), "clearance");
+    ledger.turn(task, replayed, claims.turn_clearance, "turn.clearance");
+    ledger.found
+}
+
+/// Which claims of a result are false that are about the whole task: what the gripper does when and where, the steps of the
+/// samples, and what holds of any motion. `happened` is what it did.
+#[must_use]
+pub fn task_claims_kept(
+    task: &Task,
+    recording: &Recording,
+    recorded: &[RecordedStep],
+    happened: &[Happening],
+    claims: &Claims,
+) -> Vec<FalseClaim> {
+    let mut ledger = Ledger::default();
+    ledger.general(&task.arm, recording, claims);
+    ledger.gap("", recording.duration().unwrap_or(0.0), claims.task.lower_bound, claims.task.gap);
+    let steps = &claims.task.steps;
+    let paths: Option<Vec<&Vec<Configuration>>> = steps.iter().map(|step| step.path.as_ref()).collect();
+    if let (Some(path), Some(paths)) = (&claims.path, paths.filter(|paths| !paths.is_empty())) {
+        let mut whole: Vec<Configuration> = Vec::new();
+        for path in paths {
+            let shared = !whole.is_empty() && whole.last() == path.first();
+            whole.extend(path.iter().skip(usize::from(shared)));
+        }
+        if *path != whole {
+            ledger.note("path", "it is not that of the steps, one after the other".into());
+        }
+    }
+    let lengths: Option<Vec<f64>> = steps.iter().map(|step| step.length).collect();
+    if let Some(lengths) = lengths.filter(|lengths| !lengths.is_empty()) {
+        let sum = lengths.iter().fold(0.0, |sum, length| sum + length);
+        ledger.number("length", claims.length, sum, super::AGAIN * (1.0 + sum));
+    }
+    if let Some(stated) = &claims.task.step_of_sample {
+        let first = |step: usize| recorded.get(step).map_or(recording.positions().len(), |step| *step.samples.start());
+        let is: Vec<usize> =
+            (0..recorded.len()).flat_map(|step| std::iter::repeat_n(step, first(step + 1) - first(step))).collect();
+        if *stated != is {
+            ledger.note("trajectory.step", "not the steps to which the samples belong".into());
+        }
+    }
+    if let Some(events) = &claims.task.events {
+        ledger.events(task, events, happened);
+    }
+    ledger.found
+}
+
+impl Ledger {
+    /// A distance that is said to be kept while the wrist turns. What is proven of it is a bound, and known to a resolution.
+    fn turn(&mut self, task: &Task, replayed: &ReplayedStep, stated: Option<Option<f64>>, claim: &str) {
+        let (Some(stated), Some(Ok(free))) = (stated, replayed.turn.map(|turn| turn.verdict)) else { return };
+        let most = free.clearance + turn_resolution(&task.arm, task.workspace.clearance);
+        match stated {
+            Some(stated) if stated > most => {
+                let why = format!("stated as {stated} m, but the wrist turns the object as near as {most} m");
+                self.note(claim, why);
+            }
+            None if free.clearance.is_finite() => {
+                self.note(claim, "stated as null, which is that nothing can be hit, but the object can".into());
+            }
+            _ => {}
+        }
+    }
+
+    fn events(&mut self, task: &Task, stated: &[EventClaim], happened: &[Happening]) {
+        if stated.len() != happened.len() {
+            self.note("events", format!("there are {}, but the gripper does {} things", stated.len(), happened.len()));
+        }
+        for (index, (event, is)) in stated.iter().zip(happened).enumerate() {
+            self.within = format!("events[{index}].");
+            let word = if is.pose.is_some() { "release" } else { "grasp" };
+            self.same("event", &event.event, &word.to_owned());
+            self.same("object", &event.object, &task.objects[is.object].name);
+            self.same("step", &event.step, &is.step);
+            self.same("cycle", &event.cycle, &is.cycle);
+            self.number("time", Some(event.time), is.time, TIME);
+            self.place("tip", event.tip, is.tip);
+            match (event.pose, is.pose) {
+                (Some((at, angle)), Some(pose)) => {
+                    self.place("pose.at", at, Point::from(pose.translation.vector));
+                    let is = pose.rotation.angle();
+                    if angle_between(angle, is) > AT {
+                        self.note("pose.angle", format!("stated as {angle}, but it is {is}"));
+                    }
+                }
+                (Some(_), None) => self.note("pose", "is stated, but nothing is let go of".into()),
+                (None, Some(_)) => self.note("pose", "is missing: it is not said where the object lies".into()),
+                (None, None) => {}
+            }
+        }
+        self.within.clear();
+    }
+
+    fn place(&mut self, claim: &str, [x, y]: [f64; 2], is: Point) {
+        if (Point::new(x, y) - is).norm() > AT {
+            self.note(claim, format!("stated as ({x}, {y}) m, but it is ({}, {}) m", is.x, is.y));
+        }
+    }
+}

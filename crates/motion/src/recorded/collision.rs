@@ -1,0 +1,413 @@
+//! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
+
+use super::tool::ToolMotion;
+use cplan_core::check::{Bounded, Deviation, Place, Posture, Span};
+use cplan_core::model::{Contact, Drift, HeldMotion, Pair, Scene};
+use cplan_core::space::{Configuration, Piece, Recording};
+use cplan_geometry::Separation;
+use cplan_interrupt::checkpoint;
+use std::borrow::Cow;
+
+/// The proven clearance is at least this share of the true one, as for [`super::certify`].
+const TIGHTNESS: f64 = 0.9;
+
+/// Looks at pairs and spans of a motion before giving up: some seconds' worth.
+const MAX_EVALUATIONS: usize = 20_000_000;
+
+/// Looks that are left once some span stays open: the motion cannot be proven free any more, only a contact can still
+/// decide, and a motion that slides along an obstacle leaves spans open without end.
+const MORE_EVALUATIONS: usize = 200_000;
+
+/// Configurations, evenly spread over the pieces, that are looked at beforehand: they show how near the motion comes, and so
+/// how fine it pays to look.
+const LOOKS: usize = 1024;
+
+/// Of so many of these one is looked at first.
+const COARSE: usize = 32;
+
+/// A single configuration.
+const STILL: Deviation = Deviation::Box([0.0; 2]);
+
+/// A moment of a recorded motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// Seconds on the recording's clock; without one, the number of the waypoint, counted from 0, and the share of the
+    /// way to the next.
+    pub time: f64,
+    /// The sample at or before it, counted from 0.
+    pub sample: usize,
+    /// Where the arm is.
+    pub at: Configuration,
+}
+
+impl Moment {
+    pub(super) fn new(index: usize, piece: &Piece, u: f64) -> Self {
+        // The end of a piece that lasts is the next sample.
+        let sample = index + usize::from(u == 1.0 && piece.to > piece.from);
+        Self { time: piece.time(u), sample, at: piece.at(u) }
+    }
+}
+
+/// A pair of shapes at a moment of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Encounter {
+    /// When and where on the motion that is.
+    pub moment: Moment,
+    /// The shapes and their signed distance then.
+    pub contact: Contact,
+}
+
+/// What the continuous check of a motion found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CollisionCheck {
+    /// Proven: the whole motion keeps more than zero and at least the clearance asked for.
+    Free {
+        /// Lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if nothing can
+        /// meet. At least 0.9 of the true value, unless the clearance asked for is nearer to it.
+        clearance: f64,
+        /// Where it came nearest, as far as was looked; none if nothing can meet.
+        nearest: Option<Encounter>,
+    },
+    /// Proven: the motion touches an obstacle, or comes nearer to it than the clearance to keep.
+    Collision {
+        /// The earliest contact that was found.
+        first: Encounter,
+        /// Before this time on the same clock the motion is proven free: unless the motion grazes an obstacle before,
+        /// a trillionth of a piece before `first`.
+        free_until: f64,
+        /// The least signed distance that was seen anywhere on the motion.
+        deepest: Encounter,
+    },
+    /// Neither: at this moment (the first such) the distance is too near to the clearance to keep to be told apart, or
+    /// the search ran out.
+    Undecided(Encounter),
+}
+
+/// Checks the whole motion against every pair that can meet, in the order of time: a distance of more than zero and at
+/// least `clearance` metres. Joint limits are not its business; see [`super::limits_kept`].
+///
+/// A span of one piece is a tube about its chord: a curve deviates from the chord by at most an eighth of its greatest
+/// second derivative times the squared width, joint by joint. A span of several pieces is the box of their control
+/// points. The bound of [`Posture::bound`] decides, else both halves are looked at, so that many samples cost little
+/// where nothing is near. Once a contact is found only what comes before it is looked at.
+///
+/// Obstacles that move do so on the recording's clock, from its first sample on. Without a clock nothing is said of them.
+#[must_use]
+pub fn check_collision(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
+    check_pairs(scene, all_pairs(scene, recording), recording, clearance)
+}
+
+/// The same while joints move that the scene holds still: parts are at the heights that these give them at each moment, and what
+/// a wrist turns counts as the disc that it sweeps. Pairs are those of the scene's parts. What is carried must not be among what they move.
+#[must_use]
+pub fn check_collision_with(
+    scene: &Scene,
+    recording: &Recording,
+    held: &[HeldMotion],
+    clearance: f64,
+) -> CollisionCheck {
+    let tool = ToolMotion::new(scene, held);
+    let pieces = recording.pieces();
+    let pairs = all_pairs(tool.scene(), recording);
+    let mut search = Search::new(tool.scene(), &pairs, &pieces, clearance);
+    search.tool = Some(&tool);
+    search.look_around();
+    search.run();
+    search.verdict()
+}
+
+/// The pairs with what stands, and with what moves if there is a clock.
+fn all_pairs<'a>(scene: &'a Scene, recording: &Recording) -> Cow<'a, [Pair]> {
+    let moving = if recording.times().is_some() { scene.moving_pairs() } else { &[] };
+    if moving.is_empty() { scene.pairs().into() } else { [scene.pairs(), moving].concat().into() }
+}
+
+/// The same of what moves alone, on the recording's clock from its first sample on: the arm's motion in time is certified if it is known to be
+/// free of what stands, as the motion along a [`super::CertifiedCurve`] is.
+#[must_use]
+pub fn certify_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
+    check_pairs(scene, scene.moving_pairs().into(), recording, clearance)
+}
+
+/// What a recording first comes too near to of what moves, or cannot be told apart from that; none if it is free. How free is not asked, which is a
+/// small part of the cost.
+pub fn met_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> Option<Encounter> {
+    let pieces = recording.pieces();
+    let mut search = Search::new(scene, scene.moving_pairs(), &pieces, clearance);
+    search.tightness = 0.0;
+    search.run();
+    match search.verdict() {
+        CollisionCheck::Collision { first, .. } | CollisionCheck::Undecided(first) => Some(first),
+        CollisionCheck::Free { .. } => None,
+    }
+}
+
+fn check_pairs(scene: &Scene, pairs: Cow<[Pair]>, recording: &Recording, clearance: f64) -> CollisionCheck {
+    let pieces = recording.pieces();
+    let mut search = Search::new(scene, &pairs, &pieces, clearance);
+    search.look_around();
+    search.run();
+    search.verdict()
+}
+
+struct Search<'a> {
+    scene: &'a Scene,
+    /// Those that are looked at; those of what moves come last.
+    pairs: &'a [Pair],
+    pieces: &'a [Piece],
+    required: f64,
+    /// What changes heights and shapes on the way.
+    tool: Option<&'a ToolMotion<'a>>,
+    /// A bound is accepted if it is at least this share of the least distance seen.
+    tightness: f64,
+    /// Least of the bounds that were accepted.
+    proven: f64,
+    /// Least distance seen.
+    least: Option<Encounter>,
+    /// The earliest contact seen.
+    hit: Option<(Place, Encounter)>,
+    /// The earliest span that stayed open, and what was nearest there.
+    open: Option<(Place, Encounter)>,
+    evaluations: usize,
+    /// Evaluations after which spans are halved no more.
+    budget: usize,
+}
+
+impl<'a> Search<'a> {
+    fn new(scene: &'a Scene, pairs: &'a [Pair], pieces: &'a [Piece], required: f64) -> Self {
+        Self {
+            scene,
+            pairs,
+            pieces,
+            required,
+            tool: None,
+            tightness: TIGHTNESS,
+            proven: f64::INFINITY,
+            least: None,
+            hit: None,
+            open: None,
+            evaluations: 0,
+            budget: MAX_EVALUATIONS,
+        }
+    }
+
+    /// Places all over the motion, but for stretches in which each pair is shown to be neither in contact nor nearer than any before.
+    fn look_around(&mut self) {
+        let count = self.pieces.len();
+        let (stride, shares) = (count.div_ceil(LOOKS), LOOKS.div_ceil(count));
+        let place = |look: usize| (look / shares * stride, (look % shares) as f64 / shares as f64);
+        let looks = count.div_ceil(stride) * shares;
+        // Some first: what they show to be near makes the rest of less interest.
+        for look in (0..looks).step_by(COARSE) {
+            self.look(place(look), self.pairs);
+        }
+        let mut open = vec![(0, looks, self.pairs.to_vec())];
+        while let Some((from, to, mut pairs)) = open.pop() {
+            if to - from == 1 {
+                self.look(place(from), &pairs);
+                continue;
+            }
+            let span = Span::between(place(from), place(to - 1));
+            let (middle, deviation) = span.deviation(self.pieces);
+            self.keep_meeting(span, &mut pairs);
+            let posture = Posture::new(self.scene, middle);
+            let [begins, ends] = span.ends();
+            pairs.retain(|&pair| {
+                let drift = self.drift(pair, begins, ends);
+                let enough = |_| self.required.max(self.seen());
+                self.is_of_interest(apart(&posture, pair, deviation, drift.as_ref()))
+                    && self.is_of_interest(bound(&posture, pair, deviation, drift.as_ref(), enough).least)
+            });
+            if !pairs.is_empty() {
+                let half = from.midpoint(to);
+                open.extend([(half, to, pairs.clone()), (from, half, pairs)]);
+            }
+        }
+        self.look((count - 1, 1.0), self.pairs);
+    }
+
+    /// Some pairs at a place, but for those that discs around both show to be of no interest.
+    fn look(&mut self, place: Place, pairs: &[Pair]) {
+        let posture = Posture::new(self.scene, self.pieces[place.0].at(place.1));
+        for &pair in pairs {
+            if !self.is_there(pair, place) {
+                continue;
+            }
+            let drift = self.drift(pair, place, place);
+            if self.is_of_interest(apart(&posture, pair, STILL, drift.as_ref())) {
+                self.see(place, Contact { pair, separation: here(&posture, pair, drift.as_ref()) });
+            }
+        }
+    }
+
+    /// Whether a pair that comes no nearer than this may be in contact, or nearer than any before.
+    fn is_of_interest(&self, apart: f64) -> bool {
+        apart <= 0.0 || apart < self.required || apart < self.seen()
+    }
+
+    /// Drops pairs whose heights do not meet during a span.
+    fn keep_meeting(&self, span: Span, pairs: &mut Vec<Pair>) {
+        if let Some(tool) = self.tool {
+            let extents = tool.extents(span);
+            pairs.retain(|pair| tool.may_meet(*pair, &extents));
+        }
+    }
+
+    /// Whether the shapes of a pair are at a place what they are taken for, and can meet there.
+    fn is_there(&self, pair: Pair, place: Place) -> bool {
+        self.tool.is_none_or(|tool| tool.is_there(pair, place))
+    }
+
+    /// Least distance seen.
+    fn seen(&self) -> f64 {
+        self.least.map_or(f64::INFINITY, |e| e.contact.separation.distance)
+    }
+
+    /// What the obstacle of a pair does between two places, if it moves.
+    fn drift(&self, pair: Pair, from: Place, to: Place) -> Option<Drift> {
+        let time = |(piece, share): Place| self.pieces[piece].time(share) - self.pieces[0].from;
+        self.scene.mover(pair).map(|mover| mover.course.drift(time(from), time(to)))
+    }
+
+    /// Takes note of a distance on the motion.
+    fn see(&mut self, place: Place, contact: Contact) {
+        let distance = contact.separation.distance;
+        let encounter = Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact };
+        // Of those that are as near the earliest.
+        let rank = |of: &Encounter| (of.contact.separation.distance, of.moment.time);
+        let nearer = |than: &Encounter| rank(&encounter) < rank(than);
+        if self.least.as_ref().is_none_or(nearer) {
+            self.least = Some(encounter);
+        }
+        let is_hit = distance <= 0.0 || distance < self.required;
+        let earlier = |(known, than): &(Place, Encounter)| place < *known || (place == *known && nearer(than));
+        if is_hit && self.hit.as_ref().is_none_or(earlier) {
+            self.hit = Some((place, encounter));
+        }
+    }
+
+    /// Whether a bound proves enough. Once there is a contact it is only asked whether it is the first.
+    fn suffices(&self, bound: f64) -> bool {
+        let is_tight = self.tightness > 0.0 && self.hit.is_none();
+        let target = if is_tight { (self.tightness * self.seen()).max(self.required) } else { self.required };
+        bound > 0.0 && bound >= target
+    }
+
+    /// All spans in the order of time, each with the pairs that are open in it.
+    fn run(&mut self) {
+        let mut stack = vec![(Span::all(self.pieces.len()), self.pairs.to_vec())];
+        while let Some((span, mut pairs)) = stack.pop() {
+            checkpoint();
+            if self.hit.as_ref().is_some_and(|(place, _)| span.start() >= *place) {
+                continue;
+            }
+            self.judge(span, &mut pairs);
+            if pairs.is_empty() {
+                continue;
+            }
+            match span.halves().filter(|_| self.evaluations < self.budget) {
+                Some([first, second]) => stack.extend([(second, pairs.clone()), (first, pairs)]),
+                None => self.leave_open(span, &pairs),
+            }
+        }
+    }
+
+    /// Drops the pairs that are proven to keep their distance all over the span.
+    fn judge(&mut self, span: Span, pairs: &mut Vec<Pair>) {
+        self.keep_meeting(span, pairs);
+        let (middle, deviation) = span.deviation(self.pieces);
+        let posture = Posture::new(self.scene, middle);
+        let [from, to] = span.ends();
+        pairs.retain(|&pair| {
+            let is_there = self.is_there(pair, span.middle());
+            // The least distance seen is no measure for what is not there to be seen.
+            let suffices = |search: &Self, bound: f64| match is_there {
+                true => search.suffices(bound),
+                false => bound > 0.0 && bound >= search.required,
+            };
+            let drift = self.drift(pair, from, to);
+            self.evaluations += 1;
+            if let Some(drift) = &drift {
+                let apart = posture.apart_moving(pair, deviation, drift);
+                if suffices(self, apart) {
+                    self.proven = self.proven.min(apart);
+                    return false;
+                }
+            }
+            let bounded = bound(&posture, pair, deviation, drift.as_ref(), |_| f64::INFINITY);
+            if let Span::Part(index, from, to) = span
+                && is_there
+            {
+                self.see((index, (from + to) / 2.0), Contact { pair, separation: bounded.here });
+            }
+            let free = suffices(self, bounded.least);
+            if free {
+                self.proven = self.proven.min(bounded.least);
+            }
+            !free
+        });
+    }
+
+    /// A span that can neither be proven free nor halved: only its ends remain to be looked at.
+    fn leave_open(&mut self, span: Span, pairs: &[Pair]) {
+        let mut nearest: Option<Encounter> = None;
+        for place in span.ends() {
+            let at = self.pieces[place.0].at(place.1);
+            let posture = Posture::new(self.scene, at);
+            for &pair in pairs {
+                let drift = self.drift(pair, place, place);
+                let separation = here(&posture, pair, drift.as_ref());
+                let contact = Contact { pair, separation };
+                if self.is_there(pair, place) {
+                    self.see(place, contact);
+                }
+                if nearest.is_none_or(|n| separation.distance < n.contact.separation.distance) {
+                    nearest = Some(Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact });
+                }
+            }
+        }
+        if let (None, Some(nearest)) = (&self.open, nearest) {
+            self.open = Some((span.start(), nearest));
+            self.budget = self.budget.min(self.evaluations + MORE_EVALUATIONS);
+        }
+    }
+
+    fn verdict(self) -> CollisionCheck {
+        match (self.hit, self.open, self.least) {
+            (Some((place, first)), open, least) => {
+                let from = open.map_or(place, |(from, _)| if from < place { from } else { place });
+                let free_until = self.pieces[from.0].time(from.1);
+                CollisionCheck::Collision { first, free_until, deepest: least.unwrap_or(first) }
+            }
+            (None, Some((_, nearest)), _) => CollisionCheck::Undecided(nearest),
+            (None, None, nearest) => CollisionCheck::Free { clearance: self.proven, nearest },
+        }
+    }
+}
+
+/// Distance of a pair in the middle of a span, and the least that it comes to in it, but for the trouble of a better bound than one that is enough.
+fn bound(
+    posture: &Posture,
+    pair: Pair,
+    deviation: Deviation,
+    drift: Option<&Drift>,
+    enough: impl Fn(f64) -> f64,
+) -> Bounded {
+    match drift {
+        Some(drift) => posture.bound_moving(pair, deviation, drift, enough),
+        None => posture.bound_up_to(pair, deviation, enough),
+    }
+}
+
+/// Distance of a pair at a moment.
+fn here(posture: &Posture, pair: Pair, drift: Option<&Drift>) -> Separation {
+    bound(posture, pair, STILL, drift, |_| f64::NEG_INFINITY).here
+}
+
+/// The same by discs around both.
+fn apart(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
+    match drift {
+        Some(drift) => posture.apart_moving(pair, deviation, drift),
+        None => posture.apart(pair, deviation),
+    }
+}

@@ -1,0 +1,476 @@
+//! Whether a recorded motion keeps the joints' limits, between its samples too.
+
+use super::collision::Moment;
+use super::torque::torque_looks;
+use cplan_core::model::{Joint, Scene};
+use cplan_core::space::{Configuration, Derivative, JointRange, Piece, Recording};
+
+/// Share of a limit by which it may be exceeded: programs that plan up to a limit exceed it by what their arithmetic
+/// and six printed digits make of it, and no drive tells the two apart.
+const TOLERANCE: f64 = 1e-6;
+
+/// Numbers with this many decimals or more are taken to be rounded in the last one.
+const ROUNDED_FROM: i32 = 6;
+
+/// Numbers with fewer are as they were meant (`0.5` is a half, a time of `0.004` is the fourth millisecond), exact to
+/// this many decimals: the nanosecond in which ROS counts.
+const MEANT_TO: i32 = 9;
+
+/// Units in the last place by which doubles are taken to be off: what computing a sample, and the piece through it, costs.
+const ULPS: f64 = 4.0;
+
+/// Share of a speed limit that the rounding of positions and times may explain between samples at the most: six decimals
+/// at a kilohertz explain a thousandth of a radian per second. Numbers that are coarser than that for their spacing make a
+/// motion of their own, and that is what a controller plays.
+const COARSE: f64 = 0.01;
+
+/// A limit of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Limit {
+    /// The least and the greatest value that the joint can take.
+    Position,
+    /// Its top speed.
+    Velocity,
+    /// Its greatest acceleration.
+    Acceleration,
+    /// Its greatest jerk.
+    Jerk,
+    /// The greatest torque or force that moves it.
+    Torque,
+    /// Its acceleration does not jump if its jerk has a limit.
+    AccelerationJump,
+    /// A motion starts at rest.
+    RestAtStart,
+    /// A motion ends at rest.
+    RestAtEnd,
+}
+
+/// A limit that is not kept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Excess {
+    /// 0 or 1.
+    pub joint: usize,
+    /// The limit that is broken.
+    pub limit: Limit,
+    /// What the limit allows, in the unit of `value`: the nearer end of the range, or a magnitude; 0 for rest and jumps.
+    pub allowed: f64,
+    /// The joint's position, velocity, acceleration, jerk or change of acceleration where it exceeds the limit most.
+    pub value: f64,
+    /// When that is.
+    pub moment: Moment,
+}
+
+/// Every limit of each joint that the motion does not keep, with the place where it is exceeded most. `O(n)`.
+///
+/// Position limits hold for every recording; velocity limits where there are times; acceleration and rest at both ends
+/// where there are velocities: without, the velocity jumps at the samples, which says nothing about how the motion is
+/// meant.
+///
+/// What a file states is judged as stated: its velocities and accelerations. So is what the consumer of its format makes of
+/// it between the samples ([`cplan_core::space::Interpolation`]), by the extremes of each piece. A limit counts as broken if it is exceeded by more
+/// than 1e-6 of it and by more than the rounding of the recording's own numbers explains: for stated numbers half a unit of
+/// their last decimal, and between samples what such roundings make of a motion within the limits. (Six decimals at a
+/// millisecond's spacing leave the acceleration of a cubic open to some radians per squared second.) What rounding explains
+/// on short pieces it does not explain on long stretches: from any sample to any later one, too, the joint moves no farther
+/// than its top speed allows, and its stated velocity changes by no more than its acceleration does.
+///
+/// The jerk of a joint that has such a limit is judged where there are velocities: the third derivative of each piece, and
+/// that the acceleration does not jump from one to the next, nor where the motion begins and ends. That is exact for
+/// motions whose jerk is constant between samples. Others, however smooth, are not what their cubics are, and these jump
+/// at the samples by as much as the square of the spacing: they are to be sampled at the ends of their phases.
+#[must_use]
+pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
+    let precision = Precision::of(recording);
+    let pieces = recording.pieces();
+    let mut found = Vec::new();
+    for (k, joint) in joints.iter().enumerate() {
+        let mut judge = Judge { joint, k, pieces: &pieces, precision: precision.of_joint(k), worst: Vec::new() };
+        judge.positions();
+        let of_joint = |rows: &[Configuration]| rows.iter().map(|row| row[k]).collect::<Vec<f64>>();
+        if let Some(times) = recording.times() {
+            judge.velocities(&of_joint(recording.positions()), times);
+            if let Some(rows) = recording.velocities() {
+                let velocities = of_joint(rows);
+                judge.stated(Limit::Velocity, &velocities);
+                judge.accelerations(&velocities, times);
+                judge.rest(Limit::RestAtStart, velocities[0], 0);
+                judge.rest(Limit::RestAtEnd, velocities[velocities.len() - 1], velocities.len() - 1);
+            }
+            if let Some(rows) = recording.accelerations() {
+                judge.stated(Limit::Acceleration, &of_joint(rows));
+            }
+            if let (Some(most), Some(_)) = (joint.jerk, recording.velocities()) {
+                judge.jerks(most);
+            }
+        }
+        judge.worst.sort_by_key(|(_, excess)| excess.limit);
+        found.extend(judge.worst.into_iter().map(|(_, excess)| excess));
+    }
+    found
+}
+
+/// Share of an effort by which a torque may be greater between two looks at it.
+const FINE: f64 = 1e-4;
+
+/// Where the motion takes more torque than the joints' efforts, if motions of the scene's arm have to keep within them: of each joint the place
+/// where it is exceeded most. As accelerations are judged: where there are velocities, by what the format's consumer makes of the samples,
+/// beyond what rounding explains. Between the moments that are looked at a torque may be a ten-thousandth of the effort greater than there. Of a
+/// single sample it is what holds the arm there.
+#[must_use]
+pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
+    let Some(dynamics) = scene.limiting_dynamics().filter(|_| recording.velocities().is_some()) else {
+        return Vec::new();
+    };
+    let (arm, precision, pieces) = (scene.arm(), Precision::of(recording), recording.pieces());
+    let inertia = dynamics.greatest_inertia(arm);
+    let mut judges = [0, 1].map(|k| {
+        let joint = &arm.joints[k];
+        Judge { joint, k, pieces: &pieces, precision: precision.of_joint(k), worst: Vec::new() }
+    });
+    if let [q] = recording.positions() {
+        let holding = dynamics.at(arm, *q).holding();
+        for judge in &mut judges {
+            let (value, allowed) = (holding[judge.k], dynamics.effort[judge.k]);
+            if value.abs() > allowed * (1.0 + TOLERANCE) {
+                judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.sample(0));
+            }
+        }
+    }
+    for (index, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from) {
+        let explained =
+            judges.each_ref().map(|judge| judge.explained(piece, &Sensitivity::of(piece, Derivative::Acceleration)));
+        for look in torque_looks(&dynamics, arm, piece, FINE) {
+            for judge in &mut judges {
+                let (k, value, allowed) = (judge.k, look.torque[judge.k], dynamics.effort[judge.k]);
+                let may = inertia[k][0] * explained[0] + inertia[k][1] * explained[1] + TOLERANCE * allowed;
+                if value.abs() - allowed > may {
+                    judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.moment(index, look.u));
+                }
+            }
+        }
+    }
+    judges.into_iter().flat_map(|judge| judge.worst).map(|(_, excess)| excess).collect()
+}
+
+/// One joint's limits, and how they are exceeded most.
+struct Judge<'a> {
+    joint: &'a Joint,
+    k: usize,
+    pieces: &'a [Piece],
+    precision: JointPrecision,
+    /// By how much, and how.
+    worst: Vec<(f64, Excess)>,
+}
+
+impl<'a> Judge<'a> {
+    /// Takes note of a value that is `over` its limit by more than may be.
+    fn note(&mut self, over: f64, limit: Limit, allowed: f64, value: f64, moment: Moment) {
+        let excess = Excess { joint: self.k, limit, allowed, value, moment };
+        match self.worst.iter_mut().find(|(_, known)| known.limit == limit) {
+            Some((worst, _)) if *worst >= over => {}
+            Some(known) => *known = (over, excess),
+            None => self.worst.push((over, excess)),
+        }
+    }
+
+    fn moment(&self, index: usize, u: f64) -> Moment {
+        Moment::new(index, &self.pieces[index], u)
+    }
+
+    /// The moment of a sample.
+    fn sample(&self, index: usize) -> Moment {
+        if index < self.pieces.len() { self.moment(index, 0.0) } else { self.moment(index - 1, 1.0) }
+    }
+
+    /// The pieces that take time, with their numbers.
+    fn lasting(&self) -> impl Iterator<Item = (usize, &'a Piece)> + use<'a> {
+        self.pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from)
+    }
+
+    fn positions(&mut self) {
+        let JointRange::Interval { lower, upper } = self.joint.range else { return };
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let may = self.precision.position
+                + (piece.to - piece.from) * self.precision.velocity
+                + self.speed(piece) * self.precision.time;
+            for u in piece.critical(Derivative::Position, self.k) {
+                let value = piece.at(u)[self.k];
+                for (over, allowed) in [(lower - value, lower), (value - upper, upper)] {
+                    if over > may + TOLERANCE * allowed.abs() {
+                        self.note(over, Limit::Position, allowed, value, self.moment(index, u));
+                    }
+                }
+            }
+        }
+    }
+
+    /// What the file says of velocities or accelerations, as it says it.
+    fn stated(&mut self, limit: Limit, values: &[f64]) {
+        let (allowed, may) = match limit {
+            Limit::Velocity => (self.joint.velocity, self.precision.velocity),
+            _ => (self.joint.acceleration, self.precision.acceleration),
+        };
+        for (index, value) in values.iter().enumerate() {
+            let over = value.abs() - allowed;
+            if over > may + TOLERANCE * allowed {
+                self.note(over, limit, allowed, *value, self.sample(index));
+            }
+        }
+    }
+
+    fn velocities(&mut self, positions: &[f64], times: &[f64]) {
+        let allowed = self.joint.velocity;
+        for (index, piece) in self.lasting() {
+            let of_data = Sensitivity::of(piece, Derivative::Velocity);
+            let explained = self.explained(piece, &of_data).min(COARSE * allowed);
+            self.extremes(Limit::Velocity, allowed, explained, index);
+        }
+        self.stretches(Limit::Velocity, allowed, self.precision.position, positions, times);
+    }
+
+    fn accelerations(&mut self, velocities: &[f64], times: &[f64]) {
+        let allowed = self.joint.acceleration;
+        for (index, piece) in self.lasting() {
+            let of_data = Sensitivity::of(piece, Derivative::Acceleration);
+            let late = 2.0 * allowed * 2.0 * self.precision.time / (piece.to - piece.from);
+            let explained = self.explained(piece, &of_data) + late;
+            self.extremes(Limit::Acceleration, allowed, explained, index);
+        }
+        self.stretches(Limit::Acceleration, allowed, self.precision.velocity, velocities, times);
+    }
+
+    /// A derivative of a piece where it is least and greatest.
+    fn extremes(&mut self, limit: Limit, allowed: f64, explained: f64, index: usize) {
+        let piece = &self.pieces[index];
+        let of = match limit {
+            Limit::Velocity => Derivative::Velocity,
+            Limit::Acceleration => Derivative::Acceleration,
+            _ => Derivative::Jerk,
+        };
+        for u in piece.critical(of, self.k) {
+            let value = piece.derivative(of, u)[self.k];
+            let over = value.abs() - allowed;
+            if over > explained + TOLERANCE * allowed {
+                self.note(over, limit, allowed, value, self.moment(index, u));
+            }
+        }
+    }
+
+    /// The mean rate of change from any sample to any later one, of values that are off by `rounded` each. With `s` the value
+    /// less what the limit allows until then, it is too large where `s` exceeds the least of the `s` before.
+    fn stretches(&mut self, limit: Limit, allowed: f64, rounded: f64, values: &[f64], times: &[f64]) {
+        let most = allowed * (1.0 + TOLERANCE);
+        let may = 2.0 * rounded + most * 2.0 * self.precision.time;
+        for sign in [1.0, -1.0] {
+            let beyond = |k: usize| sign * values[k] - most * (times[k] - times[0]);
+            let mut least = 0;
+            for k in 1..values.len() {
+                if beyond(k) - beyond(least) > may {
+                    let mean = (values[k] - values[least]) / (times[k] - times[least]);
+                    self.note(mean.abs() - allowed, limit, allowed, mean, self.sample(k));
+                }
+                if beyond(k) < beyond(least) {
+                    least = k;
+                }
+            }
+        }
+    }
+
+    /// Of all pieces: each one's own, and the jumps of the acceleration at their ends.
+    fn jerks(&mut self, most: f64) {
+        // Where nothing moves.
+        let still = (0.0, 0.0);
+        let mut before = still;
+        for (index, piece) in self.lasting() {
+            let duration = piece.to - piece.from;
+            let of_time = 2.0 * self.precision.time / duration;
+            let late = |value: f64| value.abs() * of_time;
+            let [first, last] = [0.0, 1.0].map(|u| {
+                let value = piece.derivative(Derivative::Acceleration, u)[self.k];
+                let explained = self.explained(piece, &Sensitivity::of(piece, Derivative::Acceleration));
+                (value, explained + late(value))
+            });
+            self.jump(before, first, self.moment(index, 0.0));
+            let explained = self.explained(piece, &Sensitivity::of(piece, Derivative::Jerk));
+            self.extremes(Limit::Jerk, most, explained + 2.0 * late(most), index);
+            before = last;
+        }
+        self.jump(before, still, self.sample(self.pieces.len()));
+    }
+
+    /// From one acceleration to another, each with its error.
+    fn jump(&mut self, before: (f64, f64), after: (f64, f64), moment: Moment) {
+        let value = after.0 - before.0;
+        if value.abs() > before.1 + after.1 + TOLERANCE * self.joint.acceleration {
+            self.note(value.abs(), Limit::AccelerationJump, 0.0, value, moment);
+        }
+    }
+
+    fn rest(&mut self, limit: Limit, value: f64, sample: usize) {
+        if value.abs() > TOLERANCE * self.joint.velocity + self.precision.velocity {
+            self.note(value.abs(), limit, 0.0, value, self.sample(sample));
+        }
+    }
+
+    /// What the rounding of the recording's numbers explains of a derivative of a piece.
+    fn explained(&self, piece: &Piece, of: &Sensitivity) -> f64 {
+        let duration = piece.to - piece.from;
+        let moved = 2.0 * self.precision.position + 2.0 * self.precision.time * self.speed(piece);
+        // Divided one by one: a power of a short duration is far smaller.
+        let over = |value: f64, order: i32| (0..order).fold(value, |value, _| value / duration);
+        over(of.position * moved, of.order)
+            + over(of.velocity * self.precision.velocity, of.order - 1)
+            + over(of.acceleration * self.precision.acceleration, of.order - 2)
+    }
+
+    /// Greatest speed at which the joint passes the ends of the piece, or passes from one to the other; its top speed at
+    /// the most: what is faster is not explained by rounding.
+    fn speed(&self, piece: &Piece) -> f64 {
+        let duration = piece.to - piece.from;
+        let mean = if duration > 0.0 { (piece.at(1.0) - piece.at(0.0))[self.k] / duration } else { 0.0 };
+        let at = |u: f64| piece.derivative(Derivative::Velocity, u)[self.k].abs();
+        mean.abs().max(at(0.0)).max(at(1.0)).min(self.joint.velocity * (1.0 + TOLERANCE))
+    }
+}
+
+/// By how much a derivative of a piece changes at the most, with times in units of its duration, when its data do: per
+/// change of the difference of the positions, of both velocities, of all accelerations.
+struct Sensitivity {
+    order: i32,
+    position: f64,
+    velocity: f64,
+    acceleration: f64,
+}
+
+impl Sensitivity {
+    /// From the derivatives of the polynomials that belong to each of the data: for cubics `3 u^2 - 2 u^3` (position),
+    /// `u - 2 u^2 + u^3` and `u^3 - u^2` (velocities); of the fourth degree `4 u^3 - 3 u^4`, `u - 3 u^3 + 2 u^4` and
+    /// `u^4 - u^3`, `u^2 / 2 - u^3 + u^4 / 2` (acceleration); of the fifth `10 u^3 - 15 u^4 + 6 u^5`,
+    /// `u - 6 u^3 + 8 u^4 - 3 u^5` and `-4 u^3 + 7 u^4 - 3 u^5`, `(u^2 - 3 u^3 + 3 u^4 - u^5) / 2` and
+    /// `(u^3 - 2 u^4 + u^5) / 2`. Rounded up; the unit tests hold them to samples.
+    fn of(piece: &Piece, derivative: Derivative) -> Self {
+        let (order, [position, velocity, acceleration]) = match (derivative, piece.degree()) {
+            (Derivative::Position, _) => (0, [1.0, 0.5, 0.1]),
+            (Derivative::Velocity, 4) => (1, [1.78, 1.0, 0.1]),
+            (Derivative::Velocity, 5) => (1, [1.875, 1.0, 0.1]),
+            (Derivative::Velocity, _) => (1, [1.5, 1.0, 0.0]),
+            (Derivative::Acceleration, 4) => (2, [12.0, 12.0, 1.0]),
+            (Derivative::Acceleration, 5) => (2, [5.78, 6.0, 1.0]),
+            (Derivative::Acceleration, _) => (2, [6.0, 6.0, 0.0]),
+            (Derivative::Jerk, 4) => (3, [48.0, 48.0, 6.0]),
+            (Derivative::Jerk, 5) => (3, [60.0, 60.0, 12.0]),
+            (Derivative::Jerk, _) => (3, [12.0, 12.0, 0.0]),
+        };
+        Self { order, position, velocity, acceleration }
+    }
+}
+
+/// Bounds on the rounding errors of a recording's numbers.
+struct Precision {
+    position: [f64; 2],
+    velocity: [f64; 2],
+    acceleration: [f64; 2],
+    time: f64,
+}
+
+/// The same for one joint.
+struct JointPrecision {
+    position: f64,
+    velocity: f64,
+    acceleration: f64,
+    time: f64,
+}
+
+impl Precision {
+    fn of(recording: &Recording) -> Self {
+        let each = |rows: Option<&[Configuration]>| {
+            [0, 1].map(|k| rows.map_or(0.0, |rows| rounding(rows.iter().map(|row| row[k]))))
+        };
+        Self {
+            position: each(Some(recording.positions())),
+            velocity: each(recording.velocities()),
+            acceleration: each(recording.accelerations()),
+            time: recording.times().map_or(0.0, |times| rounding(times.iter().copied())),
+        }
+    }
+
+    fn of_joint(&self, k: usize) -> JointPrecision {
+        JointPrecision {
+            position: self.position[k],
+            velocity: self.velocity[k],
+            acceleration: self.acceleration[k],
+            time: self.time,
+        }
+    }
+}
+
+/// Half a unit of the last decimal that any of the numbers has, plus the rounding of doubles of their size.
+fn rounding(values: impl Iterator<Item = f64>) -> f64 {
+    let (mut most, mut largest) = (0, 0.0_f64);
+    for value in values {
+        largest = largest.max(value.abs());
+        // Doubles have no more than 17 digits: nothing finer is to be found.
+        if most < 17 {
+            most = most.max(decimals(value));
+        }
+    }
+    let digits = if most < ROUNDED_FROM { MEANT_TO } else { most };
+    0.5 * 10f64.powi(-digits) + ULPS * f64::EPSILON * largest
+}
+
+/// Decimals of the shortest decimal number that reads as `value`.
+fn decimals(value: f64) -> i32 {
+    let text = format!("{value:e}");
+    let Some((mantissa, exponent)) = text.split_once('e') else { return 0 };
+    let digits = mantissa.split_once('.').map_or(0, |(_, after)| after.len());
+    digits as i32 - exponent.parse::<i32>().unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pieces whose data are unit changes, sampled: what the greatest changes make of a derivative.
+    #[test]
+    fn sensitivities_are_those_of_the_pieces() {
+        let unit = |i: usize, k: usize| Configuration::repeat(if i == k { 1.0 } else { 0.0 });
+        // Data 0 to 5: positions, velocities, accelerations of the beginning and the end.
+        let piece = |degree: usize, k: usize| {
+            let [p, v, a] = [0, 2, 4].map(|i| [unit(i, k), unit(i + 1, k)]);
+            match degree {
+                3 => Piece::hermite(0.0, 1.0, [p[0], v[0]], [p[1], v[1]]),
+                4 => Piece::quartic(0.0, 1.0, [p[0], v[0], a[0]], [p[1], v[1]]),
+                _ => Piece::quintic(0.0, 1.0, [p[0], v[0], a[0]], [p[1], v[1], a[1]]),
+            }
+        };
+        for (degree, accelerations) in [(3, 0..0), (4, 4..5), (5, 4..6)] {
+            for of in [Derivative::Velocity, Derivative::Acceleration, Derivative::Jerk] {
+                let claimed = Sensitivity::of(&piece(degree, 0), of);
+                let greatest = |data: std::ops::Range<usize>| {
+                    let at = |u: f64| data.clone().map(|k| piece(degree, k).derivative(of, u)[0].abs()).sum::<f64>();
+                    (0..=10_000).map(|i| at(f64::from(i) / 1e4)).fold(0.0, f64::max)
+                };
+                for (seen, claimed) in [
+                    (greatest(1..2), claimed.position),
+                    (greatest(2..4), claimed.velocity),
+                    (greatest(accelerations.clone()), claimed.acceleration),
+                ] {
+                    assert!(
+                        seen <= claimed + 1e-12 && claimed <= 1.6 * seen + 0.01,
+                        "{degree}, {of:?}: {seen} {claimed}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn decimals_are_those_written() {
+        for (value, expected) in [(0.0, 0), (1.0, 0), (120.0, -1), (0.25, 2), (-3.125, 3), (1e-7, 7), (1.5e-7, 8)] {
+            assert_eq!(decimals(value), expected, "{value}");
+        }
+        assert_eq!(rounding([0.5, 1.0].into_iter()), 0.5e-9 + ULPS * f64::EPSILON);
+        assert_eq!(rounding([0.5, 0.333_333].into_iter()), 0.5e-6 + 0.5 * ULPS * f64::EPSILON);
+        assert!(rounding([0.123_456_789].into_iter()) < 0.6e-9);
+    }
+}

@@ -1,0 +1,301 @@
+//! Does a recorded task again and judges it: whether it is the task that the world asks for, and whether every motion and
+//! every turn of it is free.
+//!
+//! Shares nothing with the search for tasks but their types: what lies where, what is carried and how, and what may be
+//! touched follows from the world's steps and from where the recorded arm is.
+
+mod fault;
+mod order;
+mod state;
+
+pub use fault::{Departure, Fault};
+
+use super::{CollisionCheck, Excess, Limit, TurnContact, WristTurn, check_collision, limits_kept, torques_kept};
+use cplan_core::model::{Action, Goal, RecordedStep, RecordedTurn, Scene, Step, Task};
+use cplan_core::space::{Configuration, JointRange, Recording};
+use cplan_geometry::{Interval, Point, Pose};
+use order::{Matched, matched};
+use state::{State, stroke_seconds};
+
+/// Where something is and where it is asked to be may differ by this, metres or radians: a thousand times what inverse
+/// kinematics leaves, and less than any arm repeats.
+pub(super) const AT: f64 = 1e-6;
+
+/// Times may fall short of what is asked for by this, seconds: far above the rounding of clocks, and of rests that are
+/// too short to be sampled; far below what a gripper needs.
+const SHORT: f64 = 1e-6;
+
+/// A turn of the wrist that was judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReplayedTurn {
+    /// The turn as the record has it.
+    pub turn: RecordedTurn,
+    /// Proven free, or where it first hits something.
+    pub verdict: Result<WristTurn, TurnContact>,
+}
+
+/// What the gripper does in a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Happening {
+    /// The step's number in the world file, from 1.
+    pub step: usize,
+    /// Which repetition of it, from 1.
+    pub cycle: usize,
+    /// The object that it takes or lets go of.
+    pub object: usize,
+    /// Seconds from the beginning of the record: the end of the motion, of the turn before an object is let go of,
+    /// and of the way down of the tool.
+    pub time: f64,
+    /// Where the tip is.
+    pub tip: Point,
+    /// Where the object lies from then on, if it is let go of.
+    pub pose: Option<Pose>,
+}
+
+/// A step that was judged.
+#[derive(Debug, Clone)]
+pub struct ReplayedStep<'a> {
+    /// What was to be done.
+    pub step: &'a Step,
+    /// What was recorded of it.
+    pub recorded: &'a RecordedStep,
+    /// The world during the motion, on a clock that begins with it, and what is carried. Of a last step whose motion is free, but not how it leaves the arm, the
+    /// world then.
+    pub scene: Scene,
+    /// The object that is picked or placed.
+    pub object: Option<usize>,
+    /// The object that is carried during the motion.
+    pub carried: Option<usize>,
+    /// Seconds from the beginning to the end of the motion.
+    pub seconds: f64,
+    /// Seconds from the beginning of the record to that of the motion, to its end, and to the next motion or the end.
+    pub times: [f64; 3],
+    /// What the gripper does, if anything.
+    pub event: Option<Happening>,
+    /// The motion among the obstacles of the scene; moments are the whole recording's.
+    pub collision_check: CollisionCheck,
+    /// Limits of the joints that the motion does not keep: their own, whatever share of them the step asks for.
+    pub broken: Vec<Excess>,
+    /// The turn of the wrist after it. None too for one that was recorded with nothing in the hand to turn, which is a fault.
+    pub turn: Option<ReplayedTurn>,
+    /// In what the step is not what was asked for.
+    pub faults: Vec<Fault>,
+}
+
+/// Judges recorded steps one after the other: an iterator, since each has a scene of its own.
+#[derive(Debug, Clone)]
+pub struct Replay<'a> {
+    task: &'a Task,
+    recording: &'a Recording,
+    recorded: &'a [RecordedStep],
+    matched: Vec<Matched<'a>>,
+    departure: Option<Departure>,
+    next: usize,
+    state: State,
+}
+
+/// Puts the steps of a record beside those of the task: fixed steps in order, pairs of a free group in any order, and between
+/// them the arm stands still. Iterating then judges, up to where the record departs from the task:
+///
+/// - each motion from rest to rest, by [`check_collision`] with the workspace's clearance, in the scene of its moment: objects where
+///   the steps before have left them; what is carried, held as the arm was when it took it; link 2 free to meet the object
+///   that it goes to and the one that it has just let go of; payloads free to rest on their supports. The last step's end is judged after it, too. And by [`limits_kept`];
+/// - among what moves where that is then, on the clock of the record, from its first sample on; objects that move are picked at times at which
+///   they may be, and the arm is met by nothing where it stands between motions;
+/// - at its end, that the tip is at the grasp, the object or the arm where it was to go, within a micrometre; that turns
+///   begin at the object's orientation, take as long as the wrist needs, and are free all the way ([`super::given_turn`]);
+///   that the arm stands still for as long as was asked for, the turn, and the stroke of the tool, which is free, too, at all
+///   the heights that it takes.
+///
+/// `O(n)` for `n` samples but for the motions.
+#[must_use]
+pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
+    let (matched, departure) = matched(task, recording, recorded);
+    Replay { task, recording, recorded, matched, departure, next: 0, state: State::at_first(task) }
+}
+
+impl Replay<'_> {
+    /// Seconds from the beginning of the record to that of a step's motion, to its end, and to the next one's.
+    fn times(&self, index: usize, recorded: &RecordedStep) -> [f64; 3] {
+        let times = self.recording.times();
+        let since = |sample: usize| times.and_then(|times| Some(times.get(sample)? - times[0])).unwrap_or(0.0);
+        [since(*recorded.samples.start()), since(*recorded.samples.end()), since(self.next_begins(index))]
+    }
+
+    /// The sample with which the step after this one begins, or the last.
+    fn next_begins(&self, index: usize) -> usize {
+        let last = self.recording.positions().len() - 1;
+        self.recorded.get(index + 1).map_or(last, |next| *next.samples.start())
+    }
+
+    /// Where the record departs from the sequence of the task; none if it is the whole task.
+    #[must_use]
+    pub fn departure(&self) -> Option<&Departure> {
+        self.departure.as_ref()
+    }
+}
+
+impl<'a> Iterator for Replay<'a> {
+    type Item = ReplayedStep<'a>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let index = self.next;
+        let (matched, recorded) = (self.matched.get(index)?.clone(), self.recorded.get(index)?);
+        let motion = self.recording.part(recorded.samples.clone())?;
+        self.next += 1;
+        let (task, step) = (self.task, matched.step);
+        let mut faults = Vec::new();
+        let [from, to] = [0, motion.positions().len() - 1].map(|sample| motion.positions()[sample]);
+        if index == 0 && !same(task, from, task.start) {
+            faults.push(Fault::Start);
+        }
+        self.state.renew(task, &matched.renewed);
+        let (carried, released) = (self.state.carried(), self.state.released());
+        let picked = match step.action {
+            Action::Pick { object, .. } => Some(object),
+            _ => None,
+        };
+        let times = self.times(index, recorded);
+        let mut scene = self.state.scene(task, picked).since(times[0]);
+        let mut collision_check =
+            shifted(check_collision(&scene, &motion, task.workspace.clearance), *recorded.samples.start());
+        let mut broken = limits_kept(&task.arm.joints, &motion);
+        broken.extend(torques_kept(&scene, &motion));
+        broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
+        let mut object = carried;
+        let (turn, lowered);
+        match &step.action {
+            Action::Pick { object: picked, grasp, when, .. } => {
+                object = Some(*picked);
+                let is_in_time = |[from, to]: &Interval| from - SHORT <= times[1] && times[1] <= to + SHORT;
+                if self.state.stop(task, *picked, times[1]) && !(when.is_empty() || when.iter().any(is_in_time)) {
+                    faults.push(Fault::When { time: times[1] });
+                }
+                // What the place that follows rests it on is declared there.
+                let following = self.matched[index + 1..].iter().find_map(|next| match &next.step.action {
+                    Action::Place { supports, .. } => Some(supports.as_slice()),
+                    _ => None,
+                });
+                faults.extend(self.state.grasp(task, to, step, *grasp, following.unwrap_or_default()));
+                lowered = self.state.lowered(task, false);
+                turn = self.state.turn(task, to, recorded.turn, &mut faults);
+            }
+            Action::Place { at, angle, .. } => {
+                turn = self.state.turn(task, to, recorded.turn, &mut faults);
+                lowered = self.state.lowered(task, true);
+                faults.extend(self.state.release(task, to, *at, *angle));
+            }
+            Action::Move(goal) => {
+                (object, lowered) = (None, None);
+                faults.extend(missed(task, to, goal));
+                turn = self.state.turn(task, to, recorded.turn, &mut faults);
+                self.state.moved();
+            }
+        }
+        let asked = step.dwell
+            + recorded.turn.map_or(0.0, |turn| turn.seconds)
+            + object.map_or(0.0, |object| stroke_seconds(task, object));
+        let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
+        // Where the arm stands among what moves it may be met.
+        if task.has_movers()
+            && matches!(collision_check, CollisionCheck::Free { .. })
+            && let Some(standing) = self.recording.part(*recorded.samples.end()..=self.next_begins(index))
+        {
+            let stays = self.state.scene(task, released).since(times[1]);
+            let found = super::check_collision(&stays, &standing, task.workspace.clearance);
+            if !matches!(found, CollisionCheck::Free { .. }) {
+                (scene, collision_check) = (stays, shifted(found, *recorded.samples.end()));
+            }
+        }
+        if let (Some(below), Some(standing)) = (lowered, standing()) {
+            let found = super::check_collision(&below, &standing, task.workspace.clearance);
+            match (&mut collision_check, found) {
+                (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
+                    *clearance = clearance.min(least);
+                }
+                (CollisionCheck::Free { .. }, found) => {
+                    (scene, collision_check) = (below, shifted(found, *recorded.samples.end()));
+                }
+                _ => {}
+            }
+        }
+        // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by. So does one after which objects are renewed,
+        // but what it has let go of before is still there.
+        let next = self.matched.get(self.next);
+        let (is_last, is_renewed) = (next.is_none(), next.is_some_and(|next| !next.renewed.is_empty()));
+        if (is_last || is_renewed)
+            && matches!(collision_check, CollisionCheck::Free { .. })
+            && let Some(standing) = standing()
+        {
+            let after = self.state.scene(task, released.filter(|_| is_last)).since(times[1]);
+            if is_last && broken.iter().all(|excess| excess.limit != Limit::Torque) {
+                let mut held = torques_kept(&after, &standing);
+                held.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.end());
+                broken.extend(held);
+            }
+            let found = super::check_collision(&after, &standing, task.workspace.clearance);
+            if !matches!(found, CollisionCheck::Free { .. }) {
+                (scene, collision_check) = (after, shifted(found, *recorded.samples.end()));
+            }
+        }
+        if let Some(stood) = matched.rest.filter(|stood| *stood < asked - SHORT) {
+            faults.push(Fault::Rest { stood, asked });
+        }
+        let seconds = motion.duration().unwrap_or(0.0);
+        let event = object.map(|object| {
+            let pose = self.state.pose(object);
+            let turning = pose.and(recorded.turn).map_or(0.0, |turn| turn.seconds);
+            let lowering = stroke_seconds(task, object) / 2.0;
+            let (number, cycle, tip) = (step.number, step.cycle, task.arm.tip_at(to));
+            Happening { step: number, cycle, object, time: (times[1] + turning + lowering).min(times[2]), tip, pose }
+        });
+        Some(ReplayedStep {
+            step,
+            recorded,
+            scene,
+            object,
+            carried,
+            seconds,
+            times,
+            event,
+            collision_check,
+            broken,
+            turn,
+            faults,
+        })
+    }
+}
+
+/// Whether two configurations are the same, up to whole turns of joints on a circle.
+fn same(task: &Task, a: Configuration, b: Configuration) -> bool {
+    task.arm.topology().displacement(a, b).amax() <= AT
+}
+
+/// By how much a motion misses the goal of a move.
+fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
+    match goal {
+        Goal::Joints(target) => (!same(task, q, *target)).then_some(Fault::Joints { is: q, target: *target }),
+        Goal::Tip(target) => {
+            let off = (task.arm.tip_at(q) - target).norm();
+            (off > AT).then_some(Fault::Tip { off })
+        }
+    }
+}
+
+/// The difference between two orientations, from none to half a turn.
+pub(super) fn angle_between(a: f64, b: f64) -> f64 {
+    JointRange::Circle.displacement(b, a).abs()
+}
+
+/// What was found, with the samples counted from the beginning of the whole recording.
+fn shifted(mut collision_check: CollisionCheck, by: usize) -> CollisionCheck {
+    match &mut collision_check {
+        CollisionCheck::Free { nearest, .. } => nearest.iter_mut().for_each(|nearest| nearest.moment.sample += by),
+        CollisionCheck::Collision { first, deepest, .. } => {
+            first.moment.sample += by;
+            deepest.moment.sample += by;
+        }
+        CollisionCheck::Undecided(nearest) => nearest.moment.sample += by,
+    }
+    collision_check
+}

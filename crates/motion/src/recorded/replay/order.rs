@@ -1,0 +1,131 @@
+//! Whether recorded steps are the task's, one after the other.
+
+use super::Departure;
+use cplan_core::model::{Item, RecordedStep, Step, Task};
+use cplan_core::space::{Configuration, Recording};
+
+/// A step of the task at its place in the record.
+#[derive(Debug, Clone)]
+pub(super) struct Matched<'a> {
+    pub step: &'a Step,
+    /// Objects that are supplied before it.
+    pub renewed: Vec<usize>,
+    /// Seconds that the arm stands still after its motion; none where the record departs from the task after it.
+    pub rest: Option<f64>,
+}
+
+/// The steps of the task in the order of the record, up to where that departs from it.
+pub(super) fn matched<'a>(
+    task: &'a Task,
+    recording: &Recording,
+    recorded: &[RecordedStep],
+) -> (Vec<Matched<'a>>, Option<Departure>) {
+    let mut order = Order { items: &task.items, item: 0, open: Vec::new(), half: None, renewed: Vec::new() };
+    let mut all = Vec::new();
+    let mut last = 0;
+    for (index, record) in recorded.iter().enumerate() {
+        let step = match order.take(record) {
+            Ok(step) => step,
+            Err(expected) => {
+                let departure = Departure::Order { index, number: record.number, cycle: record.cycle, expected };
+                return (all, Some(departure));
+            }
+        };
+        let first = *record.samples.start();
+        if first < last {
+            return (all, Some(Departure::Overlap { index, first, last }));
+        }
+        match stands(recording, last, first) {
+            Ok(rest) => all.last_mut().into_iter().for_each(|before: &mut Matched| before.rest = Some(rest)),
+            Err(sample) => return (all, Some(Departure::Moves { index, sample })),
+        }
+        all.push(Matched { step, renewed: std::mem::take(&mut order.renewed), rest: None });
+        last = *record.samples.end();
+    }
+    if let Some(expected) = order.expected() {
+        return (all, Some(Departure::Missing { count: recorded.len(), expected }));
+    }
+    match stands(recording, last, recording.positions().len() - 1) {
+        Ok(rest) => all.last_mut().into_iter().for_each(|before| before.rest = Some(rest)),
+        Err(sample) => return (all, Some(Departure::Moves { index: recorded.len(), sample })),
+    }
+    (all, None)
+}
+
+/// Seconds that the arm stands still from one sample to another.
+///
+/// # Errors
+/// The sample at or after which it moves. Nothing is allowed for rounding: what stands has one position, and velocity 0.
+fn stands(recording: &Recording, first: usize, last: usize) -> Result<f64, usize> {
+    let (positions, zero) = (recording.positions(), Configuration::zeros());
+    for sample in first..last {
+        let at_rest = |velocities: &[Configuration]| velocities[sample] == zero && velocities[sample + 1] == zero;
+        if positions[sample] != positions[sample + 1] || !recording.velocities().is_some_and(at_rest) {
+            return Err(sample);
+        }
+    }
+    Ok(recording.times().map_or(0.0, |times| times[last] - times[first]))
+}
+
+/// What is next in a task.
+struct Order<'a> {
+    items: &'a [Item],
+    item: usize,
+    /// Of a free group that has begun, the pairs that are not done.
+    open: Vec<&'a [Step; 2]>,
+    /// The pair whose object is carried.
+    half: Option<&'a [Step; 2]>,
+    renewed: Vec<usize>,
+}
+
+impl<'a> Order<'a> {
+    /// Goes on to the next item that asks for a step.
+    fn settle(&mut self) {
+        while self.open.is_empty() && self.half.is_none() {
+            match self.items.get(self.item) {
+                Some(Item::Renew(objects)) => self.renewed.extend(objects),
+                Some(Item::AnyOrder(pairs)) => self.open.extend(pairs),
+                Some(Item::Step(_)) | None => return,
+            }
+            self.item += 1;
+        }
+    }
+
+    /// The steps that can be next; none at the end.
+    fn candidates(&mut self) -> Vec<&'a Step> {
+        self.settle();
+        match (self.half, self.items.get(self.item)) {
+            (Some([_, place]), _) => vec![place],
+            (None, _) if !self.open.is_empty() => self.open.iter().map(|pair| &pair[0]).collect(),
+            (None, Some(Item::Step(step))) => vec![step],
+            (None, _) => Vec::new(),
+        }
+    }
+
+    /// The step that a record names.
+    ///
+    /// # Errors
+    /// What would have to be next, in words.
+    fn take(&mut self, record: &RecordedStep) -> Result<&'a Step, String> {
+        let is_it = |step: &&&Step| step.number == record.number && step.cycle == record.cycle;
+        let Some(&step) = self.candidates().iter().find(is_it) else {
+            return Err(self.expected().unwrap_or_else(|| "no more steps".into()));
+        };
+        if self.half.take().is_some() {
+            return Ok(step);
+        }
+        match self.open.iter().position(|pair| std::ptr::eq(&pair[0], step)) {
+            Some(pair) => self.half = Some(self.open.remove(pair)),
+            None => self.item += 1,
+        }
+        Ok(step)
+    }
+
+    /// What is next, in words; none at the end.
+    fn expected(&mut self) -> Option<String> {
+        let candidates = self.candidates();
+        let first = candidates.first()?;
+        let numbers: Vec<String> = candidates.iter().map(|step| step.number.to_string()).collect();
+        Some(format!("step {} (cycle {})", numbers.join(" or "), first.cycle))
+    }
+}

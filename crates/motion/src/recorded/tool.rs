@@ -1,0 +1,134 @@
+//! Heights and shapes of the arm while joints beside the planned two move.
+//!
+//! Along a span a lifted part takes all heights from its least to its greatest: what is free of these is free. A contact is claimed
+//! of the heights at one moment only. A part that turns about a wrist counts as the disc about the axis that it sweeps, and no contact of
+//! such a disc is claimed, unless the part is that disc itself.
+
+use cplan_core::check::{Deviation, Place, Span};
+use cplan_core::model::{Heights, HeldEffect, HeldMotion, Pair, Part, Scene};
+use cplan_core::space::Piece;
+use cplan_geometry::{Convex, Point};
+
+/// How far a round part may be off the axis that it turns about, metres: rounding, as of heights.
+const ON_AXIS: f64 = 1e-9;
+
+/// A joint that lifts some bodies.
+struct Lift<'a> {
+    pieces: Vec<Piece>,
+    /// Where it is held, and the direction of greater values.
+    rest: f64,
+    sign: f64,
+    bodies: &'a [String],
+}
+
+impl Lift<'_> {
+    /// Bounds on how far it lifts during a span, from where it is held.
+    fn extent(&self, span: Span) -> [f64; 2] {
+        let (middle, deviation) = span.deviation(&self.pieces);
+        let half = match deviation {
+            Deviation::Box([half, _]) => half,
+            Deviation::Tube(chord, [half, _]) => chord[0].abs() + half,
+            Deviation::Along(chord) => chord[0].abs(),
+        };
+        let lift = self.sign * (middle[0] - self.rest);
+        [lift - half, lift + half]
+    }
+}
+
+/// The arm's scene while other joints move.
+pub(super) struct ToolMotion<'a> {
+    lifts: Vec<Lift<'a>>,
+    /// Parts at the heights where they are held; of what turns, discs.
+    still: Scene,
+    /// The same at all heights of the whole motion, with the pairs that meet at some of them.
+    swept: Scene,
+    /// Of each part of both links whether it stands for more than itself.
+    covers: [Vec<bool>; 2],
+}
+
+impl<'a> ToolMotion<'a> {
+    /// A scene in which these joints move.
+    pub fn new(scene: &Scene, motions: &'a [HeldMotion]) -> Self {
+        let mut lifts = Vec::new();
+        let mut turns: Vec<(Point, &[String])> = Vec::new();
+        for HeldMotion { joint, values } in motions {
+            match joint.effect {
+                HeldEffect::Lifts { sign } => {
+                    lifts.push(Lift { pieces: values.pieces(), rest: joint.value, sign, bodies: &joint.bodies });
+                }
+                HeldEffect::Turns { axis } => turns.push((axis, &joint.bodies)),
+                HeldEffect::Unjudged { .. } => {}
+            }
+        }
+        let axis_of = |part: &Part| turns.iter().find(|(_, bodies)| bodies.contains(&part.body)).map(|(axis, _)| *axis);
+        let is_cover = |part: &Part| axis_of(part).is_some_and(|axis| !is_round(&part.shape, axis));
+        let covers = scene.arm().links.each_ref().map(|link| link.parts.iter().map(is_cover).collect());
+        let turned = |part: &mut Part| {
+            if let Some(axis) = axis_of(part).filter(|axis| !is_round(&part.shape, *axis)) {
+                (part.shape, part.inner) = (swept_disc(&part.shape, axis), None);
+            }
+        };
+        let all = |part: &mut Part| {
+            turned(part);
+            for lift in lifts.iter().filter(|lift| lift.bodies.contains(&part.body)) {
+                part.heights = part.heights.lifted(lift.extent(Span::all(lift.pieces.len())));
+            }
+        };
+        let [still, swept] = [
+            scene.reshaped(turned, |obstacle| obstacle.pieces.clone()),
+            scene.reshaped(all, |obstacle| obstacle.pieces.clone()),
+        ];
+        let swept = swept.with_self_heights(|link, heights| {
+            let carried = lifts.iter().filter(|lift| lift.bodies.iter().any(|body| body == link));
+            carried.fold(heights, |heights, lift| heights.lifted(lift.extent(Span::all(lift.pieces.len()))))
+        });
+        Self { lifts, still, swept, covers }
+    }
+
+    /// The scene with all pairs that meet at some time.
+    pub fn scene(&self) -> &Scene {
+        &self.swept
+    }
+
+    /// Bounds on how far each joint lifts during a span.
+    pub fn extents(&self, span: Span) -> Vec<[f64; 2]> {
+        self.lifts.iter().map(|lift| lift.extent(span)).collect()
+    }
+
+    /// The heights of a pair's part with such lifts, and those of its obstacle.
+    fn heights(&self, pair: Pair, extents: &[[f64; 2]]) -> [Heights; 2] {
+        let part = &self.still.link(pair).parts[pair.part];
+        let lifted = |link: &String, heights: Heights| {
+            let lifts = self.lifts.iter().zip(extents).filter(|(lift, _)| lift.bodies.contains(link));
+            lifts.fold(heights, |heights, (_, extent)| heights.lifted(*extent))
+        };
+        let obstacle = self.still.obstacle(pair.obstacle);
+        let is_own = self.still.self_obstacle(pair.obstacle).is_some();
+        let of_obstacle = if is_own { lifted(&obstacle.name, obstacle.heights) } else { obstacle.heights };
+        [lifted(&part.body, part.heights), of_obstacle]
+    }
+
+    /// Whether the heights of a pair may meet with lifts within these bounds.
+    pub fn may_meet(&self, pair: Pair, extents: &[[f64; 2]]) -> bool {
+        let [part, obstacle] = self.heights(pair, extents);
+        part.meet(obstacle)
+    }
+
+    /// Whether at a moment the heights of a pair meet for certain, and its part is what it stands for.
+    pub fn is_there(&self, pair: Pair, (piece, share): Place) -> bool {
+        let is_cover = self.covers[pair.link.min(1)].get(pair.part).is_some_and(|is_cover| *is_cover);
+        let [part, obstacle] = self.heights(pair, &self.extents(Span::Part(piece, share, share)));
+        !is_cover && part.surely_meet(obstacle)
+    }
+}
+
+/// Whether a shape is a disc about an axis, and stays where it is as it turns.
+fn is_round(shape: &Convex, axis: Point) -> bool {
+    shape.core().iter().all(|corner| (corner - axis).norm() <= ON_AXIS)
+}
+
+/// The disc about an axis that a shape sweeps.
+fn swept_disc(shape: &Convex, axis: Point) -> Convex {
+    let farthest = shape.core().iter().map(|corner| (corner - axis).norm()).fold(0.0, f64::max);
+    Convex::trusted(vec![axis], (farthest + shape.radius()) * (1.0 + 4.0 * f64::EPSILON))
+}

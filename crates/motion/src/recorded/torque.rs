@@ -1,0 +1,49 @@
+//! Torques along a motion.
+
+use cplan_core::model::{Arm, Dynamics, Rates};
+use cplan_core::space::{Configuration, Derivative, Piece};
+
+/// Looks at a piece at the most.
+const MOST_LOOKS: f64 = 4096.0;
+
+/// A moment of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TorqueLook {
+    /// Share of the piece's time.
+    pub u: f64,
+    /// Of both joints, N m or N.
+    pub torque: Configuration,
+    /// What it takes to hold the arm at rest there.
+    pub holding: Configuration,
+    /// By how much the torque may be greater before the next look.
+    pub off: [f64; 2],
+}
+
+/// Looks at the torques along a piece: so many that between two of them they change by no more than a share of the efforts, or some thousands
+/// where that would take more.
+pub fn torque_looks(dynamics: &Dynamics, arm: &Arm, piece: &Piece, fine: f64) -> impl Iterator<Item = TorqueLook> {
+    let duration = piece.to - piece.from;
+    let greatest = |of: Derivative| {
+        [0, 1].map(|k| piece.critical(of, k).map(|u| piece.derivative(of, u)[k].abs()).fold(0.0, f64::max))
+    };
+    let rates = Rates {
+        first: greatest(Derivative::Velocity),
+        second: greatest(Derivative::Acceleration),
+        third: greatest(Derivative::Jerk),
+    };
+    let rate = dynamics.change(arm, piece.at(0.5), duration / 2.0, &rates);
+    let share = |k: usize| rate[k] * duration / (2.0 * fine * dynamics.effort[k]);
+    let count = share(0).max(share(1)).ceil().clamp(1.0, MOST_LOOKS);
+    let off = rate.map(|rate| rate * duration / (2.0 * count));
+    let (dynamics, piece) = (*dynamics, *piece);
+    (0..count as u32).map(move |i| {
+        let u = (f64::from(i) + 0.5) / count;
+        let q = piece.at(u);
+        let [velocity, acceleration] =
+            [Derivative::Velocity, Derivative::Acceleration].map(|of| piece.derivative(of, u));
+        let here = dynamics.at(arm, q);
+        let holding = here.holding();
+        let torque = here.inertial(acceleration) + here.centrifugal(velocity) + holding;
+        TorqueLook { u, torque, holding, off }
+    })
+}

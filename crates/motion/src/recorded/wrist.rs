@@ -1,0 +1,188 @@
+//! A wrist that turns a payload while the arm stands still.
+
+use cplan_core::model::{Arm, Payload, Workspace};
+use cplan_core::space::{Configuration, JointRange};
+use cplan_geometry::{Features, Hits, Point, ROUNDING, Vector, turning_from};
+use nalgebra::Translation2;
+use std::f64::consts::TAU;
+
+/// A turn of a payload about the tip, proven free.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WristTurn {
+    /// The payload's orientation at the beginning, radians.
+    pub from: f64,
+    /// At the end; less than a turn from the beginning, and beyond it in the direction of the turn.
+    pub to: f64,
+    /// Proven lower bound on the distance between payload and obstacles, metres, supports aside; infinite if nothing can
+    /// be met.
+    pub clearance: f64,
+}
+
+/// Where a turn meets something, or comes nearer to it than it may.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TurnContact {
+    /// The payload's orientation then, radians, between both ends of the turn.
+    pub angle: f64,
+    /// The obstacle's number in the workspace.
+    pub obstacle: usize,
+}
+
+/// Halvings of the interval in which the clearance of a turn is sought.
+const HALVINGS: usize = 16;
+
+/// To how many metres the clearance of a free turn is known, if it is below the arm's reach.
+pub(super) fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
+    (clearance + arm.reach()) / f64::from(1u32 << (HALVINGS - 1))
+}
+
+/// A turn about the tip from one orientation to another while the arm stands at `q`: the shorter way if that is free, else
+/// the longer; none if neither is. See [`given_turn`].
+#[must_use]
+pub fn wrist_turn(
+    arm: &Arm,
+    workspace: &Workspace,
+    payload: &Payload,
+    point: Point,
+    q: Configuration,
+    [from, to]: [f64; 2],
+) -> Option<WristTurn> {
+    let way = JointRange::Circle.displacement(from, to);
+    let ahead = if way < 0.0 { way + TAU } else { way };
+    let mut ways = [from + ahead, from + ahead - TAU];
+    if ahead > TAU / 2.0 {
+        ways.reverse();
+    }
+    let turning = Turning::new(arm, workspace, payload, point, q);
+    ways.into_iter().find_map(|end| turning.judge([from, end]).ok())
+}
+
+/// Judges the turn about the tip from one orientation to another, in the direction in which the second lies from the first,
+/// while the arm stands at `q`. The payload's point `point` is at the tip. `O(n m)` for each pair of pieces, exact up to
+/// rounding, which is added to what is to be kept.
+///
+/// # Errors
+/// Where it first meets an obstacle, or comes nearer to one than the workspace's clearance.
+pub fn given_turn(
+    arm: &Arm,
+    workspace: &Workspace,
+    payload: &Payload,
+    point: Point,
+    q: Configuration,
+    turn: [f64; 2],
+) -> Result<WristTurn, TurnContact> {
+    Turning::new(arm, workspace, payload, point, q).judge(turn)
+}
+
+/// What a payload can meet that turns about the tip.
+struct Turning {
+    tip: Point,
+    /// A piece of the payload about the tip, one of an obstacle, and the obstacle's number.
+    pairs: Vec<(Features, Features, usize)>,
+    clearance: f64,
+    reach: f64,
+}
+
+impl Turning {
+    fn new(arm: &Arm, workspace: &Workspace, payload: &Payload, point: Point, q: Configuration) -> Self {
+        let about = Translation2::from(-point.coords);
+        let parts: Vec<_> =
+            payload.parts(arm).map(|(shape, kind)| (Features::new(&shape.at(&about.into())), kind)).collect();
+        let mut pairs = Vec::new();
+        for (number, obstacle) in workspace.obstacles.iter().enumerate() {
+            if !payload.heights.object_meets(obstacle.heights) {
+                continue;
+            }
+            for (part, kind) in parts.iter().filter(|(_, kind)| payload.meets(*kind, number)) {
+                let nearer = kind.nearer(workspace.clearance);
+                let pieces = obstacle.pieces.iter().map(|piece| Features::new(&piece.receding(nearer)));
+                pairs.extend(pieces.map(|piece| (part.clone(), piece, number)));
+            }
+        }
+        Self { tip: arm.tip_at(q), pairs, clearance: workspace.clearance, reach: arm.reach() }
+    }
+
+    fn judge(&self, [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
+        // The same turn from the copy nearest to zero: contacts are known there, and shifted by turns of a double they would
+        // be off by more than the margin.
+        let near = JointRange::Circle.wrap(from);
+        match self.judge_near([near, near + (to - from)]) {
+            Ok(free) => Ok(WristTurn { from, to, ..free }),
+            Err(contact) => {
+                let angle = (contact.angle + (from - near)).clamp(from.min(to), from.max(to));
+                Err(TurnContact { angle, ..contact })
+            }
+        }
+    }
+
+    fn judge_near(&self, turn @ [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
+        let first =
+            |a: TurnContact, b: TurnContact| if (b.angle - from).abs() < (a.angle - from).abs() { b } else { a };
+        if let Some(contact) = self.contacts(turn, self.clearance).reduce(first) {
+            return Err(contact);
+        }
+        if self.pairs.is_empty() {
+            return Ok(WristTurn { from, to, clearance: f64::INFINITY });
+        }
+        let (mut kept, mut refused) = (self.clearance + ROUNDING, self.clearance + self.reach);
+        for _ in 0..HALVINGS {
+            let between = (kept + refused) / 2.0;
+            if self.contacts(turn, between).next().is_none() { kept = between } else { refused = between }
+        }
+        Ok(WristTurn { from, to, clearance: kept })
+    }
+
+    /// Of each pair that does not keep more than `distance` all the way, where it first fails to.
+    fn contacts(&self, turn: [f64; 2], distance: f64) -> impl Iterator<Item = TurnContact> {
+        let mut arcs = Vec::new();
+        self.pairs.iter().filter_map(move |(part, piece, obstacle)| {
+            arcs.clear();
+            let angle = match turning_from(part, self.tip, Vector::x(), piece, distance + 2.0 * ROUNDING, &mut arcs) {
+                Hits::Never => None,
+                Hits::Always => Some(turn[0]),
+                Hits::Within => {
+                    let first = |a: f64, b: f64| if (b - turn[0]).abs() < (a - turn[0]).abs() { b } else { a };
+                    arcs.iter().filter_map(|&arc| entry(arc, turn)).reduce(first)
+                }
+            }?;
+            Some(TurnContact { angle, obstacle: *obstacle })
+        })
+    }
+}
+
+/// Where a turn first meets a copy of an arc by whole turns.
+fn entry([start, end]: [f64; 2], [from, to]: [f64; 2]) -> Option<f64> {
+    if to < from {
+        return entry([-end, -start], [-from, -to]).map(|angle| -angle);
+    }
+    let shift = ((from - end) / TAU).ceil() * TAU;
+    Some((start + shift).max(from)).filter(|angle| *angle <= to)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(256))]
+
+        /// Against a look at 4000 places of the turn, each of which is in the arc or not.
+        #[test]
+        fn a_turn_meets_an_arc_where_it_first_is_in_it(
+            start in -9.0..9.0_f64, width in 0.01..6.2_f64, from in -9.0..9.0_f64, way in -6.2..6.2_f64,
+        ) {
+            let is_in = |angle: f64| (angle - start).rem_euclid(TAU) <= width;
+            let at = |i: u32| from + way * f64::from(i) / 4000.0;
+            let seen = (0..=4000).map(at).find(|angle| is_in(*angle));
+            let step = way.abs() / 4000.0 + 1e-9;
+            match (entry([start, start + width], [from, from + way]), seen) {
+                (Some(found), Some(seen)) => prop_assert!((found - seen).abs() <= step, "{found} {seen}"),
+                // At the very end, or within an arc that lies between two looks.
+                (Some(found), None) => {
+                    prop_assert!(width <= step || (found - from - way).abs() <= step, "{found}");
+                }
+                (None, seen) => prop_assert!(seen.is_none_or(|seen| (seen - from - way).abs() <= step), "{seen:?}"),
+            }
+        }
+    }
+}

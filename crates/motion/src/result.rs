@@ -1,0 +1,87 @@
+//! What results say of paths and searches.
+
+use cplan_core::check::CertifiedCurve;
+use cplan_core::model::Joint;
+use cplan_core::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
+use serde::Serialize;
+
+/// How to read trajectories of these joints.
+pub fn interpolation(joints: &[Joint; 2]) -> &'static str {
+    if joints.iter().any(|joint| joint.jerk.is_some()) { SMOOTH_INTERPOLATION } else { INTERPOLATION }
+}
+
+/// A path's place between a proven lower bound on the length of every free motion and its own length.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Optimum {
+    /// How lengths are measured: `euclidean`, `weighted` or `time` (seconds at the joints' top speeds).
+    pub metric: &'static str,
+    /// Weights of the joints, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weights: Option<[f64; 2]>,
+    /// Length of the path in this metric.
+    pub length: f64,
+    /// No motion to any of the goals is shorter: proven.
+    pub lower_bound: f64,
+    /// `length / lower_bound - 1`; none where the bound is 0 and the length is not.
+    pub gap: Option<f64>,
+}
+
+/// A motion's place between a time that no motion undercuts and its own.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Fastest {
+    /// Of the motion, seconds.
+    pub duration: f64,
+    /// No motion to any of the goals that keeps the joints' limits takes less: proven.
+    pub lower_bound: f64,
+    /// `duration / lower_bound - 1`; none where the bound is 0.
+    pub gap: Option<f64>,
+}
+
+impl Fastest {
+    /// With the gap that follows.
+    #[must_use]
+    pub fn new(duration: f64, lower_bound: f64) -> Self {
+        Self { duration, lower_bound, gap: (lower_bound > 0.0).then_some(duration / lower_bound - 1.0) }
+    }
+}
+
+/// The corners that a motion does not stop at.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Blends {
+    /// How many there are; the path's other corners are stopped at.
+    pub count: usize,
+    /// Greatest distance between a blend's ends and its corner, in joint space (radians and metres as they come).
+    pub largest_radius: f64,
+}
+
+impl Blends {
+    /// Those of a curve.
+    #[must_use]
+    pub fn of(curve: &CertifiedCurve) -> Self {
+        let radii = || curve.radii().iter().copied().filter(|radius| *radius > 0.0);
+        Self { count: radii().count(), largest_radius: radii().fold(0.0, f64::max) }
+    }
+}
+
+/// How a grid or a roadmap was searched.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SearchUsed {
+    /// `wave` (grids alone), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
+    pub search: &'static str,
+    /// Of a grid: 4, or 8 with diagonal moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub neighbors: Option<u8>,
+    /// Of a roadmap: whether it was searched from the goals. Grids always are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub backward: Option<bool>,
+}
+
+impl std::fmt::Display for SearchUsed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.search)?;
+        if let Some(neighbors) = self.neighbors {
+            write!(f, ", {neighbors} neighbours")?;
+        }
+        f.write_str(if self.backward == Some(true) { ", backward" } else { "" })
+    }
+}

@@ -1,0 +1,295 @@
+//! A path under a clock.
+
+use super::clock::{self, PER_SECOND, nanoseconds, not_before, whole_nanoseconds};
+use super::limits::Limits;
+use super::profile::Phase;
+use super::schedule::{TimedTrack, Track, schedule};
+use cplan_core::check::CertifiedCurve;
+use cplan_core::space::{BlendedPath, Configuration, Piece};
+use serde::Serialize;
+use thiserror::Error;
+
+/// Two samples are never closer in time than (about) this, seconds. A thousandth of the fastest servo cycle in use
+/// (1 ms), so nobody misses what it suppresses; a thousand times the nanosecond in which ROS counts and, at the end of
+/// [`LONGEST_MOTION`], ten thousand times the spacing of doubles, so that times stay distinct however they are rounded.
+pub const SHORTEST_INTERVAL: f64 = 1e-6;
+
+/// Samples that nothing but the period asks for stay so far from others, seconds, where the period is longer than twice
+/// this: there rounding to doubles changes the acceleration of a cubic by less than a millionth of a radian per squared second.
+pub(super) const USUAL_INTERVAL: f64 = 1e-4;
+
+/// The longest motion that is timed, seconds: eleven days. Beyond, the limits are a mistake rather than a wish, and
+/// doubles no longer resolve [`SHORTEST_INTERVAL`] well.
+pub const LONGEST_MOTION: f64 = 1e6;
+
+/// The most samples a trajectory may have: some 300 MB of them.
+pub const MOST_SAMPLES: usize = 5_000_000;
+
+/// A motion of both joints, sampled.
+///
+/// Within each interval from `time[k]` to `time[k + 1]` the motion is a polynomial in time of the fourth degree, on straight
+/// pieces of the second (of the third, if the jerk has a limit), and the samples say which: the one with position `k`, velocity `k` and acceleration `k` at its
+/// beginning and position and velocity `k + 1` at its end, as [`super::INTERPOLATION`] writes it down. So the samples are
+/// the motion, up to rounding, not an approximation of it. The acceleration may jump at a sample, unless a joint's jerk has
+/// a limit: the one that is given is that of the interval that begins there. The cubic through positions and velocities of two
+/// samples keeps the limits, too, and is the same motion on straight pieces. Times begin at 0 and increase strictly, by
+/// at least [`SHORTEST_INTERVAL`]; they are whole nanoseconds. Radians or metres, and seconds; joints in the order base to tip.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Trajectory {
+    /// Seconds from the start.
+    pub time: Vec<f64>,
+    /// Joint values; the first is the path's start, the last its goal, exactly.
+    pub position: Vec<[f64; 2]>,
+    /// Joint velocities; the first and the last are 0.
+    pub velocity: Vec<[f64; 2]>,
+    /// Joint accelerations at the beginning of the interval that begins here; 0 at the last sample.
+    pub acceleration: Vec<[f64; 2]>,
+    /// Joint torques (N m), of those that slide forces (N), at the beginning of the interval that begins here; none if nobody asks for them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub torque: Vec<[f64; 2]>,
+}
+
+/// Why a path cannot be timed.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum TimingError {
+    /// The period is not a number, not finite, or too small.
+    #[error("the sampling period is {0} s; it must be a finite number of at least {SHORTEST_INTERVAL} s")]
+    Period(f64),
+    /// Too many samples.
+    #[error(
+        "sampling {duration:.3} s of motion every {period} s gives more than {MOST_SAMPLES} samples; \
+         choose a longer period"
+    )]
+    TooManySamples {
+        /// Of the motion, seconds.
+        duration: f64,
+        /// As asked, seconds.
+        period: f64,
+    },
+    /// The limits let the joints hardly move.
+    #[error(
+        "the motion would last {0:.3e} s, more than {LONGEST_MOTION:.0e} s; \
+         raise the limits of the joints, and of the tip's speed if it has one"
+    )]
+    TooLong(f64),
+    /// A joint cannot bring what the arm weighs.
+    #[error(
+        "joint \"{joint}\" has an effort of {effort} {unit}, and the arm takes {torque:.3} {unit} at {}; \
+         raise [robot] effort, or let the path keep away from there",
+        described(*.at)
+    )]
+    TooHeavy {
+        /// The joint's name.
+        joint: String,
+        /// Where that is.
+        at: [f64; 2],
+        /// What it takes, N m or N.
+        torque: f64,
+        /// What the joint can bring.
+        effort: f64,
+        /// Of both.
+        unit: &'static str,
+    },
+}
+
+fn described([first, second]: [f64; 2]) -> String {
+    format!("({first:.4}, {second:.4})")
+}
+
+impl Trajectory {
+    /// Seconds from the first to the last sample.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.time.last().copied().unwrap_or(0.0)
+    }
+
+    /// Appends a motion that begins where this one ends, after a pause of so many seconds at rest, rounded up to whole
+    /// nanoseconds. Without samples it becomes that motion. Pauses below [`SHORTEST_INTERVAL`] count as none.
+    pub fn then(&mut self, pause: f64, next: &Trajectory) {
+        let begin = self.time.last().map_or(0, |end| nanoseconds(after_pause(*end, pause)));
+        if rest(pause) == 0.0 {
+            // One sample for both: the acceleration is that of the interval that begins.
+            self.time.pop();
+            self.position.pop();
+            self.velocity.pop();
+            self.acceleration.pop();
+            self.torque.pop();
+        }
+        self.time.extend(next.time.iter().map(|time| clock::seconds(begin + nanoseconds(*time))));
+        self.position.extend(&next.position);
+        self.velocity.extend(&next.velocity);
+        self.acceleration.extend(&next.acceleration);
+        self.torque.extend(&next.torque);
+    }
+
+    /// Stands still for so many seconds at the end, rounded up to whole nanoseconds; less than [`SHORTEST_INTERVAL`] counts as
+    /// nothing.
+    pub fn stand(&mut self, pause: f64) {
+        if rest(pause) > 0.0 {
+            self.stand_to(nanoseconds(self.duration() + rest(pause)));
+        }
+    }
+
+    /// Stands still at the end until the first whole nanosecond from a time on, not less than [`SHORTEST_INTERVAL`]; does nothing where the motion ends no
+    /// sooner than that.
+    pub fn stand_until(&mut self, time: f64) {
+        let (end, until) = (nanoseconds(self.duration()), nanoseconds(not_before(time)));
+        if end < until {
+            self.stand_to(until.max(end + nanoseconds(SHORTEST_INTERVAL)));
+        }
+    }
+
+    fn stand_to(&mut self, end: u64) {
+        if let Some(&position) = self.position.last() {
+            self.push(end, [position.into(), Configuration::zeros(), Configuration::zeros()]);
+            // What it takes to hold the arm there.
+            self.torque.extend(self.torque.last().copied());
+        }
+    }
+
+    /// The cubics through positions and velocities.
+    pub fn pieces(&self) -> Vec<Piece> {
+        let end = |i: usize| [self.position[i].into(), self.velocity[i].into()];
+        (1..self.time.len()).map(|i| Piece::hermite(self.time[i - 1], self.time[i], end(i - 1), end(i))).collect()
+    }
+
+    fn with_capacity(samples: usize) -> Self {
+        Self {
+            time: Vec::with_capacity(samples),
+            position: Vec::with_capacity(samples),
+            velocity: Vec::with_capacity(samples),
+            acceleration: Vec::with_capacity(samples),
+            torque: Vec::new(),
+        }
+    }
+
+    pub(super) fn push(&mut self, nanoseconds: u64, [position, velocity, acceleration]: [Configuration; 3]) {
+        // Adding 0 turns the minus zero of a joint at rest into zero.
+        let row = |v: Configuration| [v[0] + 0.0, v[1] + 0.0];
+        self.time.push(clock::seconds(nanoseconds));
+        self.position.push([position[0], position[1]]);
+        self.velocity.push(row(velocity));
+        self.acceleration.push(row(acceleration));
+    }
+}
+
+/// When a motion begins that follows one that ends at a time, after such a pause: whole nanoseconds.
+pub fn after_pause(end: f64, pause: f64) -> f64 {
+    clock::seconds(nanoseconds(end + rest(pause)))
+}
+
+/// How long a pause is.
+fn rest(pause: f64) -> f64 {
+    if pause < SHORTEST_INTERVAL { 0.0 } else { whole_nanoseconds(pause) }
+}
+
+/// A motion in time and what it follows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Timed {
+    /// The path, with the blends that the motion takes: those that would not make it faster are gone.
+    pub curve: CertifiedCurve,
+    /// The motion as samples in time.
+    pub trajectory: Trajectory,
+}
+
+/// Times a path: along its straight pieces and blends from rest to rest, at rest at every corner that has no blend, both
+/// joints in step, as fast as the limits allow.
+///
+/// Forward-backward integration of the squared speed along the path: on straight pieces in closed form, on a blend over up
+/// to 256 spans, on each of which the second derivative of the path's parameter is constant and both joints keep their
+/// limits throughout (a thousandth of these stays unused there). Never slower than a motion that stops at every corner:
+/// between two stops that motion is taken where it is faster.
+///
+/// Samples lie at the multiples of `period`, wherever that second derivative changes, and on blends as densely as it
+/// takes for the cubic through positions and velocities to keep the limits, too, and to stay within
+/// [`cplan_core::space::HAIR`] of the blend; all of them at whole nanoseconds. Multiples of the period closer than a tenth of a
+/// millisecond (or half the period) to another sample are left out. A path that stays where it is gives one sample.
+///
+/// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes
+/// `2 sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`, up to `4` [`SHORTEST_INTERVAL`] longer where a phase would be
+/// shorter than that; and each phase is lengthened to whole nanoseconds. Linear in the number of samples.
+///
+/// If any joint's jerk has a limit, the motion stops at every corner, blended or not ([`super::Drive::along`] passes them), and each straight piece on which such
+/// a joint moves takes the shortest time that speed, acceleration and jerk along it allow from rest to rest, with one bound
+/// on the tip's speed for all of it; up to `12` [`SHORTEST_INTERVAL`] longer where a phase would be shorter than that.
+///
+/// # Errors
+/// [`TimingError`]: a useless period, a motion beyond [`LONGEST_MOTION`], or more than [`MOST_SAMPLES`] samples.
+pub fn time(curve: impl Into<CertifiedCurve>, limits: &Limits, period: f64) -> Result<Timed, TimingError> {
+    let curve = curve.into();
+    let (used, trajectory) = time_curve(curve.curve(), limits, period)?;
+    let gone = (0..used.radii().len()).filter(|&w| used.radii()[w] == 0.0 && curve.curve().radii()[w] > 0.0);
+    let curve = gone.collect::<Vec<_>>().into_iter().fold(curve, CertifiedCurve::without);
+    Ok(Timed { curve, trajectory })
+}
+
+/// [`time`], whatever the path is good for; and the blends in use.
+pub(super) fn time_curve(
+    curve: &BlendedPath,
+    limits: &Limits,
+    period: f64,
+) -> Result<(BlendedPath, Trajectory), TimingError> {
+    if !(period.is_finite() && period >= SHORTEST_INTERVAL) {
+        return Err(TimingError::Period(period));
+    }
+    let (used, runs) = schedule(curve, limits, &vec![1.0; curve.radii().len()], 0.0);
+    let phases = || {
+        let timed_tracks = runs.iter().flatten();
+        timed_tracks.flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase)))
+    };
+    let duration = phases().map(|(_, phase)| phase.duration).fold(0.0, |sum, duration| sum + duration);
+    if duration.is_nan() || duration > LONGEST_MOTION {
+        return Err(TimingError::TooLong(duration));
+    }
+    let within = phases().map(|(track, phase)| 1.0 + (phase.duration / track.interval(phase, limits)).ceil());
+    let samples = duration / period + within.sum::<f64>() + 1.0;
+    if samples > MOST_SAMPLES as f64 {
+        return Err(TimingError::TooManySamples { duration, period });
+    }
+
+    let mut trajectory = Trajectory::with_capacity(samples as usize + 1);
+    let end = runs.iter().fold(0, |begin, run| sample(run, begin, limits, period, &mut trajectory));
+    trajectory.push(end, [curve.path().goal(), Configuration::zeros(), Configuration::zeros()]);
+    Ok((used, trajectory))
+}
+
+/// Appends the samples of a run from rest to rest that begins at a nanosecond, but for the last; and tells when it ends.
+///
+/// Phases begin and end between nanoseconds. The sample of each is at the nearest one, where the motion is then, with the
+/// acceleration of the interval that begins there.
+pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f64, trajectory: &mut Trajectory) -> u64 {
+    let near = nanoseconds((period / 2.0).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL));
+    let mut since = 0.0;
+    let mut before: Option<(&Track, &Phase)> = None;
+    for (track, phase) in run.iter().flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase))) {
+        let (first, last) = (begin + nanoseconds(since), begin + nanoseconds(since + phase.duration));
+        // Seconds from the beginning of the phase.
+        let into = |at: u64| clock::seconds(at - begin) - since;
+        let state = |at: u64| match before {
+            Some((track, phase)) if into(at) < 0.0 => track.at(phase.at(phase.duration + into(at))),
+            _ => track.at(phase.at(into(at))),
+        };
+        let [position, velocity, _] = state(first);
+        let [.., acceleration] = track.at(phase.at(0.0));
+        trajectory.push(first, [position, velocity, acceleration]);
+        let interval = track.interval(phase, limits);
+        let mut left = first;
+        let count = (clock::seconds(first) / period) as u64;
+        let multiples = (count..).map(|k| nanoseconds(k as f64 * period)).skip_while(|&at| at < first + near);
+        for next in multiples.take_while(|&at| at + near <= last).chain([last]) {
+            let gap = (next - left) as f64;
+            let parts = (gap / PER_SECOND as f64 / interval).ceil().max(1.0);
+            for part in 1..parts as u64 {
+                let at = left + (gap * (part as f64 / parts)) as u64;
+                trajectory.push(at, state(at));
+            }
+            if next < last {
+                trajectory.push(next, state(next));
+            }
+            left = next;
+        }
+        since += phase.duration;
+        before = Some((track, phase));
+    }
+    begin + nanoseconds(whole_nanoseconds(since))
+}

@@ -1,0 +1,409 @@
+//! When a motion is where: the fastest motion along a path with blends.
+
+use super::clock::reserve;
+use super::corner::{Bounds, Corner};
+use super::jerk;
+use super::limits::Limits;
+use super::profile::{Phase, State, passing, rest_to_rest};
+use super::sample::{SHORTEST_INTERVAL, Trajectory, USUAL_INTERVAL, sample};
+use super::tip::{Part, TIP_STEP};
+use cplan_core::space::{Blend, BlendedPath, Configuration};
+use std::ops::Range;
+
+/// Parts of a straight stretch at the most.
+const MOST_PARTS: f64 = 1024.0;
+
+/// A straight stretch that is passed is given no phase that is shorter than this share of the least time it takes: what it
+/// would gain is lost in what [`reserve`] keeps of the limits for it.
+const SHORTEST_SHARE: f64 = 1.0 / 32.0;
+
+/// Blends are cut into more spans, though nothing known of them asks for it, while that shortens the motion by this share of it.
+/// Where a joint of little acceleration turns round within a blend, the others may accelerate the more the nearer they are to that
+/// place, which coarse spans do not show.
+const WORTH: f64 = 0.005;
+
+/// A stretch of a path with the distance along it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Track {
+    Line(Line),
+    Corner(Corner),
+}
+
+/// A straight stretch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Line {
+    from: Configuration,
+    to: Configuration,
+    length: f64,
+    direction: Configuration,
+    /// What the joints' limits allow along it.
+    speed: f64,
+    acceleration: f64,
+    /// Infinite without a limit.
+    jerk: f64,
+}
+
+impl Line {
+    /// With a limit on torques its acceleration is not known to keep that: see [`Line::safe`].
+    fn new(from: Configuration, to: Configuration, limits: &Limits) -> Self {
+        let offset = to - from;
+        // Unlike the root of the sum of squares this does not vanish for the shortest of offsets.
+        let length = offset[0].hypot(offset[1]);
+        let direction = offset / length;
+        let (speed, acceleration) = (limits.speed_along(direction), limits.acceleration_along(direction));
+        let jerk = limits.jerk_along(direction);
+        let part =
+            Part { middle: from + offset / 2.0, slope: direction, bend: Configuration::zeros(), half: length / 2.0 };
+        let speed = limits.tip.map_or(speed, |tip| speed.min(tip.allowed(&part)));
+        Self { from, to, length, direction, speed, acceleration, jerk }
+    }
+
+    /// The same with a speed and an acceleration that the torques allow wherever it is passed.
+    fn safe(self, limits: &Limits) -> Self {
+        let [speed, acceleration] = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.safe(self.from, self.to));
+        Self { speed: self.speed.min(speed), acceleration: self.acceleration.min(acceleration), ..self }
+    }
+
+    /// A straight stretch in parts, each with a top speed of its own: several if the tip's limit asks for it.
+    fn parts(from: Configuration, to: Configuration, limits: &Limits) -> Vec<Self> {
+        let whole = Self::new(from, to, limits);
+        let own = limits.speed_along(whole.direction);
+        let Some(tip) = limits.tip.filter(|_| whole.speed < own) else { return vec![whole] };
+        let part = Part {
+            middle: from + (to - from) / 2.0,
+            slope: whole.direction,
+            bend: Configuration::zeros(),
+            half: whole.length / 2.0,
+        };
+        // The derivative of the tip's way may be off by this much where it matters: where it is more than speed / own.
+        let off = TIP_STEP * tip.speed / own;
+        let count = (tip.slack(&part) / off).ceil().clamp(1.0, MOST_PARTS);
+        let end = |i: f64| if i == count { to } else { from + (to - from) * (i / count) };
+        (0..count as u32).map(|i| Self::new(end(f64::from(i)), end(f64::from(i) + 1.0), limits)).collect()
+    }
+
+    /// No phase in which it is passed is shorter, seconds.
+    fn shortest(&self) -> f64 {
+        (self.length / self.speed * SHORTEST_SHARE).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL)
+    }
+
+    /// The same where it is not passed from rest to rest, so that its phases end between two nanoseconds.
+    fn passed(self) -> Self {
+        let left = 1.0 - reserve(self.shortest());
+        Self { speed: left * self.speed, acceleration: left * self.acceleration, ..self }
+    }
+
+    fn at(&self, state: State) -> [Configuration; 3] {
+        let State { distance, speed, acceleration } = state;
+        let part = distance / self.length;
+        let between = |k: usize| {
+            let (a, b) = (self.from[k], self.to[k]);
+            // Rounding must not carry a sample beyond the end, which may lie on a joint limit.
+            (a + (b - a) * part).clamp(a.min(b), a.max(b))
+        };
+        let position = Configuration::new(between(0), between(1));
+        [position, self.direction * speed, self.direction * acceleration]
+    }
+}
+
+impl Track {
+    /// A straight stretch in as many tracks as its limits ask for.
+    fn straight(from: Configuration, to: Configuration, limits: &Limits) -> Vec<Self> {
+        if limits.torque.is_none() {
+            return Line::parts(from, to, limits).into_iter().map(Track::Line).collect();
+        }
+        let corner = Corner::straight(from, to, limits).map(Track::Corner);
+        vec![corner.unwrap_or_else(|| Track::Line(Line::new(from, to, limits).safe(limits)))]
+    }
+
+    /// Position, velocity and acceleration of the joints.
+    pub(super) fn at(&self, state: State) -> [Configuration; 3] {
+        match self {
+            Track::Line(line) => line.at(state),
+            Track::Corner(corner) => corner.at(state),
+        }
+    }
+
+    /// Whether it goes about a waypoint.
+    pub(super) fn is_blend(&self) -> bool {
+        matches!(self, Track::Corner(corner) if !corner.is_straight())
+    }
+
+    /// The longest interval between samples within a phase.
+    pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
+        match self {
+            Track::Line(_) => f64::INFINITY,
+            Track::Corner(corner) => corner.interval(phase, limits),
+        }
+    }
+}
+
+/// A track and the phases in which it is passed.
+pub(super) type TimedTrack = (Track, Vec<Phase>);
+
+/// The timed tracks along a path, from rest to rest each, in order, and the blends in use: waypoints whose blend is of no use are
+/// left out of them, and their corners are stopped at. With a limit on a jerk no blend is of use: where a parabola that is passed at speed
+/// begins, the acceleration jumps. Each waypoint's blend is passed at a share of the speed that the limits allow.
+/// Between acceleration and deceleration on a straight piece the arm coasts for some seconds at least.
+pub(super) fn schedule(
+    curve: &BlendedPath,
+    limits: &Limits,
+    shares: &[f64],
+    coast: f64,
+) -> (BlendedPath, Vec<Vec<TimedTrack>>) {
+    scheduled(curve, limits, shares, coast, Spans::Enough)
+}
+
+/// How long a motion along a curve takes at most, seconds, by the speeds that few spans allow: curves that are much alike can be compared by
+/// it, for a small part of what [`schedule`] costs.
+pub(super) fn rough_duration(curve: &BlendedPath, limits: &Limits) -> f64 {
+    let (_, runs) = scheduled(curve, limits, &vec![1.0; curve.radii().len()], 0.0, Spans::Few);
+    runs.iter().map(|run| duration(run)).sum()
+}
+
+/// Into how many spans blends are cut.
+#[derive(Clone, Copy, PartialEq)]
+enum Spans {
+    /// As they are to begin with.
+    Few,
+    /// Until these are fine enough.
+    Enough,
+}
+
+fn scheduled(
+    curve: &BlendedPath,
+    limits: &Limits,
+    shares: &[f64],
+    coast: f64,
+    spans: Spans,
+) -> (BlendedPath, Vec<Vec<TimedTrack>>) {
+    let corner = |waypoint: usize| {
+        let blend = curve.blend(waypoint).filter(|_| !limits.stops_at_corners());
+        blend.and_then(|blend: Blend| Corner::new(blend, limits, shares[waypoint]))
+    };
+    let count = curve.radii().len();
+    let mut used = curve.clone();
+    for waypoint in (0..count).filter(|&w| curve.radii()[w] > 0.0) {
+        if corner(waypoint).is_none() {
+            used = used.with(waypoint, 0.0);
+        }
+    }
+    let mut runs = Vec::new();
+    let stops: Vec<usize> = (0..count).filter(|&w| used.radii()[w] == 0.0).collect();
+    for run in stops.windows(2) {
+        let stopping = stopping(&used, run[0]..run[1], limits, spans);
+        let tracks = (run[1] - run[0] > 1).then(|| tracks(&used, run[0]..run[1], limits, shares)).flatten();
+        let blended = tracks.and_then(|tracks| driven(tracks, limits, coast, spans));
+        let took: f64 = stopping.iter().map(|timed_tracks| duration(timed_tracks)).sum();
+        match blended.filter(|blended| duration(blended) <= took) {
+            Some(blended) => runs.push(blended),
+            None => {
+                used = (run[0] + 1..run[1]).fold(used, |used, waypoint| used.with(waypoint, 0.0));
+                runs.extend(stopping);
+            }
+        }
+    }
+    (used, runs)
+}
+
+/// How long they take together, seconds.
+pub(super) fn duration(timed_tracks: &[TimedTrack]) -> f64 {
+    timed_tracks.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
+}
+
+/// Appends the samples of the leg after a waypoint, from rest to rest, but for the last; and tells when it ends.
+pub(super) fn stopping_at(
+    curve: &BlendedPath,
+    waypoint: usize,
+    limits: &Limits,
+    begin: u64,
+    period: f64,
+    trajectory: &mut Trajectory,
+) -> u64 {
+    let runs = stopping(curve, waypoint..waypoint + 1, limits, Spans::Enough);
+    runs.iter().fold(begin, |begin, run| sample(run, begin, limits, period, trajectory))
+}
+
+/// The places of a run at the multiples of so many seconds, the beginning first, until it has ended.
+pub(super) fn places(run: &[TimedTrack], step: f64) -> Vec<Configuration> {
+    let mut places = Vec::new();
+    let mut since = 0.0;
+    for (track, phase) in run.iter().flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase))) {
+        while places.len() as f64 * step < since + phase.duration {
+            let [place, ..] = track.at(phase.at(places.len() as f64 * step - since));
+            places.push(place);
+        }
+        since += phase.duration;
+    }
+    if let Some((track, phase)) = run.last().and_then(|(track, phases)| Some((track, phases.last()?))) {
+        places.push(track.at(phase.at(phase.duration))[0]);
+    }
+    places
+}
+
+/// From rest to rest on each leg from one waypoint to another.
+fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans: Spans) -> Vec<Vec<TimedTrack>> {
+    let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
+    let timed_tracks = |leg: &[Configuration]| {
+        let whole = || {
+            let line = Line::new(leg[0], leg[1], limits).safe(limits);
+            let phases = rest_to_rest(line.length, line.speed, line.acceleration, SHORTEST_INTERVAL);
+            vec![(Track::Line(line), phases)]
+        };
+        if Line::new(leg[0], leg[1], limits).jerk.is_finite() {
+            // One top speed for all parts, and so no jumps between them.
+            let parts = Line::parts(leg[0], leg[1], limits);
+            let speed = parts.iter().map(|part| part.speed).fold(f64::INFINITY, f64::min);
+            let line = Line { speed, ..Line::new(leg[0], leg[1], limits) }.safe(limits);
+            let phases = jerk::rest_to_rest(line.length, line.speed, line.acceleration, line.jerk, SHORTEST_INTERVAL);
+            return vec![(Track::Line(line), phases)];
+        }
+        let tracks = Track::straight(leg[0], leg[1], limits);
+        let is_more = tracks.len() > 1 || matches!(tracks[0], Track::Corner(_));
+        is_more.then(|| driven(tracks, limits, 0.0, spans)).flatten().unwrap_or_else(whole)
+    };
+    legs.map(timed_tracks).collect()
+}
+
+/// A part of a run over which the squared speed is linear, or on a line as fast as can be.
+enum Span {
+    Line(Line),
+    Part(Bounds),
+}
+
+impl Span {
+    /// The greatest squared speed at the beginning from which one of at most `most` at the end can be reached.
+    fn back(&self, most: f64) -> f64 {
+        match self {
+            Span::Line(line) => (most + 2.0 * line.acceleration * line.length).min(line.speed * line.speed),
+            Span::Part(bounds) => bounds.back(most),
+        }
+    }
+
+    /// The greatest squared speed at the end, at most `most`, that can be reached from one at the beginning.
+    fn onward(&self, from: f64, most: f64) -> f64 {
+        match self {
+            Span::Line(line) => (from + 2.0 * line.acceleration * line.length).min(line.speed * line.speed).min(most),
+            Span::Part(bounds) => bounds.onward(from, most),
+        }
+    }
+}
+
+/// From rest at the beginning of the first track to rest at the end of the last. None if a phase would be too short to be sampled.
+fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64, spans: Spans) -> Option<Vec<TimedTrack>> {
+    let passed = |track| match track {
+        Track::Line(line) => Track::Line(line.passed()),
+        corner @ Track::Corner(_) => corner,
+    };
+    let mut tracks: Vec<Track> = tracks.into_iter().map(passed).collect();
+    let squared = loop {
+        let squared = squared_speeds(&tracks, limits);
+        if spans == Spans::Few {
+            return timed_tracks(&tracks, &squared, coast);
+        }
+        let mut refined = false;
+        for (track, squared) in tracks.iter_mut().zip(&squared) {
+            if let Track::Corner(corner) = track
+                && let Some(finer) = corner.finer(squared, limits)
+            {
+                (*corner, refined) = (finer, true);
+            }
+        }
+        if !refined {
+            break squared;
+        }
+    };
+    let mut best = (timed_tracks(&tracks, &squared, coast)?, squared);
+    while let Some(finer) = much_finer(&tracks, &best.1) {
+        let squared = squared_speeds(&finer, limits);
+        let Some(timed_tracks) = timed_tracks(&finer, &squared, coast) else { break };
+        if duration(&timed_tracks) > (1.0 - WORTH) * duration(&best.0) {
+            break;
+        }
+        (tracks, best) = (finer, (timed_tracks, squared));
+    }
+    Some(best.0)
+}
+
+/// The same tracks with several times the spans on their blends; none if there is no blend that can be cut.
+fn much_finer(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Track>> {
+    let mut cut = false;
+    let finer = |(track, squared): (&Track, &Vec<f64>)| match track {
+        Track::Line(_) => track.clone(),
+        Track::Corner(corner) => corner.much_finer(squared).map_or_else(
+            || track.clone(),
+            |finer| {
+                cut = true;
+                Track::Corner(finer)
+            },
+        ),
+    };
+    let tracks = tracks.iter().zip(squared).map(finer).collect();
+    cut.then_some(tracks)
+}
+
+/// The phases in which tracks are passed, given the squared speeds on them; none if one would be too short to be sampled.
+fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>], coast: f64) -> Option<Vec<TimedTrack>> {
+    let timed_track = |(track, squared): (&Track, &Vec<f64>)| {
+        let phases = match track {
+            Track::Line(line) => {
+                let ends = [squared[0].sqrt(), squared[1].sqrt()];
+                passing(line.length, ends, line.speed, line.acceleration, line.shortest(), coast)?
+            }
+            Track::Corner(corner) => corner.phases(squared),
+        };
+        let lasts = |phase: &Phase| phase.duration.is_finite() && phase.duration >= SHORTEST_INTERVAL;
+        phases.iter().all(lasts).then(|| (track.clone(), phases))
+    };
+    tracks.iter().zip(squared).map(timed_track).collect()
+}
+
+/// The squared speeds of a motion from rest to rest along some tracks: of each track at its ends, of a corner at the ends of
+/// its spans.
+///
+/// Forward-backward integration in the phase plane: from the end backwards the greatest squared speed from which the rest
+/// of the way can still be driven, then from the beginning forwards the greatest that can be reached within that. On
+/// lines in closed form, on blends span by span.
+fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
+    let spans: Vec<Vec<Span>> = tracks
+        .iter()
+        .map(|track| match track {
+            Track::Line(line) => vec![Span::Line(*line)],
+            Track::Corner(corner) => corner.bounds(limits).into_iter().map(Span::Part).collect(),
+        })
+        .collect();
+    let mut next = 0.0;
+    let mut most: Vec<f64> = Vec::new();
+    for span in spans.iter().flatten().rev() {
+        most.push(next);
+        next = span.back(next);
+    }
+    let mut most = most.into_iter().rev();
+    let mut squared = 0.0;
+    let mut speeds = Vec::with_capacity(tracks.len());
+    for spans in spans {
+        let mut along = vec![squared];
+        for (span, most) in spans.iter().zip(&mut most) {
+            squared = span.onward(squared, most);
+            along.push(squared);
+        }
+        speeds.push(along);
+    }
+    speeds
+}
+
+/// From one waypoint to another, with a blend at each between them. None if one cannot be sampled.
+fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares: &[f64]) -> Option<Vec<Track>> {
+    let q = curve.path().waypoints();
+    let mut from = q[waypoints.start];
+    let mut tracks = Vec::new();
+    for (waypoint, &corner) in q.iter().enumerate().take(waypoints.end + 1).skip(waypoints.start + 1) {
+        let blend = curve.blend(waypoint);
+        tracks.extend(Track::straight(from, blend.map_or(corner, |b| b.from), limits));
+        if let Some(blend) = blend {
+            tracks.push(Track::Corner(Corner::new(blend, limits, shares[waypoint])?));
+            from = blend.to;
+        }
+    }
+    Some(tracks)
+}

@@ -1,0 +1,127 @@
+//! Paths whose shape makes motions fast.
+//!
+//! The shortest path touches what it goes around, so that its corners can hardly be cut. Moved off it by a little, they are passed several
+//! times as fast, for a way that is longer by little more than the square of that.
+
+use super::sample::Timed;
+use cplan_core::check::{CertifiedPath, StraightMotions, certify};
+use cplan_core::model::Scene;
+use cplan_core::space::{Configuration, Path};
+
+/// Distances by which all corners are moved off what they go around at first, as shares of the greatest.
+const LIFTS: [f64; 8] = [1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0, 1.0];
+
+/// Shares of the greatest distance by which single corners are moved at first, and at last.
+const STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 512.0];
+
+/// Paths that are tried with single corners moved.
+const TRIES: usize = 240;
+
+/// How often the lift of a corner is halved whose legs are not free before it stays where it is.
+const HALVINGS: u32 = 6;
+
+/// What paths are tried in.
+pub(super) struct Shaping<'a, F> {
+    scene: &'a Scene,
+    motions: StraightMotions<'a>,
+    /// The fastest motion about a path that takes less than so many seconds.
+    drive: F,
+}
+
+impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
+    pub fn new(scene: &'a Scene, drive: F) -> Self {
+        Self { scene, motions: StraightMotions::new(scene, scene.workspace().clearance), drive }
+    }
+
+    /// What is faster than `best`: of a path, and of those whose corners lie off what it goes around by up to `most`.
+    pub fn lifted(&self, path: &CertifiedPath, most: f64, best: &mut Timed) {
+        self.try_out(path, best);
+        if path.path().waypoints().len() < 3 {
+            return;
+        }
+        for path in LIFTS.iter().filter_map(|lift| self.off(path, lift * most)) {
+            self.try_out(&path, best);
+        }
+    }
+
+    /// What is faster than `best` with single corners of its path moved or left out: a pattern search, from `most` down.
+    pub fn refined(&self, most: f64, best: &mut Timed) {
+        let [mut step, last] = STEPS.map(|share| share * most);
+        let mut left = TRIES;
+        while step >= last {
+            let mut improved = false;
+            let mut w = 1;
+            while w + 1 < best.curve.curve().path().waypoints().len() {
+                let q = best.curve.curve().path().waypoints().to_vec();
+                let ahead = (q[w + 1] - q[w - 1]).try_normalize(0.0).unwrap_or_else(Configuration::zeros);
+                let out = outward(&q, w);
+                for offset in [Some(out), Some(-out), Some(ahead), Some(-ahead), None] {
+                    if left == 0 {
+                        return;
+                    }
+                    let Some(moved) = self.moved(&q, w, offset.map(|offset| offset * step)) else { continue };
+                    left -= 1;
+                    if self.try_out(&moved, best) {
+                        improved = true;
+                        break;
+                    }
+                }
+                w += 1;
+            }
+            if !improved {
+                step /= 2.0;
+            }
+        }
+    }
+
+    /// A path with one of its corners moved, or left out, if that is free.
+    fn moved(&self, q: &[Configuration], w: usize, by: Option<Configuration>) -> Option<CertifiedPath> {
+        let mut moved = q.to_vec();
+        let is_free = match by {
+            Some(by) => {
+                moved[w] += by;
+                self.motions.is_free(moved[w - 1], moved[w]) && self.motions.is_free(moved[w], moved[w + 1])
+            }
+            None => {
+                moved.remove(w);
+                self.motions.is_free(moved[w - 1], moved[w])
+            }
+        };
+        is_free.then(|| certify(self.scene, Path::new(moved), self.scene.workspace().clearance).ok()).flatten()
+    }
+
+    /// Takes the motion about a path if it is faster.
+    fn try_out(&self, path: &CertifiedPath, best: &mut Timed) -> bool {
+        let faster = (self.drive)(path, best.trajectory.duration());
+        let is_faster = faster.is_some();
+        if let Some(faster) = faster {
+            *best = faster;
+        }
+        is_faster
+    }
+
+    /// A path with its corners moved off what they go around, each as far as its legs are free.
+    fn off(&self, path: &CertifiedPath, by: f64) -> Option<CertifiedPath> {
+        let q = path.path().waypoints();
+        let mut lifts: Vec<f64> = (0..q.len()).map(|w| if w == 0 || w + 1 == q.len() { 0.0 } else { by }).collect();
+        for round in 0..=HALVINGS {
+            let at = |w: usize| if lifts[w] > 0.0 { q[w] + outward(q, w) * lifts[w] } else { q[w] };
+            let moved: Vec<Configuration> = (0..q.len()).map(at).collect();
+            let is_moved = |w: usize| lifts[w - 1] > 0.0 || lifts[w] > 0.0;
+            let barred: Vec<usize> =
+                (1..q.len()).filter(|&w| is_moved(w) && !self.motions.is_free(moved[w - 1], moved[w])).collect();
+            if barred.is_empty() {
+                return certify(self.scene, Path::new(moved), self.scene.workspace().clearance).ok();
+            }
+            let share = if round + 1 < HALVINGS { 0.5 } else { 0.0 };
+            barred.iter().for_each(|&w| (lifts[w - 1], lifts[w]) = (share * lifts[w - 1], share * lifts[w]));
+        }
+        None
+    }
+}
+
+/// The unit direction from an inner corner away from what the path goes around there; zero where it does not turn.
+fn outward(q: &[Configuration], w: usize) -> Configuration {
+    let [before, after] = [q[w] - q[w - 1], q[w + 1] - q[w]].map(|leg| leg / leg[0].hypot(leg[1]));
+    (before - after).try_normalize(1e-6).unwrap_or_else(Configuration::zeros)
+}

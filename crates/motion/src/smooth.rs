@@ -1,0 +1,230 @@
+//! Motions with limits on jerks, through the corners of a path.
+//!
+//! A path with blends is timed without those limits, and the motion is smoothed (`spline`). A smoothed motion leaves the path at its corners,
+//! towards their inside, where the obstacle is that the path goes around: where what is to be played is not shown to be free, the corner is
+//! passed more slowly. At last the motion is driven along its own curve in the least time (`retime`).
+
+use super::clock::{nanoseconds, seconds};
+use super::limits::Limits;
+use super::sample::{Timed, Trajectory};
+use super::schedule::{TimedTrack, schedule, stopping_at};
+use super::spline::Spline;
+use cplan_core::check::{CertifiedPath, Rounding, blend};
+use cplan_core::model::Scene;
+use cplan_core::space::{BlendedPath, Configuration, Piece};
+use std::collections::BTreeSet;
+
+/// A corner near which the motion is not shown to be free is passed at this share of its speed before.
+const SLOWER: f64 = 0.7;
+
+/// Below this share of its speed the arm stops there.
+const SLOWEST: f64 = 1.0 / 128.0;
+
+/// Times that corners are slowed down before all of them are stopped at.
+const ROUNDS: usize = 24;
+
+/// What is tried of the accelerations: the gentler, the shorter is the time in which the jerk reverses them.
+const GENTLER: f64 = 0.8;
+
+/// No gentler share of them is tried.
+const GENTLEST: f64 = 1e-3;
+
+/// Where it is looked how far a piece of a motion is off the path, ...
+const LOOKS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
+
+/// ... by what share it may be farther off in between, ...
+const BETWEEN: f64 = 0.01;
+
+/// ... and how many legs ahead of the last one it may be.
+const AHEAD: usize = 8;
+
+/// A path that is timed within limits.
+struct Smoothing<'a> {
+    limits: Limits<'a>,
+    /// The same without those on jerks, and perhaps with gentler accelerations.
+    base: Limits<'a>,
+    /// Seconds between acceleration and deceleration on a straight piece.
+    coast: f64,
+    period: f64,
+    /// Whether motions are driven along their own curves in the least time.
+    retimes: bool,
+}
+
+/// A motion, and when it passes the corners of its path.
+struct Smooth {
+    trajectory: Trajectory,
+    /// Waypoints with the nanoseconds between which their blends were passed.
+    passed: Vec<(usize, [u64; 2])>,
+}
+
+/// The fastest motion about the corners of a path, none of which it leaves by more than `greatest`: shown to be free, and shorter than `below`
+/// seconds; none if none was found. If it is to be driven along its own curve in the least time, that is done at last.
+pub(super) fn smoothed(
+    scene: &Scene,
+    path: &CertifiedPath,
+    greatest: f64,
+    limits: Limits,
+    period: f64,
+    below: f64,
+    retimes: bool,
+) -> Option<Timed> {
+    let clearance = scene.workspace().clearance;
+    let mut curve = blend(scene, path, greatest, clearance).curve().clone();
+    let rounding = Rounding::new(scene, path, clearance);
+    // No reach is longer than the longest leg.
+    let most = path.path().segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max).min(greatest);
+    let mut smoothing = Smoothing::new(&curve, limits, period)?;
+    let mut shares = vec![1.0; curve.radii().len()];
+    let mut plain = None;
+    for _ in 0..ROUNDS {
+        let fastest = plain.as_ref().map_or(below, |plain: &Timed| plain.trajectory.duration());
+        // Slower corners do not make it faster.
+        let smooth = smoothing.along(&curve, &shares).filter(|smooth| smooth.trajectory.duration() < fastest);
+        let Some(smooth) = smooth else { return plain };
+        let pieces = smooth.trajectory.pieces();
+        if let Some(tip) = &mut smoothing.base.tip
+            && let Some(excess) = limits.tip.and_then(|tip| tip.excess(&pieces))
+        {
+            tip.speed /= excess;
+            continue;
+        }
+        if let Some(torque) = &mut smoothing.base.torque
+            && let Some(excess) = limits.torque.and_then(|torque| torque.excess(&pieces))
+        {
+            torque.share /= excess;
+            continue;
+        }
+        let radii = reaches(&curve, &smooth, &pieces);
+        let far = (0..radii.len()).filter(|&w| radii[w] > most);
+        let open = rounding.open(&pieces);
+        let slower: BTreeSet<usize> = open.iter().filter_map(|&i| smooth.corner(&pieces[i])).chain(far).collect();
+        if slower.is_empty() {
+            let certified = rounding.certified(radii, &pieces);
+            let timed = certified.map(|curve| Timed { curve, trajectory: smooth.trajectory });
+            if smoothing.retimes == retimes || timed.is_none() {
+                return timed.or(plain);
+            }
+            (plain, smoothing.retimes) = (timed, true);
+        }
+        for waypoint in slower {
+            shares[waypoint] *= SLOWER;
+            if shares[waypoint] < SLOWEST {
+                curve = curve.with(waypoint, 0.0);
+            }
+        }
+    }
+    plain
+}
+
+/// How far the motion reaches about each waypoint: as the radius of a parabola that leaves the path as far, and passes the corner as far off.
+fn reaches(curve: &BlendedPath, smooth: &Smooth, pieces: &[Piece]) -> Vec<f64> {
+    let q = curve.path().waypoints();
+    let (mut radii, mut nearest) = (vec![0.0_f64; q.len()], vec![f64::INFINITY; q.len()]);
+    let mut leg = 0;
+    for piece in pieces {
+        let corner = smooth.corner(piece);
+        for at in LOOKS.map(|u| piece.at(u)) {
+            let legs = leg..(leg + AHEAD).min(q.len() - 1);
+            for w in legs.clone() {
+                nearest[w] = nearest[w].min((q[w] - at).norm());
+            }
+            let off = legs.map(|leg| (to_leg(at, q[leg], q[leg + 1]), leg)).min_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some((off, on)) = off {
+                leg = on;
+                corner.iter().for_each(|&w| radii[w] = radii[w].max(off));
+            }
+        }
+    }
+    for (w, _) in &smooth.passed {
+        let off = radii[*w].max(if nearest[*w].is_finite() { nearest[*w] } else { 0.0 });
+        radii[*w] = curve.radii()[*w].max(2.0 * off * (1.0 + BETWEEN));
+    }
+    radii
+}
+
+/// Distance of a configuration from a straight piece.
+fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
+    let (along, off) = (to - from, at - from);
+    let share = (along.dot(&off) / along.norm_squared()).clamp(0.0, 1.0);
+    (off - along * share).norm()
+}
+
+impl<'a> Smoothing<'a> {
+    /// With the accelerations that make motions along this curve fastest, and with a pause between those of opposite signs if that does: the
+    /// jerk has to reverse them at once without.
+    fn new(curve: &BlendedPath, limits: Limits<'a>, period: f64) -> Option<Self> {
+        let with = |share: f64, coasts: bool| {
+            let acceleration = limits.acceleration.map(|a| a * share);
+            let grows = |k: usize| limits.jerk[k].map_or(0.0, |jerk| acceleration[k] / jerk);
+            let coast = if coasts { grows(0).max(grows(1)) } else { 0.0 };
+            let base = Limits { jerk: [None; 2], acceleration, ..limits };
+            Self { limits, base, coast, period, retimes: false }
+        };
+        let ones = vec![1.0; curve.radii().len()];
+        let takes = |smoothing: &Self| smoothing.along(curve, &ones).map(|smooth| smooth.trajectory.duration());
+        let mut best: Option<(f64, Self)> = None;
+        for coasts in [false, true] {
+            let mut share = 1.0;
+            while share > GENTLEST {
+                let next = with(share, coasts);
+                let Some(duration) = takes(&next).filter(|time| best.as_ref().is_none_or(|best| *time < best.0)) else {
+                    break;
+                };
+                (best, share) = (Some((duration, next)), GENTLER * share);
+            }
+        }
+        best.map(|(_, smoothing)| smoothing)
+    }
+
+    /// Along a curve whose corners are passed at shares of their speed, from rest to rest; not looked at for obstacles.
+    fn along(&self, curve: &BlendedPath, shares: &[f64]) -> Option<Smooth> {
+        let (used, runs) = schedule(curve, &self.base, shares, self.coast);
+        let mut smooth = Smooth { trajectory: Trajectory::default(), passed: Vec::new() };
+        let stops: Vec<usize> = (0..shares.len()).filter(|&w| used.radii()[w] == 0.0).collect();
+        let mut begin = 0;
+        for (ends, run) in stops.windows(2).zip(&runs) {
+            // Torques change along a straight leg, too, and what is safe all along it is slow.
+            begin = if ends[1] - ends[0] == 1 && self.limits.torque.is_none() {
+                stopping_at(&used, ends[0], &self.limits, begin, self.period, &mut smooth.trajectory)
+            } else {
+                self.run(run, ends[0], begin, &mut smooth)
+            };
+        }
+        let rest = [curve.path().goal(), Configuration::zeros(), Configuration::zeros()];
+        smooth.trajectory.push(begin, rest);
+        Some(smooth)
+    }
+
+    /// Appends a run that passes the blends after a waypoint; and tells when it ends.
+    fn run(&self, run: &[TimedTrack], after: usize, begin: u64, smooth: &mut Smooth) -> u64 {
+        let mut spline = Spline::smoothed(run, self.base.acceleration, &self.limits, self.period);
+        let delay = spline.delay();
+        let limits = Limits { tip: self.base.tip, torque: self.base.torque, ..self.limits };
+        let retimed = self.retimes.then(|| spline.retimed(&limits, self.period)).flatten();
+        let when = retimed.map(|(faster, when)| {
+            spline = faster;
+            move |time: f64| when(seconds(delay) + time)
+        });
+        spline.sample(begin, self.period, &mut smooth.trajectory);
+        let (mut since, mut waypoint) = (0.0, after);
+        for (track, phases) in run {
+            let until = since + phases.iter().map(|phase| phase.duration).sum::<f64>();
+            if track.is_blend() {
+                waypoint += 1;
+                let passed = |time: f64| when.as_ref().map_or_else(|| delay + nanoseconds(time), |when| when(time));
+                smooth.passed.push((waypoint, [since, until].map(|time| begin + passed(time))));
+            }
+            since = until;
+        }
+        begin + spline.duration()
+    }
+}
+
+impl Smooth {
+    /// The corner that is being passed on a piece, or is the nearest to it in time.
+    fn corner(&self, piece: &Piece) -> Option<usize> {
+        let middle = piece.time(0.5);
+        let away = |(_, [from, to]): &&(usize, [u64; 2])| (seconds(*from) - middle).max(middle - seconds(*to)).max(0.0);
+        self.passed.iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|(waypoint, _)| *waypoint)
+    }
+}

@@ -1,0 +1,377 @@
+//! Motions whose acceleration is continuous: uniform cubic B-splines.
+//!
+//! Let `x_j` be the places of a motion at the multiples of a step `h`, and `y_j` the mean of `n` of them that follow each other. The
+//! uniform cubic B-spline with the control points `y_j` is that motion, smoothed: its derivatives are means of those of the motion, with
+//! weights that are not negative and add up to 1, so that it keeps every limit on speed and acceleration that the motion keeps, and it stays
+//! in the convex hull of what the motion passes within `(n + 3) h`. Its jerk is constant over each step, `(a_j - a_(j - n)) / (n h)` with `a`
+//! the second differences of `x` by `h^2`: a window of `n h` seconds in which the acceleration changes by no more than the jerk allows
+//! is long enough. (Box filters in series are known to make such trajectories: Biagiotti, Melchiorri, *FIR filters for online trajectory
+//! planning with time- and frequency-domain specifications*, 2012.) The motion takes `(n + 1) h` longer, starts and ends at rest with no
+//! acceleration, and moves a straight piece along a straight line.
+
+use super::clock::{nanoseconds, seconds};
+use super::limits::Limits;
+use super::retime::{Condition, PLACES, Rate};
+use super::sample::{SHORTEST_INTERVAL, Trajectory, USUAL_INTERVAL};
+use super::schedule::{TimedTrack, duration, places};
+use super::torque::TorqueLimit;
+use cplan_core::space::Configuration;
+
+/// Steps of a window: the finer, the less the last step costs.
+const STEPS: f64 = 32.0;
+
+/// A step is no shorter than this share of the period of the samples.
+const SHORTEST_STEP: f64 = 1.0 / 8.0;
+
+/// Steps of a motion at the most.
+const MOST_STEPS: f64 = 1e5;
+
+/// Intervals in which a motion is driven anew: as many as it has steps, or several times as many if those are fewer, ...
+const FEWEST: usize = 800;
+
+/// ... and no more than these: what ever longer motions gain is ever less.
+const MOST: usize = 20_000;
+
+/// It begins with this share of the speed, which keeps all limits.
+const BEGIN: f64 = 0.97;
+
+/// Steps of a motion that is driven anew, if they are not to be shorter or longer for other reasons: it takes two of them longer.
+const NEW_STEPS: f64 = 800.0;
+
+/// Share of the limits on torques and on the tip's speed that is used: in between the places where they are asked for they may be exceeded.
+const USED: f64 = 0.995;
+
+/// Knots at which the jerk changes by no more than this share of the greatest are left out of the samples.
+const SAME: f64 = 1e-7;
+
+/// A motion from rest to rest.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Spline {
+    /// Nanoseconds between two knots.
+    step: u64,
+    /// Steps of the window by which a motion was smoothed.
+    window: u64,
+    /// Three times the start, ..., three times the goal.
+    control: Vec<Configuration>,
+}
+
+impl Spline {
+    /// A run from rest to rest, smoothed as far as the limits on jerks ask for. `acceleration` is what the run keeps.
+    pub fn smoothed(run: &[TimedTrack], acceleration: [f64; 2], limits: &Limits, period: f64) -> Self {
+        let longest = |k: usize| limits.jerk[k].map_or(0.0, |jerk| 2.0 * acceleration[k] / jerk);
+        let fine = (longest(0).max(longest(1)) / STEPS).max(SHORTEST_STEP * period).max(SHORTEST_INTERVAL);
+        let step = nanoseconds(fine.max(duration(run) / MOST_STEPS));
+        let places = places(run, seconds(step));
+        let window = window(&places, seconds(step), limits.jerk);
+        let [start, goal] = [places[0], places[places.len() - 1]];
+        let place = |j: usize| places[j.min(places.len() - 1)];
+        let mean = |j: usize| {
+            // Counted from one of them, so that a joint that stands still does.
+            let here = place(j);
+            let ahead = (0..window).map(|i| if i <= j { place(j - i) } else { start } - here);
+            here + ahead.fold(Configuration::zeros(), |sum, offset| sum + offset) / window as f64
+        };
+        let control = [start; 3].into_iter().chain((1..places.len() + window - 2).map(mean)).chain([goal; 3]).collect();
+        Self { step, window: window as u64, control }
+    }
+
+    /// The same way in the least time, and how much of that has passed so many seconds after the slower motion began; none if it is not
+    /// known to be any faster.
+    pub fn retimed(&self, limits: &Limits, period: f64) -> Option<(Self, impl Fn(f64) -> u64 + use<>)> {
+        let pieces = self.last() + 1;
+        let parts = ((FEWEST + pieces / 2) / pieces).max(1);
+        if parts * pieces > MOST {
+            return None;
+        }
+        let interval = seconds(self.step) / parts as f64;
+        let intervals =
+            (0..parts * pieces).flat_map(|i| PLACES.map(|u| (i / parts, ((i % parts) as f64 + u) / parts as f64)));
+        let asked: Vec<Vec<Condition>> = intervals.map(|(piece, u)| asked(self.within(piece, u), limits)).collect();
+        let rate = Rate::fastest(&asked, interval, BEGIN * BEGIN)?;
+        let shortest = (SHORTEST_STEP * period).max(SHORTEST_INTERVAL);
+        let step = nanoseconds((rate.duration() / NEW_STEPS).min(seconds(self.step)).max(shortest));
+        let [start, goal] = [self.control[0], self.control[self.control.len() - 1]];
+        let times = (1..).map(|k| seconds(k * step)).take_while(|time| *time < rate.duration());
+        let places = times.map(|time| self.at_seconds(rate.at(time))[0]);
+        let control = [start; 3].into_iter().chain(places).chain([goal; 3]).collect();
+        let spline = Self { step, window: 1, control };
+        // In between the places limits may be exceeded by little.
+        let step = (step as f64 * spline.excess(limits)).ceil() as u64;
+        let slower = step as f64 / spline.step as f64;
+        let spline = Self { step, ..spline };
+        (spline.duration() < self.duration()).then(|| {
+            let delay = spline.delay();
+            (spline, move |time: f64| delay + nanoseconds(slower * rate.passes(time)))
+        })
+    }
+
+    /// How many times as long it has to take to keep the limits on velocities, accelerations and jerks; 1 if it keeps them.
+    fn excess(&self, limits: &Limits) -> f64 {
+        let h = seconds(self.step);
+        let mut excess = 1.0_f64;
+        for four in self.control.windows(4) {
+            let [a, b, c, d] = [four[0], four[1], four[2], four[3]];
+            let [first, second] = [(b - a) / h, (c - b * 2.0 + a) / (h * h)];
+            let third = (d - c * 3.0 + b * 3.0 - a) / (h * h * h);
+            for k in 0..2 {
+                let jerk = limits.jerk[k].map_or(0.0, |most| third[k].abs() / most);
+                let acceleration = second[k].abs() / limits.acceleration[k];
+                excess = excess.max(first[k].abs() / limits.velocity[k]).max(acceleration.sqrt()).max(jerk.cbrt());
+            }
+        }
+        excess
+    }
+
+    /// How long it takes, nanoseconds.
+    pub fn duration(&self) -> u64 {
+        self.step * (self.control.len() - 3) as u64
+    }
+
+    /// Nanoseconds by which it is behind the motion that was smoothed, in the middle.
+    pub fn delay(&self) -> u64 {
+        self.step * (self.window + 1) / 2
+    }
+
+    /// Position, velocity, acceleration and jerk in a piece between knots, at a share of it.
+    fn within(&self, piece: usize, u: f64) -> [Configuration; 4] {
+        let h = seconds(self.step);
+        let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);
+        let (ab, bc, cd, w) = (b - a, c - b, d - c, 1.0 - u);
+        let middle = 1.0 + 3.0 * u * (1.0 + u * w);
+        // Rounding must not carry it beyond what it is a mean of, which may lie on a joint limit.
+        let (least, greatest) = (a.inf(&b).inf(&c).inf(&d), a.sup(&b).sup(&c).sup(&d));
+        let position =
+            (b + (bc * middle + (bc + cd) * (u * u * u) - ab * (w * w * w)) / 6.0).sup(&least).inf(&greatest);
+        let velocity = (ab * (w * w) + bc * (1.0 + 2.0 * u * w) + cd * (u * u)) / (2.0 * h);
+        let acceleration = ((bc - ab) * w + (cd - bc) * u) / (h * h);
+        [position, velocity, acceleration, (cd - bc * 2.0 + ab) / (h * h * h)]
+    }
+
+    /// The last piece, as an index.
+    fn last(&self) -> usize {
+        self.control.len() - 4
+    }
+
+    /// Position, velocity and acceleration so many nanoseconds after it began.
+    fn at(&self, time: u64) -> [Configuration; 3] {
+        let piece = ((time / self.step) as usize).min(self.last());
+        let [position, velocity, acceleration, _] =
+            self.within(piece, (time - piece as u64 * self.step) as f64 / self.step as f64);
+        [position, velocity, acceleration]
+    }
+
+    /// The same, and the jerk, so many seconds after.
+    fn at_seconds(&self, time: f64) -> [Configuration; 4] {
+        let steps = time / seconds(self.step);
+        let piece = (steps as usize).min(self.last());
+        self.within(piece, steps - piece as f64)
+    }
+
+    /// Nanoseconds at which the jerk changes, the beginning first.
+    fn knots(&self) -> Vec<u64> {
+        let third = |piece: usize| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);
+            (d - c) - (c - b) * 2.0 + (b - a)
+        };
+        let thirds: Vec<Configuration> = (0..self.control.len() - 3).map(third).collect();
+        let least = thirds.iter().fold(Configuration::zeros(), |most, third| most.sup(&third.abs())) * SAME;
+        let mut last = Configuration::repeat(f64::INFINITY);
+        let mut knots = Vec::new();
+        for (piece, third) in thirds.into_iter().enumerate() {
+            let change = (third - last).abs();
+            if change[0] > least[0] || change[1] > least[1] {
+                knots.push(piece as u64 * self.step);
+                last = third;
+            }
+        }
+        knots
+    }
+
+    /// Appends its samples, but for the last, to a motion that ends when it begins: wherever its jerk changes, and at the multiples of the
+    /// period that are not near those.
+    pub fn sample(&self, begin: u64, period: f64, trajectory: &mut Trajectory) {
+        let near = nanoseconds((period / 2.0).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL));
+        let mut knots = self.knots();
+        knots.push(self.duration());
+        for pair in knots.windows(2) {
+            let [first, last] = [begin + pair[0], begin + pair[1]];
+            trajectory.push(first, self.at(pair[0]));
+            let count = (seconds(first) / period) as u64;
+            let multiples = (count..).map(|k| nanoseconds(k as f64 * period)).skip_while(|&at| at < first + near);
+            for at in multiples.take_while(|&at| at + near <= last) {
+                trajectory.push(at, self.at(at - begin));
+            }
+        }
+    }
+}
+
+/// What the limits ask for where a motion has such derivatives, if it is driven anew.
+fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &Limits) -> Vec<Condition> {
+    let mut asked = Vec::new();
+    let mut ask = |factors: [f64; 3], has_root: bool| {
+        if factors != [0.0; 3] {
+            asked.push(Condition { factors, has_root });
+        }
+    };
+    for k in 0..2 {
+        let (first, second, third) = (velocity[k], acceleration[k], jerk[k]);
+        ask([(first / limits.velocity[k]).powi(2), 0.0, 0.0], false);
+        for sign in [1.0, -1.0] {
+            ask([second, first / 2.0, 0.0].map(|factor| sign * factor / limits.acceleration[k]), false);
+            if let Some(most) = limits.jerk[k] {
+                ask([third, 1.5 * second, first / 2.0].map(|factor| sign * factor / most), true);
+            }
+        }
+    }
+    if let Some(tip) = limits.tip {
+        let [first, second] = tip.arm.jacobian(1, tip.arm.tip, position);
+        let speed = (first * velocity[0] + second * velocity[1]).norm();
+        ask([(speed / (USED * tip.speed)).powi(2), 0.0, 0.0], false);
+    }
+    if let Some(TorqueLimit { arm, dynamics, share }) = limits.torque {
+        let here = dynamics.at(arm, position);
+        let (inertial, bent) = (here.inertial(velocity), here.inertial(acceleration) + here.centrifugal(velocity));
+        let holding = here.holding();
+        for (k, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+            let room = share * (USED * dynamics.effort[k] - sign * holding[k]);
+            ask([bent[k], inertial[k] / 2.0, 0.0].map(|factor| sign * factor / room), false);
+        }
+    }
+    asked
+}
+
+/// The least number of steps by which places have to be averaged for the jerks to keep their limits.
+fn window(places: &[Configuration], step: f64, jerk: [Option<f64>; 2]) -> usize {
+    let place = |j: isize| places[j.clamp(0, places.len() as isize - 1) as usize];
+    let seconds: Vec<Configuration> =
+        (0..places.len() as isize).map(|j| place(j + 1) - place(j) * 2.0 + place(j - 1)).collect();
+    let most = seconds.iter().fold(Configuration::zeros(), |most, second| most.sup(&second.abs()));
+    let thirds = jerk.map(|jerk| jerk.map_or(f64::INFINITY, |jerk| jerk * step * step * step));
+    let enough = (0..2).map(|k| (2.0 * most[k] / thirds[k]).ceil()).fold(1.0, f64::max) as usize;
+    let second = |j: usize| seconds.get(j).copied().unwrap_or_else(Configuration::zeros);
+    let keeps = |n: &usize| {
+        (0..seconds.len() + n).all(|j| {
+            let change = second(j) - if j >= *n { second(j - n) } else { Configuration::zeros() };
+            (0..2).all(|k| change[k].abs() <= *n as f64 * thirds[k])
+        })
+    };
+    (1..enough).find(keeps).unwrap_or(enough)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::profile::rest_to_rest;
+    use super::super::schedule::schedule;
+    use super::*;
+    use cplan_core::space::{BlendedPath, Path};
+    use proptest::prelude::*;
+
+    fn limits(velocity: f64, acceleration: f64, jerk: [Option<f64>; 2]) -> Limits<'static> {
+        Limits { velocity: [velocity; 2], acceleration: [acceleration; 2], jerk, tip: None, torque: None }
+    }
+
+    /// A path with a blend at each corner, timed without limits on jerks, and smoothed.
+    fn smoothed(corners: &[[f64; 2]], radius: f64, limits: &Limits) -> (f64, Spline) {
+        let path = Path::new(corners.iter().map(|&q| q.into()).collect());
+        let count = path.waypoints().len();
+        let curve = (1..count - 1).fold(BlendedPath::from(path), |curve, w| curve.with(w, radius));
+        let without = Limits { jerk: [None; 2], ..*limits };
+        let (_, runs) = schedule(&curve, &without, &vec![1.0; count], 0.0);
+        assert_eq!(runs.len(), 1, "it stops nowhere");
+        (duration(&runs[0]), Spline::smoothed(&runs[0], limits.acceleration, limits, 0.01))
+    }
+
+    /// A motion from rest to rest along one joint with a window long enough for its reversal: in closed form a window and a step longer.
+    #[test]
+    fn takes_a_window_and_a_step_longer() {
+        let limits = limits(2.0, 8.0, [Some(200.0), None]);
+        let (base, spline) = smoothed(&[[0.0, 0.0], [0.3, 0.0], [0.7, 0.0]], 0.1, &limits);
+        let expected: f64 = rest_to_rest(0.7, 2.0, 8.0, 1e-6).iter().map(|phase| phase.duration).sum();
+        assert!((base - expected).abs() < 1e-2 * expected, "{base} {expected}");
+        let longer = seconds(spline.duration()) - base;
+        let (window, step) = (seconds(spline.window * spline.step), seconds(spline.step));
+        assert!((window + step..window + 2.0 * step + 1e-9).contains(&longer), "{longer} {window} {step}");
+        assert!(window <= 2.0 * 8.0 / 200.0 + 1e-9);
+    }
+
+    /// A long way at top speed between whole ramps, `L / v + v / a + a / j` in closed form, out of a motion that is slower by a window.
+    #[test]
+    fn the_least_time_along_a_line() {
+        let limits = limits(1.0, 4.0, [Some(20.0), None]);
+        let (_, slow) = smoothed(&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]], 0.2, &limits);
+        let (fast, _) = slow.retimed(&limits, 0.01).unwrap();
+        let [least, took, before] = [1.0 + 1.0 / 4.0 + 4.0 / 20.0, seconds(fast.duration()), seconds(slow.duration())];
+        assert!(least < took && took < 1.01 * least && 1.02 * least < before, "{least} {took} {before}");
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(64))]
+
+        /// By differences of its own samples: limits, rest at both ends, and that joints which stand still do.
+        #[test]
+        fn keeps_limits_from_rest_to_rest(
+            turns in prop::collection::vec((0.4..1.5_f64, -2.5..2.5_f64), 2..6), velocity in 0.3..3.0_f64, acceleration in 1.0..20.0_f64,
+            jerk in (20.0..2000.0_f64, prop::option::of(20.0..2000.0_f64)), second in any::<bool>(),
+        ) {
+            let mut corners = vec![[0.5, -0.25]];
+            let mut heading = 0.3_f64;
+            for (length, turn) in turns {
+                let [x, y] = corners[corners.len() - 1];
+                corners.push([x + length * heading.cos(), if second { y + length * heading.sin() } else { y }]);
+                heading += if second { turn } else { 0.2 };
+            }
+            let limits = limits(velocity, acceleration, [Some(jerk.0), jerk.1]);
+            let (base, slow) = smoothed(&corners, 0.1, &limits);
+            prop_assert!(seconds(slow.duration()) > base);
+            let fast = slow.retimed(&limits, 0.01);
+            let [start, goal] = [corners[0], corners[corners.len() - 1]].map(Configuration::from);
+            for spline in fast.iter().map(|(spline, _)| spline).chain([&slow]) {
+                prop_assert_eq!(spline.at(0), [start, Configuration::zeros(), Configuration::zeros()]);
+                // Where the run ends, up to rounding.
+                let [end, rates @ ..] = spline.at(spline.duration());
+                prop_assert!((end - goal).amax() < 1e-14 && rates == [Configuration::zeros(); 2], "{:?}", end);
+                let h = seconds(spline.step);
+                let mut before = spline.at(0);
+                for knot in 1..=spline.duration() / spline.step {
+                    let here = spline.at(knot * spline.step);
+                    for k in 0..2 {
+                        // Positions, velocities and accelerations are integrals of each other, and all keep their limits.
+                        let rate = (here[2][k] - before[2][k]) / h;
+                        prop_assert!(limits.jerk[k].is_none_or(|most| rate.abs() <= most * (1.0 + 1e-6)), "jerk {}", rate);
+                        prop_assert!(here[2][k].abs() <= acceleration * (1.0 + 1e-9), "acceleration {}", here[2][k]);
+                        prop_assert!(here[1][k].abs() <= velocity * (1.0 + 1e-9), "velocity {}", here[1][k]);
+                        let speed = before[1][k] + h * (before[2][k] + here[2][k]) / 2.0;
+                        prop_assert!((here[1][k] - speed).abs() < 1e-9);
+                        let place = before[0][k] + h * (before[1][k] + h * (2.0 * before[2][k] + here[2][k]) / 6.0);
+                        prop_assert!((here[0][k] - place).abs() < 1e-12);
+                        if !second && k == 1 {
+                            prop_assert_eq!([here[0][k], here[1][k], here[2][k]], [corners[0][1], 0.0, 0.0]);
+                        }
+                    }
+                    before = here;
+                }
+            }
+            // The faster motion goes the same way, and is when it says where the slower one was.
+            if let Some((fast, when)) = &fast {
+                prop_assert!(fast.duration() < slow.duration());
+                let [step, most] = [seconds(fast.step), velocity * 2.0];
+                for k in 0..=50 {
+                    let time = slow.duration() * k / 50;
+                    let then = when(seconds(time)).min(fast.duration());
+                    prop_assert!((fast.at(then)[0] - slow.at(time)[0]).amax() < 2.0 * step * most, "{}", seconds(time));
+                }
+            }
+            let spline = fast.map_or(slow, |(spline, _)| spline);
+            // The samples are the spline: cubics through them meet it everywhere.
+            let mut trajectory = Trajectory::default();
+            spline.sample(0, 0.01, &mut trajectory);
+            trajectory.push(spline.duration(), [goal, Configuration::zeros(), Configuration::zeros()]);
+            for piece in trajectory.pieces() {
+                for u in [0.3, 0.5, 0.9] {
+                    let [place, ..] = spline.at(nanoseconds(piece.time(u)));
+                    prop_assert!((piece.at(u) - place).amax() < 1e-8);
+                }
+            }
+        }
+    }
+}

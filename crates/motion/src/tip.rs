@@ -1,0 +1,94 @@
+//! A top speed of the tip.
+
+use cplan_core::model::{Arm, JointType};
+use cplan_core::space::{Configuration, Derivative, Piece};
+
+/// Share of its limit that the tip's speed may lose, because it is bounded part by part: curves are cut so finely.
+pub(super) const TIP_STEP: f64 = 0.01;
+
+/// Parts of a piece in which it is looked how fast the tip is, at the most.
+const MOST_PARTS: f64 = 64.0;
+
+/// Greatest speed of an arm's tip over the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipSpeed<'a> {
+    /// The arm whose tip it is.
+    pub arm: &'a Arm,
+    /// Metres a second, positive.
+    pub speed: f64,
+}
+
+/// A part of a curve `q(s)` with a constant second derivative: all of it that is no farther than `half` from `middle`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Part {
+    /// The configuration in the middle.
+    pub(super) middle: Configuration,
+    /// First derivative by the parameter there.
+    pub(super) slope: Configuration,
+    /// Second derivative by the parameter.
+    pub(super) bend: Configuration,
+    /// Half the range of the parameter.
+    pub(super) half: f64,
+}
+
+impl TipSpeed<'_> {
+    /// By how much the magnitude of the tip's derivative may be overestimated on a part, metres by the parameter.
+    pub(super) fn slack(&self, part: &Part) -> f64 {
+        self.change(part) * part.half
+    }
+
+    /// A speed of the parameter at which the tip keeps its limit all over the part. The tip's way by the parameter has the
+    /// derivative `J q'`, which changes no faster than [`TipSpeed::change`].
+    pub(super) fn allowed(&self, part: &Part) -> f64 {
+        let [first, second] = self.arm.jacobian(1, self.arm.tip, part.middle);
+        let way = (first * part.slope[0] + second * part.slope[1]).norm();
+        self.speed / (way + self.slack(part))
+    }
+
+    /// By how many times the tip may be faster on pieces of a motion than its limit allows, if it may be at all.
+    pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
+        let excess = pieces.iter().map(|piece| self.excess_on(piece)).fold(1.0, f64::max);
+        (excess > 1.0).then_some(excess)
+    }
+
+    fn excess_on(&self, piece: &Piece) -> f64 {
+        let duration = piece.to - piece.from;
+        let parts = |count: u32| {
+            let part = move |u: f64, acceleration: Configuration| Part {
+                middle: piece.at(u),
+                slope: piece.derivative(Derivative::Velocity, u),
+                bend: acceleration,
+                half: duration / f64::from(2 * count),
+            };
+            // The acceleration is linear, so it is greatest at an end, whatever the direction.
+            let ends = [0.0, 1.0].map(|end| piece.derivative(Derivative::Acceleration, end));
+            (0..count).flat_map(move |i| ends.map(|end| part((f64::from(i) + 0.5) / f64::from(count), end)))
+        };
+        let slack = parts(1).map(|part| self.slack(&part)).fold(0.0, f64::max);
+        let count = (slack / (TIP_STEP * self.speed)).ceil().clamp(1.0, MOST_PARTS) as u32;
+        parts(count).map(|part| 1.0 / self.allowed(&part)).fold(0.0, f64::max)
+    }
+
+    /// Greatest magnitude of the second derivative of the tip's place by the parameter.
+    fn change(&self, part: &Part) -> f64 {
+        use JointType::{Prismatic, Revolute};
+        let arm = self.arm;
+        let [w1, w2] = [0, 1].map(|k| part.slope[k].abs() + part.bend[k].abs() * part.half);
+        let [b1, b2] = [part.bend[0].abs(), part.bend[1].abs()];
+        let tip = arm.tip.coords;
+        match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
+            (Revolute { sign: s1 }, Revolute { sign: s2 }) => {
+                // What link 2 turns by.
+                let turn = |rate: Configuration| (s1 * rate[0] + s2 * rate[1]).abs();
+                let w = turn(part.slope) + turn(part.bend) * part.half;
+                arm.offset.norm() * (w1 * w1 + b1) + tip.norm() * (w * w + turn(part.bend))
+            }
+            (Revolute { .. }, Prismatic { direction }) => {
+                let radius = (arm.offset + direction * part.middle[1] + tip).norm() + w2 * part.half;
+                radius * (w1 * w1 + b1) + 2.0 * w1 * w2 + b2
+            }
+            (Prismatic { .. }, Revolute { .. }) => b1 + tip.norm() * (w2 * w2 + b2),
+            (Prismatic { .. }, Prismatic { .. }) => b1 + b2,
+        }
+    }
+}

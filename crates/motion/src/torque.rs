@@ -1,0 +1,246 @@
+//! Torques that joints may not exceed.
+
+use super::sample::{TimingError, Trajectory};
+use super::tip::Part;
+use crate::recorded::torque_looks;
+use cplan_core::model::{Arm, Curvature, Dynamics, Rates, Scene};
+use cplan_core::space::{Configuration, Path, Piece};
+
+/// Share of an effort by which the torque may be overestimated on a part of a curve: curves are cut so finely.
+const STEP: f64 = 0.01;
+
+/// Of two joints, both ways: three coefficients, each with the inertial factor off to either side.
+const ROWS: usize = 24;
+
+/// Parts of a straight stretch for which one acceleration and one speed are to be safe.
+const SAFE_PARTS: u32 = 64;
+
+/// Of the effort that is left on such a part, the share for the acceleration; the rest is for the speed.
+const FOR_ACCELERATION: f64 = 0.5;
+
+/// Share of an effort that counts as some that is left.
+const NOTHING_LEFT: f64 = 1e-12;
+
+/// Share of an effort by which a torque may be greater between two looks at a motion.
+const FINE: f64 = 2e-4;
+
+/// The same while a motion is looked for.
+const ROUGH: f64 = 2e-3;
+
+/// Parts of a leg on which it is looked whether the arm can be held, at the most.
+const MOST_PARTS: f64 = 1e5;
+
+/// The joints of an arm may not bring more than their efforts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TorqueLimit<'a> {
+    /// The arm whose joints they are.
+    pub arm: &'a Arm,
+    /// What it and what it carries weighs, and the efforts.
+    pub dynamics: Dynamics,
+    /// Share of what gravity leaves of the efforts that is used.
+    pub share: f64,
+}
+
+/// Torques along a part of a curve that is passed with the squared speed `z` of its parameter: `inertial z' / 2 + bent z + holding`, joint by
+/// joint, where each factor is linear between its values at both ends, but for so much.
+struct OnPart {
+    ends: [Factors; 2],
+    off: Curvature,
+}
+
+/// The factors at a place.
+struct Factors {
+    inertial: Configuration,
+    bent: Configuration,
+    holding: Configuration,
+}
+
+impl<'a> TorqueLimit<'a> {
+    /// Of an arm with what it carries, if motions have to keep within its efforts.
+    #[must_use]
+    pub fn of(scene: &'a Scene) -> Option<Self> {
+        Some(Self { arm: scene.arm(), dynamics: scene.limiting_dynamics()?, share: 1.0 })
+    }
+
+    fn on(&self, part: &Part) -> OnPart {
+        let (arm, dynamics) = (self.arm, &self.dynamics);
+        let rates = Rates {
+            first: [0, 1].map(|k| part.slope[k].abs() + part.bend[k].abs() * part.half),
+            second: [0, 1].map(|k| part.bend[k].abs()),
+            third: [0.0; 2],
+        };
+        let curvature = dynamics.curvature(arm, part.middle, part.half, &rates);
+        // From a chord over its length of twice the half.
+        let off = |curvature: [f64; 2], share: f64| curvature.map(|c| c * part.half * part.half / (2.0 * share));
+        let at = |by: f64| {
+            let q = part.middle + part.slope * by + part.bend * (by * by / 2.0);
+            let slope = part.slope + part.bend * by;
+            let here = dynamics.at(arm, q);
+            let bent = here.inertial(part.bend) + here.centrifugal(slope);
+            Factors { inertial: here.inertial(slope) / self.share, bent: bent / self.share, holding: here.holding() }
+        };
+        OnPart {
+            ends: [at(-part.half), at(part.half)],
+            off: Curvature {
+                inertial: off(curvature.inertial, self.share),
+                bent: off(curvature.bent, self.share),
+                holding: off(curvature.holding, 1.0),
+            },
+        }
+    }
+
+    /// What the squared speeds `z0`, `z1` at both ends of a part have to keep, between which they are linear: rows `[a, b]` with
+    /// `a z0 + b z1 <= 1`. So much of the efforts is used.
+    ///
+    /// With linear factors a torque is a quadratic polynomial along the part, which keeps its limit if its Bernstein coefficients do.
+    pub(super) fn rows(&self, part: &Part, used: f64) -> Vec<[f64; 2]> {
+        let OnPart { ends: [first, last], off } = self.on(part);
+        let mut rows = Vec::with_capacity(ROWS);
+        for k in 0..2 {
+            let effort = self.dynamics.effort[k];
+            for sign in [1.0, -1.0] {
+                let [i0, b0, h0] = [first.inertial[k], first.bent[k], first.holding[k]].map(|x| sign * x);
+                let [i1, b1, h1] = [last.inertial[k], last.bent[k], last.holding[k]].map(|x| sign * x);
+                let coefficients = [
+                    (i0, [b0, 0.0], h0),
+                    ((i0 + i1) / 2.0, [b1 / 2.0, b0 / 2.0], (h0 + h1) / 2.0),
+                    (i1, [0.0, b1], h1),
+                ];
+                for (inertial, bent, holding) in coefficients {
+                    let room = (used * effort - holding - off.holding[k]).max(NOTHING_LEFT * effort);
+                    // The inertial factor is off to whichever side makes it worse.
+                    for inertial in [inertial + off.inertial[k], inertial - off.inertial[k]] {
+                        // z' over the part's length, halved.
+                        let rising = inertial / (4.0 * part.half);
+                        let row = [bent[0] + off.bent[k] - rising, bent[1] + off.bent[k] + rising];
+                        rows.push(row.map(|c| c / room));
+                    }
+                }
+            }
+        }
+        rows
+    }
+
+    /// Whether a part is so long that the torques on it are known but coarsely.
+    pub(super) fn is_coarse(&self, part: &Part, [z0, z1]: [f64; 2]) -> bool {
+        let off = self.on(part).off;
+        let rising = (z1 - z0).abs() / (4.0 * part.half);
+        let unknown = |k: usize| off.inertial[k] * rising + off.bent[k] * z0.max(z1) + off.holding[k];
+        (0..2).any(|k| unknown(k) > STEP * self.dynamics.effort[k])
+    }
+
+    /// A speed and an acceleration that are safe together all along a straight stretch, along it.
+    pub(super) fn safe(&self, from: Configuration, to: Configuration) -> [f64; 2] {
+        let (offset, count) = (to - from, f64::from(SAFE_PARTS));
+        let length = offset[0].hypot(offset[1]);
+        let mut safe = [f64::INFINITY; 2];
+        for i in 0..SAFE_PARTS {
+            let OnPart { ends, off } = self.on(&Part {
+                middle: from + offset * ((f64::from(i) + 0.5) / count),
+                slope: offset / length,
+                bend: Configuration::zeros(),
+                half: length / (2.0 * count),
+            });
+            for (k, end) in (0..2).flat_map(|k| ends.iter().map(move |end| (k, end))) {
+                let effort = self.dynamics.effort[k];
+                let room = (effort - end.holding[k].abs() - off.holding[k]).max(NOTHING_LEFT * effort);
+                let squared = (1.0 - FOR_ACCELERATION) * room / (end.bent[k].abs() + off.bent[k]);
+                let pull = FOR_ACCELERATION * room / (end.inertial[k].abs() + off.inertial[k]);
+                safe = [safe[0].min(squared.sqrt()), safe[1].min(pull)];
+            }
+        }
+        safe
+    }
+
+    /// Changes of the joints' accelerations that together change no torque by more than its effort.
+    pub(super) fn accelerations(&self) -> [f64; 2] {
+        let inertia = self.dynamics.greatest_inertia(self.arm);
+        let share = |k: usize, l: usize| self.dynamics.effort[l] / (2.0 * inertia[l][k]);
+        [0, 1].map(|k| share(k, 0).min(share(k, 1)))
+    }
+
+    /// By how many times what moves the arm may be greater on pieces of a motion than gravity leaves of the efforts, if it may be at all.
+    pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
+        let effort = self.dynamics.effort;
+        let mut excess = 1.0_f64;
+        for look in pieces.iter().flat_map(|piece| torque_looks(&self.dynamics, self.arm, piece, ROUGH)) {
+            for (k, effort) in effort.into_iter().enumerate() {
+                let greatest = look.torque[k].abs() + look.off[k];
+                if greatest > effort {
+                    let left = effort - look.holding[k].abs() - look.off[k];
+                    let moves = (look.torque[k] - look.holding[k]).abs();
+                    excess = excess.max(moves / left.max(NOTHING_LEFT * effort));
+                }
+            }
+        }
+        (excess > 1.0).then_some(excess)
+    }
+
+    fn too_heavy(&self, k: usize, at: Configuration, torque: f64) -> TimingError {
+        let joint = &self.arm.joints[k];
+        let (effort, unit) = (self.dynamics.effort[k], joint.effort_unit());
+        TimingError::TooHeavy { joint: joint.name.clone(), at: at.into(), torque: torque.abs(), effort, unit }
+    }
+
+    /// Whether a motion keeps within the efforts.
+    ///
+    /// # Errors
+    /// The first place where it may not.
+    pub(super) fn kept(&self, pieces: &[Piece]) -> Result<(), TimingError> {
+        for piece in pieces {
+            for look in torque_looks(&self.dynamics, self.arm, piece, FINE) {
+                if let Some(k) = (0..2).find(|&k| look.torque[k].abs() + look.off[k] > self.dynamics.effort[k]) {
+                    return Err(self.too_heavy(k, piece.at(look.u), look.torque[k]));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Torques at the samples.
+    pub(super) fn along(&self, trajectory: &Trajectory) -> Vec<[f64; 2]> {
+        let at = |i: usize| {
+            let [q, v, a] =
+                [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|row| row[i].into());
+            // Adding 0 turns minus zeros into zeros.
+            <[f64; 2]>::from(self.dynamics.torque(self.arm, q, v, a)).map(|torque| torque + 0.0)
+        };
+        (0..trajectory.time.len()).map(at).collect()
+    }
+
+    /// Whether the efforts of an arm, if its motions have to keep within them, hold it with what it carries where it stands.
+    ///
+    /// # Errors
+    /// The joint whose effort does not.
+    pub fn held_at(scene: &'a Scene, q: Configuration) -> Result<(), TimingError> {
+        Self::of(scene).map_or(Ok(()), |own| own.holds(q))
+    }
+
+    fn holds(&self, at: Configuration) -> Result<(), TimingError> {
+        let holding = self.dynamics.at(self.arm, at).holding();
+        match (0..2).find(|&k| holding[k].abs() >= self.dynamics.effort[k]) {
+            Some(k) => Err(self.too_heavy(k, at, holding[k])),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether the arm can be held against gravity all along a path.
+    ///
+    /// # Errors
+    /// Where it takes more than a joint's effort.
+    pub(super) fn held_along(&self, path: &Path) -> Result<(), TimingError> {
+        let effort = self.dynamics.effort;
+        for (from, to) in path.segments() {
+            let (offset, half) = ((to - from) / 2.0, 1.0);
+            let whole = Part { middle: from + offset, slope: offset, bend: Configuration::zeros(), half };
+            let off = self.on(&whole).off.holding;
+            // The error of chords falls with the square of their length.
+            let share = (0..2).map(|k| off[k] / (STEP * effort[k])).fold(1.0, f64::max);
+            let count = share.sqrt().ceil().min(MOST_PARTS);
+            for i in 0..=count as u32 {
+                self.holds(from + offset * (2.0 * f64::from(i) / count))?;
+            }
+        }
+        Ok(())
+    }
+}

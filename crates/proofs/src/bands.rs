@@ -1,0 +1,80 @@
+//! What joint 1 alone decides: the bands of `q1` that link 1 forbids.
+
+use super::slab::{OUTWARD, is_stuck};
+use cplan_core::check::Cell;
+use cplan_core::check::StuckBox;
+use cplan_core::check::{Deviation, Posture};
+use cplan_core::model::{Contacts, on_axis};
+use cplan_geometry::merge_in_place;
+use nalgebra::Vector2;
+
+/// Where in a band a wall is looked for, as shares of each pair's interval: halfway shapes overlap most, as a rule.
+const PLACES: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
+
+/// A stretch of joint 1's domain.
+pub(super) struct Stretch {
+    pub from: f64,
+    pub to: f64,
+    pub kind: Kind,
+}
+
+/// What link 1 says about a stretch.
+pub(super) enum Kind {
+    /// It keeps its distance everywhere.
+    Free,
+    /// Somewhere in the stretch it is too near over a width that is proven: no way leads through.
+    Wall(StuckBox),
+    /// Neither free for certain nor hit for certain.
+    Unknown,
+}
+
+/// The domain of joint 1 in stretches, ascending. `O(n log n)` in the contacts of link 1.
+pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
+    let scene = contacts.scene();
+    let joint = &scene.arm().joints[0];
+    let (lower, upper) = joint.range.domain();
+    let mut of_pairs: Vec<(usize, [f64; 2])> = Vec::new();
+    let mut arcs = Vec::new();
+    for index in 0..contacts.second_link_pairs().start {
+        arcs.clear();
+        let hits = contacts.first_link(index, clearance + OUTWARD, &mut arcs);
+        on_axis(joint, hits, &arcs, |interval| of_pairs.push((index, interval)));
+    }
+    let mut merged: Vec<[f64; 2]> = of_pairs.iter().map(|p| p.1).collect();
+    merge_in_place(&mut merged);
+    let mut stretches = Vec::with_capacity(2 * merged.len() + 1);
+    let mut at = lower;
+    for band in merged {
+        if band[0] > at {
+            stretches.push(Stretch { from: at, to: band[0], kind: Kind::Free });
+        }
+        let within = of_pairs.iter().filter(|(_, i)| band[0] <= i[0] && i[1] <= band[1]);
+        let wall = within.filter_map(|(index, interval)| wall(contacts, clearance, *index, *interval)).next();
+        // A band may be a single value: a graze, or the end of the domain.
+        if band[0] < band[1] || wall.is_none() {
+            stretches.push(Stretch { from: band[0], to: band[1], kind: wall.map_or(Kind::Unknown, Kind::Wall) });
+        }
+        at = band[1];
+    }
+    if at < upper || stretches.is_empty() {
+        stretches.push(Stretch { from: at, to: upper, kind: Kind::Free });
+    }
+    stretches
+}
+
+/// A box, as high as the domain, in which the pair is stuck, within an interval of `q1` where it is too near.
+fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2]) -> Option<StuckBox> {
+    let scene = contacts.scene();
+    let (pair, lever) = (scene.pairs()[index], contacts.lever(index));
+    let (bottom, top) = scene.arm().joints[1].range.domain();
+    PLACES.iter().find_map(|share| {
+        let middle = from + (to - from) * share;
+        let posture = Posture::new(scene, Vector2::new(middle, (bottom + top) / 2.0));
+        let depth = clearance - posture.greatest(pair, Deviation::Box([0.0, 0.0]));
+        // Half of what the depth allows; the rest is for the rounding of whoever checks it.
+        let half = (depth / lever / 2.0).min(middle - from).min(to - middle);
+        let cell = Cell { lower: [middle - half, bottom], upper: [middle + half, top] };
+        let stands = cell.lower[0] < cell.upper[0] && bottom < top;
+        (stands && is_stuck(scene, pair, &cell, clearance)).then_some(StuckBox { cell, pair })
+    })
+}

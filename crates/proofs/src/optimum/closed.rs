@@ -1,0 +1,326 @@
+//! What is closed: for joint 1, for joint 2 at one value of joint 1, and along straight motions.
+
+use crate::slab::{Eroded, OUTWARD};
+use cplan_core::check::{Deviation, Posture, STUCK_ROUNDING};
+use cplan_core::model::{Contacts, Pair, Scene, on_axis};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Convex, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
+use cplan_interrupt::checkpoint;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Times that a motion is halved before it counts as not proven.
+const HALVINGS: usize = 4;
+
+/// Values of joint 2 at which a pair is too near: within the domain on an interval; on a circle an arc whose end may be
+/// beyond its domain, by no more than a turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Wall {
+    /// Number of the pair, among those of link 2.
+    pub pair: usize,
+    pub lower: f64,
+    pub upper: f64,
+}
+
+/// Pairs of link 2 at most. What fewer of them close is no more, so that the bound holds; with many it is hardly lower: they
+/// are smaller than the link, which keeps meeting others beside those that are left out.
+pub(super) const MOST_PAIRS: usize = 4096;
+
+/// Slices times pairs at most, some seconds' worth.
+const MOST_LOOKS: usize = 4_000_000;
+
+/// A pair of link 2.
+struct Prepared {
+    /// Its number among all.
+    index: usize,
+    /// None where the shapes are too thin to overlap by as much as rounding may amount to.
+    eroded: Option<Eroded>,
+    /// Half-planes of the piece's core.
+    sides: Vec<(Vector, f64)>,
+}
+
+/// All that link 2 can meet.
+pub(super) struct Closed<'a> {
+    contacts: Contacts<'a>,
+    clearance: f64,
+    /// Half-planes of the cores of link 2's parts.
+    sides: Vec<Vec<(Vector, f64)>>,
+    pairs: Vec<Prepared>,
+    /// The pairs' places in that list.
+    numbers: BTreeMap<Pair, usize>,
+    scratch: Vec<[f64; 2]>,
+}
+
+impl<'a> Closed<'a> {
+    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+        let contacts = Contacts::new(scene);
+        let sides = scene.arm().links[1].parts.iter().map(|part| half_planes(part.shape.core())).collect();
+        let (pairs, numbers) = (Vec::new(), BTreeMap::new());
+        let mut this = Self { contacts, clearance, sides, pairs, numbers, scratch: Vec::new() };
+        this.add_numbers(&chosen(&this.contacts, clearance));
+        this
+    }
+
+    fn scene(&self) -> &'a Scene {
+        self.contacts.scene()
+    }
+
+    /// Looks at some more pairs of link 2.
+    pub fn add(&mut self, pairs: &[Pair]) {
+        let all = self.scene().pairs();
+        let numbers: Vec<usize> = pairs.iter().filter_map(|pair| all.binary_search(pair).ok()).collect();
+        self.add_numbers(&numbers);
+    }
+
+    fn add_numbers(&mut self, indices: &[usize]) {
+        for &index in indices {
+            checkpoint();
+            let (moving, piece) = (self.contacts.moving(index), self.contacts.standing(index).shape());
+            let eroded = Eroded::new(moving, piece, OUTWARD, self.clearance);
+            self.numbers.insert(self.scene().pairs()[index], self.pairs.len());
+            self.pairs.push(Prepared { index, eroded, sides: half_planes(piece.core()) });
+        }
+    }
+
+    /// The pairs that are looked at: those of link 1, unless they are too many, and those of link 2; in their order.
+    pub fn pairs(&self) -> Vec<Pair> {
+        let first = self.contacts.second_link_pairs().start;
+        let few = first <= MOST_PAIRS;
+        self.scene().pairs()[..first].iter().filter(|_| few).chain(self.numbers.keys()).copied().collect()
+    }
+
+    /// How many slices are worth looking at.
+    pub fn most_slices(&self) -> usize {
+        MOST_LOOKS / self.pairs.len().max(1)
+    }
+
+    /// The values of joint 1 at which link 1 is too near: disjoint, ascending.
+    pub fn bands(&self) -> Vec<[f64; 2]> {
+        let arm = self.scene().arm();
+        let joint = &arm.joints[0];
+        let (mut bands, mut arcs) = (Vec::new(), Vec::new());
+        for index in 0..self.contacts.second_link_pairs().start {
+            let (part, piece) = (self.contacts.moving(index), self.contacts.standing(index));
+            let Some(eroded) = Eroded::new(part, piece.shape(), OUTWARD, self.clearance) else { continue };
+            arcs.clear();
+            let hits = eroded.hits(part, piece, arm.base, Vector::x(), &mut arcs);
+            on_axis(joint, hits, &arcs, |band| bands.push(band));
+        }
+        bands.retain(|[lower, upper]| lower < upper);
+        merge_in_place(&mut bands);
+        bands
+    }
+
+    /// What is closed at `q1`, in the order of the pairs.
+    pub fn walls(&mut self, q1: f64) -> Vec<Wall> {
+        checkpoint();
+        let mut walls = Vec::new();
+        let frame = self.contacts.elbow(q1);
+        for number in 0..self.pairs.len() {
+            self.add_walls(number, frame, &mut walls);
+        }
+        walls
+    }
+
+    /// What a pair closes at `q1`.
+    pub fn walls_of(&mut self, number: usize, q1: f64) -> Vec<Wall> {
+        let mut walls = Vec::new();
+        self.add_walls(number, self.contacts.elbow(q1), &mut walls);
+        walls
+    }
+
+    /// The pairs by their numbers.
+    pub fn by_number(&self) -> Vec<Pair> {
+        let mut pairs: Vec<(usize, Pair)> = self.numbers.iter().map(|(pair, number)| (*number, *pair)).collect();
+        pairs.sort_unstable();
+        pairs.into_iter().map(|(_, pair)| pair).collect()
+    }
+
+    /// The number of a pair; none if it is not looked at.
+    pub fn number(&self, pair: Pair) -> Option<usize> {
+        self.numbers.get(&pair).copied()
+    }
+
+    fn add_walls(&mut self, number: usize, (elbow, heading): (Point, Vector), walls: &mut Vec<Wall>) {
+        let pair = &self.pairs[number];
+        let Some(eroded) = &pair.eroded else { return };
+        let joint = &self.contacts.scene().arm().joints[1];
+        self.scratch.clear();
+        let (part, piece) = (self.contacts.moving(pair.index), self.contacts.standing(pair.index));
+        let (elbow, heading) = self.contacts.frame(pair.index, (elbow, heading));
+        let hits = eroded.hits(part, piece, elbow, heading, &mut self.scratch);
+        let mut add = |[lower, upper]: [f64; 2]| {
+            if lower < upper {
+                walls.push(Wall { pair: number, lower, upper });
+            }
+        };
+        match hits {
+            Hits::Always if joint.range.is_circle() => add([-PI, PI]),
+            Hits::Within if joint.range.is_circle() => self.scratch.iter().copied().for_each(add),
+            _ => on_axis(joint, hits, &self.scratch, add),
+        }
+    }
+
+    /// Whether a pair is proven too near all along the straight motion between two configurations. True says so; false
+    /// says nothing.
+    pub fn all_along(&self, pair: usize, from: Configuration, to: Configuration) -> bool {
+        self.halved(&self.pairs[pair], [from, to], HALVINGS)
+    }
+
+    fn halved(&self, pair: &Prepared, ends: [Configuration; 2], halvings: usize) -> bool {
+        let middle = (ends[0] + ends[1]) / 2.0;
+        let posture = Posture::new(self.scene(), middle);
+        if self.follows(pair, &posture, ends) {
+            return true;
+        }
+        let pose = self.scene().arm().pose(self.link(pair), middle);
+        let (part, piece) = self.shapes(pair);
+        halvings > 0
+            && separation(&part.at(&pose), piece).distance < self.clearance
+            && self.halved(pair, [ends[0], middle], halvings - 1)
+            && self.halved(pair, [middle, ends[1]], halvings - 1)
+    }
+
+    /// As in [`Pair::link`].
+    fn link(&self, pair: &Prepared) -> usize {
+        self.scene().pairs()[pair.index].link
+    }
+
+    /// The part and the piece of a pair.
+    fn shapes(&self, pair: &Prepared) -> (&Convex, &Convex) {
+        (self.contacts.moving(pair.index).shape(), self.contacts.standing(pair.index).shape())
+    }
+
+    /// Whether one point stays in both shapes all along the motion: fixed in one of them, in the other it moves.
+    ///
+    /// A point of the part moves smoothly, no farther from the straight line between its places at the ends than half the
+    /// bound on its second derivative; and the distance from a convex set, negative inside, is a convex function. So it
+    /// is nowhere farther from the piece than at the farther end, plus that half. The same holds for a point of the piece
+    /// as seen from the link. Where its distances from both cores come to no more than `radius`, so does that of the cores.
+    fn follows(&self, pair: &Prepared, posture: &Posture, ends: [Configuration; 2]) -> bool {
+        let (part, piece) = self.shapes(pair);
+        let of_part = &self.sides[self.scene().pairs()[pair.index].part];
+        let of_piece = &pair.sides;
+        let link = self.link(pair);
+        let poses = ends.map(|q| self.scene().arm().pose(link, q));
+        let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
+        let slack = STUCK_ROUNDING * posture.scale(part.at(&poses[0]).core(), part.radius(), piece);
+        let radius = part.radius() + piece.radius() + self.clearance - slack;
+        let (in_link, in_plane) =
+            (posture.curvature_in_link(link, deviation), posture.curvature_in_plane(link, deviation));
+        let of_world = |p: Point, from_piece: f64| {
+            let allowed = radius - from_piece - in_link.of(p) / 2.0;
+            poses.iter().all(|pose| within(pose.inverse_transform_point(&p), part.core(), of_part, allowed))
+        };
+        let of_link = |a: Point, from_part: f64| {
+            let allowed = radius - from_part - in_plane.of(a) / 2.0;
+            poses.iter().all(|pose| within(pose * a, piece.core(), of_piece, allowed))
+        };
+        if piece.core().iter().any(|p| of_world(*p, 0.0)) || part.core().iter().any(|a| of_link(*a, 0.0)) {
+            return true;
+        }
+        let pose = self.scene().arm().pose(link, (ends[0] + ends[1]) / 2.0);
+        middle_point(part, piece, &pose).is_some_and(|p| {
+            let a = pose.inverse_transform_point(&p);
+            of_world(p, signed_distance(p, piece.core(), of_piece))
+                || of_link(a, signed_distance(a, part.core(), of_part))
+        })
+    }
+}
+
+/// The numbers of the pairs of link 2 that can meet in some posture, in their order; of too many those with the largest pieces,
+/// and of pieces of about a size some all over the list.
+fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
+    let arm = contacts.scene().arm();
+    let in_reach = |index: &usize| {
+        // A joint that slides takes link 2 anywhere along its way.
+        !arm.joints[0].joint_type.is_revolute()
+            || least_distance(contacts.standing(*index).shape(), arm.base) <= contacts.reach(*index) + clearance
+    };
+    let mut pairs: Vec<usize> = contacts.second_link_pairs().filter(in_reach).collect();
+    if pairs.len() > MOST_PAIRS {
+        let bits = usize::BITS - pairs.len().leading_zeros();
+        let mut ranked: Vec<(Reverse<i32>, usize, usize)> = pairs
+            .into_iter()
+            .enumerate()
+            .map(|(number, index)| {
+                let core = contacts.standing(index).shape().core();
+                let size = core.iter().map(|p| (p - core[0]).norm()).fold(f64::MIN_POSITIVE, f64::max);
+                // Numbers with their bits reversed ascend all over the list at a time.
+                (Reverse(size.log2().floor() as i32), number.reverse_bits() >> (usize::BITS - bits), index)
+            })
+            .collect();
+        ranked.sort_unstable();
+        pairs = ranked.into_iter().take(MOST_PAIRS).map(|(.., index)| index).collect();
+        pairs.sort_unstable();
+    }
+    pairs
+}
+
+/// A lower bound on the distance of a shape from a point.
+fn least_distance(shape: &Convex, from: Point) -> f64 {
+    let core = shape.core();
+    let extent = core.iter().map(|p| (p - core[0]).norm()).fold(0.0, f64::max);
+    (core[0] - from).norm() - extent - shape.radius()
+}
+
+/// A point in the middle of what the cores have in common with the part at `pose`, if they do. Of two segments it is where their
+/// lines cross, which need not be on either.
+fn middle_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
+    let part: Vec<Point> = part.core().iter().map(|a| pose * a).collect();
+    let piece = piece.core();
+    let both = match (part.as_slice(), piece) {
+        (part, piece) if piece.len() > 2 => common(part, piece),
+        (part, piece) if part.len() > 2 => common(piece, part),
+        (&[a, b], &[c, d]) => {
+            let (along, across) = (b - a, perpendicular(d - c));
+            let share = across.dot(&(c - a)) / across.dot(&along);
+            return share.is_finite().then(|| a + along * share);
+        }
+        _ => return None,
+    };
+    let sum: Vector = both.iter().map(|p| p.coords).sum();
+    (!both.is_empty()).then(|| Point::from(sum / both.len() as f64))
+}
+
+/// The half-planes `normal . p <= offset` of a convex polygon with area.
+fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
+    let n = if core.len() > 2 { core.len() } else { 0 };
+    (0..n)
+        .map(|i| {
+            let normal = -perpendicular((core[(i + 1) % n] - core[i]).normalize());
+            (normal, normal.dot(&core[i].coords))
+        })
+        .collect()
+}
+
+/// By how much a point is outside the half-planes, or with a negative sign inside them.
+fn outside(p: Point, sides: &[(Vector, f64)]) -> f64 {
+    sides.iter().map(|(normal, offset)| normal.dot(&p.coords) - offset).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// A point's distance from a convex polygon, negative inside, segment or point: a convex function of it.
+fn signed_distance(p: Point, core: &[Point], sides: &[(Vector, f64)]) -> f64 {
+    let (outside, n) = (outside(p, sides), core.len());
+    if outside <= 0.0 && !sides.is_empty() {
+        return outside;
+    }
+    (0..n).map(|i| to_segment(p, core[i], core[(i + 1) % n])).fold(f64::INFINITY, f64::min)
+}
+
+/// Whether that is at most `allowed`; often this costs less.
+fn within(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
+    let at_least = if sides.is_empty() { 0.0 } else { outside(p, sides) };
+    at_least <= allowed && (at_least < 0.0 || signed_distance(p, core, sides) <= allowed)
+}
+
+fn to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let (along, to) = (b - a, p - a);
+    let length2 = along.norm_squared();
+    let t = if length2 > 0.0 { (along.dot(&to) / length2).clamp(0.0, 1.0) } else { 0.0 };
+    (to - along * t).norm()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,84 @@
+//! Where a wall begins, grows, parts or meets another all at once, as at the tip of a C-obstacle: slices there are worth more than in
+//! between, where walls change smoothly.
+
+use super::closed::Wall;
+use super::strips::{ABOUT, NARROWEST, Strips};
+use cplan_core::model::Pair;
+use cplan_geometry::Point;
+use std::f64::consts::TAU;
+
+/// What a pair closes jumps in one half of a strip if this share of its change is in that half: more than that of a tip's.
+const JUMP: f64 = 0.85;
+
+/// By how much the ends of walls change from one place to another; infinitely where there are more at one of them.
+fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
+    if there.len() != beyond.len() {
+        return f64::INFINITY;
+    }
+    let ends = there.as_flattened().iter().zip(beyond.as_flattened());
+    ends.map(|(a, b)| (a - b).abs()).sum()
+}
+
+impl Strips<'_> {
+    /// Values of joint 1, ascending, that close in by halves, down to a width, on the place where a wall jumps. Looked for between
+    /// `closed`, where the pair makes the wall, and `until`. Nothing if it changes smoothly all along.
+    fn towards_jump(&mut self, number: usize, [closed, until]: [f64; 2], wall: [f64; 2], width: f64) -> Vec<f64> {
+        let (mut with, mut without) = (closed, until);
+        let (mut there, mut beyond) = (vec![wall], self.walls_about(number, until, wall));
+        let mut cuts = Vec::new();
+        while (without - with).abs() > width.max(NARROWEST) {
+            let middle = f64::midpoint(with, without);
+            let between = self.walls_about(number, middle, wall);
+            let (near, far) = (change(&there, &between), change(&between, &beyond));
+            let greater = f64::max(near, far);
+            if greater.is_finite() && greater <= JUMP * (near + far) {
+                // None, or it has come so near that the rest is smooth.
+                break;
+            }
+            cuts.push(middle);
+            if near > far { (without, beyond) = (middle, between) } else { (with, there) = (middle, between) }
+        }
+        cuts.sort_unstable_by(f64::total_cmp);
+        cuts
+    }
+
+    /// The walls that a pair makes at `q1`, those that meet a given one.
+    fn walls_about(&mut self, number: usize, q1: f64, wall: [f64; 2]) -> Vec<[f64; 2]> {
+        let round = self.topology().ranges[1].is_circle();
+        let middle = f64::midpoint(wall[0], wall[1]);
+        let near = |at: &Wall| {
+            let turns = if round { ((middle - f64::midpoint(at.lower, at.upper)) / TAU).round() * TAU } else { 0.0 };
+            [at.lower + turns, at.upper + turns]
+        };
+        let walls = self.closed.walls_of(number, q1);
+        walls.iter().map(near).filter(|at| at[0] <= wall[1] && wall[0] <= at[1]).collect()
+    }
+
+    /// Where to cut a strip in which a way comes into what a pair closes at a configuration: towards jumps on either side.
+    pub fn towards_jumps(&mut self, index: usize, pair: Pair, at: Point, width: f64) -> Vec<f64> {
+        let Some(number) = self.closed.number(pair) else { return Vec::new() };
+        let walls = self.walls_about(number, at.x, [at.y; 2]);
+        let &[wall] = walls.as_slice() else { return Vec::new() };
+        let [from, to] = self.ends(index);
+        let mut cuts = self.towards_jump(number, [at.x, from], wall, width);
+        cuts.extend(self.towards_jump(number, [at.x, to], wall, width));
+        cuts
+    }
+
+    /// Where to cut a strip towards the end of a wall about a value of joint 2 at the slice before or after it. Nothing if it leads
+    /// through the strip.
+    pub fn towards_tip(&mut self, index: usize, after: bool, q2: f64, width: f64) -> Vec<f64> {
+        let [from, to] = self.ends(index);
+        let (with, without) = if after { (to, from) } else { (from, to) };
+        let round = self.topology().ranges[1].is_circle();
+        let ends_here = |end: f64| {
+            let off = if round { (end - q2) - ((end - q2) / TAU).round() * TAU } else { end - q2 };
+            off.abs() <= ABOUT
+        };
+        let walls = self.closed.walls(with);
+        let ending = walls.iter().find(|wall| ends_here(wall.lower) || ends_here(wall.upper));
+        ending.map_or_else(Vec::new, |wall| {
+            self.towards_jump(wall.pair, [with, without], [wall.lower, wall.upper], width)
+        })
+    }
+}

@@ -1,0 +1,392 @@
+//! The shortest way past what is closed in strips and at the slices between them.
+//!
+//! No search for petgraph: nodes come up with what can be seen from them, and it ends at a bound as well as at a goal.
+
+use super::portals::Portal;
+use super::strips::{Cell, Strips};
+use cplan_core::space::{Measure, Segment};
+use cplan_geometry::{OpenList, Point};
+use cplan_interrupt::checkpoint;
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// Entries that are taken from the open list before the search ends with what it knows: a thousand times what a question
+/// takes as a rule, and half a second. Along an arc they grow with the square of the slices.
+const MOST_ENTRIES: usize = 1_000_000;
+
+/// Entries for which there is room from the beginning.
+const USUAL_ENTRIES: usize = 1024;
+
+/// Costs that differ by no more than this share may differ by rounding alone.
+const TIED: f64 = 1e-12;
+
+/// By how much sight goes past what cuts it off, as a share of the coordinates: more than rounding amounts to. Without it
+/// the end of a portal that is in line with two others, as on a straight side, could lie between what either sees.
+const HAIR: f64 = 4.0 * f64::EPSILON;
+
+/// What the search came to.
+pub(super) enum Way {
+    /// The shortest: its length and corners.
+    Shortest(f64, Vec<Point>),
+    /// None is shorter than this.
+    NoneBelow(f64),
+}
+
+/// Mixes a few numbers in a few operations: what is hashed comes from the search itself.
+#[derive(Default)]
+pub(super) struct Mixed(u64);
+
+impl Hasher for Mixed {
+    fn finish(&self) -> u64 {
+        self.0 ^ (self.0 >> 32)
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.write_u64(u64::from_ne_bytes(word));
+        }
+    }
+
+    fn write_i64(&mut self, number: i64) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        // About the golden section of 2^64, odd (Knuth).
+        self.0 = (self.0.rotate_left(26) ^ number).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    }
+}
+
+/// A place where ways turn, or begin.
+struct Root {
+    at: Point,
+    cost: f64,
+    before: Option<u32>,
+}
+
+#[derive(Clone, Copy)]
+enum Entry {
+    /// What a root sees through an interval of a slice, on the way to the strip beyond.
+    Cone(Cone),
+    /// A goal that a root sees.
+    Goal(u32, Point),
+    /// A root on the edge of a strip, which sees all of its cell of it.
+    Root(u32, i64),
+}
+
+#[derive(Clone, Copy)]
+struct Cone {
+    root: u32,
+    slice: i64,
+    /// Whether joint 1 grows on the way.
+    ahead: bool,
+    seen: Portal,
+}
+
+impl Cone {
+    /// The strip that it enters.
+    fn strip(&self) -> i64 {
+        if self.ahead { self.slice } else { self.slice - 1 }
+    }
+
+    /// The slice beyond that strip.
+    fn far(&self) -> i64 {
+        if self.ahead { self.slice + 1 } else { self.slice - 1 }
+    }
+}
+
+/// A* whose open list holds cones of sight (as Polyanya: Cui, Harabor, Grastien 2017), over the strips' cells and all their
+/// copies. Cells are convex, so sight is cut off at slices alone, and ways turn at the ends of portals: beyond a slice towards the
+/// side of the wall whose end they pass, or along it to the next portal, which leads back.
+///
+/// That way every shortest way is found, whichever turns it takes. Of those that reach the end of a portal only the shortest is
+/// followed: where another one goes on taut, but that one does not, cutting its corner would be shorter still.
+pub(super) struct Search<'s, 'a> {
+    strips: &'s mut Strips<'a>,
+    measure: Measure,
+    goals: &'s [Segment],
+    /// Least and greatest value of joint 1 of the goals.
+    goals_range: [f64; 2],
+    /// Nothing as long as this is looked for.
+    limit: f64,
+    /// Values of joint 2 that ways shorter than the limit keep to.
+    range: [f64; 2],
+    roots: Vec<Root>,
+    /// Least cost so far of the end of a portal: by slice, by its value of joint 2, and by whether joint 1 grows from there.
+    least: HashMap<(i64, u64), f64, BuildHasherDefault<Mixed>>,
+    open: OpenList<usize>,
+    entries: Vec<Entry>,
+    /// Lists of portals that are not in use.
+    spare: Vec<Vec<Portal>>,
+}
+
+impl<'s, 'a> Search<'s, 'a> {
+    pub fn new(strips: &'s mut Strips<'a>, measure: Measure, goals: &'s [Segment], limit: f64) -> Self {
+        let values = || goals.iter().flat_map(Segment::ends).map(|goal| goal[0]);
+        Self {
+            strips,
+            measure,
+            goals,
+            goals_range: [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)],
+            limit,
+            range: [f64::NEG_INFINITY, f64::INFINITY],
+            roots: Vec::with_capacity(USUAL_ENTRIES / 8),
+            least: HashMap::default(),
+            open: OpenList::default(),
+            entries: Vec::with_capacity(USUAL_ENTRIES),
+            spare: Vec::new(),
+        }
+    }
+
+    /// The shortest way from `start` to one of the goals.
+    pub fn run(mut self, start: Point) -> Way {
+        let far = self.limit / self.measure.norm(Point::new(0.0, 1.0).coords);
+        self.range = [start.y - far, start.y + far];
+        self.roots.push(Root { at: start, cost: 0.0, before: None });
+        for strip in self.strips.around(start.x) {
+            self.spread(0, strip, 0.0);
+        }
+        let mut taken = 0;
+        while let Some((bound, number)) = self.open.pop() {
+            checkpoint();
+            taken += 1;
+            if taken > MOST_ENTRIES {
+                return Way::NoneBelow(bound);
+            }
+            match self.entries[number] {
+                Entry::Goal(root, goal) => return Way::Shortest(bound, self.corners(root, goal)),
+                Entry::Cone(cone) => self.expand(&cone, bound),
+                Entry::Root(root, strip) => self.spread(root, strip, bound),
+            }
+        }
+        Way::NoneBelow(self.limit)
+    }
+
+    fn corners(&self, root: u32, goal: Point) -> Vec<Point> {
+        let mut corners = vec![goal];
+        let mut next = Some(root);
+        while let Some(root) = next {
+            let root = &self.roots[root as usize];
+            corners.push(root.at);
+            next = root.before;
+        }
+        corners.reverse();
+        corners
+    }
+
+    fn push(&mut self, bound: f64, entry: Entry) {
+        if bound < self.limit {
+            self.open.push(bound, self.entries.len());
+            self.entries.push(entry);
+        }
+    }
+
+    /// The nearest of some goals, all of which can be reached straight from a root.
+    fn push_goal(&mut self, root: u32, goals: &Segment, parent: f64) {
+        let Root { at, cost, .. } = self.roots[root as usize];
+        let goal = Point::from(goals.nearest(self.measure, at.coords));
+        self.push((cost + self.measure.norm(goal - at)).max(parent), Entry::Goal(root, goal));
+    }
+
+    /// A cone through the part of `portal` between `from` and `to`, if there is one.
+    fn push_cone(&mut self, root: u32, slice: i64, ahead: bool, portal: &Portal, [from, to]: [f64; 2], parent: f64) {
+        let (from, to) = (from.max(self.range[0]), to.min(self.range[1]));
+        let (lower, upper) = (portal.lower.max(from), portal.upper.min(to));
+        if lower > upper {
+            return;
+        }
+        let tips = [portal.tips[0] && portal.lower >= from, portal.tips[1] && portal.upper <= to];
+        let x = self.strips.q1(slice);
+        let Root { at, cost, .. } = self.roots[root as usize];
+        let (right, left) = if ahead { (lower, upper) } else { (upper, lower) };
+        let side = if ahead { 1.0 } else { -1.0 };
+        let line = [Point::new(x, right - side), Point::new(x, left + side)];
+        let ends = [Point::new(x, right), Point::new(x, left)];
+        let through = |goal: &Segment| self.measure.through(at, ends, line, goal);
+        let bound = cost + self.goals.iter().map(through).fold(f64::INFINITY, f64::min);
+        let seen = Portal { lower, upper, tips };
+        self.push(bound.max(parent), Entry::Cone(Cone { root, slice, ahead, seen }));
+    }
+
+    /// A root at the end of a portal, reached straight from another, whose ways go on `ahead` or back; none if it has been
+    /// reached by a shorter way, or by one as short that goes on to the same side.
+    fn turn(&mut self, from: u32, slice: i64, at: Point, ahead: bool) -> Option<u32> {
+        let Root { at: before, cost, .. } = self.roots[from as usize];
+        let cost = cost + self.measure.norm(at - before);
+        let key = |ahead: bool| (2 * slice + i64::from(ahead), at.y.to_bits());
+        let least = |ahead: bool| self.least.get(&key(ahead)).copied().unwrap_or(f64::INFINITY);
+        if cost >= least(ahead) * (1.0 - TIED) || cost > least(!ahead) * (1.0 + TIED) {
+            return None;
+        }
+        self.least.insert(key(ahead), cost);
+        self.roots.push(Root { at, cost, before: Some(from) });
+        u32::try_from(self.roots.len() - 1).ok()
+    }
+
+    /// The portals of a slice, with all their copies, that a range of joint 2 meets, as far as ways shorter than the limit go. The list
+    /// goes back to the spare ones.
+    fn portals(&mut self, slice: i64, [lower, upper]: [f64; 2]) -> Vec<Portal> {
+        let (lower, upper) = (lower.max(self.range[0]), upper.min(self.range[1]));
+        let mut portals = self.spare.pop().unwrap_or_default();
+        portals.clear();
+        if !self.strips.is_inner(slice) {
+            return portals;
+        }
+        let round = self.strips.topology().ranges[1].is_circle();
+        for gap in self.strips.portals(slice) {
+            if !round || gap.lower.is_infinite() {
+                if gap.lower <= upper && lower <= gap.upper {
+                    portals.push(*gap);
+                }
+                continue;
+            }
+            let (first, last) = (((lower - gap.upper) / TAU).ceil(), ((upper - gap.lower) / TAU).floor());
+            for turns in first as i64..=last as i64 {
+                let portal = gap.turned(turns as f64);
+                if portal.lower <= upper && lower <= portal.upper {
+                    portals.push(portal);
+                }
+            }
+        }
+        portals
+    }
+
+    /// The goals in a cell of a strip: of a segment the part.
+    fn goals(&self, strip: i64, cell: Cell) -> impl Iterator<Item = Segment> + use<'s> {
+        let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
+        // Most strips hold none.
+        let is_beside_all = to < self.goals_range[0] || self.goals_range[1] < from;
+        let goals = if is_beside_all { &[] } else { self.goals };
+        let beside = move |goals: &&Segment| {
+            let [a, b] = goals.ends();
+            a[0].max(b[0]) >= from && a[0].min(b[0]) <= to
+        };
+        goals.iter().filter(beside).filter_map(move |goals| {
+            let part = goals.within([from, f64::NEG_INFINITY], [to, f64::INFINITY])?;
+            let beyond = |part: &Segment, side: usize| {
+                part.ends().map(|q| {
+                    let [lower, upper] = cell.at((q[0] - from) / (to - from));
+                    if side == 0 { q[1] - lower } else { upper - q[1] }
+                })
+            };
+            (0..2).try_fold(part, |part, side| {
+                let [a, b] = beyond(&part, side);
+                part.where_positive(a, b)
+            })
+        })
+    }
+
+    /// What a root in a strip or on its edge sees of it.
+    fn spread(&mut self, root: u32, strip: i64, parent: f64) {
+        let at = self.roots[root as usize].at;
+        let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
+        let Some(cell) = self.strips.cell(strip, (at.x - from) / (to - from), at.y) else { return };
+        for goal in self.goals(strip, cell) {
+            self.push_goal(root, &goal, parent);
+        }
+        for (slice, ahead, share) in [(strip, false, 0.0), (strip + 1, true, 1.0)] {
+            let range = cell.at(share);
+            let portals = self.portals(slice, range);
+            if self.strips.q1(slice) == at.x {
+                self.along(root, slice, !ahead, portals.iter(), parent);
+            } else {
+                for portal in &portals {
+                    self.push_cone(root, slice, ahead, portal, range, parent);
+                }
+            }
+            self.spare.push(portals);
+        }
+    }
+
+    /// Ways along a slice, from a root on it, to other portals, which lead back to the strip on its other side; `ahead` if the
+    /// ways lie in the strip after the slice.
+    fn along<'p>(
+        &mut self,
+        root: u32,
+        slice: i64,
+        ahead: bool,
+        portals: impl Iterator<Item = &'p Portal>,
+        parent: f64,
+    ) {
+        let at = self.roots[root as usize].at;
+        for portal in portals {
+            let end = if portal.lower > at.y {
+                portal.lower
+            } else if portal.upper < at.y {
+                portal.upper
+            } else {
+                continue;
+            };
+            if let Some(root) = self.turn(root, slice, Point::new(at.x, end), !ahead) {
+                let Root { at, cost, .. } = self.roots[root as usize];
+                let ways = self.goals.iter().map(|goal| goal.distance(self.measure, at.coords));
+                let nearest = ways.fold(f64::INFINITY, f64::min);
+                self.push((cost + nearest).max(parent), Entry::Root(root, if ahead { slice - 1 } else { slice }));
+            }
+        }
+    }
+
+    /// What is seen through a cone, and what is reached by turning at its ends.
+    fn expand(&mut self, cone: &Cone, bound: f64) {
+        let Cone { root, slice, ahead, seen } = *cone;
+        let x = self.strips.q1(slice);
+        let from = self.roots[root as usize].at;
+        let (near, beyond) = if ahead { (0.0, 1.0) } else { (1.0, 0.0) };
+        let Some(cell) = self.strips.cell(cone.strip(), near, f64::midpoint(seen.lower, seen.upper)) else { return };
+        let below = if seen.tips[0] { self.turn(root, slice, Point::new(x, seen.lower), ahead) } else { None };
+        let above = if seen.tips[1] { self.turn(root, slice, Point::new(x, seen.upper), ahead) } else { None };
+        let hair = [seen.lower, seen.upper].map(|y| HAIR * (1.0 + from.y.abs() + y.abs()));
+        for goals in self.goals(cone.strip(), cell) {
+            // How far they are above the line from the root past a value at the slice.
+            let above_line = |goals: &Segment, at: f64| {
+                let slope = (at - from.y) / (x - from.x);
+                goals.ends().map(|goal| goal[1] - from.y - slope * (goal[0] - from.x))
+            };
+            let (lowest, highest) = (seen.lower - hair[0], seen.upper + hair[1]);
+            let low = above_line(&goals, lowest);
+            let in_sight = goals.where_positive(low[0], low[1]).and_then(|goals| {
+                let [a, b] = above_line(&goals, highest);
+                goals.where_positive(-a, -b)
+            });
+            if let Some(goals) = in_sight {
+                self.push_goal(root, &goals, bound);
+            }
+            let high = above_line(&goals, highest);
+            let by = [below.filter(|_| low.iter().any(|a| *a < 0.0)), above.filter(|_| high.iter().any(|a| *a > 0.0))];
+            for by in by.into_iter().flatten() {
+                self.push_goal(by, &goals, bound);
+            }
+        }
+        let far = cone.far();
+        if self.strips.is_inner(far) {
+            let stretch = (self.strips.q1(far) - from.x) / (x - from.x);
+            let [low, high] = [seen.lower, seen.upper].map(|y| from.y + (y - from.y) * stretch);
+            let [under, over] = hair.map(|hair| hair * stretch);
+            let [bottom, top] = cell.at(beyond);
+            let portals = self.portals(far, [bottom, top]);
+            for portal in &portals {
+                self.push_cone(root, far, ahead, portal, [bottom.max(low - under), top.min(high + over)], bound);
+                if let Some(below) = below.filter(|_| portal.lower < low + under) {
+                    self.push_cone(below, far, ahead, portal, [bottom, top.min(low + under)], bound);
+                }
+                if let Some(above) = above.filter(|_| portal.upper > high - over) {
+                    self.push_cone(above, far, ahead, portal, [bottom.max(high - over), top], bound);
+                }
+            }
+            self.spare.push(portals);
+        }
+        if below.or(above).is_some() {
+            let portals = self.portals(slice, cell.at(near));
+            for (root, is_below) in [(below, true), (above, false)] {
+                if let Some(root) = root {
+                    let beside = portals.iter().filter(|portal| (portal.upper < seen.upper) == is_below);
+                    self.along(root, slice, ahead, beside, bound);
+                }
+            }
+            self.spare.push(portals);
+        }
+    }
+}

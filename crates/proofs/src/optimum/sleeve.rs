@@ -1,0 +1,93 @@
+//! The portals that a way passes, among strips that have been cut since it was found.
+
+use super::strips::{Cell, Strips};
+use cplan_core::space::Portal;
+use cplan_geometry::Point;
+
+/// An interval of joint 2 that is not closed at a slice, as passed with joint 1 growing, `ahead`, or falling.
+fn portal(slice: f64, [lower, upper]: [f64; 2], ahead: bool) -> Portal {
+    let (left, right) = if ahead { (upper, lower) } else { (lower, upper) };
+    Portal { left: Point::new(slice, left), right: Point::new(slice, right) }
+}
+
+impl Strips<'_> {
+    /// The portals that a way passes, in order. At slices that it was not made for they are those of the same cells as the ones
+    /// before, nearest to the way. None where these do not lead to its end.
+    ///
+    /// Where it turns back along a slice, around the end of a wall, the portals follow the wall to where it ends now.
+    pub fn sleeve(&mut self, corners: &[Point]) -> Option<Vec<Portal>> {
+        let goal = *corners.last()?;
+        let (mut at, mut ahead, mut sleeve) = (corners[0], None, Vec::new());
+        for ends in corners.windows(2) {
+            let (from, to) = (ends[0], ends[1]);
+            if from.x == to.x {
+                let onwards = ahead.take()?;
+                at = self.around_end(at, to, onwards, &mut sleeve)?;
+                continue;
+            }
+            let onwards = *ahead.insert(from.x < to.x);
+            loop {
+                let (slice, cell) = self.next(at, onwards)?;
+                let x = self.q1(slice);
+                if x != to.x && (x < to.x) != onwards || x == goal.x && to == goal {
+                    break;
+                }
+                let y = from.y + (to.y - from.y) * ((x - from.x) / (to.x - from.x));
+                let free = self.free_in(slice, y, cell, onwards)?;
+                sleeve.push(portal(x, free, onwards));
+                at = Point::new(x, y.clamp(free[0], free[1]));
+                if x == to.x {
+                    break;
+                }
+            }
+        }
+        let (slice, cell) = self.next(at, ahead?)?;
+        let (from, to) = if ahead? { (slice - 1, slice) } else { (slice, slice + 1) };
+        let [from, to] = [from, to].map(|slice| self.q1(slice));
+        let [lower, upper] = cell.at((goal.x - from) / (to - from));
+        (from <= goal.x && goal.x <= to && lower <= goal.y && goal.y <= upper).then_some(sleeve)
+    }
+
+    /// Portals along both sides of a wall between two places at a slice, as far as it goes; where the way is then. None of a wall that goes all
+    /// round a joint, and so has no end.
+    fn around_end(&mut self, from: Point, to: Point, ahead: bool, sleeve: &mut Vec<Portal>) -> Option<Point> {
+        let slice = self.around(to.x).last().copied().filter(|slice| self.q1(*slice) == to.x && from.x == to.x)?;
+        let mut sides = [from, to];
+        let mut back = vec![portal(to.x, self.free_about(slice, to.y)?, !ahead)];
+        while let [Some(there), Some(beside)] = sides.map(|side| self.next(side, ahead)) {
+            let (slice, x) = (there.0, self.q1(there.0));
+            let [Some(first), Some(second)] = [(sides[0], there.1), (sides[1], beside.1)]
+                .map(|(side, cell)| self.free_in(slice, side.y, cell, ahead))
+            else {
+                break;
+            };
+            if first == second {
+                break;
+            }
+            sleeve.push(portal(x, first, ahead));
+            back.push(portal(x, second, !ahead));
+            let nearest = |y: f64, free: [f64; 2]| Point::new(x, y.clamp(free[0], free[1]));
+            sides = [nearest(sides[0].y, first), nearest(sides[1].y, second)];
+            if back.len() > self.count() {
+                return None;
+            }
+        }
+        sleeve.extend(back.into_iter().rev());
+        Some(to)
+    }
+
+    /// The next slice of a way that goes on from a place, and the cell that it passes until then.
+    fn next(&mut self, from: Point, ahead: bool) -> Option<(i64, Cell)> {
+        let around = self.around(from.x);
+        let strip = *if ahead { around.last() } else { around.first() }?;
+        let ends = [self.q1(strip), self.q1(strip + 1)];
+        let cell = self.cell(strip, (from.x - ends[0]) / (ends[1] - ends[0]), from.y)?;
+        Some((if ahead { strip + 1 } else { strip }, cell))
+    }
+
+    /// What is not closed at the slice by which a way leaves a cell, nearest to a value.
+    fn free_in(&mut self, slice: i64, q2: f64, cell: Cell, ahead: bool) -> Option<[f64; 2]> {
+        let [lower, upper] = cell.at(if ahead { 1.0 } else { 0.0 });
+        self.nearest_free(slice, q2, |portal| lower <= portal.lower && portal.upper <= upper)
+    }
+}

@@ -1,0 +1,323 @@
+//! What is known about all values of joint 2 while joint 1 stays within a short interval, a *slab*.
+//!
+//! At a fixed `q1` the values of `q2` at which a pair meets are known in closed form (contact angles). While joint 1
+//! moves by at most `h` from the middle of the slab, link 2 moves rigidly, and a point of it that touches the obstacle
+//! moves by at most a chord `m` about the base. So where the pair keeps more than `m` apart at the middle, it is free all
+//! over the slab; where a point of it lies more than `m` deep in both shapes, it is stuck all over the slab.
+
+use cplan_core::check::Cell;
+use cplan_core::check::{Deviation, Posture};
+use cplan_core::model::{Carried, Contacts, Pair, Scene, on_axis};
+use cplan_geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
+use cplan_interrupt::checkpoint;
+
+/// Distance by which closed forms are taken to be wrong, metres: twice what they state, so that adding up a few numbers
+/// of the arm's size, and angles to whole turns, is covered as well.
+pub(super) const OUTWARD: f64 = 2.0 * ROUNDING;
+
+/// By how much more than a slab's motion shapes must overlap to count as stuck: the rest is what joint 2 may move by in
+/// the boxes that state the proof (about as far, at the ends of a stuck interval, as joint 1 moves over a quarter of the
+/// slab).
+const OVERLAP: f64 = 1.25;
+
+/// A part of link 2, or what stands still in one of its pairs.
+struct Deep {
+    /// How deep it is, metres.
+    depth: f64,
+    /// The deeper shape of a pair for every width of slab that it was asked for, eroded; none where nothing is left. With the part
+    /// if it is the same for all its pieces.
+    eroded: Vec<Option<Option<Eroded>>>,
+}
+
+impl Deep {
+    fn new(shape: &Convex) -> Self {
+        Self { depth: shape.depth(), eroded: Vec::new() }
+    }
+}
+
+/// A shape of a pair that is nearer to the bone.
+pub(super) enum Eroded {
+    Part(Carried),
+    Piece(Features),
+    /// Neither: the clearance to keep is more than what has to be taken away; by how much.
+    Grown(f64),
+}
+
+impl Eroded {
+    /// Whichever shape is deeper, eroded by `overlap` less `clearance`; none where nothing is left.
+    pub fn new(part: &Carried, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
+        if part.shape().depth() > piece.depth() {
+            Self::part(part, piece, overlap, clearance)
+        } else {
+            Self::piece(piece, overlap, clearance)
+        }
+    }
+
+    fn part(part: &Carried, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
+        let grow = clearance - overlap;
+        let by = lacking(piece) - grow;
+        if by <= 0.0 {
+            return Some(Self::Grown(grow));
+        }
+        part.shape().eroded(by).map(|shape| Self::Part(Carried::new(part.joint_type(), &shape)))
+    }
+
+    fn piece(piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
+        let grow = clearance - overlap;
+        if lacking(piece) <= grow {
+            return Some(Self::Grown(grow));
+        }
+        piece.eroded(-grow).map(|shape| Self::Piece(Features::new(&shape)))
+    }
+
+    /// Values of the joint at which the pair's shapes overlap by at least as much as one of them was eroded by.
+    pub fn hits(
+        &self,
+        part: &Carried,
+        piece: &Features,
+        pivot: Point,
+        heading: Vector,
+        out: &mut Vec<[f64; 2]>,
+    ) -> Hits {
+        match self {
+            Self::Part(eroded) => eroded.hits(pivot, heading, piece, lacking(piece.shape()), out),
+            Self::Piece(eroded) => part.hits(pivot, heading, eroded, 0.0, out),
+            Self::Grown(by) => part.hits(pivot, heading, piece, *by, out),
+        }
+    }
+}
+
+/// By how much a piece has to grow until its radius is none: what is to be kept from it then is to be kept from its core.
+fn lacking(piece: &Convex) -> f64 {
+    (-piece.radius()).max(0.0)
+}
+
+/// Link 2 and all that it can meet, for slabs of joint 1.
+pub(super) struct SecondLink<'a> {
+    contacts: Contacts<'a>,
+    clearance: f64,
+    /// The parts of link 2.
+    parts: Vec<Deep>,
+    /// The pieces of its pairs.
+    pieces: Vec<Deep>,
+    scratch: Vec<[f64; 2]>,
+    near: Vec<u32>,
+}
+
+/// The forbidden values of joint 2 in a slab, within the domain; each list by pair, as numbers of [`Contacts`].
+#[derive(Default)]
+pub(super) struct Verdicts {
+    /// Outside these intervals no pair comes too near anywhere in the slab.
+    pub outer: Vec<[f64; 2]>,
+    /// Within each of these its pair is too near all over the slab.
+    pub inner: Vec<(usize, [f64; 2])>,
+}
+
+impl<'a> SecondLink<'a> {
+    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+        let contacts = Contacts::new(scene);
+        let of_pairs = &scene.pairs()[contacts.second_link_pairs()];
+        let parts = of_pairs
+            .chunk_by(|a, b| (a.link, a.part) == (b.link, b.part))
+            .map(|of_part| Deep::new(scene.part(of_part[0])))
+            .collect();
+        let piece = |pair: &Pair| {
+            checkpoint();
+            Deep::new(scene.piece(*pair))
+        };
+        let pieces = of_pairs.iter().map(piece).collect();
+        Self { contacts, clearance, parts, pieces, scratch: Vec::new(), near: Vec::new() }
+    }
+
+    /// The clearance to keep, metres.
+    pub fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
+    /// The scene, prepared.
+    pub fn contacts(&self) -> &Contacts<'a> {
+        &self.contacts
+    }
+
+    /// What is known in the slab `from <= q1 <= to`, which is no wider than twice `half`, the half width of all slabs of
+    /// this `level`.
+    pub fn judge(&mut self, from: f64, to: f64, level: usize, half: f64, verdicts: &mut Verdicts) {
+        checkpoint();
+        verdicts.outer.clear();
+        verdicts.inner.clear();
+        let middle = (from + to) / 2.0;
+        let width = (to - middle).max(middle - from);
+        let (elbow, heading) = self.contacts.elbow(middle);
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let mut near = std::mem::take(&mut self.near);
+        for part in self.contacts.second_link_parts() {
+            let far = self.clearance + self.contacts.motion_of(part, width) + 2.0 * OUTWARD;
+            self.contacts.near(part, elbow, far, &mut near);
+            let overlap = self.contacts.motion_of(part, half) * OVERLAP + OUTWARD;
+            for &index in &near {
+                let index = index as usize;
+                let grow = self.clearance + self.contacts.motion(index, width, self.clearance) + OUTWARD;
+                scratch.clear();
+                let hits = self.contacts.at_elbow(index, elbow, heading, grow, &mut scratch);
+                if hits == Hits::Never {
+                    continue;
+                }
+                let joint = &self.contacts.scene().arm().joints[1];
+                on_axis(joint, hits, &scratch, |interval| verdicts.outer.push(interval));
+                scratch.clear();
+                let frame = self.contacts.frame(index, (elbow, heading));
+                let hits = self.stuck(index, level, overlap, frame, &mut scratch);
+                on_axis(joint, hits, &scratch, |interval| {
+                    if interval[0] < interval[1] {
+                        verdicts.inner.push((index, interval));
+                    }
+                });
+            }
+        }
+        (self.scratch, self.near) = (scratch, near);
+    }
+
+    /// Values of joint 2 at which the shapes of a pair overlap by more than `overlap` less the clearance; `overlap` depends on
+    /// the part and the level alone.
+    fn stuck(
+        &mut self,
+        index: usize,
+        level: usize,
+        overlap: f64,
+        (elbow, heading): (Point, Vector),
+        out: &mut Vec<[f64; 2]>,
+    ) -> Hits {
+        let (moving, standing) = (self.contacts.moving(index), self.contacts.standing(index));
+        let (clearance, shape) = (self.clearance, standing.shape());
+        let part = &mut self.parts[self.contacts.part_of(index) - self.contacts.second_link_parts().start];
+        let piece = &mut self.pieces[index - self.contacts.second_link_pairs().start];
+        let of_part = part.depth > piece.depth;
+        // What is to be kept from all pieces is the part's own.
+        let shared = of_part && lacking(shape) == 0.0;
+        let known = if shared { &mut part.eroded } else { &mut piece.eroded };
+        if known.len() <= level {
+            known.resize_with(level + 1, || None);
+        }
+        let eroded = known[level].get_or_insert_with(|| match of_part {
+            true => Eroded::part(moving, shape, overlap, clearance),
+            false => Eroded::piece(shape, overlap, clearance),
+        });
+        match eroded {
+            None => Hits::Never,
+            Some(eroded) => eroded.hits(moving, standing, elbow, heading, out),
+        }
+    }
+}
+
+/// Whether the pair is too near all over the box, by the bounds that boxes are judged by.
+pub(super) fn is_stuck(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -> bool {
+    Posture::new(scene, cell.center()).greatest(pair, Deviation::Box(cell.half())) < clearance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tiles::tile;
+    use super::*;
+    use cplan_core::model::{
+        Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace,
+    };
+    use cplan_core::space::Configuration;
+    use cplan_core::space::JointRange;
+    use cplan_geometry::hull;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    fn shape(spread: f64) -> impl Strategy<Value = Convex> {
+        let points = prop::collection::vec((-spread..spread, -spread..spread), 1..6);
+        (points, prop_oneof![Just(0.0), 0.0..0.2f64]).prop_map(|(points, radius)| {
+            let points: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y)).collect();
+            Convex::trusted(hull(&points), radius)
+        })
+    }
+
+    fn joint(turns: bool, range: JointRange) -> Joint {
+        let motion = if turns {
+            JointType::Revolute { sign: -1.0 }
+        } else {
+            JointType::Prismatic { direction: Vector::new(0.6, 0.8) }
+        };
+        Joint { name: "joint".into(), joint_type: motion, range, velocity: 1.0, acceleration: 1.0, jerk: None }
+    }
+
+    fn scene(kinds: (bool, bool), offset: Vector, part: Convex, piece: Convex) -> Scene {
+        let long = JointRange::Interval { lower: -4.0, upper: 4.0 };
+        let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
+        let part =
+            Part { shape: part, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: "body".into() };
+        let arm = Arm {
+            name: "arm".into(),
+            joints: [joint(kinds.0, long), joint(kinds.1, if kinds.1 { JointRange::Circle } else { long })],
+            links: [link(vec![]), link(vec![part])],
+            base: Point::new(0.1, -0.2),
+            offset,
+            tip: Point::origin(),
+            tip_name: "tip".into(),
+            plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+            dynamics: None,
+            self_obstacles: Vec::new(),
+        };
+        let shape = Shape::Polygon(piece.core().to_vec());
+        let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
+        Scene::trusted(
+            arm,
+            Workspace {
+                name: "w".into(),
+                obstacles: vec![obstacle],
+                clearance: 0.0,
+                preferences: Vec::new(),
+                movers: Vec::new(),
+            },
+        )
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(600))]
+
+        /// The oracle is the distance of the shapes at sampled configurations, which knows no contact angles.
+        #[test]
+        fn what_is_said_of_a_slab_holds_all_over_it(
+            kinds in (any::<bool>(), any::<bool>()), offset in (-1.0..1.0f64, -1.0..1.0f64),
+            part in shape(0.8), piece in shape(0.6), at in (-1.2..1.2f64, -1.2..1.2f64),
+            middle in -3.0..3.0f64, half in prop_oneof![0.001..0.02f64, 0.02..0.3f64],
+            clearance in prop_oneof![Just(0.0), 0.0..0.2f64],
+            samples in prop::collection::vec((-1.0..=1.0f64, 0.0..=1.0f64), 40),
+        ) {
+            let moved = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
+            let scene = scene(kinds, Vector::new(offset.0, offset.1), part, Convex::trusted(moved, piece.radius()));
+            let mut second = SecondLink::new(&scene, clearance);
+            let mut verdicts = Verdicts::default();
+            let (from, to) = (middle - half, middle + half);
+            second.judge(from, to, 0, half * (1.0 + 1e-6), &mut verdicts);
+            let Verdicts { mut outer, inner } = verdicts;
+            cplan_geometry::merge_in_place(&mut outer);
+            let (bottom, top) = scene.arm().joints[1].range.domain();
+            for (u, v) in samples {
+                let q1 = (middle + u * half).clamp(from, to);
+                let q2 = bottom + v * (top - bottom);
+                if !outer.iter().any(|i| i[0] <= q2 && q2 <= i[1]) {
+                    let distance = scene.clearance(Configuration::new(q1, q2));
+                    prop_assert!(distance > 0.0 && distance >= clearance, "{distance} at {q1} {q2}");
+                }
+                for (_, [lower, upper]) in &inner {
+                    prop_assert!(outer.iter().any(|i| i[0] <= *lower && *upper <= i[1]));
+                    let distance = scene.clearance(Configuration::new(q1, lower + v * (upper - lower)));
+                    prop_assert!(distance < clearance.max(0.0) || distance < 0.0, "{distance}");
+                }
+            }
+            // The boxes that state it say neither more nor less.
+            for &(pair, interval) in &inner {
+                let mut boxes = Vec::new();
+                let pair = scene.pairs()[pair];
+                prop_assert!(tile(&scene, clearance, [from, to], pair, interval, &mut boxes), "{interval:?}");
+                boxes.sort_by(|a, b| a.cell.lower[1].total_cmp(&b.cell.lower[1]));
+                prop_assert!(boxes.windows(2).all(|w| w[0].cell.upper[1] == w[1].cell.lower[1]));
+                prop_assert_eq!([boxes[0].cell.lower[1], boxes[boxes.len() - 1].cell.upper[1]], interval);
+            }
+        }
+    }
+}

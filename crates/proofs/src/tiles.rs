@@ -1,0 +1,100 @@
+//! What slabs find stuck, as few boxes.
+//!
+//! A stuck interval of a slab is cut into boxes as high as the overlap of its shapes allows: towards its ends lower and lower ones,
+//! some dozens. Slabs that are narrow for the sake of one place would all do that wherever else they are stuck. So slabs side by side
+//! share boxes: a rectangle of slabs and values of joint 2 that is not stuck all over is halved, across the joint that moves the
+//! shapes more.
+
+use super::slab::is_stuck;
+use cplan_core::check::{Cell, Deviation, Posture, StuckBox};
+use cplan_core::model::{Pair, Scene};
+use cplan_interrupt::checkpoint;
+
+/// Boxes into which a stuck interval of a slab is cut at most: shallow ends need boxes about as high as the slab is wide.
+const MOST_TILES: usize = 4096;
+
+/// A slab `from <= q1 <= to`, and where it is stuck: which pair, and from which value of joint 2 to which.
+pub(super) struct Stuck {
+    pub from: f64,
+    pub to: f64,
+    pub by: Vec<(Pair, [f64; 2])>,
+}
+
+/// Boxes over all that is stuck in slabs side by side, within the range of joint 2. Whether the bounds that boxes are judged by see
+/// it, and no more than `most` boxes are there then.
+pub(super) fn lay(
+    scene: &Scene,
+    clearance: f64,
+    slabs: &[Stuck],
+    range: [f64; 2],
+    most: usize,
+    boxes: &mut Vec<StuckBox>,
+) -> bool {
+    let mut open = vec![(slabs, range)];
+    while let Some((slabs, [lower, upper])) = open.pop() {
+        checkpoint();
+        let [first, .., last] = slabs else {
+            for slab in slabs {
+                for &(pair, [from, to]) in &slab.by {
+                    let (part, across) = ([from.max(lower), to.min(upper)], [slab.from, slab.to]);
+                    if part[0] < part[1] && !tile(scene, clearance, across, pair, part, boxes) || boxes.len() > most {
+                        return false;
+                    }
+                }
+            }
+            continue;
+        };
+        let parts = slabs.iter().flat_map(|slab| &slab.by);
+        let parts = parts.map(|&(pair, [from, to])| (pair, to.min(upper) - from.max(lower)));
+        let Some((pair, height)) = parts.filter(|part| part.1 > 0.0).max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            continue;
+        };
+        let cell = Cell { lower: [first.from, lower], upper: [last.to, upper] };
+        if height == upper - lower && is_stuck(scene, pair, &cell, clearance) {
+            boxes.push(StuckBox { cell, pair });
+            continue;
+        }
+        let (posture, half) = (Posture::new(scene, cell.center()), cell.half());
+        let [along, across] =
+            [[half[0], 0.0], [0.0, half[1]]].map(|half| posture.farthest_motion(pair, Deviation::Box(half)));
+        let middle = lower.midpoint(upper);
+        if across > along && lower < middle && middle < upper {
+            open.extend([(slabs, [middle, upper]), (slabs, [lower, middle])]);
+        } else {
+            let middle = first.from.midpoint(last.to);
+            let at = slabs.partition_point(|slab| slab.to <= middle).clamp(1, slabs.len() - 1);
+            let (before, after) = slabs.split_at(at);
+            open.extend([(after, [lower, upper]), (before, [lower, upper])]);
+        }
+    }
+    true
+}
+
+/// Boxes that state that a pair is stuck for `q2` in `interval`, all over the slab `from <= q1 <= to`. Whether the bounds that boxes
+/// are judged by see it.
+pub(super) fn tile(
+    scene: &Scene,
+    clearance: f64,
+    [from, to]: [f64; 2],
+    pair: Pair,
+    interval: [f64; 2],
+    boxes: &mut Vec<StuckBox>,
+) -> bool {
+    let begin = boxes.len();
+    let mut open = vec![interval];
+    while let Some([lower, upper]) = open.pop() {
+        checkpoint();
+        let cell = Cell { lower: [from, lower], upper: [to, upper] };
+        if is_stuck(scene, pair, &cell, clearance) {
+            boxes.push(StuckBox { cell, pair });
+            continue;
+        }
+        let middle = (lower + upper) / 2.0;
+        if open.len() + boxes.len() - begin > MOST_TILES || middle <= lower || middle >= upper {
+            return false;
+        }
+        open.push([middle, upper]);
+        open.push([lower, middle]);
+    }
+    true
+}
