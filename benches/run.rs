@@ -1,5 +1,6 @@
 //! The whole run in one process: from the files of an arm with five obstacles to the file of a certified trajectory.
 
+use cplan::PlanOutput as _;
 use cplan::engine::Method;
 use cplan::{Options, Problem, Status, plan};
 use criterion::{Criterion, criterion_group, criterion_main};

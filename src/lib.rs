@@ -42,8 +42,6 @@
 //! input gives the same output, byte for byte, but for times taken, where they are asked for.
 #![forbid(unsafe_code)]
 
-pub mod input;
-pub mod engine;
 pub mod explore;
 pub mod draw;
 pub mod report;
@@ -63,6 +61,7 @@ mod serve;
 #[cfg(feature = "program")]
 pub mod cli;
 pub use cplan_core::{cspace, model, space};
+pub use cplan_engine as engine;
 pub use cplan_geometry as geometry;
 pub use cplan_interrupt as interrupt;
 pub use cplan_motion as motion;
@@ -70,11 +69,13 @@ pub use cplan_motion as motion;
 use cplan_parallel as parallel;
 pub use cplan_proofs as search;
 use cplan_text as text;
+pub use cplan_world as input;
 pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
 pub use geometry::Point;
 pub use input::InputError;
 pub use model::{Arm, Joint, Link, Obstacle, Outcome, Status, Workspace};
 pub use nalgebra;
+pub use output::PlanOutput;
 pub use space::Configuration;
 
 /// The judge of paths, proofs, bounds and recorded motions.

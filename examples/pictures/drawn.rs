@@ -1,5 +1,6 @@
 //! What the pictures of the documentation show. `tests/program/pictures.rs` draws them, too.
 
+use cplan::PlanOutput as _;
 use cplan::engine::Method;
 use cplan::{Options, Plan, Problem, plan};
 use std::error::Error;

@@ -7,6 +7,7 @@
 
 mod drawn;
 
+use cplan::PlanOutput as _;
 use cplan::motion::write_whole;
 use std::error::Error;
 use std::path::Path;

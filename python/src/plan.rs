@@ -1,5 +1,6 @@
 //! The answer to a problem.
 
+use cplan::PlanOutput as _;
 use crate::error::refused;
 use crate::geometry::array;
 use crate::problem::{Options, Problem, noted};

@@ -11,6 +11,7 @@ use crate::engine::task::Impossible;
 use crate::engine::{Options, Plan, Problem, TaskPlan, plan};
 use crate::input::{self, DiagnosticKind, LoadedScene, Overrides, Query};
 use crate::model::Status;
+use crate::output::PlanOutput as _;
 use crate::output::explained;
 use crate::space::{GoalSet, Segment};
 use clap::{Args, ValueHint};

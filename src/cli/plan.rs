@@ -9,6 +9,7 @@ use crate::engine::{Options, Plan, Problem, plan_with};
 use crate::input::{self, Digests, InputError, JointValues, LoadedScene, Overrides};
 use crate::model::{MotionProblem, Status};
 use crate::motion::write_whole;
+use crate::output::{PlanOutput as _, summary_with};
 use crate::space::Configuration;
 use std::path::Path;
 use std::time::Instant;
@@ -71,7 +72,7 @@ pub fn answer(
         Status::Infeasible => INFEASIBLE,
         Status::Unknown => UNKNOWN,
     };
-    args.print.tell(code, || Ok(plan.to_json()), || plan.summary_with(&written, &after, args.verbose))?;
+    args.print.tell(code, || Ok(plan.to_json()), || summary_with(&plan, &written, &after, args.verbose))?;
     Ok(code)
 }
 

@@ -5,6 +5,7 @@ use super::sinks::{self, Sink};
 use crate::engine::Plan;
 use crate::motion::{Format, check_writable, write_whole_set};
 use crate::output::FileFormat;
+use crate::output::PlanOutput as _;
 use std::path::{Path, PathBuf};
 
 /// Digits of a step's number in file names, at least: so that names sort as the steps follow.

@@ -4,6 +4,7 @@ use super::options::Options;
 use crate::engine::{Problem, plan};
 use crate::input::{LoadedScene, Overrides};
 use crate::output::FileFormat;
+use crate::output::PlanOutput as _;
 use std::path::Path;
 
 /// The file's content.

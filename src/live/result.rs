@@ -7,6 +7,7 @@ use crate::draw::{Picture, View};
 use crate::engine::{MotionPlan, Options, Problem, Verdict, plan};
 use crate::model::{Scene, Status};
 use crate::output;
+use crate::output::{replayed, view_with};
 use crate::space::{Configuration, Segment};
 use serde_json::value::RawValue;
 
@@ -77,8 +78,8 @@ fn drawn(view: &View) -> Option<Box<RawValue>> {
 pub fn in_full(problem: &Problem, options: &Options, contours: &Contours, think: bool) -> Result<AnswerReply, String> {
     let plan = plan(problem, options).map_err(|error| error.to_string())?;
     let report = plan.report();
-    let view = plan.view_with(|scene| contours.of(scene));
-    let view = if think { plan.replayed(view) } else { view };
+    let view = view_with(&plan, |scene| contours.of(scene));
+    let view = if think { replayed(&plan, view) } else { view };
     let figures = if let Some(MotionPlan { answer, .. }) = plan.motion() {
         Figures {
             length: answer.bound.map(|bound| bound.upper).or(report.length),

@@ -1,7 +1,11 @@
 //! Files of a plan.
 
 use super::cspace::CSpaceFormat;
+#[cfg(feature = "mcap")]
+use super::cspace::cspaces;
 use super::picture::{PictureFormat, PictureFormatError};
+use super::picture::{view, view_with_replay};
+use super::stage::stage;
 use crate::draw::DrawError;
 use crate::engine::Plan;
 use crate::motion::{Format, FormatError, WriteError, write_whole};
@@ -28,7 +32,7 @@ pub enum SaveError {
     /// The extension tells no format.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// The picture cannot be made.
+    /// The picture cannot be plan.
     #[error(transparent)]
     Draw(#[from] DrawError),
     /// The file cannot be written.
@@ -60,34 +64,29 @@ impl FileFormat {
     }
 }
 
-impl Plan {
-    /// The plan as a file of this format holds it; none if the format holds nothing but a trajectory and there is none. All but
-    /// MCAP, PNG and GIF are text in UTF-8.
-    ///
-    /// # Errors
-    /// A picture that cannot be made of pixels.
-    pub fn bytes(&self, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
-        match format {
-            #[cfg(feature = "mcap")]
-            FileFormat::Result(Format::Mcap) => {
-                Ok(self.stage().and_then(|stage| self.report().recording(Some(&stage))))
-            }
-            FileFormat::Result(format) => Ok(self.report().bytes(format)),
-            FileFormat::CSpace(format) => Ok(Some(format.text(&self.cspaces()).into_bytes())),
-            FileFormat::Picture(format) if format.plays() => format.bytes(&self.view_with_replay()).map(Some),
-            FileFormat::Picture(format) => format.bytes(&self.view()).map(Some),
-        }
+/// The plan as a file of this format holds it; none if the format holds nothing but a trajectory and there is none. All but
+/// MCAP, PNG and GIF are text in UTF-8.
+///
+/// # Errors
+/// A picture that cannot be plan of pixels.
+pub fn bytes(plan: &Plan, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
+    match format {
+        #[cfg(feature = "mcap")]
+        FileFormat::Result(Format::Mcap) => Ok(stage(plan).and_then(|stage| plan.report().recording(Some(&stage)))),
+        FileFormat::Result(format) => Ok(plan.report().bytes(format)),
+        FileFormat::CSpace(format) => Ok(Some(format.text(&cspaces(plan)).into_bytes())),
+        FileFormat::Picture(format) if format.plays() => format.bytes(&view_with_replay(plan)).map(Some),
+        FileFormat::Picture(format) => format.bytes(&view(plan)).map(Some),
     }
+}
 
-    /// Writes the plan into a file, whole or not at all; the extension says what it holds, see [`FileFormat::from_path`].
-    ///
-    /// # Errors
-    /// An extension that is none of ours, a trajectory that is not there, a picture that cannot be made, I/O.
-    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
-        let path = path.as_ref();
-        let Some(bytes) = self.bytes(FileFormat::from_path(path)?)? else {
-            return Err(SaveError::Empty { file: path.display().to_string() });
-        };
-        Ok(write_whole(path, &bytes)?)
-    }
+/// Writes the plan into a file, whole or not at all; the extension says what it holds, see [`FileFormat::from_path`].
+///
+/// # Errors
+/// An extension that is none of ours, a trajectory that is not there, a picture that cannot be plan, I/O.
+pub fn save(plan: &Plan, path: &Path) -> Result<(), SaveError> {
+    let Some(contents) = bytes(plan, FileFormat::from_path(path)?)? else {
+        return Err(SaveError::Empty { file: path.display().to_string() });
+    };
+    Ok(write_whole(path, &contents)?)
 }

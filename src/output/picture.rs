@@ -1,5 +1,6 @@
 //! Pictures and pages of a plan.
 
+use super::summary::facts;
 use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, DrawError, Moments, Picture, TaskPicture, View};
 use crate::engine::{Kind, MotionPlan, Plan, TaskPlan, Verdict};
@@ -89,7 +90,7 @@ impl PictureFormat {
     /// The file's content.
     ///
     /// # Errors
-    /// A picture that cannot be made of pixels.
+    /// A picture that cannot be plan of pixels.
     pub fn bytes(self, view: &View) -> Result<Vec<u8>, DrawError> {
         self.bytes_with(view, &mut |_, _| ())
     }
@@ -110,7 +111,7 @@ impl PictureFormat {
     /// The same of anything that can be an SVG document and a page; as a GIF it is a single picture.
     ///
     /// # Errors
-    /// A picture that cannot be made of pixels.
+    /// A picture that cannot be plan of pixels.
     pub fn bytes_of(self, svg: impl FnOnce() -> String, page: impl FnOnce() -> String) -> Result<Vec<u8>, DrawError> {
         Ok(match self {
             Self::Svg => svg().into_bytes(),
@@ -123,98 +124,84 @@ impl PictureFormat {
     }
 }
 
-impl Plan {
-    /// What pictures and pages of it show.
-    #[must_use]
-    pub fn view(&self) -> View {
-        self.view_with(contours)
-    }
+/// What pictures and pages of it show.
+#[must_use]
+pub fn view(plan: &Plan) -> View {
+    view_with(plan, contours)
+}
 
-    /// The same with how the planner came to its answer, for pictures and pages that play.
-    #[must_use]
-    pub fn view_with_replay(&self) -> View {
-        self.replayed(self.view())
-    }
+/// The same with how the planner came to its answer, for pictures and pages that play.
+#[must_use]
+pub fn view_with_replay(plan: &Plan) -> View {
+    replayed(plan, view(plan))
+}
 
-    /// A view of it with how the planner came to its answer.
-    pub(crate) fn replayed(&self, view: View) -> View {
-        let view = if let Some(replay) = self.replay() { view.with_replay(&replay) } else { view };
-        if let Some(replay) = self.task_replay() { view.with_task_replay(&replay) } else { view }
-    }
+/// A view of it with how the planner came to its answer.
+pub fn replayed(plan: &Plan, view: View) -> View {
+    let view = if let Some(replay) = plan.replay() { view.with_replay(&replay) } else { view };
+    if let Some(replay) = plan.task_replay() { view.with_task_replay(&replay) } else { view }
+}
 
-    /// Workspace and configuration space side by side, as an SVG document; of a task also its steps.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        draw::svg(&self.view())
+/// The same where somebody knows the contours of the C-obstacles of single motions.
+#[must_use]
+pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -> View {
+    match plan.made() {
+        Kind::Motion(made) => motion_view(plan, made, &contours(made.problem.scene())),
+        Kind::Task(made) => View::of_task(&task_picture(plan, made)),
     }
+}
 
-    /// A page that stands by itself, in which the motion is played and the arm can be moved.
-    #[must_use]
-    pub fn html(&self) -> String {
-        draw::page(&self.view_with_replay())
-    }
-
-    /// The same where somebody knows the contours of the C-obstacles of single motions.
-    #[must_use]
-    pub(crate) fn view_with(&self, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -> View {
-        match self.made() {
-            Kind::Motion(plan) => self.motion_view(plan, &contours(plan.problem.scene())),
-            Kind::Task(plan) => View::of_task(&self.task_picture(plan)),
+fn motion_view(plan: &Plan, made: &MotionPlan, contours: &[CObstacle]) -> View {
+    let (MotionPlan { problem, answer, curve, .. }, report) = (made, plan.report());
+    let scene = problem.scene();
+    let moments =
+        report.duration.map_or_else(Vec::new, |duration| contours_in_time(scene, [0.0, duration], MOST_MOMENTS));
+    let outline = curve.as_ref().map(|curve| curve.outline());
+    let detail = match (report.length, &answer.verdict) {
+        (Some(length), _) => format!("{}: length {length:.4}, {}", answer.method, kept(report.clearance)),
+        (None, Verdict::Infeasible(_)) => {
+            let proven = answer.verdict.reason().unwrap_or_default();
+            format!("{}: there is no path; {proven}", answer.method)
         }
-    }
+        (None, _) => answer.method.to_string(),
+    };
+    View::of_picture(&Picture {
+        title: vec![title_of(scene), detail],
+        status: status(&answer.verdict).into(),
+        ending: Some(plan.status()),
+        facts: facts(plan),
+        goals: problem.goals().pieces(),
+        paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
+        trajectory: report.trajectory.as_ref(),
+        trace: Some(&answer.drawn()),
+        proof: answer.verdict.proof(),
+        c_obstacles: contours,
+        moments: &moments,
+        ..Picture::new(scene, problem.start())
+    })
+}
 
-    fn motion_view(&self, plan: &MotionPlan, contours: &[CObstacle]) -> View {
-        let (MotionPlan { problem, answer, curve, .. }, report) = (plan, self.report());
-        let scene = problem.scene();
-        let moments =
-            report.duration.map_or_else(Vec::new, |duration| contours_in_time(scene, [0.0, duration], MOST_MOMENTS));
-        let outline = curve.as_ref().map(|curve| curve.outline());
-        let detail = match (report.length, &answer.verdict) {
-            (Some(length), _) => format!("{}: length {length:.4}, {}", answer.method, kept(report.clearance)),
-            (None, Verdict::Infeasible(_)) => {
-                let proven = answer.verdict.reason().unwrap_or_default();
-                format!("{}: there is no path; {proven}", answer.method)
-            }
-            (None, _) => answer.method.to_string(),
-        };
-        View::of_picture(&Picture {
-            title: vec![title_of(scene), detail],
-            status: status(&answer.verdict).into(),
-            ending: Some(self.status()),
-            facts: self.facts(),
-            goals: problem.goals().pieces(),
-            paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
-            trajectory: report.trajectory.as_ref(),
-            trace: Some(&answer.drawn()),
-            proof: answer.verdict.proof(),
-            c_obstacles: contours,
-            moments: &moments,
-            ..Picture::new(scene, problem.start())
-        })
-    }
-
-    /// What a picture of a task shows.
-    fn task_picture<'a>(&'a self, plan: &'a TaskPlan) -> TaskPicture<'a> {
-        let (TaskPlan { task, answer }, report) = (plan, self.report());
-        let steps = counted(answer.legs.len(), "step");
-        let (status, detail) = match (answer.verdict.status(), report.clearance) {
-            (Status::Found, clearance) => {
-                let (planner, seconds) = (&report.planner, answer.duration());
-                ("done, certified", format!("{planner}: {steps} in {seconds:.3} s, {}", kept(clearance)))
-            }
-            (Status::Infeasible, _) => ("proven", format!("{}: {steps} before it", report.planner)),
-            (Status::Unknown, _) => ("unknown", format!("{}: {steps} before it", report.planner)),
-        };
-        TaskPicture {
-            title: vec![title_of(self.problem().scene()), detail],
-            status: status.into(),
-            ending: Some(self.status()),
-            facts: self.facts(),
-            task,
-            answer,
-            c_obstacles: contours,
-            in_time: contours_in_time,
+/// What a picture of a task shows.
+fn task_picture<'a>(plan: &'a Plan, made: &'a TaskPlan) -> TaskPicture<'a> {
+    let (TaskPlan { task, answer }, report) = (made, plan.report());
+    let steps = counted(answer.legs.len(), "step");
+    let (status, detail) = match (answer.verdict.status(), report.clearance) {
+        (Status::Found, clearance) => {
+            let (planner, seconds) = (&report.planner, answer.duration());
+            ("done, certified", format!("{planner}: {steps} in {seconds:.3} s, {}", kept(clearance)))
         }
+        (Status::Infeasible, _) => ("proven", format!("{}: {steps} before it", report.planner)),
+        (Status::Unknown, _) => ("unknown", format!("{}: {steps} before it", report.planner)),
+    };
+    TaskPicture {
+        title: vec![title_of(plan.problem().scene()), detail],
+        status: status.into(),
+        ending: Some(plan.status()),
+        facts: facts(plan),
+        task,
+        answer,
+        c_obstacles: contours,
+        in_time: contours_in_time,
     }
 }
 

@@ -12,44 +12,42 @@ use crate::space::Configuration;
 const LINKS: usize = 1;
 const OBJECTS: usize = 3;
 
-impl Plan {
-    /// What there is to see while the motion runs; none where there is no motion.
-    pub(super) fn stage(&self) -> Option<Stage> {
-        let (arm, report) = (self.arm(), self.report());
-        let trajectory = report.trajectory.as_ref()?;
-        let obstacles = match self.made() {
-            Kind::Motion(plan) => &plan.problem.scene().workspace().obstacles,
-            Kind::Task(plan) => &plan.task.workspace.obstacles,
+/// What there is to see while the motion runs; none where there is no motion.
+pub(super) fn stage(plan: &Plan) -> Option<Stage> {
+    let (arm, report) = (plan.arm(), plan.report());
+    let trajectory = report.trajectory.as_ref()?;
+    let obstacles = match plan.made() {
+        Kind::Motion(made) => &made.problem.scene().workspace().obstacles,
+        Kind::Task(made) => &made.task.workspace.obstacles,
+    };
+    let mut stage = Stage {
+        plane: arm.plane,
+        bodies: vec![Body { name: "workspace".into(), solids: obstacles.iter().enumerate().map(lying).collect() }],
+        poses: vec![(0.0, 0, Pose::identity(), 0.0)],
+        size: arm.reach(),
+    };
+    for (number, link) in arm.links.iter().enumerate() {
+        // A payload is a body of its own.
+        let parts = match plan.made() {
+            Kind::Motion(made) => made.problem.scene().own_parts(number),
+            Kind::Task(_) => &link.parts,
         };
-        let mut stage = Stage {
-            plane: arm.plane,
-            bodies: vec![Body { name: "workspace".into(), solids: obstacles.iter().enumerate().map(lying).collect() }],
-            poses: vec![(0.0, 0, Pose::identity(), 0.0)],
-            size: arm.reach(),
-        };
-        for (number, link) in arm.links.iter().enumerate() {
-            // A payload is a body of its own.
-            let parts = match self.made() {
-                Kind::Motion(plan) => plan.problem.scene().own_parts(number),
-                Kind::Task(_) => &link.parts,
-            };
-            stage.bodies.push(of_link(&link.name, parts));
-        }
-        for (&time, &q) in trajectory.time.iter().zip(&trajectory.position) {
-            let poses = arm.poses(q.into());
-            let moved = poses.into_iter().enumerate().map(|(link, pose)| (time, LINKS + link, pose, 0.0));
-            stage.poses.extend(moved);
-        }
-        match self.made() {
-            Kind::Motion(plan) => with_movers(&mut stage, plan.problem.scene().workspace(), &trajectory.time),
-            Kind::Task(plan) => {
-                with_objects(&mut stage, arm, plan, &trajectory.time);
-                with_movers(&mut stage, &plan.task.workspace, &trajectory.time);
-            }
-        }
-        stage.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Some(stage)
+        stage.bodies.push(of_link(&link.name, parts));
     }
+    for (&time, &q) in trajectory.time.iter().zip(&trajectory.position) {
+        let poses = arm.poses(q.into());
+        let moved = poses.into_iter().enumerate().map(|(link, pose)| (time, LINKS + link, pose, 0.0));
+        stage.poses.extend(moved);
+    }
+    match plan.made() {
+        Kind::Motion(made) => with_movers(&mut stage, made.problem.scene().workspace(), &trajectory.time),
+        Kind::Task(made) => {
+            with_objects(&mut stage, arm, made, &trajectory.time);
+            with_movers(&mut stage, &made.task.workspace, &trajectory.time);
+        }
+    }
+    stage.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Some(stage)
 }
 
 /// What moves, at each of these times.

@@ -41,51 +41,37 @@ pub fn range(joint: &Joint) -> String {
     }
 }
 
-impl Plan {
-    /// What was found, in some ten lines for people, the verdict first; of a task a line a step.
-    #[must_use]
-    pub fn summary(&self) -> String {
-        self.summary_with(&[], &[], false)
+/// The result in some ten lines for people, the verdict first, with the files that were written and the stages, in milliseconds, that came after planning; and, if that is asked
+/// for, how the robot was read.
+#[must_use]
+pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
+    let Told { found: mut lines, asked } = told(plan);
+    if let Some(blocked) = plan.made().motion().and_then(|made| motion_summary::blocked_by(made)) {
+        lines.insert(1, blocked);
     }
+    lines.extend(files.iter().map(|file| ("file", file.clone())));
+    let stages = plan.timings().iter().chain(after);
+    let stages: Vec<String> = stages.map(|(name, time)| format!("{name} {:.1}", time.as_secs_f64() * 1e3)).collect();
+    lines.push(("time", format!("{} ms", stages.join(", "))));
+    lines.extend(asked);
+    lines.extend(arm_lines(plan.arm()));
+    let robot = plan.problem().robot();
+    let geometry = robot.geometry.iter().filter(|_| is_verbose);
+    lines.extend(geometry.map(|fact| ("robot", fact.clone())));
+    lines.extend(robot.notes.iter().chain(plan.problem().notes()).map(|note| ("note", note.clone())));
+    laid_out(&lines)
+}
 
-    /// The same with the files that were written and the stages, in milliseconds, that came after planning; and, if that is asked
-    /// for, how the robot was read.
-    #[must_use]
-    pub(crate) fn summary_with(
-        &self,
-        files: &[String],
-        after: &[(&'static str, Duration)],
-        is_verbose: bool,
-    ) -> String {
-        let Told { found: mut lines, asked } = self.told();
-        if let Some(blocked) = self.made().motion().and_then(|plan| motion_summary::blocked_by(plan)) {
-            lines.insert(1, blocked);
-        }
-        lines.extend(files.iter().map(|file| ("file", file.clone())));
-        let stages = self.timings().iter().chain(after);
-        let stages: Vec<String> =
-            stages.map(|(name, time)| format!("{name} {:.1}", time.as_secs_f64() * 1e3)).collect();
-        lines.push(("time", format!("{} ms", stages.join(", "))));
-        lines.extend(asked);
-        lines.extend(arm_lines(self.arm()));
-        let robot = self.problem().robot();
-        let geometry = robot.geometry.iter().filter(|_| is_verbose);
-        lines.extend(geometry.map(|fact| ("robot", fact.clone())));
-        lines.extend(robot.notes.iter().chain(self.problem().notes()).map(|note| ("note", note.clone())));
-        laid_out(&lines)
-    }
+/// What a page says of it: outcome and arm.
+pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
+    let lines = told(plan).found.into_iter().chain(arm_lines(plan.arm()));
+    lines.map(|(key, text)| [key.to_owned(), text]).collect()
+}
 
-    /// What a page says of it: outcome and arm.
-    pub(super) fn facts(&self) -> Vec<[String; 2]> {
-        let lines = self.told().found.into_iter().chain(arm_lines(self.arm()));
-        lines.map(|(key, text)| [key.to_owned(), text]).collect()
-    }
-
-    fn told(&self) -> Told {
-        match self.made() {
-            Kind::Motion(plan) => motion_summary::told(self, plan),
-            Kind::Task(plan) => task_summary::told(self, plan),
-        }
+fn told(plan: &Plan) -> Told {
+    match plan.made() {
+        Kind::Motion(made) => motion_summary::told(plan, made),
+        Kind::Task(made) => task_summary::told(plan, made),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Study;
 use super::row::{Ending, Row};
 use super::summary::Summary;
+use crate::output::PlanOutput as _;
 use crate::report::Picture;
 
 /// The best and the worst layout, and the first of those that are infeasible and unknown.

@@ -1,5 +1,6 @@
 //! The library's front door: what `plan` gives is what the program writes, byte for byte.
 
+use cplan::PlanOutput as _;
 use crate::cli::Place;
 use cplan::engine::{CellCounts, Method};
 use cplan::geometry::{Convex, SimplePolygon, penetration_depth, polygon_test};

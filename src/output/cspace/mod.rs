@@ -198,23 +198,21 @@ pub fn cspace_schema() -> serde_json::Value {
     schema
 }
 
-impl Plan {
-    /// What its planner has to show in the configuration space, as data. C-obstacles are traced anew, which takes the time
-    /// that it takes for a picture.
-    #[must_use]
-    pub fn cspaces(&self) -> CSpaces {
-        let axes = self.arm().joints.each_ref().map(Axis::of);
-        let spaces = match self.made() {
-            Kind::Motion(plan) => vec![CSpace::of_motion(plan)],
-            Kind::Task(plan) => spaces_of_task(plan),
-        };
-        CSpaces {
-            name: self.problem().scene().workspace().name.clone(),
-            planner: self.report().planner.clone(),
-            status: self.status(),
-            axes,
-            spaces,
-        }
+/// What its planner has to show in the configuration space, as data. C-obstacles are traced anew, which takes the time
+/// that it takes for a picture.
+#[must_use]
+pub fn cspaces(plan: &Plan) -> CSpaces {
+    let axes = plan.arm().joints.each_ref().map(Axis::of);
+    let spaces = match plan.made() {
+        Kind::Motion(made) => vec![CSpace::of_motion(made)],
+        Kind::Task(made) => spaces_of_task(made),
+    };
+    CSpaces {
+        name: plan.problem().scene().workspace().name.clone(),
+        planner: plan.report().planner.clone(),
+        status: plan.status(),
+        axes,
+        spaces,
     }
 }
 

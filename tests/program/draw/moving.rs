@@ -1,5 +1,6 @@
 //! Pictures that move: first how the planner came to its answer, then the motion.
 
+use cplan::PlanOutput as _;
 use cplan::draw::{View, moving, svg};
 use cplan::engine::Method;
 use cplan::{Options, Plan, Problem, plan};

@@ -1,0 +1,159 @@
+//! Starts and goals that are free, but nearer to an obstacle than a representation grown by a margin allows.
+//!
+//! Rather than to shrink the margin everywhere, which multiplies corners, such an end is replaced by a configuration
+//! that the representation knows as free, at the end of a short straight motion that is certified. The planner's path is
+//! completed by that motion, and judged as a whole like any other.
+
+use cplan_core::check::certify;
+use cplan_core::cspace::{Grid, Regions, ZonedGrid, free_stretches};
+use cplan_core::model::{MotionProblem, Scene};
+use cplan_core::planner::Query;
+use cplan_core::space::{Configuration, Path, Segment, Topology};
+use std::f64::consts::TAU;
+
+/// A representation that may block ends which are free.
+pub(super) trait Admit {
+    /// Whether a planner can begin or end at `q`.
+    fn admits(&self, q: Configuration) -> bool;
+}
+
+impl Admit for Regions {
+    fn admits(&self, q: Configuration) -> bool {
+        self.component(q).is_some()
+    }
+}
+
+impl Admit for Grid {
+    fn admits(&self, q: Configuration) -> bool {
+        !self.blocked[self.locate(q)]
+    }
+}
+
+impl Admit for ZonedGrid {
+    fn admits(&self, q: Configuration) -> bool {
+        self.grid.admits(q)
+    }
+}
+
+/// How many directions are tried.
+const DIRECTIONS: usize = 64;
+
+/// Steps tried in each direction, the shortest first; each is twice the one before.
+const STEPS: usize = 13;
+
+/// The shortest step, radians or metres: far below what a margin of a thousandth of the reach asks for.
+const SHORTEST: f64 = 1e-4;
+
+/// `q` if the space admits it, else the end of the shortest certified straight motion from it to where it does; `q`
+/// again if there is none.
+fn stand_in(scene: &Scene, space: &impl Admit, q: Configuration) -> Configuration {
+    if space.admits(q) {
+        return q;
+    }
+    let direction = |k: usize| {
+        let (sin, cos) = (TAU * k as f64 / DIRECTIONS as f64).sin_cos();
+        Configuration::new(cos, sin)
+    };
+    for step in 0..STEPS {
+        let length = SHORTEST * (1_u32 << step) as f64;
+        for k in 0..DIRECTIONS {
+            let there = q + direction(k) * length;
+            let way = || certify(scene, Path::new(vec![q, there]), scene.workspace().clearance);
+            if space.admits(there) && way().is_ok() {
+                return there;
+            }
+        }
+    }
+    q
+}
+
+/// Places on a free stretch of goals at which a space is asked whether it knows any of it.
+const LOOKS: usize = 17;
+
+/// Stretches for which something stands in at most, the longest ones.
+const MOST_STRETCHES: usize = 8;
+
+/// A problem's ends and what stands in for them.
+pub(super) struct Ends {
+    topology: Topology,
+    start: Configuration,
+    /// What stands in for a goal, and the goal; as copies near the start.
+    stand_ins: Vec<[Configuration; 2]>,
+    /// What the planner is asked.
+    pub query: Query,
+}
+
+/// Two ends this near are copies of one another: far above rounding, far below any distance that matters.
+const SAME: f64 = 1e-9;
+
+impl Ends {
+    /// Single goals that the space does not know are replaced; of segments the space knows some part, as a rule, and for each
+    /// free stretch of which it knows nothing something stands in for its middle.
+    pub fn new(problem: &MotionProblem, space: &impl Admit) -> Self {
+        let (scene, start) = (problem.scene(), problem.start());
+        let topology = scene.arm().topology();
+        let mut goals: Vec<Segment> = Vec::new();
+        let mut stand_ins = Vec::new();
+        let mut wanted: Vec<Configuration> = Vec::new();
+        for piece in problem.goals().pieces() {
+            if piece.is_point() {
+                wanted.push(piece.ends()[0]);
+                continue;
+            }
+            for part in piece.within_domain(&topology) {
+                goals.push(part);
+                wanted.extend(middles_unknown(scene, space, &part));
+            }
+        }
+        for goal in wanted {
+            let goal = topology.lift(goal, start);
+            let there = stand_in(scene, space, goal);
+            goals.push(Segment::point(there));
+            stand_ins.push([there, goal]);
+        }
+        let query = Query { start: stand_in(scene, space, start), goals: goals.into_iter().collect() };
+        Self { topology, start, stand_ins, query }
+    }
+
+    /// Whether something stands in for a goal.
+    pub fn has_goal_stand_ins(&self) -> bool {
+        self.stand_ins.iter().any(|[stand_in, goal]| stand_in != goal)
+    }
+
+    /// The planner's path from the true start to the true goal by way of the stand-ins.
+    pub fn complete(&self, path: &Path) -> Path {
+        self.join(path.waypoints(), self.goal_reached(path))
+    }
+
+    /// The same past the stand-ins, which saves the detour where it is free; none if there is nothing to save.
+    pub fn past_stand_ins(&self, path: &Path) -> Option<Path> {
+        let (inner, goal) = (path.waypoints(), self.goal_reached(path));
+        let (first, last) = (self.start != path.start(), goal != path.goal());
+        let past = || self.join(&inner[usize::from(first)..inner.len() - usize::from(last)], goal);
+        (inner.len() > 1 && (first || last)).then(past)
+    }
+
+    /// The true goal, as the copy that the path leads to.
+    fn goal_reached(&self, path: &Path) -> Configuration {
+        let end = path.goal();
+        let of = |[stand_in, goal]: &[Configuration; 2]| {
+            (self.topology.distance(*stand_in, end) < SAME).then(|| end + (goal - stand_in))
+        };
+        self.stand_ins.iter().find_map(of).unwrap_or(end)
+    }
+
+    fn join(&self, middle: &[Configuration], goal: Configuration) -> Path {
+        Path::new([self.start].into_iter().chain(middle.iter().copied()).chain([goal]).collect())
+    }
+}
+
+/// The goals of a segment in the domain that are to be asked for one by one: the middles of free stretches of which the space
+/// knows nothing.
+fn middles_unknown(scene: &Scene, space: &impl Admit, piece: &Segment) -> Vec<Configuration> {
+    let knows = |stretch: &Segment| (0..LOOKS).any(|k| space.admits(stretch.at(k as f64 / (LOOKS - 1) as f64)));
+    let mut unknown = free_stretches(scene, piece, scene.workspace().clearance);
+    unknown.retain(|stretch| !knows(stretch));
+    unknown.sort_by(|a, b| b.length().total_cmp(&a.length()));
+    unknown.truncate(MOST_STRETCHES);
+    unknown.iter().map(|stretch| stretch.at(0.5)).collect()
+}

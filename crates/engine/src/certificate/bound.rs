@@ -1,0 +1,403 @@
+//! Evidence that no motion is shorter: walls that nothing crosses, and potentials of their ends.
+//!
+//! The checker asks that a potential grows along no leg by more than the leg is long, unless a wall bars it. Lengths of shortest ways
+//! from the start do that, as far as ways are shorter than the bound; elsewhere the checker takes the bound less the way that
+//! is left at least, which needs no word. So the shortest ways are found once more, over the walls alone and with all legs a hair
+//! shorter than they are; then walls that bar no leg of them are left out.
+
+use cplan_core::space::{Configuration, JointRange, Metric, Topology};
+use cplan_geometry::OpenList;
+use cplan_interrupt::checkpoint;
+use cplan_proofs::bound::ClosedSegment;
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
+
+/// A length, and why no motion is shorter.
+pub(super) struct LeastLength {
+    pub length: f64,
+    pub walls: Vec<ClosedSegment>,
+    pub potentials: Vec<Potential>,
+}
+
+/// A length that no way from the start to an end of a wall falls short of.
+pub(super) struct Potential {
+    pub wall: usize,
+    pub end: usize,
+    pub turns: [i64; 2],
+    pub value: f64,
+}
+
+/// Share by which legs count as shorter than they are, ...
+const SHORTER: f64 = 1e-8;
+
+/// ... and share of the whole length by which they do besides: far above rounding.
+const LESS: f64 = 1e-11;
+
+/// How far inside a wall a leg has to cross it, as a share of the wall.
+const INSIDE: f64 = 1e-9;
+
+/// Times that walls are left out: each saves less.
+const ROUNDS: usize = 2;
+
+/// Ends of walls that ways are looked for from at most.
+const MOST_LOOKED: usize = 20_000;
+
+/// What ways between a start and goals are about.
+pub(super) struct Ways<'a> {
+    pub topology: &'a Topology,
+    pub metric: Metric,
+    pub start: Configuration,
+    pub goals: &'a [Configuration],
+    /// How near to a goal a way may end, as a share of the limit.
+    pub about: f64,
+    /// No way that is longer counts.
+    pub limit: f64,
+}
+
+/// A wall on some turn.
+struct Copy {
+    wall: usize,
+    turns: [i64; 2],
+    ends: [Configuration; 2],
+}
+
+/// An end of a wall at which a way can turn.
+#[derive(Clone, Copy)]
+struct Corner {
+    wall: usize,
+    end: usize,
+    turns: [i64; 2],
+    at: Configuration,
+    line: Line,
+    /// No way from there to a goal is shorter.
+    rest: f64,
+}
+
+/// A place to look from: the start, or a corner.
+#[derive(Clone, Copy)]
+struct Source {
+    at: Configuration,
+    line: Option<Line>,
+    potential: f64,
+}
+
+/// Configurations with one value of joint 1: its bits, and the turns from there.
+type Line = (u64, i64);
+
+/// Walls on a line that overlap one another, from end to end, and where walls end within that come from either side.
+struct Run {
+    ends: [f64; 2],
+    walls: Vec<usize>,
+    beside: [Vec<(f64, usize)>; 2],
+}
+
+impl LeastLength {
+    /// The evidence that these walls give; none if they give none.
+    pub(super) fn new(ways: &Ways, walls: Vec<ClosedSegment>) -> Option<Self> {
+        let mut plane = Plane::new(ways, &walls);
+        let (length, reached) = plane.lengths()?;
+        let length = length - ways.less();
+        // Fewer walls have fewer ends to look from, and so fewer walls are needed.
+        for _ in 0..ROUNDS {
+            let needed = plane.needed(length, &reached);
+            plane.copies.retain(|copy| needed.contains(&copy.wall));
+            plane.runs = runs(&plane.copies, &walls);
+            plane.corners.retain(|corner| needed.contains(&corner.wall));
+        }
+        let kept: BTreeSet<usize> = plane.copies.iter().map(|copy| copy.wall).collect();
+        let number: BTreeMap<usize, usize> = kept.iter().enumerate().map(|(new, old)| (*old, new)).collect();
+        let potentials = plane.corners.iter().filter_map(|corner| {
+            let value = plane.potential(length, &reached, corner)?;
+            Some(Potential { wall: number[&corner.wall], end: corner.end, turns: corner.turns, value })
+        });
+        let potentials = potentials.collect();
+        Some(Self { length, potentials, walls: kept.into_iter().map(|wall| walls[wall]).collect() })
+    }
+}
+
+impl Ways<'_> {
+    /// The hair by which a leg counts as shorter, however short it is.
+    fn less(&self) -> f64 {
+        LESS * self.limit
+    }
+
+    /// A leg as it counts.
+    fn leg(&self, from: Configuration, to: Configuration) -> f64 {
+        (self.metric.norm(to - from) * (1.0 - SHORTER) - self.less()).max(0.0)
+    }
+
+    /// How far it is to a goal at the least.
+    fn to_goal(&self, displacement: Configuration) -> f64 {
+        (self.metric.norm(displacement) - self.about * self.limit).max(0.0)
+    }
+
+    /// The turns of a joint that carry values from `low` to `high` to where ways get.
+    fn turns(&self, joint: usize, low: f64, high: f64) -> std::ops::RangeInclusive<i64> {
+        let JointRange::Circle = self.topology.ranges[joint] else { return 0..=0 };
+        let reach = self.limit / self.metric.norm(Configuration::from_fn(|k, _| if k == joint { 1.0 } else { 0.0 }));
+        let from = self.start[joint];
+        ((from - reach - high) / TAU).floor() as i64..=((from + reach - low) / TAU).ceil() as i64
+    }
+}
+
+type Reached = BTreeMap<(usize, usize, [i64; 2]), f64>;
+
+struct Plane<'a> {
+    ways: &'a Ways<'a>,
+    /// By the least value of joint 1.
+    copies: Vec<Copy>,
+    /// How far a wall reaches along joint 1 at most.
+    widest: f64,
+    runs: BTreeMap<Line, Vec<Run>>,
+    corners: Vec<Corner>,
+    goals: Vec<Configuration>,
+}
+
+impl<'a> Plane<'a> {
+    fn new(ways: &'a Ways<'a>, walls: &[ClosedSegment]) -> Self {
+        let shifted = |at: Configuration, turns: [i64; 2]| {
+            Configuration::new(at[0] + TAU * turns[0] as f64, at[1] + TAU * turns[1] as f64)
+        };
+        let on_all_turns = |ends: &[Configuration]| {
+            let [first, second] = [0, 1].map(|k| {
+                let values = || ends.iter().map(|end| end[k]);
+                ways.turns(k, values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+            });
+            let pairs = first.flat_map(move |a| second.clone().map(move |b| [a, b]));
+            pairs.collect::<Vec<_>>()
+        };
+        let mut copies = Vec::new();
+        for (wall, closed) in walls.iter().enumerate() {
+            for turns in on_all_turns(&closed.ends) {
+                copies.push(Copy { wall, turns, ends: closed.ends.map(|end| shifted(end, turns)) });
+            }
+        }
+        let goals: Vec<Configuration> = ways
+            .goals
+            .iter()
+            .flat_map(|goal| on_all_turns(&[*goal]).into_iter().map(|turns| shifted(*goal, turns)))
+            .collect();
+        copies.sort_by(|a, b| a.begins().total_cmp(&b.begins()));
+        let widest = copies.iter().map(|copy| (copy.ends[1][0] - copy.ends[0][0]).abs()).fold(0.0, f64::max);
+        let runs = runs(&copies, walls);
+        let mut corners = Vec::new();
+        for copy in &copies {
+            for end in 0..2 {
+                let (value, at) = (walls[copy.wall].ends[end], copy.ends[end]);
+                let is_outside = |k: usize| match ways.topology.ranges[k] {
+                    JointRange::Interval { lower, upper } => value[k] <= lower || value[k] >= upper,
+                    JointRange::Circle => false,
+                };
+                let rest = goals.iter().map(|goal| ways.to_goal(goal - at)).fold(f64::INFINITY, f64::min);
+                let line = (value[0].to_bits(), copy.turns[0]);
+                let is_within = runs.get(&line).is_some_and(|runs| runs.iter().any(|run| run.holds(at[1])));
+                if !is_outside(0)
+                    && !is_outside(1)
+                    && !is_within
+                    && ways.metric.norm(at - ways.start) + rest <= ways.limit
+                {
+                    corners.push(Corner { wall: copy.wall, end, turns: copy.turns, at, line, rest });
+                }
+            }
+        }
+        Self { ways, copies, widest, runs, corners, goals }
+    }
+
+    /// The length of the shortest way to a goal, and of those to corners that are shorter. None if there are too many.
+    fn lengths(&self) -> Option<(f64, Reached)> {
+        let corners = &self.corners;
+        let mut lengths = vec![f64::INFINITY; corners.len()];
+        let mut open = OpenList::default();
+        let mut best = self.ways.limit;
+        let mut next = Some(self.start());
+        for _ in 0..MOST_LOOKED {
+            if let Some(from) = next {
+                for goal in &self.goals {
+                    let leg = self.ways.leg(from.at, *goal) - self.ways.about * self.ways.limit;
+                    let length = from.potential + leg.max(0.0);
+                    if length < best && !self.is_barred(from.at, from.line, *goal, None) {
+                        best = length;
+                    }
+                }
+                for (number, corner) in corners.iter().enumerate() {
+                    let length = from.potential + self.ways.leg(from.at, corner.at);
+                    let is_shorter = length < lengths[number] && length + corner.rest * (1.0 - SHORTER) < best;
+                    if is_shorter && !self.is_barred(from.at, from.line, corner.at, Some(corner.line)) {
+                        lengths[number] = length;
+                        open.push(length, number);
+                    }
+                }
+            }
+            checkpoint();
+            let Some((length, number)) = open.pop().filter(|(length, _)| *length < best) else {
+                let name = |corner: &Corner| (corner.wall, corner.end, corner.turns);
+                let reached = corners.iter().zip(lengths).filter(|(_, length)| length.is_finite());
+                return Some((best, reached.map(|(corner, length)| (name(corner), length)).collect()));
+            };
+            next = (length == lengths[number]).then(|| Source {
+                at: corners[number].at,
+                line: Some(corners[number].line),
+                potential: length,
+            });
+        }
+        None
+    }
+
+    /// What is said of a corner: how long ways there are, where they can be part of one that is shorter than `length`.
+    fn potential(&self, length: f64, reached: &Reached, corner: &Corner) -> Option<f64> {
+        let potential = *reached.get(&(corner.wall, corner.end, corner.turns))?;
+        (potential + corner.rest < length - self.ways.less() / 4.0).then_some(potential)
+    }
+
+    /// The walls that bar a leg along which potentials would grow too much, and those within which others end.
+    fn needed(&self, length: f64, reached: &Reached) -> BTreeSet<usize> {
+        let known = |corner: &Corner| {
+            let potential = self.potential(length, reached, corner)?;
+            Some(Source { at: corner.at, line: Some(corner.line), potential })
+        };
+        let start = self.start();
+        let mut needed = BTreeSet::new();
+        for from in self.corners.iter().filter_map(known).chain([start]) {
+            let grows = |leg: f64, potential: f64| from.potential + leg < potential + self.ways.less() / 4.0;
+            for goal in self.goals.iter().filter(|goal| grows(self.ways.to_goal(**goal - from.at), length)) {
+                self.bar(from, *goal, None, &mut needed);
+            }
+            for corner in self.corners.iter() {
+                let potential = self.potential(length, reached, corner).unwrap_or(length - corner.rest);
+                if grows(self.ways.metric.norm(corner.at - from.at), potential) {
+                    self.bar(from, corner.at, Some(corner.line), &mut needed);
+                }
+            }
+            checkpoint();
+        }
+        // Ends within walls are no corners as long as these are there.
+        for run in self.runs.values().flatten() {
+            let is_needed = |wall: &usize| needed.contains(wall);
+            let ends_within = run.beside.iter().flatten().any(|(_, wall)| is_needed(wall));
+            if ends_within || run.walls.iter().any(is_needed) {
+                needed.extend(&run.walls);
+            }
+        }
+        needed
+    }
+
+    fn start(&self) -> Source {
+        Source { at: self.ways.start, line: Some((self.ways.start[0].to_bits(), 0)), potential: 0.0 }
+    }
+
+    /// Adds the walls that bar a leg, if others than those that are needed anyway.
+    fn bar(&self, from: Source, to: Configuration, line: Option<Line>, needed: &mut BTreeSet<usize>) {
+        let mut first = None;
+        for copy in self.near(from.at, to).filter(|copy| crosses(&copy.ends, from.at, to)) {
+            if needed.contains(&copy.wall) {
+                return;
+            }
+            first = first.or(Some(copy.wall));
+        }
+        if let Some(wall) = first {
+            needed.insert(wall);
+        } else if let Some((run, beside)) = self.barred_along(from.at, from.line, to, line) {
+            needed.extend(beside);
+            needed.extend(&run.walls);
+        }
+    }
+
+    fn is_barred(&self, from: Configuration, line: Option<Line>, to: Configuration, other: Option<Line>) -> bool {
+        self.near(from, to).any(|copy| crosses(&copy.ends, from, to))
+            || self.barred_along(from, line, to, other).is_some()
+    }
+
+    /// The walls that a leg may cross, those near its beginning first.
+    fn near(&self, from: Configuration, to: Configuration) -> impl Iterator<Item = &Copy> {
+        let first = self.copies.partition_point(|copy| copy.begins() < from[0].min(to[0]) - self.widest);
+        let last = self.copies.partition_point(|copy| copy.begins() <= from[0].max(to[0]));
+        let near = &self.copies[first..last.max(first)];
+        let (onward, back) = if from[0] <= to[0] { (near, &near[..0]) } else { (&near[..0], near) };
+        onward.iter().chain(back.iter().rev())
+    }
+
+    /// The run along which a leg can pass on neither side, and what ends on both.
+    fn barred_along(
+        &self,
+        from: Configuration,
+        line: Option<Line>,
+        to: Configuration,
+        other: Option<Line>,
+    ) -> Option<(&Run, [usize; 2])> {
+        let runs = self.runs.get(&line.filter(|_| line == other)?)?;
+        let hair = INSIDE * (to[1] - from[1]).abs();
+        let passed = |(y, _): &&(f64, usize)| from[1].min(to[1]) + hair < *y && *y < from[1].max(to[1]) - hair;
+        runs.iter().find_map(|run| {
+            let [left, right] = run.beside.each_ref().map(|side| side.iter().find(passed));
+            Some((run, [left?.1, right?.1]))
+        })
+    }
+}
+
+impl Copy {
+    fn begins(&self) -> f64 {
+        self.ends[0][0].min(self.ends[1][0])
+    }
+}
+
+impl Run {
+    /// Whether a value of joint 2 is well within.
+    fn holds(&self, q2: f64) -> bool {
+        let hair = INSIDE * (self.ends[1] - self.ends[0]);
+        self.ends[0] + hair < q2 && q2 < self.ends[1] - hair
+    }
+}
+
+/// The runs of upright walls, with the ends of others in them.
+fn runs(copies: &[Copy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<Run>> {
+    let mut runs: BTreeMap<Line, Vec<Run>> = BTreeMap::new();
+    let lines = |copy: &Copy| walls[copy.wall].ends.map(|end| (end[0].to_bits(), copy.turns[0]));
+    for copy in copies {
+        let [line, other] = lines(copy);
+        if line == other {
+            let [a, b] = copy.ends.map(|end| end[1]);
+            let run = Run { ends: [a.min(b), a.max(b)], walls: vec![copy.wall], beside: [vec![], vec![]] };
+            runs.entry(line).or_default().push(run);
+        }
+    }
+    for list in runs.values_mut() {
+        list.sort_by(|a, b| a.ends[0].total_cmp(&b.ends[0]));
+        let mut merged: Vec<Run> = Vec::new();
+        for run in list.drain(..) {
+            match merged.last_mut() {
+                Some(last) if run.ends[0] < last.ends[1] - INSIDE * (last.ends[1] - last.ends[0]) => {
+                    last.ends[1] = last.ends[1].max(run.ends[1]);
+                    last.walls.extend(run.walls);
+                }
+                _ => merged.push(run),
+            }
+        }
+        *list = merged;
+    }
+    for copy in copies {
+        let lines = lines(copy);
+        if lines[0] == lines[1] {
+            continue;
+        }
+        for (line, [at, other]) in lines.into_iter().zip([copy.ends, [copy.ends[1], copy.ends[0]]]) {
+            let list = runs.get_mut(&line);
+            if let Some(run) = list.and_then(|list| list.iter_mut().find(|run| run.holds(at[1]))) {
+                run.beside[usize::from(at[0] < other[0])].push((at[1], copy.wall));
+            }
+        }
+    }
+    runs
+}
+
+/// Whether a leg goes through the inside of a wall, by more than rounding.
+fn crosses([a, b]: &[Configuration; 2], from: Configuration, to: Configuration) -> bool {
+    let apart = |k: usize| from[k].max(to[k]) < a[k].min(b[k]) || a[k].max(b[k]) < from[k].min(to[k]);
+    if apart(0) || apart(1) {
+        return false;
+    }
+    let cross = |u: Configuration, v: Configuration| u[0] * v[1] - u[1] * v[0];
+    let (wall, leg) = (b - a, to - from);
+    let whole = cross(wall, leg);
+    let (along_wall, along_leg) = (cross(from - a, leg) / whole, cross(from - a, wall) / whole);
+    [along_wall, along_leg].iter().all(|share| (INSIDE..=1.0 - INSIDE).contains(share))
+}

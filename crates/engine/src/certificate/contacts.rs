@@ -1,0 +1,112 @@
+//! The shapes and the parts of obstacles that evidence names.
+
+use super::{Evidence, Stuck, lines, reaching_out};
+use cplan_core::check::StuckBox;
+use cplan_core::model::{Heights, OutlineSource, Pair, Part, Scene, SelfObstacle, Shape};
+use cplan_geometry::{Convex, Point};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// The shapes and the parts of obstacles that evidence names, each once.
+pub(super) struct Contacts<'a> {
+    scene: &'a Scene,
+    pub shapes: Vec<Value>,
+    pub parts: Vec<Value>,
+    /// Where those of this scene are in these lists.
+    shape_numbers: BTreeMap<(usize, usize), usize>,
+    part_numbers: BTreeMap<(usize, usize), usize>,
+}
+
+/// The number of an entry of a list, which is added if it is not there.
+fn numbered(list: &mut Vec<Value>, entry: Value) -> usize {
+    list.iter().position(|known| *known == entry).unwrap_or_else(|| {
+        list.push(entry);
+        list.len() - 1
+    })
+}
+
+impl<'a> Contacts<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
+        Self { scene, shapes: vec![], parts: vec![], shape_numbers: BTreeMap::new(), part_numbers: BTreeMap::new() }
+    }
+
+    /// The same in another scene of the same world.
+    pub fn among<'b>(self, scene: &'b Scene) -> Contacts<'b> {
+        Contacts { shapes: self.shapes, parts: self.parts, ..Contacts::new(scene) }
+    }
+
+    /// The lists as they are written; nothing if nothing is named.
+    pub fn named(&self) -> Evidence {
+        let lists = [("shapes", &self.shapes), ("parts", &self.parts)].map(|(name, list)| (name, lines(list)));
+        if self.shapes.is_empty() { Vec::new() } else { lists.into() }
+    }
+
+    /// The numbers of a pair's shape and part.
+    pub fn numbers(&mut self, pair: Pair) -> (usize, usize) {
+        let Self { scene, shapes, parts, .. } = self;
+        let Pair { link, part, obstacle, piece } = pair;
+        let shape = self.shape_numbers.entry((link, part)).or_insert_with(|| numbered(shapes, shape(scene, pair)));
+        let part = self.part_numbers.entry((obstacle, piece)).or_insert_with(|| numbered(parts, part_of(scene, pair)));
+        (*shape, *part)
+    }
+
+    /// A box as it is written: one that reaches across half a turn is two.
+    pub fn stuck(&mut self, stuck: &StuckBox) -> Vec<Stuck> {
+        let (shape, part) = self.numbers(stuck.pair);
+        let parts = reaching_out(self.scene, stuck).into_iter();
+        parts.map(|[lower, upper]| Stuck { lower, upper, shape, part }).collect()
+    }
+}
+
+/// A part of a link by its URDF link and its number among the shapes there. A bar is the last of a link's parts. A piece of what is carried by
+/// its corners.
+fn shape(scene: &Scene, pair: Pair) -> Value {
+    if let Some(piece) = scene.payload_piece(pair) {
+        // A disc is all there is of its object.
+        let corners = if piece.radius() > 0.0 { Vec::new() } else { corners(piece) };
+        return json!({ "carried": corners });
+    }
+    let link = scene.link(pair);
+    let Part { body, number, is_visual, heights, .. } = &link.parts[pair.part];
+    if link.source == OutlineSource::Bar && pair.part + 1 == scene.own_parts(pair.link.min(1)).len() {
+        return json!({ "link": body, "bar": 0 });
+    }
+    let same = |other: &&Part| other.body == *body && other.number == *number && other.is_visual == *is_visual;
+    let layers = link.parts.iter().filter(same).map(|other| other.heights);
+    of_layer(json!({ "link": body, kind(*is_visual): number }), *heights, layers)
+}
+
+/// A piece of an obstacle by its corners; a disc is all there is of its obstacle.
+fn part_of(scene: &Scene, pair: Pair) -> Value {
+    let obstacle = pair.obstacle;
+    if let Some(own) = scene.self_obstacle(obstacle) {
+        let same = |other: &&SelfObstacle| {
+            (&other.obstacle.name, other.number, other.is_visual) == (&own.obstacle.name, own.number, own.is_visual)
+        };
+        let layers = scene.arm().self_obstacles.iter().filter(same).map(|other| other.obstacle.heights);
+        let named = json!({ "own": own.obstacle.name, kind(own.is_visual): own.number });
+        return of_layer(named, own.obstacle.heights, layers);
+    }
+    match scene.obstacle(obstacle).shape {
+        Shape::Circle { .. } => json!({ "obstacle": obstacle }),
+        Shape::Polygon(_) | Shape::Polyline(_) | Shape::Pieces => {
+            json!({ "obstacle": obstacle, "corners": corners(scene.obstacle_piece(pair)) })
+        }
+    }
+}
+
+fn kind(is_visual: bool) -> &'static str {
+    if is_visual { "visual" } else { "collision" }
+}
+
+/// A shape as it is named, with a height of one of its layers if it has several.
+fn of_layer(mut named: Value, own: Heights, mut all: impl Iterator<Item = Heights>) -> Value {
+    if all.any(|other| other != own) {
+        named["height"] = json!(f64::midpoint(own.lower, own.upper));
+    }
+    named
+}
+
+fn corners(piece: &Convex) -> Vec<[f64; 2]> {
+    piece.core().iter().map(|&Point { coords: p }| p.into()).collect()
+}

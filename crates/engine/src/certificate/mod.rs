@@ -1,0 +1,363 @@
+//! Evidence for an answer that a checker of its own can hold against the two files: `docs/certificates.md`.
+
+mod bound;
+mod contacts;
+mod motion;
+mod task;
+
+pub use motion::recorded as certificate_of_recording;
+
+use super::bound::{claim, motions};
+use super::motion_plan::MotionPlan;
+use super::task::TaskVerdict;
+use super::{Kind, Plan, TaskPlan};
+use bound::{LeastLength, Ways};
+use contacts::Contacts;
+use cplan_core::check::{Cell, StuckBox};
+use cplan_core::model::{Arm, MotionProblem, Scene, Status, inverse};
+use cplan_core::space::{Configuration, JointRange, Metric, Segment, Topology};
+use cplan_geometry::cross;
+use cplan_proofs::bound::ClosedSegment;
+use cplan_world::{Digests, Overrides, TipPoint};
+use serde::Serialize;
+use serde_json::json;
+use std::collections::BTreeSet;
+use thiserror::Error;
+
+/// Why an answer has no certificate.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NoCertificate {
+    /// Neither a motion nor a proof.
+    #[error("the answer is \"{}\", which claims nothing", .0.name())]
+    Answer(Status),
+    /// A proof that a task cannot be done, of a kind that the checker does not know.
+    #[error(
+        "the proof that the task cannot be done is of a kind that has no certificate: it is about a later time that a step is done, about how an \
+         object lies that the arm has turned on a way of several steps, or about where the arm is all but stretched"
+    )]
+    Task,
+    /// Something rests that a checker refuses to move the corners of.
+    #[error(
+        "object \"{0}\" rests on something, and is too fine, touches itself, or has corners all but on a line: they cannot all be moved inwards by what it may \
+         press in"
+    )]
+    Outline(String),
+    /// A motion without times in a world in which something moves.
+    #[error("the motion says no times, and among what moves it depends on them whether it is free")]
+    Untimed,
+}
+
+/// A box as it stands in a certificate.
+#[derive(Serialize)]
+struct Stuck {
+    lower: [f64; 2],
+    upper: [f64; 2],
+    shape: usize,
+    part: usize,
+}
+
+impl Plan {
+    /// The certificate of the answer, where it has one. What `asked` says in place of the world file is in it, and which `files` it is about.
+    ///
+    /// # Errors
+    /// [`NoCertificate`].
+    pub fn certificate(&self, asked: &Overrides, files: Option<&Digests>) -> Result<String, NoCertificate> {
+        let plan = match self.made() {
+            Kind::Motion(plan) => plan,
+            Kind::Task(plan) => return self.certificate_of_task(plan, asked, files),
+        };
+        let problem = &plan.problem;
+        let mut contacts = Contacts::new(problem.scene());
+        let (answer, evidence) = match (self.trajectory(), plan.answer.verdict.proof()) {
+            (Some(trajectory), _) => {
+                let mut evidence = vec![motion::evidence(problem.scene().arm(), trajectory)];
+                evidence.extend(least_length(plan, asked, &mut contacts).into_iter().flatten());
+                ("found", evidence)
+            }
+            (None, Some(proof)) => {
+                let stuck = [proof.stuck(), &ruled_out(problem).0].concat();
+                let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
+                ("infeasible", vec![("boxes", lines(&boxes))])
+            }
+            (None, None) => return Err(NoCertificate::Answer(self.status())),
+        };
+        let said = [about(files, problem.scene().arm()), said(problem, asked)].concat();
+        Ok(written(answer, said, contacts.named().into_iter().chain(evidence)))
+    }
+
+    /// The same of a task.
+    fn certificate_of_task(
+        &self,
+        TaskPlan { task, answer }: &TaskPlan,
+        asked: &Overrides,
+        files: Option<&Digests>,
+    ) -> Result<String, NoCertificate> {
+        task::checkable(task, matches!(answer.verdict, TaskVerdict::Infeasible(_)))?;
+        let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
+        let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
+        let said = about(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
+        match (&answer.verdict, self.trajectory(), &self.report().task) {
+            // What passes out of reach anybody sees.
+            (TaskVerdict::Infeasible(_), ..) if task.moving_at_first().next().is_some() => {
+                Ok(written("infeasible", said, [("cases", lines(&[(); 0]))]))
+            }
+            (TaskVerdict::Infeasible(impossible), ..) => {
+                let evidence = task::cases(task, impossible.step.number).ok_or(NoCertificate::Task)?;
+                Ok(written("infeasible", said, evidence))
+            }
+            (_, Some(trajectory), Some(figures)) => {
+                let evidence = [motion::evidence(&task.arm, trajectory), task::steps(&figures.steps)];
+                Ok(written("found", said, evidence))
+            }
+            _ => Err(NoCertificate::Answer(self.status())),
+        }
+    }
+}
+
+/// That no motion is shorter than the bound, up to a hair; none where nothing is known of that, or goals are a curve.
+///
+/// To one configuration, or to wherever the tip is at the place that was asked for: then the boxes about those of these configurations that are
+/// not free come first.
+fn least_length(plan: &MotionPlan, asked: &Overrides, contacts: &mut Contacts) -> Option<Evidence> {
+    let (problem, stated) = (&plan.problem, plan.answer.bound.as_ref()?);
+    let motions = motions(problem, stated.metric);
+    let topology = problem.scene().arm().topology();
+    let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
+    let ways = Ways {
+        topology: &topology,
+        metric: stated.metric,
+        start: topology.wrap(motions.start),
+        goals: &goals,
+        about: if to.is_some() { 0.0 } else { ABOUT_A_GOAL },
+        limit: stated.upper,
+    };
+    let claim = claim(&motions, stated);
+    let of = |looks: usize| LeastLength::new(&ways, claim.closed(motions.scene, motions.clearance, looks));
+    let mut least = of(LOOKS[0])?;
+    if least.length < stated.lower * (1.0 - MUCH) {
+        least = of(LOOKS[1]).filter(|closer| closer.length > least.length).unwrap_or(least);
+    }
+    let wall = |wall: &ClosedSegment| {
+        let (shape, part) = contacts.numbers(wall.pair);
+        let [from, to] = wall.ends.map(<[f64; 2]>::from);
+        json!({ "from": from, "to": to, "shape": shape, "part": part })
+    };
+    let walls: Vec<_> = least.walls.iter().map(wall).collect();
+    let potential = |p: &bound::Potential| match p.turns {
+        [0, 0] => json!({ "wall": p.wall, "end": p.end, "value": p.value }),
+        turns => json!({ "wall": p.wall, "end": p.end, "turns": turns, "value": p.value }),
+    };
+    let potentials: Vec<_> = least.potentials.iter().map(potential).collect();
+    let metric = match stated.metric {
+        Metric::Euclidean => json!("euclidean"),
+        Metric::Weighted { weights } => json!({ "weights": weights }),
+        Metric::Time { speeds } => json!({ "speeds": speeds }),
+    };
+    let to = to.map_or_else(String::new, |to| format!("\"to\": {}, ", json!(to)));
+    let (length, walls, potentials) = (least.length, lines(&walls), lines(&potentials));
+    let members =
+        format!(r#"{to}"length": {length}, "metric": {metric}, "walls": {walls}, "potentials": {potentials}"#);
+    let boxes: Vec<Stuck> = boxes.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
+    let boxes = (!boxes.is_empty()).then(|| ("boxes", lines(&boxes)));
+    Some(boxes.into_iter().chain([("bound", format!("{{ {members} }}"))]).collect())
+}
+
+/// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, ...
+const LOOKS: [usize; 2] = [60, 300];
+
+/// ... and more if the bound loses more than this share: where shapes come apart slowly, as in a slot, walls end too early.
+const MUCH: f64 = 1e-3;
+
+/// Where a bound leads to.
+struct Ends {
+    /// One configuration, if it is about that; or else the goal, wherever the tip is at the place.
+    to: Option<Configuration>,
+    /// All that may count as goals.
+    goals: Vec<Configuration>,
+    /// About those that are none.
+    boxes: Vec<StuckBox>,
+}
+
+impl Ends {
+    /// None where goals are a curve, or not told from what is beside them.
+    fn of(problem: &MotionProblem, asked: &Overrides) -> Option<Self> {
+        let (arm, pieces) = (problem.scene().arm(), problem.goals().pieces());
+        let topology = arm.topology();
+        if !pieces.iter().all(Segment::is_point) {
+            return None;
+        }
+        let goals: Vec<Configuration> = pieces.iter().map(|goal| inward(&topology, goal.ends()[0])).collect();
+        if let ([goal], None) = (&goals[..], asked.goal_tip) {
+            return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
+        }
+        let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
+        // All of them share the parts that a checker looks at: those on other turns, too.
+        let least = STRETCHED * solved.solutions(arm).len().max(1) as f64;
+        if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
+            return None;
+        }
+        let (boxes, left) = ruled_out(problem);
+        Some(Self { to: None, goals: [goals, left].concat(), boxes })
+    }
+}
+
+/// What a checker leaves open of where the tip is at a place, as a share of the way: it looks for these configurations itself, down to a
+/// part in 10^12 of the joints' ranges.
+const ABOUT_A_GOAL: f64 = 1e-6;
+
+/// Where [`tells_apart`] is less, a checker does not tell configurations that put the tip at a place from those beside them, as it cuts both
+/// joints' ranges in equal shares.
+const STRETCHED: f64 = 0.012;
+
+/// The area between the ways in which the joints move the tip, as a share of the square of both together: at most a quarter, and nothing where
+/// the arm is stretched or folded.
+fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
+    const STEP: f64 = 1e-6;
+    let ranges = arm.topology().ranges;
+    let moved = |k: usize| {
+        let (lower, upper) = ranges[k].domain();
+        let step = Configuration::from_fn(|i, _| if i == k { STEP * (upper - lower) } else { 0.0 });
+        arm.tip_at(q + step) - arm.tip_at(q - step)
+    };
+    let [a, b] = [moved(0), moved(1)];
+    cross(a, b).abs() / (a.norm() + b.norm()).powi(2)
+}
+
+/// Members of a certificate, by name, as they are written.
+type Evidence = Vec<(&'static str, String)>;
+
+/// The text of a certificate, a member a line.
+fn written(answer: &str, said: Said, evidence: impl IntoIterator<Item = (&'static str, String)>) -> String {
+    let mut text = format!("{{\n  \"format\": \"cplan certificate 1\",\n  \"answer\": \"{answer}\"");
+    let said = said.into_iter().map(|(name, value)| (name, value.to_string()));
+    for (name, value) in said.chain(evidence) {
+        text += &format!(",\n  \"{name}\": {value}");
+    }
+    text + "\n}\n"
+}
+
+/// Members of a certificate, by name.
+type Said = Vec<(&'static str, serde_json::Value)>;
+
+/// A list in JSON, a line an entry.
+fn lines(entries: &[impl Serialize]) -> String {
+    let entries: Vec<String> = entries.iter().map(|entry| format!("    {}", json!(entry))).collect();
+    format!("[\n{}\n  ]", entries.join(",\n"))
+}
+
+/// The files and the joints that it is about, and links of the robot that meet in every configuration.
+fn about(files: Option<&Digests>, arm: &Arm) -> Said {
+    let joints = ("joints", json!(arm.joints.each_ref().map(|joint| &joint.name)));
+    let permanent =
+        arm.self_obstacles.iter().flat_map(|own| own.permanent.iter().map(|link| [&own.obstacle.name, link]));
+    let permanent: BTreeSet<[&String; 2]> = permanent.collect();
+    let ignored = (!permanent.is_empty()).then(|| ("ignored", json!(permanent)));
+    let joints = [joints].into_iter().chain(ignored);
+    let Some(Digests { urdf, world, others }) = files else { return joints.collect() };
+    let others = (!others.is_empty()).then(|| ("others", json!(others)));
+    [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain(joints).collect()
+}
+
+/// What was said in place of the world file.
+fn said(problem: &MotionProblem, asked: &Overrides) -> Said {
+    let topology = problem.scene().arm().topology();
+    let written = |q| json!(inward(&topology, q));
+    let start = asked.start.map(|_| ("start", written(problem.start())));
+    let goal = asked.goal.map(|_| ("goal", written(problem.goals().pieces()[0].ends()[0])));
+    let tip = asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y])));
+    let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
+    start.into_iter().chain(goal).chain(tip).chain(clearance).collect()
+}
+
+/// Values of a joint nearer to one another than this, radians or metres, are one.
+const SAME: f64 = 1e-6;
+
+/// How much wider than what they are about boxes may be, as shares of the joints' ranges.
+const MARGINS: [f64; 11] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7];
+
+/// How often a curve of IK solutions is halved.
+const MOST_HALVINGS: u32 = 12;
+
+/// Boxes about the IK solutions that are no goals because they are not free. A checker knows but where the tip is to be, and so
+/// that these are among what is to be reached. With them the middles of what no box was found for.
+fn ruled_out(problem: &MotionProblem) -> (Vec<StuckBox>, Vec<Configuration>) {
+    let (scene, goals) = (problem.scene(), problem.goals());
+    let (arm, topology) = (scene.arm(), scene.arm().topology());
+    let Some(goal) = goals.pieces().first() else { return (vec![], vec![]) };
+    let solved = inverse(arm, arm.tip_at(goal.ends()[0]), problem.start());
+    let is_goal = |piece: &Segment| goals.contains(&topology, piece.at(0.5), SAME);
+    let solutions = solved.solutions(arm).into_iter().flat_map(|piece| piece.wrapped(&topology));
+    let mut waiting: Vec<(Segment, u32)> = solutions.filter(|piece| !is_goal(piece)).map(|piece| (piece, 0)).collect();
+    let (mut boxes, mut left) = (Vec::new(), Vec::new());
+    while let Some((piece, halvings)) = waiting.pop() {
+        if let Some(stuck) = stuck_about(scene, &piece) {
+            boxes.push(stuck);
+        } else if !piece.is_point() && halvings < MOST_HALVINGS {
+            let halves = [[0.0, 0.5], [0.5, 1.0]].map(|[a, b]| Segment::new(piece.at(a), piece.at(b)));
+            waiting.extend(halves.map(|half| (half, halvings + 1)));
+        } else {
+            left.push(piece.at(0.5));
+        }
+    }
+    (boxes, left)
+}
+
+/// The widest box about a piece in all of which something remains that is in its way.
+fn stuck_about(scene: &Scene, piece: &Segment) -> Option<StuckBox> {
+    let (scene, [from, to]) = (&*scene.inner(), piece.ends());
+    let ranges = scene.arm().topology().ranges.map(|range| range.domain());
+    // What may pass over or under an obstacle proves nothing.
+    let obstructions = scene.obstructions(piece.at(0.5));
+    MARGINS.into_iter().find_map(|margin| {
+        let room = ranges.map(|(lower, upper)| margin * (upper - lower));
+        let lower = [0, 1].map(|k| from[k].min(to[k]) - room[k]);
+        let upper = [0, 1].map(|k| from[k].max(to[k]) + room[k]);
+        let claims = obstructions.iter().map(|o| StuckBox { cell: Cell { lower, upper }, pair: o.contact.pair });
+        claims.into_iter().find(|stuck| stuck.holds(scene, scene.workspace().clearance))
+    })
+}
+
+/// Room that doubles leave next to a limit, as a share of it or of the range, whichever is more. What is given in degrees, or in more digits than a
+/// double has, lies up to two units in the last place inside the double that stands for it; next to a limit of 0 control points of polynomials are
+/// differences of what lies within the range.
+const BESIDE_A_LIMIT: f64 = 4.0 * f64::EPSILON;
+
+/// A configuration as it is written: at a limit a hair inside.
+fn inward(topology: &Topology, q: Configuration) -> Configuration {
+    Configuration::from_fn(|k, _| match topology.ranges[k] {
+        JointRange::Interval { lower, upper } => {
+            let room = |limit: f64| BESIDE_A_LIMIT * limit.abs().max(upper - lower);
+            q[k].min(upper - room(upper)).max(lower + room(lower))
+        }
+        JointRange::Circle => q[k],
+    })
+}
+
+/// The ends of a box; of one that reaches across half a turn of a circle those of its parts on either side. Where it ends with the domain it goes on
+/// a little: limits are decimals and half a turn is no number at all, next to which a double leaves a slit.
+fn reaching_out(scene: &Scene, stuck: &StuckBox) -> Vec<[[f64; 2]; 2]> {
+    let mut parts = vec![[stuck.cell.lower, stuck.cell.upper]];
+    for (k, range) in scene.arm().topology().ranges.into_iter().enumerate() {
+        let (lower, upper) = range.domain();
+        let turns: &[f64] = if range.is_circle() { &[-1.0, 0.0, 1.0] } else { &[0.0] };
+        let turned = |ends: [[f64; 2]; 2]| {
+            turns.iter().map(move |turn| {
+                ends.map(|mut end| {
+                    end[k] += turn * (upper - lower);
+                    end
+                })
+            })
+        };
+        parts = parts.into_iter().flat_map(turned).filter(|[from, to]| from[k] < upper && lower < to[k]).collect();
+        let beyond = |end: f64| 2.0 * f64::EPSILON * end.abs().max(1.0);
+        for [from, to] in &mut parts {
+            if from[k] <= lower {
+                from[k] = lower - beyond(lower);
+            }
+            if to[k] >= upper {
+                to[k] = upper + beyond(upper);
+            }
+        }
+    }
+    parts
+}

@@ -1,0 +1,83 @@
+//! Evidence for a motion: what its consumers play, which is all that it takes to check it.
+
+use super::task::{checkable, steps_of_recording};
+use super::{NoCertificate, about, inward, lines, written};
+use cplan_core::model::{Arm, Goal, RecordedStep, Scene, Task};
+use cplan_core::space::{Configuration, Interpolation, Recording, Topology};
+use cplan_motion::Trajectory;
+use cplan_world::{Digests, Overrides, TipPoint};
+use serde_json::{Value, json};
+
+/// The evidence of a planned motion: as readers of tables and of ROS 2's messages join its samples, and as its JSON says.
+pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, String) {
+    // With a limit on the jerk the samples' JSON says the same cubics.
+    let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
+    let Trajectory { time, position, velocity, acceleration, torque: _ } = trajectory;
+    let position = &written_inward(&arm.topology(), position);
+    if is_smooth {
+        played(&["cubic"], time, &[position, velocity])
+    } else {
+        played(&["cubic", "quartic"], time, &[position, velocity, acceleration])
+    }
+}
+
+/// The certificate of a recorded motion, as its format joins samples: from the world's start to its goal, or those that are
+/// `asked` for; where there are none (`ends`), from and to where it leads. Of a recorded task from the start through all its steps. It is
+/// about these `files`.
+///
+/// # Errors
+/// [`NoCertificate::Untimed`] and [`NoCertificate::Outline`].
+pub fn recorded(
+    scene: &Scene,
+    recording: &Recording,
+    steps: Option<(&Task, &[RecordedStep])>,
+    (asked, files): (&Overrides, &Digests),
+    ends: [Option<Goal>; 2],
+) -> Result<String, NoCertificate> {
+    if recording.times().is_none() && !scene.workspace().movers.is_empty() {
+        return Err(NoCertificate::Untimed);
+    }
+    steps.map_or(Ok(()), |(task, _)| checkable(task, false))?;
+    let topology = &scene.arm().topology();
+    let q = recording.positions();
+    let own = [q[0], q[q.len() - 1]];
+    let mut said = about(Some(files), scene.arm());
+    for (k, (end, is_asked)) in ends.iter().zip([asked.start.is_some(), asked.goal.is_some()]).enumerate() {
+        let name = ["start", "goal"][k];
+        match end {
+            Some(Goal::Joints(q)) if is_asked => said.push((name, json!(inward(topology, *q)))),
+            Some(_) => {}
+            None if k == 1 && steps.is_some() => {}
+            None => said.push((name, json!(inward(topology, own[k])))),
+        }
+    }
+    said.extend(asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y]))));
+    said.extend(asked.clearance.map(|clearance| ("clearance", json!(clearance))));
+    let counted: Vec<f64> = (0..q.len()).map(|k| k as f64).collect();
+    let rows = |values: &[Configuration]| values.iter().map(|&q| q.into()).collect::<Vec<[f64; 2]>>();
+    let positions = written_inward(topology, &rows(q));
+    let [velocities, accelerations] =
+        [recording.velocities(), recording.accelerations()].map(|values| values.map(rows).unwrap_or_default());
+    let (reading, columns) = match recording.interpolation() {
+        Interpolation::Linear => ("linear", 1),
+        Interpolation::Cubic => ("cubic", 2),
+        Interpolation::Quartic => ("quartic", 3),
+        Interpolation::Quintic => ("quintic", 3),
+    };
+    let all = [&positions, &velocities, &accelerations];
+    let motion = played(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
+    Ok(written("found", said, [motion].into_iter().chain(steps.map(|(_, steps)| steps_of_recording(steps)))))
+}
+
+/// Values of the joints as they are written.
+fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    positions.iter().map(|&q| inward(topology, q.into()).into()).collect()
+}
+
+/// Knots of a time and the rows of some columns.
+fn played(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
+    let knot =
+        |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());
+    let knots: Vec<Value> = (0..times.len()).map(knot).collect();
+    ("motion", format!("{{ \"interpolation\": {}, \"knots\": {} }}", json!(readings), lines(&knots)))
+}

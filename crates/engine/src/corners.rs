@@ -1,0 +1,198 @@
+//! Fewer corners: a path that is a little longer, and smoother to drive.
+//!
+//! Shortest paths hug what they lead past in many short pieces. Where a path turns to the same side at both ends of a piece, the
+//! pieces before and after it are drawn out until they meet: away from what the path hugs, with one corner less.
+
+use cplan_core::check::{CertifiedPath, Rejection, certify};
+use cplan_core::model::Scene;
+use cplan_core::space::{Configuration, Metric, Path, Topology};
+use cplan_geometry::OpenList;
+
+/// Times that pieces which have come too near to something are left as they are, and the rest is certified again.
+const TRIES: usize = 6;
+
+/// Pieces are drawn out no farther than this many times the length of the piece that they replace: they meet at an angle.
+const FARTHEST: f64 = 8.0;
+
+/// `path` with fewer corners, longer by at most `budget`; certified. None if no corner can be spared.
+///
+/// The pieces that cost least go first: `O(n log n)` for `n` corners, and a certificate.
+pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: f64) -> Option<CertifiedPath> {
+    let topology = scene.arm().topology();
+    let mut too_near = Vec::new();
+    for _ in 0..TRIES {
+        let fewer = drawn_out(&topology, path.waypoints(), metric, budget, &too_near);
+        if fewer.len() == path.waypoints().len() {
+            return None;
+        }
+        match certify(scene, Path::new(fewer), scene.workspace().clearance) {
+            Ok(path) => return Some(path),
+            Err(Rejection::TooClose(nearest) | Rejection::Undecided(nearest)) => too_near.push(nearest.at),
+            Err(Rejection::OutOfLimits { .. }) => return None,
+        }
+    }
+    None
+}
+
+/// A piece that may go, in the list of what is left.
+struct Piece {
+    before: usize,
+    after: usize,
+    /// Counts the changes of its surroundings.
+    version: u32,
+    gone: bool,
+}
+
+/// The waypoints that are left, no piece drawn out over a configuration that came `too_near`.
+fn drawn_out(
+    topology: &Topology,
+    waypoints: &[Configuration],
+    metric: Metric,
+    budget: f64,
+    too_near: &[Configuration],
+) -> Vec<Configuration> {
+    let mut at = waypoints.to_vec();
+    let n = at.len();
+    let mut left: Vec<Piece> =
+        (0..n).map(|i| Piece { before: i.wrapping_sub(1), after: i + 1, version: 0, gone: false }).collect();
+    // A piece is known by its first corner.
+    let offer = |at: &[Configuration], left: &[Piece], i: usize| {
+        let (h, j) = (left[i].before, left[i].after);
+        let k = left.get(j)?.after;
+        if h >= n || k >= n {
+            return None;
+        }
+        let corner = meeting([at[h], at[i], at[j], at[k]])?;
+        let ends = [at[i], at[j], corner];
+        if !topology.contains(corner) || too_near.iter().any(|q| is_about(*q, &ends)) {
+            return None;
+        }
+        let longer = metric.norm(corner - at[i]) + metric.norm(at[j] - corner) - metric.norm(at[j] - at[i]);
+        Some((longer.max(0.0), corner))
+    };
+    let mut open = OpenList::default();
+    for i in 0..n {
+        if let Some((longer, _)) = offer(&at, &left, i) {
+            open.push(longer, (i, 0));
+        }
+    }
+    let mut spent = 0.0;
+    while let Some((longer, (i, version))) = open.pop() {
+        if left[i].gone || left[i].version != version {
+            continue;
+        }
+        if spent + longer > budget {
+            break;
+        }
+        let Some((_, corner)) = offer(&at, &left, i) else { continue };
+        spent += longer;
+        at[i] = corner;
+        let (h, j) = (left[i].before, left[i].after);
+        let k = left[j].after;
+        left[j].gone = true;
+        left[i].after = k;
+        left[k].before = i;
+        let hh = left[h].before;
+        for changed in [hh, h, i, k] {
+            if changed < n {
+                left[changed].version += 1;
+                if let Some((longer, _)) = offer(&at, &left, changed) {
+                    open.push(longer, (changed, left[changed].version));
+                }
+            }
+        }
+    }
+    (0..n).filter(|&i| !left[i].gone).map(|i| at[i]).collect()
+}
+
+/// Where the lines through the first two and through the last two of four waypoints meet, beyond the second and the third; none
+/// if they do not, or far away.
+fn meeting([a, b, c, d]: [Configuration; 4]) -> Option<Configuration> {
+    let (first, second, base) = (b - a, c - d, c - b);
+    let cross = |u: Configuration, v: Configuration| u[0] * v[1] - u[1] * v[0];
+    let turned = cross(first, second);
+    let [along, back] = [cross(base, second) / turned, cross(base, first) / turned];
+    let corner = b + first * along;
+    let near = |from: Configuration| (corner - from).norm() <= FARTHEST * base.norm();
+    (along >= 0.0 && back >= 0.0 && along.is_finite() && back.is_finite() && near(b) && near(c)).then_some(corner)
+}
+
+/// Whether a configuration is within the bounds of some others.
+fn is_about(q: Configuration, others: &[Configuration; 3]) -> bool {
+    (0..2).all(|k| {
+        let (least, greatest) =
+            others.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), at| (l.min(at[k]), g.max(at[k])));
+        let slack = greatest - least;
+        least - slack <= q[k] && q[k] <= greatest + slack
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_core::space::JointRange;
+    use std::f64::consts::FRAC_PI_2;
+
+    const WIDE: Topology = Topology { ranges: [JointRange::Interval { lower: -2.0, upper: 2.0 }; 2] };
+
+    /// A quarter of a circle in so many chords, led up to and away from along its tangents.
+    fn quarter(chords: usize) -> Vec<Configuration> {
+        let at = |k: usize| {
+            let (sin, cos) = (FRAC_PI_2 * k as f64 / chords as f64).sin_cos();
+            Configuration::new(sin, cos)
+        };
+        let mut way = vec![Configuration::new(-1.0, 1.0)];
+        way.extend((0..=chords).map(at));
+        way.push(Configuration::new(1.0, -1.0));
+        way
+    }
+
+    fn length(way: &[Configuration]) -> f64 {
+        Metric::Euclidean.length(&Path::new(way.to_vec()))
+    }
+
+    #[test]
+    fn an_arc_keeps_about_as_many_corners_as_the_budget_asks_for() {
+        let arc = quarter(200);
+        let mut before = arc.len();
+        for budget in [1e-5, 1e-4, 1e-3, 1e-2] {
+            let fewer = drawn_out(&WIDE, &arc, Metric::Euclidean, budget, &[]);
+            assert!(length(&fewer) <= length(&arc) + budget + 1e-12, "{budget}: {}", length(&fewer));
+            // Tangents of `a` radians each are longer than the arc by about a^3 / 12: the least number within the budget is n with
+            // (pi / 2)^3 / (12 n^2) = budget. Merging the cheapest first does not find it, but less than twice as many.
+            let least = (FRAC_PI_2.powi(3) / 12.0 / budget).sqrt();
+            assert!((fewer.len() as f64) < 2.0 * least + 4.0 && fewer.len() < before, "{budget}: {}", fewer.len());
+            before = fewer.len();
+            // What the arc was pulled around stays where it was.
+            let inside = arc[1].norm() * (FRAC_PI_2 / 400.0).cos() - 1e-12;
+            for ends in fewer.windows(2).filter(|ends| ends[0][0] >= 0.0 && ends[1][1] >= 0.0) {
+                let across = (ends[0][0] * ends[1][1] - ends[0][1] * ends[1][0]).abs() / (ends[1] - ends[0]).norm();
+                assert!(across >= inside, "{budget}: {across}");
+            }
+            assert_eq!((fewer[0], fewer[fewer.len() - 1]), (arc[0], arc[arc.len() - 1]));
+        }
+    }
+
+    #[test]
+    fn corners_stay_within_limits_and_away_from_what_came_too_near() {
+        let arc = quarter(8);
+        let all = drawn_out(&WIDE, &arc, Metric::Euclidean, 10.0, &[]);
+        assert_eq!(all, [arc[0], Configuration::new(1.0, 1.0), arc[arc.len() - 1]]);
+        let narrow = Topology {
+            ranges: [
+                JointRange::Interval { lower: -2.0, upper: 1.01 },
+                JointRange::Interval { lower: -2.0, upper: 1.0 },
+            ],
+        };
+        assert!(drawn_out(&narrow, &arc, Metric::Euclidean, 10.0, &[]).iter().all(|q| narrow.contains(*q)));
+        // The corner that all would go to is where an obstacle was met.
+        let others = drawn_out(&WIDE, &arc, Metric::Euclidean, 10.0, &[Configuration::new(0.999, 0.999)]);
+        assert!(others.len() > 3 && !others.contains(&all[1]), "{others:?}");
+    }
+
+    #[test]
+    fn a_path_that_turns_both_ways_in_turn_stays_as_it_is() {
+        let zigzag: Vec<_> = (0..9).map(|k| Configuration::new(0.2 * f64::from(k), f64::from(k % 2) * 0.3)).collect();
+        assert_eq!(drawn_out(&WIDE, &zigzag, Metric::Euclidean, 10.0, &[]), zigzag);
+    }
+}

@@ -1,0 +1,109 @@
+//! Where a motion gets stuck: the narrowest place of the way that opens when everything gives way by the same.
+
+use super::change::{fineness, middle, shrunk};
+use super::question::Question;
+use super::threshold::{Threshold, threshold};
+use cplan_core::model::{Contact, Obstruction};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Convex, Point, separation};
+
+/// The place where a way is narrowest that opens first when clearance, and then all obstacles at once, shrink.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bottleneck {
+    /// By how much they give way, metres: first less clearance, then smaller obstacles.
+    pub by: Threshold,
+    /// Where the way that opens comes nearest to what is left of them.
+    pub at: Configuration,
+    /// The same place in the plane, where the arm is deepest in what it hits there.
+    pub point: Point,
+    /// What the arm would hit there: of each link and obstacle the worst pair.
+    pub hits: Vec<Obstruction>,
+}
+
+/// How finely it is told by how much they give way, as a share of that.
+const FINE_SHARE: f64 = 1e-2;
+
+/// The same, as a share of how finely changes are told: nearer to the threshold decisions take long.
+const FINEST: f64 = 1.0 / 16.0;
+
+/// Places along the way at which it is asked how narrow it is.
+const LOOKS: usize = 1024;
+
+impl Bottleneck {
+    /// By how much the place is too narrow, metres: what the arm lacks on all sides there, clearance included.
+    #[must_use]
+    pub fn lacking(&self, clearance: f64) -> f64 {
+        lacking(&self.hits, clearance)
+    }
+}
+
+/// Of each obstacle that is hit the most that is lacking, all together.
+fn lacking(hits: &[Obstruction], clearance: f64) -> f64 {
+    let mut worst: Vec<(usize, f64)> = Vec::new();
+    for hit in hits {
+        let (obstacle, lack) = (hit.contact.pair.obstacle, clearance - hit.contact.separation.distance);
+        match worst.iter_mut().find(|(known, _)| *known == obstacle) {
+            Some((_, most)) => *most = most.max(lack),
+            None => worst.push((obstacle, lack)),
+        }
+    }
+    worst.iter().map(|(_, lack)| lack).sum()
+}
+
+/// Where a question is stuck to which the answer is that there is no motion; none if it is not the obstacles that it is stuck at.
+#[must_use]
+pub fn bottleneck(question: &Question, boxes: usize) -> Option<Bottleneck> {
+    let scene = question.scene();
+    let clearance = scene.workspace().clearance;
+    let extents = scene.workspace().obstacles.iter().filter_map(middle).map(|(_, extent)| extent);
+    let most = clearance + extents.fold(0.0, f64::max);
+    if most == 0.0 {
+        return None;
+    }
+    let ask = |by: f64| giving_way(question, by).answer(boxes);
+    let fine = fineness(question);
+    let coarse = threshold(0.0, most, fine, ask)?;
+    let finer = threshold(coarse.closed, coarse.opens, (FINE_SHARE * coarse.opens).max(FINEST * fine), ask);
+    let by = finer.unwrap_or(coarse);
+    let (at, hits) = narrowest(question, &by)?;
+    let depth = |hit: &&Obstruction| hit.contact.separation.distance;
+    let deepest = hits.iter().min_by(|a, b| depth(a).total_cmp(&depth(b)))?.contact;
+    let point = place(question, at, deepest);
+    Some(Bottleneck { by, at, point, hits })
+}
+
+/// Where on the way that opens the arm lacks most in the true scene, and what it hits there.
+fn narrowest(question: &Question, by: &Threshold) -> Option<(Configuration, Vec<Obstruction>)> {
+    let (scene, path) = (question.scene(), by.path.path());
+    let clearance = scene.workspace().clearance;
+    let looks = (LOOKS / path.waypoints().len().max(1)).max(1);
+    let shares = (0..=looks).map(|k| k as f64 / looks as f64);
+    let along = path.segments().flat_map(|(from, to)| shares.clone().map(move |share| from + (to - from) * share));
+    let looked = along.chain([path.start()]).chain(by.path.nearest().map(|nearest| nearest.at));
+    let hits = looked.map(|q| (q, scene.obstructions(q))).filter(|(_, hits)| !hits.is_empty());
+    hits.max_by(|a, b| lacking(&a.1, clearance).total_cmp(&lacking(&b.1, clearance)))
+}
+
+/// The same with so much less of everything that is to be kept off.
+fn giving_way(question: &Question, by: f64) -> Question {
+    question.rebuilt(|_, workspace| {
+        let beyond = by - workspace.clearance;
+        workspace.clearance = (workspace.clearance - by).max(0.0);
+        if beyond > 0.0 {
+            for obstacle in &mut workspace.obstacles {
+                obstacle.pieces = shrunk(obstacle, beyond);
+            }
+        }
+    })
+}
+
+/// The corner of either shape that is deepest in the other one.
+fn place(question: &Question, at: Configuration, Contact { pair, .. }: Contact) -> Point {
+    let scene = question.scene();
+    let (part, piece) = (scene.part(pair).at(&scene.arm().pose(pair.link, at)), scene.piece(pair));
+    let deep = |shape: &Convex, corner: &Point| separation(shape, &Convex::point(*corner)).distance;
+    let of_part = part.core().iter().map(|corner| (deep(piece, corner), *corner));
+    let of_piece = piece.core().iter().map(|corner| (deep(&part, corner), *corner));
+    let deepest = of_part.chain(of_piece).min_by(|a, b| a.0.total_cmp(&b.0));
+    deepest.map_or(scene.arm().tip_at(at), |(_, corner)| corner)
+}

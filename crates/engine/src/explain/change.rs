@@ -1,0 +1,203 @@
+//! The smallest change of a single blocker that opens a way.
+
+use super::element::Element;
+use super::question::{Decision, Question, farthest};
+use super::threshold::{Threshold, threshold};
+use cplan_core::model::Obstacle;
+use cplan_geometry::{Convex, Point, Vector};
+use nalgebra::Translation2;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// How finely changes are told, metres and radians; of worlds less than a metre in size, this share of the arm's reach.
+const FINE: f64 = 1e-3;
+
+/// The same, as a share of what can be changed at all.
+const FINE_SHARE: f64 = 1e-2;
+
+/// Directions in which obstacles are moved, ...
+const DIRECTIONS: usize = 16;
+
+/// ... and how often those beside the best one are tried, each time half as far from it.
+const REFINEMENTS: u32 = 3;
+
+/// What is done to a blocker.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case", tag = "change")]
+pub enum Cure {
+    /// The obstacle is moved in this direction, of unit length.
+    Moved {
+        /// In the plane.
+        direction: [f64; 2],
+    },
+    /// All sides of the obstacle, which is convex, move inwards.
+    Eroded,
+    /// The obstacle is scaled about the middle of its bounding box, so that its farthest point moves by so much.
+    Scaled {
+        /// To this share of its size.
+        to: f64,
+    },
+    /// The joint goes so much farther.
+    Widened,
+    /// So much less clearance is kept.
+    Lowered,
+}
+
+/// Among what a change was tried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Among {
+    /// All that is in the world.
+    World,
+    /// The other blockers of its set alone: in the world another set closes the way, too.
+    Set,
+}
+
+/// A change of one blocker that opens a way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Change {
+    /// What is changed.
+    pub element: Element,
+    /// How.
+    pub cure: Cure,
+    /// Among what.
+    pub among: Among,
+    /// By how much, metres or radians.
+    pub by: Threshold,
+}
+
+/// The smallest changes of a blocker, of each kind that it knows, where `question` has no answer but that there is none. Of moves
+/// it is an upper bound on the least: in the direction told, of 16 and some between them, no smaller step was found to do.
+#[must_use]
+pub fn changes(question: &Question, element: Element, among: Among, boxes: usize) -> Vec<Change> {
+    let scene = question.scene();
+    let fine = fineness(question);
+    let made = |cure: Cure, by: Threshold| Change { element, cure, among, by };
+    match element {
+        Element::Obstacle { number } => {
+            let obstacle = &scene.workspace().obstacles[number];
+            let shrunk = shrinking(question, obstacle, number, fine, boxes).map(|(cure, by)| made(cure, by));
+            let moved = moving(question, obstacle, number, fine, boxes).map(|(cure, by)| made(cure, by));
+            moved.into_iter().chain(shrunk).collect()
+        }
+        // Nobody changes a robot's body to open a path.
+        Element::Link { .. } => Vec::new(),
+        Element::Limit { joint, side } => {
+            let turns = scene.arm().joints[joint].joint_type.is_revolute();
+            let (most, fine) = (question.beyond(joint), if turns { FINE } else { fine });
+            let ask = |by: f64| question.with_wider(joint, side, by).answer(boxes);
+            threshold(0.0, most, fine, ask).map(|by| made(Cure::Widened, by)).into_iter().collect()
+        }
+        Element::Clearance => {
+            let clearance = scene.workspace().clearance;
+            let ask = |by: f64| question.with_clearance((clearance - by).max(0.0)).answer(boxes);
+            let by = threshold(0.0, clearance, fine.min(FINE_SHARE * clearance), ask);
+            by.map(|by| made(Cure::Lowered, by)).into_iter().collect()
+        }
+    }
+}
+
+/// How finely lengths are told.
+pub(super) fn fineness(question: &Question) -> f64 {
+    FINE * question.scene().arm().reach().min(1.0)
+}
+
+/// The least shrinking of an obstacle.
+fn shrinking(
+    question: &Question,
+    obstacle: &Obstacle,
+    number: usize,
+    fine: f64,
+    boxes: usize,
+) -> Option<(Cure, Threshold)> {
+    let (_, most) = middle(obstacle)?;
+    let ask = |by: f64| question.with_pieces(number, shrunk(obstacle, by)).answer(boxes);
+    let by = threshold(0.0, most, fine.min(FINE_SHARE * most), ask)?;
+    if by.opens >= most {
+        // Nothing is left of it: that the way is open without it is known.
+        return None;
+    }
+    let cure = if is_eroded(obstacle) { Cure::Eroded } else { Cure::Scaled { to: 1.0 - by.opens / most } };
+    Some((cure, by))
+}
+
+/// Whether all sides of an obstacle can move inwards: pieces of others would come apart, and walls have no inside.
+fn is_eroded(obstacle: &Obstacle) -> bool {
+    matches!(&obstacle.pieces[..], [only] if only.depth() > 0.0)
+}
+
+/// An obstacle's pieces when no point of it has moved inwards by more than so much: a convex one with all its sides moved, another one
+/// scaled about the middle of its bounding box. None are left of what is too thin.
+pub(super) fn shrunk(obstacle: &Obstacle, by: f64) -> Vec<Convex> {
+    if is_eroded(obstacle) {
+        return obstacle.pieces[0].eroded(by).into_iter().collect();
+    }
+    let Some((middle, extent)) = middle(obstacle).filter(|(_, extent)| by < *extent) else { return Vec::new() };
+    let share = 1.0 - by / extent;
+    let scaled = |piece: &Convex| piece.mapped(|p| middle + (p - middle) * share, piece.radius() * share);
+    obstacle.pieces.iter().map(scaled).collect()
+}
+
+/// The middle of an obstacle's bounding box, and how far it reaches from there; none of what has no pieces.
+pub(super) fn middle(obstacle: &Obstacle) -> Option<(Point, f64)> {
+    let [lower, upper] = obstacle
+        .pieces
+        .iter()
+        .map(|piece| piece.bounds().map(Point::from))
+        .reduce(|[a, b], [c, d]| [a.inf(&c), b.sup(&d)])?;
+    let middle = nalgebra::center(&lower, &upper);
+    Some((middle, obstacle.pieces.iter().map(|piece| piece.reach_from(middle)).fold(0.0, f64::max)))
+}
+
+/// The least move of an obstacle that is found: all directions are tried with twice the step each time, then the ones that open a way
+/// are halved back, and those beside the best.
+fn moving(
+    question: &Question,
+    obstacle: &Obstacle,
+    number: usize,
+    fine: f64,
+    boxes: usize,
+) -> Option<(Cure, Threshold)> {
+    let toward = |share: f64| {
+        let (sin, cos) = (TAU * share).sin_cos();
+        Vector::new(cos, sin)
+    };
+    let ask = |share: f64, by: f64| {
+        let moved = nalgebra::convert(Translation2::from(toward(share) * by));
+        question.with_pieces(number, obstacle.pieces.iter().map(|piece| piece.at(&moved)).collect()).answer(boxes)
+    };
+    let most = farthest(question.scene());
+    let (mut below, mut step) = (0.0, 4.0 * fine);
+    let open = loop {
+        let opens = |k: &usize| matches!(ask(*k as f64 / DIRECTIONS as f64, step), Decision::Open(_));
+        let open: Vec<f64> = (0..DIRECTIONS).filter(opens).map(|k| k as f64 / DIRECTIONS as f64).collect();
+        if !open.is_empty() {
+            break open;
+        }
+        (below, step) = (step, 2.0 * step);
+        if step > most {
+            return None;
+        }
+    };
+    let mut best: Option<(f64, Threshold)> = None;
+    let better = |share: f64, best: &mut Option<(f64, Threshold)>| {
+        let most = best.as_ref().map_or(step, |(_, known)| known.opens - fine);
+        if most <= 0.0 || !matches!(ask(share, most), Decision::Open(_)) {
+            return;
+        }
+        // In this direction a smaller step may be known not to do.
+        let from = if below < most && matches!(ask(share, below), Decision::Closed(_)) { below } else { 0.0 };
+        if let Some(found) = threshold(from, most, fine, |by| ask(share, by)) {
+            *best = Some((share, found));
+        }
+    };
+    open.into_iter().for_each(|share| better(share, &mut best));
+    for halving in 1..=REFINEMENTS {
+        let beside = 1.0 / (DIRECTIONS << halving) as f64;
+        if let Some((share, _)) = best {
+            [share - beside, share + beside].into_iter().for_each(|share| better(share, &mut best));
+        }
+    }
+    let (share, by) = best?;
+    Some((Cure::Moved { direction: toward(share).into() }, by))
+}

@@ -1,0 +1,161 @@
+//! An explanation as JSON.
+
+use super::{BlockedEnd, Blocker, Bottleneck, Change, Closed, Element, Explanation, OutOfReach, Saving, Shaped};
+use cplan_core::check::ProofBox;
+use cplan_core::model::{Obstruction, Outcome, Scene};
+use cplan_core::space::Configuration;
+use serde_json::{Map, Value, json};
+
+impl Explanation {
+    /// It as a JSON object, as the book describes it.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let scene = self.question.scene();
+        let joints = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
+        let mut object = json!({ "status": self.status(), "joints": joints, "start": pair(self.question.start()) });
+        let more = match &self.outcome {
+            Outcome::Found(shaped) => of_found(scene, shaped),
+            Outcome::Infeasible(closed) => of_closed(scene, closed),
+            Outcome::Unknown(reason) => json!({ "reason": reason }),
+        };
+        if let (Value::Object(object), Value::Object(more)) = (&mut object, more) {
+            object.extend(more);
+            if let (true, Some(limit)) = (self.is_stopped, self.question.time_limit()) {
+                object.insert("stopped_after".into(), json!(limit.as_secs_f64()));
+            }
+        }
+        object
+    }
+}
+
+fn pair(q: Configuration) -> [f64; 2] {
+    [q[0], q[1]]
+}
+
+/// An element by its kind and name; obstacles are counted from 1, as people do.
+fn of_element(scene: &Scene, element: Element) -> Map<String, Value> {
+    let value = match element {
+        Element::Obstacle { number } => {
+            json!({ "kind": "obstacle", "name": scene.obstacle(number).name, "number": number + 1 })
+        }
+        Element::Link { number } => {
+            json!({ "kind": "link", "name": scene.obstacle(number).name })
+        }
+        Element::Limit { joint, side } => {
+            json!({ "kind": "limit", "joint": scene.arm().joints[joint].name, "side": side })
+        }
+        Element::Clearance => json!({ "kind": "clearance" }),
+    };
+    if let Value::Object(object) = value { object } else { Map::new() }
+}
+
+fn with(mut object: Map<String, Value>, more: Value) -> Value {
+    if let Value::Object(more) = more {
+        object.extend(more);
+    }
+    Value::Object(object)
+}
+
+fn of_found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Value {
+    let saving = |saving: &Saving| {
+        let Saving { element, length, at_least, at_most } = *saving;
+        let more = json!({ "length": length, "shorter_by": { "at_least": at_least, "at_most": at_most } });
+        with(of_element(scene, element), more)
+    };
+    let mut object = Map::new();
+    if let Some(bound) = answer.bound {
+        object.insert("length".into(), json!(bound.upper));
+        object.insert("lower_bound".into(), json!(bound.lower));
+    }
+    object.insert("shaped_by".into(), savings.iter().map(saving).collect());
+    if let crate::Verdict::Found(path) = &answer.verdict {
+        object.insert("path".into(), path.path().waypoints().iter().map(|q| json!(pair(*q))).collect());
+        if let Some(nearest) = path.nearest() {
+            let tight = json!({
+                "joints": pair(nearest.at),
+                "clearance": path.clearance(),
+                "between": scene.describe(nearest.contact.pair),
+            });
+            object.insert("tightest".into(), tight);
+        }
+    }
+    Value::Object(object)
+}
+
+fn of_closed(scene: &Scene, closed: &Closed) -> Value {
+    let Closed { sets, bottleneck, ends, out_of_reach, .. } = closed;
+    let change = |Change { cure, among, by, .. }: &Change| {
+        let mut object = json!({ "opens": by.opens, "closed": by.closed, "among": among });
+        if let (Value::Object(object), Ok(Value::Object(cure))) = (&mut object, serde_json::to_value(cure)) {
+            object.extend(cure);
+        }
+        object
+    };
+    let blocker = |Blocker { element, without, changes }: &Blocker| {
+        let without = if without.is_some() { "found" } else { "unknown" };
+        let changes: Vec<Value> = changes.iter().map(change).collect();
+        with(of_element(scene, *element), json!({ "without": without, "changes": changes }))
+    };
+    let sets: Vec<Value> = sets
+        .iter()
+        .map(|set| {
+            let proof: Option<Vec<ProofBox>> =
+                set.proof.as_ref().map(|proof| proof.stuck().iter().map(ProofBox::from).collect());
+            let blockers: Vec<Value> = set.blockers.iter().map(blocker).collect();
+            json!({ "blockers": blockers, "proof": proof, "irreducible": set.is_irreducible() })
+        })
+        .collect();
+    json!({
+        "blocking": closed.blocking(scene),
+        "sets": sets,
+        "bottleneck": bottleneck.as_ref().map(|bottleneck| of_bottleneck(scene, bottleneck)),
+        "blocked_ends": ends.iter().map(|end| of_end(scene, end)).collect::<Vec<_>>(),
+        "out_of_reach": out_of_reach.as_ref().map(of_out_of_reach),
+    })
+}
+
+impl Closed {
+    /// The names of the obstacles, and of links of the robot, of the first set.
+    #[must_use]
+    pub fn blocking<'a>(&self, scene: &'a Scene) -> Vec<&'a str> {
+        let elements = self.sets.first().map(|set| set.elements()).unwrap_or_default();
+        let numbers = elements.into_iter().filter_map(Element::obstacle);
+        numbers.map(|number| scene.obstacle(number).name.as_str()).collect()
+    }
+}
+
+fn of_end(scene: &Scene, blocked: &BlockedEnd) -> Value {
+    let nearest = blocked.nearest.map(|nearest| {
+        let tip_moves = blocked.tip_moves(scene.arm());
+        json!({ "joints": pair(nearest.configuration), "distance": nearest.distance, "tip_moves": tip_moves })
+    });
+    json!({
+        "end": blocked.end,
+        "joints": pair(blocked.at),
+        "beyond_limits": blocked.beyond,
+        "hits": blocked.hits.iter().map(|hit| of_hit(scene, hit)).collect::<Vec<_>>(),
+        "nearest_free": nearest,
+    })
+}
+
+fn of_out_of_reach(out: &OutOfReach) -> Value {
+    let OutOfReach { tip, nearest, at } = *out;
+    json!({ "tip": [tip.x, tip.y], "nearest": [nearest.x, nearest.y], "joints": pair(at), "misses": (tip - nearest).norm() })
+}
+
+fn of_hit(scene: &Scene, hit: &Obstruction) -> Value {
+    let lacking = scene.workspace().clearance - hit.contact.separation.distance;
+    json!({ "between": scene.describe(hit.contact.pair), "lacking": lacking })
+}
+
+fn of_bottleneck(scene: &Scene, bottleneck: &Bottleneck) -> Value {
+    let clearance = scene.workspace().clearance;
+    let hits = bottleneck.hits.iter().map(|hit| of_hit(scene, hit));
+    json!({
+        "joints": pair(bottleneck.at),
+        "point": [bottleneck.point.x, bottleneck.point.y],
+        "too_narrow_by": bottleneck.lacking(clearance),
+        "gives_way": { "opens": bottleneck.by.opens, "closed": bottleneck.by.closed },
+        "hits": hits.collect::<Vec<_>>(),
+    })
+}

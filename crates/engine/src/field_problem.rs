@@ -1,0 +1,34 @@
+//! The field of a motion problem, before anything solves it.
+
+use super::admission::Ends;
+use super::rungs::zoned_cells;
+use super::{CellCounts, GridSpace};
+use cplan_core::cspace::ZonedGrid;
+use cplan_core::model::MotionProblem;
+use cplan_fields::field_domain;
+use cplan_fields::{Cell, Domain, Limits};
+
+/// The cells of a problem's first level, and what each is to a field: what the harmonic planner relaxes an equation on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldProblem {
+    /// The cells, with the world's preferences.
+    pub space: ZonedGrid,
+    /// Which are free, obstacles and goals.
+    pub domain: Domain,
+}
+
+impl FieldProblem {
+    /// On so many cells along each axis, as `--cells` of the harmonic planner has it.
+    ///
+    /// # Errors
+    /// Where start or goal has no free cell near it, or no free cell leads to the goal: why, in words.
+    pub fn new(problem: &MotionProblem, cells: usize, limits: Limits) -> Result<Self, String> {
+        let space = zoned_cells(problem, GridSpace::Rows, Some(CellCounts::square(cells)), 0);
+        let space = space.ok_or_else(|| format!("there is no grid of {cells} x {cells} cells"))?;
+        let domain = field_domain(&space.grid, &Ends::new(problem, &space).query, limits)?;
+        if !domain.kinds().contains(&Cell::Free) {
+            return Err(format!("on {cells} x {cells} cells no free cell leads to the goal"));
+        }
+        Ok(Self { space, domain })
+    }
+}

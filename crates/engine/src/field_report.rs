@@ -1,0 +1,69 @@
+//! A field's settings in the result.
+
+use super::{Answer, Space};
+use cplan_core::planner::Size;
+use cplan_fields::{Difference, Factor, Khatib, Limits, Relaxation, Scheme};
+use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
+use cplan_motion::FieldReport;
+
+/// The field that was asked for and what came of it.
+pub(super) fn field_report(planner: &FieldPlanner, answer: &Answer) -> FieldReport {
+    let limits = if planner.limits == Limits::High { "high" } else { "reflecting" };
+    let base = match planner.field {
+        FieldChoice::Khatib(Khatib { attraction, repulsion, saturated }) => FieldReport {
+            equation: "khatib",
+            attraction: Some(attraction.to_string()),
+            repulsion: Some(repulsion.to_string()),
+            saturated: Some(saturated),
+            ..FieldReport::default()
+        },
+        FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on } => {
+            let sweeps = if let Size::Grid { sweeps, .. } = answer.run.size { sweeps } else { 0 };
+            FieldReport {
+                tolerance: Some(tolerance),
+                max_sweeps: Some(max_sweeps),
+                on: on.adapter().ok().flatten(),
+                converged: (sweeps > 0).then_some(answer.run.note.is_none()),
+                ..relaxed(equation_report(equation), &relaxation, answer)
+            }
+        }
+    };
+    FieldReport { limits, ..base }
+}
+
+fn equation_report(equation: EquationChoice) -> FieldReport {
+    let named = |equation: &'static str| FieldReport { equation, ..FieldReport::default() };
+    let name = |difference: Difference| match difference {
+        Difference::Central => Some("central"),
+        Difference::Upwind => Some("upwind"),
+    };
+    match equation {
+        EquationChoice::Harmonic => named("harmonic"),
+        EquationChoice::Oriented { direction, epsilon, difference } => FieldReport {
+            epsilon: Some(epsilon),
+            direction: Some(direction.components()),
+            difference: name(difference),
+            ..named("oriented")
+        },
+        EquationChoice::LocallyOriented { direction, difference } => FieldReport {
+            direction: direction.map(|direction| direction.components()),
+            difference: name(difference),
+            ..named("local")
+        },
+        EquationChoice::Preference { elsewhere, difference } => {
+            FieldReport { epsilon: Some(elsewhere), difference: name(difference), ..named("bvp") }
+        }
+        EquationChoice::AlteredPreference { elsewhere } => FieldReport { epsilon: Some(elsewhere), ..named("bvp2") },
+    }
+}
+
+fn relaxed(report: FieldReport, relaxation: &Relaxation, answer: &Answer) -> FieldReport {
+    let factor = if let Space::Grid(grid) = &answer.space { Some(relaxation.factor(grid.cells)) } else { None };
+    let (name, order, factor) = match relaxation.scheme {
+        Scheme::Simultaneous { factor: 1.0 } => ("jacobi", None, None),
+        Scheme::Simultaneous { .. } => ("weighted-jacobi", None, factor),
+        Scheme::Successive { factor: Factor::Given(1.0), order } => ("gauss-seidel", Some(order), None),
+        Scheme::Successive { order, .. } => ("sor", Some(order), factor),
+    };
+    FieldReport { relaxation: Some(name), order: order.map(|order| order.to_string()), factor, ..report }
+}

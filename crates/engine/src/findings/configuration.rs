@@ -1,0 +1,152 @@
+//! What is found of a configuration, as data.
+
+use cplan_core::cspace::{NearestFree, nearest_free};
+use cplan_core::model::{Contact, Scene};
+use cplan_core::space::Configuration;
+use cplan_geometry::{CornerInside, Point, polygon_test, shapes_meet};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+/// What there is to say about one configuration.
+#[derive(Debug, Clone, Serialize)]
+pub struct ConfigurationFindings {
+    /// Within the limits and nearer to no obstacle than allowed.
+    pub free: bool,
+    /// Joint values, base to tip.
+    pub configuration: [f64; 2],
+    /// Whether each joint is within its limits.
+    pub within_limits: [bool; 2],
+    /// The tip in plane coordinates, metres.
+    pub tip: [f64; 2],
+    /// Least signed distance to an obstacle, metres; none if nothing can be hit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+    /// The distance to keep, metres.
+    pub required: f64,
+    /// The plane of motion.
+    pub plane: BasisFinding,
+    /// Every pair in contact, or nearer than the distance to keep.
+    pub contacts: Vec<PairFinding>,
+    /// Where to go instead, if the configuration is not free.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest_free: Option<NearestFinding>,
+}
+
+/// The nearest free configuration, within the limits and with the clearance asked for.
+#[derive(Debug, Clone, Serialize)]
+pub struct NearestFinding {
+    /// Joint values, base to tip.
+    pub configuration: [f64; 2],
+    /// In joint space, radians and metres as they come.
+    pub distance: f64,
+    /// Metres; none if nothing can be hit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+    /// Spacing of the values of joint 1 that were looked at, before refinement; joint 2 is exact for each.
+    pub resolution: f64,
+}
+
+/// The plane's basis in the root frame.
+#[derive(Debug, Clone, Serialize)]
+pub struct BasisFinding {
+    /// Direction of the first coordinate.
+    pub u: [f64; 3],
+    /// Direction of the second.
+    pub v: [f64; 3],
+    /// Direction of heights.
+    pub normal: [f64; 3],
+}
+
+/// A link and an obstacle that are in contact, or nearer than the distance to keep.
+#[derive(Debug, Clone, Serialize)]
+pub struct PairFinding {
+    /// Name of the arm's link.
+    pub link: String,
+    /// Name of the body of the URDF that moves with it.
+    pub body: String,
+    /// Name of the obstacle.
+    pub obstacle: String,
+    /// Whether they have a point in common.
+    pub touching: bool,
+    /// Penetration depth, metres; negative is a distance.
+    pub depth: f64,
+    /// Corners of the link in the obstacle: plane coordinates and depth. Empty for rounded shapes.
+    pub link_corners_inside: Vec<CornerFinding>,
+    /// Corners of the obstacle in the link.
+    pub obstacle_corners_inside: Vec<CornerFinding>,
+    /// Crossing sides, each given by its two corners: the link's and the obstacle's.
+    pub crossing_sides: Vec<[[[f64; 2]; 2]; 2]>,
+}
+
+/// A corner in the other shape.
+#[derive(Debug, Clone, Serialize)]
+pub struct CornerFinding {
+    /// Plane coordinates, metres.
+    pub at: [f64; 2],
+    /// How far it is from the nearest side, metres.
+    pub depth: f64,
+}
+
+/// What there is to say about a configuration.
+#[must_use]
+pub fn check(scene: &Scene, q: Configuration) -> ConfigurationFindings {
+    let topology = scene.arm().topology();
+    let within_limits = [0, 1].map(|k| topology.ranges[k].contains(q[k]));
+    let required = scene.workspace().clearance;
+    let contacts: Vec<PairFinding> = scene.separations(q).filter_map(|contact| finding(scene, q, contact)).collect();
+    let free = within_limits == [true, true] && contacts.is_empty();
+    let nearest = if free { None } else { nearest_free(scene, q) };
+    let plane = scene.arm().plane;
+    let array = |v: Vector3<f64>| [v.x, v.y, v.z];
+    ConfigurationFindings {
+        free,
+        configuration: [q[0], q[1]],
+        within_limits,
+        tip: pair(scene.arm().tip_at(q)),
+        clearance: Some(scene.clearance(q)).filter(|c| c.is_finite()),
+        required,
+        plane: BasisFinding { u: array(plane.u), v: array(plane.v), normal: array(plane.normal) },
+        contacts,
+        nearest_free: nearest.map(|found: NearestFree| NearestFinding {
+            configuration: [found.configuration[0], found.configuration[1]],
+            distance: found.distance,
+            clearance: Some(found.clearance).filter(|c| c.is_finite()),
+            resolution: found.spacing,
+        }),
+    }
+}
+
+/// What is to say of a pair, if its shapes touch or are nearer than the distance to keep.
+fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFinding> {
+    let Contact { pair: indices, separation } = contact;
+    let part = scene.part(indices).at(&scene.arm().pose(indices.link, q));
+    let piece = scene.piece(indices);
+    let touching = shapes_meet(&part, piece);
+    if !touching && separation.distance >= scene.workspace().clearance {
+        return None;
+    }
+    let (a, b) = (part.core(), piece.core());
+    // Corners and sides are those of polygons; of rounded shapes the depth says it all.
+    let sharp = part.radius() == 0.0 && piece.radius() == 0.0;
+    let test = sharp.then(|| polygon_test(&part, piece));
+    let inside = |corners: &[Point], found: &[CornerInside]| {
+        found.iter().map(|c| CornerFinding { at: pair(corners[c.corner]), depth: c.depth }).collect()
+    };
+    let side = |corners: &[Point], i: usize| [pair(corners[i]), pair(corners[(i + 1) % corners.len()])];
+    let link = scene.link(indices);
+    Some(PairFinding {
+        link: link.name.clone(),
+        body: link.parts[indices.part].body.clone(),
+        obstacle: scene.obstacle_name(indices).to_owned(),
+        touching,
+        depth: -separation.distance,
+        link_corners_inside: test.as_ref().map_or_else(Vec::new, |t| inside(a, &t.a_inside)),
+        obstacle_corners_inside: test.as_ref().map_or_else(Vec::new, |t| inside(b, &t.b_inside)),
+        crossing_sides: test
+            .map_or_else(Vec::new, |t| t.crossings.iter().map(|&(i, k)| [side(a, i), side(b, k)]).collect()),
+    })
+}
+
+fn pair(p: Point) -> [f64; 2] {
+    [p.x, p.y]
+}

@@ -1,0 +1,135 @@
+//! What there is to say of configurations and recorded motions that others chose, as data: what `cplan check` and `cplan verify`
+//! print.
+
+mod configuration;
+mod motion;
+mod task;
+
+pub use configuration::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
+use motion::Broken;
+pub use motion::{EncounterFinding, LimitFinding, MomentFinding, MotionFindings, Verdict, WayFinding};
+pub use task::{StepFinding, TurnContactFinding, TurnFinding};
+
+use cplan_core::model::{Claims, HeldMotion, RecordedStep, Scene};
+use cplan_core::space::Recording;
+use cplan_motion::recorded::{
+    ENDS_WITHIN, check_collision, check_collision_with, claims_kept, ends_kept, limits_kept, replay, torques_kept,
+};
+use cplan_world::{InputError, LoadedRecording, LoadedScene, LoadedTask, Overrides};
+
+/// Judges what was recorded: a motion from the world's start to its goal, or those of `overrides`; `anywhere` it may begin and end
+/// where it does. A recording with steps is judged as the world's task.
+///
+/// # Errors
+/// Overrides that do not go with the world, and steps that no arm like this can do.
+pub fn verify(
+    loaded: &LoadedScene,
+    recorded: &LoadedRecording,
+    overrides: &Overrides,
+    anywhere: bool,
+) -> Result<MotionFindings, InputError> {
+    let LoadedRecording { recording, held, steps, claims, has_torques: _, notes: read } = recorded;
+    let nothing = Claims::default();
+    let claims = claims.as_ref().unwrap_or(&nothing);
+    let turns = turns(&loaded.scene, recording);
+    let assumed = recording.times().map(|_| loaded.robot.assumptions(loaded.scene.arm())).unwrap_or_default();
+    let notes = loaded.world.notes.iter().chain(read).cloned().chain(turns).chain(assumed).collect();
+    let findings = match steps {
+        Some(steps) => judge_task(loaded, recording, steps, claims, overrides, notes)?,
+        None => judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?,
+    };
+    Ok(findings.leaving(claims))
+}
+
+/// Judges the recording as one motion.
+fn judge_motion(
+    loaded: &LoadedScene,
+    (recording, held): (&Recording, &[HeldMotion]),
+    claims: &Claims,
+    overrides: &Overrides,
+    anywhere: bool,
+    mut notes: Vec<String>,
+) -> Result<MotionFindings, InputError> {
+    if loaded.has_steps() {
+        notes.push(
+            "the world has steps, the file none: judged as one motion, empty-handed, with all objects where they lie at \
+             first; for the steps verify a task's result in .json"
+                .into(),
+        );
+    }
+    let scene = &loaded.scene;
+    let (start, goal) = if anywhere { (None, None) } else { loaded.ends(overrides)? };
+    notes.push(match (start.is_some(), goal.is_some()) {
+        (true, true) => format!("from the start to the goal: both are met within {ENDS_WITHIN}, or that is a fault"),
+        (true, false) => {
+            format!("from the start, which is met within {ENDS_WITHIN}, or that is a fault; there is no goal")
+        }
+        (false, true) => {
+            format!("to the goal, which is met within {ENDS_WITHIN}, or that is a fault; there is no start")
+        }
+        (false, false) => "where it begins and ends is not judged".into(),
+    });
+    let has_movers = !scene.workspace().movers.is_empty();
+    if has_movers {
+        notes.push("obstacles move on the recording's clock, from its first sample on".into());
+    }
+    let untold = [
+        (has_movers && recording.times().is_none())
+            .then_some("obstacles move, and the file has no times: it cannot be told whether the motion meets them"),
+        (scene.limiting_dynamics().is_some() && recording.velocities().is_none())
+            .then_some("motions have to keep within efforts, and the file has no velocities: torques cannot be told"),
+        (scene.limiting_dynamics().is_some() && !held.is_empty())
+            .then_some("motions have to keep within efforts, and joints of the tool move: torques cannot be told"),
+    ];
+    let clearance = scene.workspace().clearance;
+    let collision_check = match held {
+        [] => check_collision(scene, recording, clearance),
+        held => check_collision_with(scene, recording, held, clearance),
+    };
+    let mut broken = limits_kept(&scene.arm().joints, recording);
+    broken.extend(torques_kept(scene, recording));
+    let broken = Broken::new(&scene.arm().joints, &broken, &loaded.robot.assumed);
+    let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);
+    let misses = ends_kept(scene.arm(), recording, start, goal);
+    let false_claims = claims_kept(scene, recording, claims, &collision_check);
+    let findings = findings.but(Verdict::Undecided, untold.into_iter().flatten().collect());
+    Ok(findings.but(Verdict::Ends, misses).but(Verdict::Claims, false_claims))
+}
+
+/// Judges the recording as the task of the world.
+fn judge_task(
+    loaded: &LoadedScene,
+    recording: &Recording,
+    steps: &[RecordedStep],
+    claims: &Claims,
+    overrides: &Overrides,
+    mut notes: Vec<String>,
+) -> Result<MotionFindings, InputError> {
+    let LoadedTask { task, scene, .. } = loaded.clone().recorded_task(overrides)?;
+    notes.push(
+        "step by step: that the steps are the world's in an order that it allows, each motion with what is carried and \
+         objects where they lie then, limits, grasps, places, turns and rests; and what the file says of steps and events"
+            .into(),
+    );
+    let replay = replay(&task, recording, steps);
+    Ok(task::judged(&task, &scene, &loaded.robot.assumed, (recording, steps), replay, claims, notes))
+}
+
+/// Steps that look like a seam in wrapped angles.
+fn turns(scene: &Scene, recording: &Recording) -> Option<String> {
+    let turns = recording.turns(&scene.arm().topology());
+    let &(sample, k) = turns.first()?;
+    let joint = &scene.arm().joints[k];
+    let step = recording.positions()[sample + 1][k] - recording.positions()[sample][k];
+    let others = match turns.len() {
+        1 => String::new(),
+        n => format!(" ({} such steps more)", n - 1),
+    };
+    Some(format!(
+        "from sample {sample} to {} joint \"{}\" turns by {} and is checked so{others}; if the file's angles are kept \
+         within one turn, say --unwrap",
+        sample + 1,
+        joint.name,
+        joint.shown(step)
+    ))
+}

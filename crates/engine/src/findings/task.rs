@@ -1,0 +1,189 @@
+//! What is found of a task, step by step.
+
+use super::motion::{Broken, LimitFinding, MotionFindings, Verdict, WayFinding, limits, verdict};
+use cplan_core::model::{AssumedLimits, Claims, RecordedStep, Scene, Task};
+use cplan_core::space::Recording;
+use cplan_motion::recorded::{Departure, Replay, ReplayedStep, ReplayedTurn, step_claims_kept, task_claims_kept};
+use serde::Serialize;
+
+/// What there is to say of a step.
+#[derive(Debug, Clone, Serialize)]
+pub struct StepFinding {
+    /// Its number in the world file, from 1.
+    pub step: usize,
+    /// Which repetition of it this is, from 1.
+    pub cycle: usize,
+    /// What it does, in a few words.
+    pub action: String,
+    /// The object that is picked or placed.
+    pub object: Option<String>,
+    /// The object that is carried during the motion.
+    pub carried: Option<String>,
+    /// In a word.
+    pub verdict: Verdict,
+    /// The sample with which its motion begins, from 0.
+    pub first_sample: usize,
+    /// The sample with which it ends.
+    pub last_sample: usize,
+    /// Of the motion.
+    pub seconds: f64,
+    /// What its motion meets.
+    #[serde(flatten)]
+    pub way: WayFinding,
+    /// The turn of the wrist.
+    /// The turn of the wrist at its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn: Option<TurnFinding>,
+    /// Limits that are broken, each once.
+    pub limits_broken: Vec<LimitFinding>,
+    /// Limits that nobody gives and that its motion exceeds as cplan assumes them. They do not decide.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub assumed_exceeded: Vec<LimitFinding>,
+    /// In what it is not what was asked for.
+    pub faults: Vec<String>,
+}
+
+/// A turn of the wrist while the arm stands still.
+#[derive(Debug, Clone, Serialize)]
+pub struct TurnFinding {
+    /// Orientation of the object at the beginning, radians.
+    pub from: f64,
+    /// At the end.
+    pub to: f64,
+    /// How long it takes.
+    pub seconds: f64,
+    /// Proven lower bound on the distance between object and obstacles, metres; only of a free turn that could hit something.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+    /// Where a turn that is not free first hits something.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<TurnContactFinding>,
+}
+
+/// Where an object that is turned hits something.
+#[derive(Debug, Clone, Serialize)]
+pub struct TurnContactFinding {
+    /// Orientation of the object then, radians.
+    pub angle: f64,
+    /// Name of the obstacle.
+    pub obstacle: String,
+}
+
+impl StepFinding {
+    fn new(task: &Task, replayed: &ReplayedStep, assumed: &AssumedLimits) -> Self {
+        let ReplayedStep { step, recorded, scene, collision_check, broken, faults, .. } = replayed;
+        let name = |object: usize| task.objects[object].name.clone();
+        let turn = replayed.turn.map(|turn| TurnFinding::new(scene, &turn));
+        let of_turn = match &turn {
+            Some(TurnFinding { contact: Some(_), .. }) => Verdict::Collision,
+            _ => Verdict::Free,
+        };
+        let joints = &scene.arm().joints;
+        let broken = Broken::new(joints, broken, assumed);
+        let of_faults = if faults.is_empty() { Verdict::Free } else { Verdict::Task };
+        Self {
+            step: step.number,
+            cycle: step.cycle,
+            action: step.action.describe(&task.objects),
+            object: replayed.object.map(name),
+            carried: replayed.carried.map(name),
+            verdict: verdict(collision_check, &broken.given).max(of_turn).max(of_faults),
+            first_sample: *recorded.samples.start(),
+            last_sample: *recorded.samples.end(),
+            seconds: replayed.seconds,
+            way: WayFinding::new(scene, collision_check, true),
+            turn,
+            limits_broken: limits(joints, &broken.given, true),
+            assumed_exceeded: limits(joints, &broken.assumed, true),
+            faults: faults.iter().map(ToString::to_string).collect(),
+        }
+    }
+
+    /// In words that stand for it.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("step {} (cycle {})", self.step, self.cycle)
+    }
+
+    /// Proven lower bound on the distance kept in its motion and its turn, metres; none where nothing can be hit.
+    #[must_use]
+    pub fn clearance(&self) -> Option<f64> {
+        let turn = self.turn.as_ref().and_then(|turn| turn.clearance);
+        turn.into_iter().chain(self.way.clearance).reduce(f64::min)
+    }
+}
+
+impl TurnFinding {
+    fn new(scene: &Scene, ReplayedTurn { turn, verdict }: &ReplayedTurn) -> Self {
+        let contact = verdict.err().map(|contact| TurnContactFinding {
+            angle: contact.angle,
+            obstacle: scene.obstacle(contact.obstacle).name.clone(),
+        });
+        let clearance = verdict.ok().map(|free| free.clearance).filter(|clearance| clearance.is_finite());
+        Self { from: turn.from, to: turn.to, seconds: turn.seconds, clearance, contact }
+    }
+}
+
+/// Judges all steps. What is found of the whole is that of the step that decides it: of the first that collides, else of
+/// the first that is undecided, else of that which keeps the least.
+pub(super) fn judged(
+    task: &Task,
+    scene: &Scene,
+    assumed: &AssumedLimits,
+    (recording, recorded): (&Recording, &[RecordedStep]),
+    mut replay: Replay,
+    claims: &Claims,
+    notes: Vec<String>,
+) -> MotionFindings {
+    let (mut happened, mut false_claims) = (Vec::new(), Vec::new());
+    let mut steps = Vec::new();
+    for (index, step) in replay.by_ref().enumerate() {
+        false_claims.extend(step_claims_kept(task, recording, &step, claims, index));
+        happened.extend(step.event.clone());
+        steps.push(StepFinding::new(task, &step, assumed));
+    }
+    // Of a task that breaks off, what is said of the whole is about another one.
+    if replay.departure().is_none() {
+        false_claims.extend(task_claims_kept(task, recording, recorded, &happened, claims));
+    }
+    let departure = replay.departure().map(Departure::to_string);
+    let of_departure = if departure.is_some() { Verdict::Task } else { Verdict::Free };
+    let worst = steps.iter().map(|step| step.verdict).max().unwrap_or(Verdict::Free);
+    let of_step = |step: &StepFinding| {
+        let name = step.name();
+        step.faults.iter().map(move |fault| format!("{name}: {fault}")).collect::<Vec<_>>()
+    };
+    let faults = steps.iter().flat_map(of_step).chain(departure).collect();
+    MotionFindings {
+        verdict: worst.max(of_departure),
+        way: way(&steps),
+        limits_broken: steps.iter().flat_map(|step| step.limits_broken.iter().cloned()).collect(),
+        assumed_exceeded: steps.iter().flat_map(|step| step.assumed_exceeded.iter().cloned()).collect(),
+        faults,
+        steps: Some(steps),
+        notes,
+        ..MotionFindings::of_nothing(scene, recording)
+    }
+    .but(Verdict::Claims, false_claims)
+}
+
+/// What is met on the whole way.
+fn way(steps: &[StepFinding]) -> WayFinding {
+    let undecided = steps.iter().position(|step| step.way.undecided.is_some());
+    let turn_hits = |step: &StepFinding| step.turn.as_ref().is_some_and(|turn| turn.contact.is_some());
+    if let Some(hit) = steps.iter().position(|step| step.way.first_contact.is_some()) {
+        let proven = undecided.is_none_or(|open| open > hit) && !steps[..hit].iter().any(turn_hits);
+        let way = steps[hit].way.clone();
+        return WayFinding { free_until: way.free_until.filter(|_| proven), ..way };
+    }
+    if let Some(open) = undecided {
+        return steps[open].way.clone();
+    }
+    if steps.iter().any(turn_hits) {
+        return WayFinding::default();
+    }
+    let clearance = steps.iter().filter_map(StepFinding::clearance).reduce(f64::min);
+    let depth = |step: &&StepFinding| step.way.nearest.as_ref().map_or(f64::NEG_INFINITY, |nearest| nearest.depth);
+    let nearest = steps.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)));
+    WayFinding { clearance, nearest: nearest.and_then(|step| step.way.nearest.clone()), ..WayFinding::default() }
+}

@@ -1,0 +1,279 @@
+//! The ladder of refinement.
+
+use super::admission::{Admit, Ends};
+use super::bound::{Bound, bound};
+use super::rungs::{Described, cells, field_cells, polygons, zoned_cells};
+use super::settle::decide;
+use super::{Answer, Options, Planner, Space, Stages, Verdict, first, shortest, subdivision};
+use cplan_core::check::{CertifiedPath, Rejection, certify};
+use cplan_core::model::{MotionProblem, Scene};
+use cplan_core::planner::{Harmonic, Note, Proposal, Query, Run, Trapezoid, Visibility, Wavefront};
+use cplan_core::space::{Metric, Path, Segment};
+use cplan_fields::FieldPlanner;
+use cplan_interrupt::Instant;
+use cplan_roadmaps::{Prm, Triangles, Voronoi};
+use cplan_text::percent;
+
+/// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
+/// beside a finer attempt where it is not.
+pub(super) const FIRST_BOXES: usize = 20_000;
+
+/// Lower bounds are made better until the path is known to be within this share of the optimum, or cannot be.
+pub(super) const CLOSE: f64 = 1e-4;
+
+/// A path that may be longer than the optimum by more than this share of it is looked at again on finer levels, though no gap is
+/// asked for: a shorter way may lead through a passage that the first level closes. Such paths are rare, one in a hundred.
+const WIDE: f64 = 0.05;
+
+/// The last level for that, four times finer each: it shows passages down to a five-thousandth of the arm's reach.
+const LAST_LOOK: usize = 2;
+
+/// Answers `problem` with the options' planner. `progress` hears about attempts that failed.
+///
+/// What is out of the arm's reach is left out of the search; paths are certified among all.
+#[must_use]
+pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+    let scene = problem.scene();
+    let Some(near) = scene.within_reach() else { return answered(problem, options, progress) };
+    let near = MotionProblem::trusted(near, problem.start(), problem.goals().clone());
+    let mut answer = answered(&near, options, progress);
+    let among_all = |path: &CertifiedPath| certify(scene, path.path().clone(), scene.workspace().clearance).ok();
+    answer.witness = answer.witness.as_ref().and_then(among_all);
+    if let Verdict::Found(path) = &mut answer.verdict {
+        match among_all(path) {
+            Some(certified) => *path = certified,
+            None => return answered(problem, options, progress),
+        }
+    }
+    answer
+}
+
+fn answered(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+    match options.planner {
+        Planner::Shortest { .. } => shortest::solve(problem, options, progress),
+        Planner::First => first::solve(problem, options),
+        Planner::Visibility { .. } => climb_polygons(problem, options, progress),
+        Planner::Trapezoid { path, margin, search } => {
+            let planner = Trapezoid { path, search };
+            climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
+        }
+        Planner::Triangles { path, margin, search } => {
+            let planner = Triangles { path, search };
+            climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
+        }
+        Planner::Voronoi { path, margin, search } => {
+            let planner = Voronoi { path, search };
+            climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
+        }
+        Planner::Prm { samples, nearest, seed, path, margin, search } => {
+            let planner = |level: usize| Prm { samples: samples << level, nearest, seed, path, search };
+            climb(problem, options, progress, planner, |level| polygons(problem, margin, level))
+        }
+        Planner::Wavefront { search, neighborhood, space, path, cells: counts } => {
+            let planner = Wavefront { search, neighborhood, path };
+            climb(problem, options, progress, |_| planner, |level| cells(problem, space, counts, level))
+        }
+        Planner::Harmonic { field: None, space, path, cells } => {
+            climb(problem, options, progress, |_| Harmonic { path }, |level| field_cells(problem, space, cells, level))
+        }
+        Planner::Harmonic { field: Some(field), space, path, cells } => {
+            let planner = FieldPlanner { path, ..field };
+            climb(problem, options, progress, |_| planner, |level| zoned_cells(problem, space, cells, level))
+        }
+        Planner::Subdivision { .. } => subdivision::solve(problem, options, progress),
+    }
+}
+
+/// By a visibility graph, of which the planner has the margin.
+pub(super) fn climb_polygons(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+    let (metric, margin) = (options.planner.metric(problem.scene().arm()), options.planner.margin());
+    let planner = Visibility { metric, search: options.planner.search().unwrap_or_default() };
+    climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
+}
+
+/// Level after level, until a path is good enough or a proof is found: of each the planner and the space.
+fn climb<P: cplan_core::planner::Planner>(
+    problem: &MotionProblem,
+    options: &Options,
+    progress: &mut dyn FnMut(&str),
+    planner: impl Fn(usize) -> P,
+    build: impl Fn(usize) -> Option<P::Space>,
+) -> Answer
+where
+    P::Space: Into<Space> + Described + Admit,
+{
+    let (method, metric) = (options.planner.method(), options.planner.metric(problem.scene().arm()));
+    let mut climb = Climb { problem, options, metric, level: 0, stages: Stages::default(), path: None, bound: None };
+    let mut history = Vec::new();
+    let mut last: Option<(Run, P::Space)> = None;
+    let mut known = None;
+    let mut finest = "its finest resolution";
+    for level in 0..options.levels.max(1) {
+        let clock = Instant::now();
+        let Some(space) = build(level) else { break };
+        let planner = planner(level);
+        let map = planner.build(&space);
+        climb.stages.build += clock.elapsed();
+        let clock = Instant::now();
+        let ends = Ends::new(problem, &space);
+        let run = match method {
+            _ if options.planner.optimises() => {
+                shortest_of_all(&ends, metric, |query| planner.query(&space, &map, query))
+            }
+            _ => planner.query(&space, &map, &ends.query),
+        };
+        climb.stages.query += clock.elapsed();
+        climb.level = level;
+        // On a finer grid a field takes more sweeps yet.
+        let takes_more = matches!((&run.outcome, &run.note), (Proposal::GaveUp(_), Some(Note::Unconverged { .. })));
+        let failure = climb.judge(&ends, &run.outcome).map(|failure| format!("{}: {failure}", space.describe()));
+        last = Some((run, space));
+        let Some(failure) = failure else { break };
+        progress(&format!("{method}: {failure}"));
+        history.push(failure);
+        if level == 0 && climb.path.is_none() {
+            known = settle(problem, options.boxes.min(FIRST_BOXES), &mut climb.stages);
+            if let Some(Verdict::Infeasible(_)) = known {
+                break;
+            }
+        }
+        if takes_more {
+            finest = "the resolution that its sweeps allow";
+            break;
+        }
+    }
+    let path = climb.path.take();
+    if path.is_none() && known.is_none() {
+        progress(&format!("{method}: looking for a proof that there is no path"));
+        known = settle(problem, options.boxes, &mut climb.stages);
+    }
+    let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
+    let why = || history.last().cloned().unwrap_or_default();
+    let unknown = || format!("{method} found no certified path at {finest} ({})", why());
+    let (verdict, witness) = match (path, known) {
+        (Some(path), _) => (Verdict::Found(path), None),
+        (None, Some(Verdict::Infeasible(proof))) => (Verdict::Infeasible(proof), None),
+        (None, Some(Verdict::Found(witness))) => {
+            let reason = "there is a path (certified by subdivision), which this planner's space does not show";
+            (Verdict::Unknown(format!("{reason}: {}", unknown())), Some(witness))
+        }
+        (None, _) => (Verdict::Unknown(unknown()), None),
+    };
+    let (kind, bound) = (options.planner.path_kind(), climb.bound);
+    let stages = climb.stages;
+    Answer { method, verdict, path: kind, witness, bound, history, run, space: space.into(), stages }
+}
+
+/// What is known on the way up the ladder.
+struct Climb<'a> {
+    problem: &'a MotionProblem,
+    options: &'a Options,
+    metric: Metric,
+    level: usize,
+    stages: Stages,
+    /// The best certified path so far.
+    path: Option<CertifiedPath>,
+    /// How far it is from the optimum at the most, by all levels together.
+    bound: Option<Bound>,
+}
+
+impl Climb<'_> {
+    /// What a level's outcome is worth. Why to go on, in words; none if there is no reason to.
+    fn judge(&mut self, ends: &Ends, outcome: &Proposal) -> Option<String> {
+        let proposal = match outcome {
+            Proposal::Found(path) => path,
+            Proposal::NoPath => return self.unless_content("no path in it".into()),
+            Proposal::GaveUp(reason) => return self.unless_content(reason.clone()),
+        };
+        match self.certified(ends, proposal) {
+            Ok(path) => {
+                self.keep(path);
+                let excess = self.bound.map_or_else(String::new, |bound| percent(bound.gap()));
+                self.unless_content(format!("its path is longer than the bound by {excess}"))
+            }
+            Err(rejection) => {
+                let why = explain(self.problem.scene(), rejection);
+                self.unless_content(format!("its path is not certified: {why}"))
+            }
+        }
+    }
+
+    /// `failure`, unless there is a path and no gap that is still to be closed: the one asked for, or else a wide one.
+    fn unless_content(&self, failure: String) -> Option<String> {
+        let gap = self.options.planner.gap().or((self.level < LAST_LOOK).then_some(WIDE));
+        // A search that takes any path takes this one.
+        let gap = gap.filter(|_| self.options.planner.optimises());
+        let wants_more = self.bound.zip(gap).is_some_and(|(bound, gap)| bound.gap() > gap);
+        (self.path.is_none() || wants_more).then_some(failure)
+    }
+
+    /// The certified path from start to goal along a proposal between their stand-ins.
+    fn certified(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
+        let clock = Instant::now();
+        let judge = |path| certify(self.problem.scene(), path, self.problem.scene().workspace().clearance);
+        let straight = ends.past_stand_ins(proposal).and_then(|path| judge(path).ok());
+        let certified = straight.map_or_else(|| judge(ends.complete(proposal)), Ok);
+        self.stages.certify += clock.elapsed();
+        certified
+    }
+
+    /// Keeps a path if it is the best so far, and bounds it where the method is after the optimum.
+    fn keep(&mut self, path: CertifiedPath) {
+        if !self.options.bounded || !self.options.planner.method().optimises() {
+            self.path = Some(path);
+            return;
+        }
+        let clock = Instant::now();
+        let (metric, gap) = (self.metric, self.options.planner.gap());
+        let upper = metric.length(path.path());
+        // What no motion is below does not depend on the path: once is enough.
+        let found = self.bound.map_or_else(
+            || bound(self.problem, path.path(), metric, gap.map_or(CLOSE, |gap| CLOSE.min(gap / 2.0))),
+            |best| Bound { upper, ..best },
+        );
+        self.stages.bound += clock.elapsed();
+        if self.bound.is_none_or(|best| found.upper < best.upper) {
+            self.path = Some(path);
+            self.bound = Some(found);
+        }
+    }
+}
+
+/// The run whose path is the shortest when it is completed. A planner measures to the stand-in of a goal, not to the goal:
+/// where that makes a difference each goal is asked for by itself.
+fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -> Run {
+    if ends.query.goals.pieces().len() < 2 || !ends.has_goal_stand_ins() {
+        return query(&ends.query);
+    }
+    let length = |run: &Run| match &run.outcome {
+        Proposal::Found(path) => metric.length(&ends.past_stand_ins(path).unwrap_or_else(|| ends.complete(path))),
+        Proposal::NoPath | Proposal::GaveUp(_) => f64::INFINITY,
+    };
+    let one = |piece: &Segment| query(&Query { start: ends.query.start, goals: (*piece).into() });
+    let each = ends.query.goals.pieces().iter().map(one);
+    let shortest = each.min_by(|a, b| length(a).total_cmp(&length(b)));
+    shortest.unwrap_or_else(|| query(&ends.query))
+}
+
+/// Whether there is a path at all, whatever a planner's space shows; none if that is not known.
+fn settle(problem: &MotionProblem, boxes: usize, stages: &mut Stages) -> Option<Verdict> {
+    let clock = Instant::now();
+    let verdict = decide(problem, boxes);
+    stages.prove += clock.elapsed();
+    (!matches!(verdict, Verdict::Unknown(_))).then_some(verdict)
+}
+
+pub(super) fn explain(scene: &Scene, rejection: Rejection) -> String {
+    match rejection {
+        Rejection::OutOfLimits { waypoint, joint } => {
+            format!("waypoint {waypoint} is outside the limits of joint \"{}\"", scene.arm().joints[joint].name)
+        }
+        Rejection::TooClose(nearest) | Rejection::Undecided(nearest) => format!(
+            "{} come within {:.3e} m of each other at ({:.6}, {:.6})",
+            scene.describe(nearest.contact.pair),
+            nearest.contact.separation.distance,
+            nearest.at[0],
+            nearest.at[1],
+        ),
+    }
+}

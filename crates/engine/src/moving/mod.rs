@@ -1,0 +1,197 @@
+//! Motions among obstacles that move: which certified path to take, when to go, and where to wait.
+//!
+//! Place on a path and time are a plane, in which what moves is a set of forbidden regions. A path among what stands is certified
+//! first, as if nothing moved; what stands in the way then stands in it always. Along it the arm goes from rest to rest between places at which it
+//! may wait: the departures of each such motion that are blocked are known as intervals of time (`departures`), exact as slices are in joint
+//! space (`blocked`), and the earliest way is a search over safe intervals (`schedule`). Where none is found it is tried to prove that no
+//! timing at all helps along this path (`refutation`). Other ways are those that go around what is met where it is met. What comes of it is
+//! judged in time as anybody's recording is, by [`cplan_motion::recorded::certify_in_time`].
+
+mod blocked;
+mod departures;
+mod refutation;
+mod schedule;
+
+pub(super) use blocked::Movers;
+pub use schedule::{Demand, Scheduled, Wait};
+
+use super::options::Options;
+use super::{Verdict, solve};
+use cplan_core::check::{CertifiedPath, Nearest, certify};
+use cplan_core::model::{MotionProblem, Scene};
+use cplan_core::space::{Configuration, GoalSet, Interpolation, Recording, Segment};
+use cplan_motion::recorded::{CollisionCheck, certify_in_time, met_in_time};
+use cplan_motion::{Limits, Timed, TimingError, Trajectory};
+use cplan_text::counted;
+use refutation::no_timing;
+use schedule::{Effort, schedule};
+use serde::Serialize;
+
+/// Ways that are tried: the planner's, and others around what is met on those before.
+const WAYS: usize = 3;
+
+/// How much longer than the shortest other ways may be, as a share, unless a gap is asked for. They are found in a fraction of the time, have fewer
+/// corners, and that makes most of them faster.
+const GAP: f64 = 0.03;
+
+/// Times that differ by no more than this are the same, seconds: clocks count nanoseconds.
+const ROUNDING: f64 = 1e-8;
+
+/// A motion that is certified in time.
+#[derive(Debug, Clone)]
+pub struct InTime {
+    /// What it follows, and the motion; the clearance is that from what moves, too.
+    pub timed: Timed,
+    /// What there is to say of it.
+    pub figures: Timing,
+}
+
+/// What there is to say of a motion among obstacles that move.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Timing {
+    /// How many obstacles move; of a task, the objects that do so until they are picked are among them.
+    pub obstacles: usize,
+    /// How many ways were tried.
+    pub ways: usize,
+    /// Where the arm stands on its way, and when.
+    pub waits: Vec<Wait>,
+    /// Proven lower bound on the distance to what moves, metres; none if nothing that moves can meet the arm.
+    pub clearance: Option<f64>,
+    /// Until when the arm may stay at the goal, seconds; none if for ever.
+    pub free_until: Option<f64>,
+}
+
+/// The earliest motion among those along the ways tried: the certified path's, which `first` drives along as if nothing moved, at the
+/// demand's speed, and others. Or why there is none, in words.
+///
+/// # Errors
+/// Paths that cannot be timed.
+pub fn in_time(
+    problem: &MotionProblem,
+    certified: &CertifiedPath,
+    first: Timed,
+    options: &Options,
+    demand: &Demand,
+) -> Result<Result<InTime, String>, TimingError> {
+    let scene = problem.scene();
+    let movers = Movers::new(scene, scene.workspace().clearance);
+    let mut around = problem.clone();
+    let mut way = Some((certified.clone(), first));
+    // Motions in the order in which they were found, each better than the one before.
+    let mut found: Vec<Scheduled> = Vec::new();
+    let (mut refuted, mut ways) = (0, 0);
+    while let Some((path, whole)) = way.take() {
+        ways += 1;
+        let best = found.last();
+        let for_good = best.filter(|best| best.is_for_good()).map(Scheduled::duration);
+        // Only what is sooner counts, once the arm can stay where what is known ends: a way that takes longer without a wait is none.
+        let latest = demand.arrival.map_or(f64::INFINITY, |[_, ends]| ends + ROUNDING);
+        let before = for_good.unwrap_or(f64::INFINITY).min(latest);
+        if whole.trajectory.duration() < before {
+            let along = |effort: Effort| {
+                // With limits on jerks corners take as long to round as all else together, and here there are many motions with them.
+                let stops = effort == Effort::THOROUGH && Limits::from(&scene.arm().joints).stops_at_corners();
+                let drive = if stops { options.drive.stopping_at_corners() } else { options.drive };
+                let along = schedule(&movers, &path, &whole, &drive, demand, effort, before)?;
+                Ok::<_, TimingError>(along.filter(|it| best.is_none_or(|best| it.is_better_than(best))))
+            };
+            let mut better = along(Effort::QUICK)?;
+            if better.is_none() && for_good.is_none() {
+                let is_closed = no_timing(&movers, path.path());
+                refuted += usize::from(is_closed);
+                if !is_closed {
+                    better = along(Effort::THOROUGH)?;
+                }
+            }
+            found.extend(better);
+        }
+        // What ends as soon as it may is as good along any way.
+        let soonest = demand.until.or(demand.arrival.map(|[begins, _]| begins)).unwrap_or(0.0);
+        let is_best =
+            |best: &Scheduled| best.is_for_good() && (best.waits.is_empty() || best.duration() <= soonest + ROUNDING);
+        if ways == WAYS || found.last().is_some_and(is_best) {
+            break;
+        }
+        let Some(next) = around_what_is_met(&around, &whole.trajectory) else { break };
+        around = next;
+        let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
+        let looser = Options { bounded: false, planner, ..*options };
+        let Verdict::Found(other) = solve(&around, &looser, &mut |_| ()).verdict else { break };
+        let Ok(other) = certify(scene, other.path().clone(), scene.workspace().clearance) else { break };
+        let whole = options.drive.along(scene, &other, demand.speed)?;
+        way = Some((other, whole));
+    }
+    let certified = found.into_iter().rev().find_map(|found| certified_in_time(scene, found, ways));
+    Ok(certified.ok_or_else(|| reason(ways, refuted, scene)))
+}
+
+fn reason(ways: usize, refuted: usize, scene: &Scene) -> String {
+    let movers = scene.workspace().movers.len();
+    let moves = if movers == 1 { "an obstacle moves".into() } else { format!("{movers} obstacles move") };
+    let tried =
+        if ways == 1 { "the one way that was tried".into() } else { format!("the {ways} ways that were tried") };
+    let known = match refuted {
+        _ if refuted == ways => format!("proven: along {tried} no timing keeps clear of what moves"),
+        0 => format!("along {tried} no timing was found that keeps clear of what moves"),
+        _ => format!(
+            "along {tried} no timing was found that keeps clear of what moves, and along {} there is none: proven",
+            counted(refuted, "way")
+        ),
+    };
+    format!("there are ways among what stands, but {moves}; {known}")
+}
+
+/// A motion as it is judged: in both ways in which consumers join its samples.
+fn certified_in_time(scene: &Scene, found: Scheduled, ways: usize) -> Option<InTime> {
+    let Scheduled { timed: Timed { curve, trajectory }, waits, free_until } = found;
+    let (mut clearance, mut nearest) = (f64::INFINITY, None);
+    // On straight pieces both readings are the same motion.
+    let is_curved = curve.radii().iter().any(|radius| *radius > 0.0);
+    for recording in recordings(&trajectory)?.into_iter().take(if is_curved { 2 } else { 1 }) {
+        match certify_in_time(scene, &recording, scene.workspace().clearance) {
+            CollisionCheck::Free { clearance: proven, nearest: seen } => {
+                clearance = clearance.min(proven);
+                nearest = seen.map(|seen| Nearest { at: seen.moment.at, contact: seen.contact });
+            }
+            CollisionCheck::Collision { .. } | CollisionCheck::Undecided(_) => return None,
+        }
+    }
+    let curve = curve.among_movers(clearance, nearest);
+    let obstacles = scene.workspace().movers.len();
+    let [clearance, free_until] = [clearance, free_until].map(|value| Some(value).filter(|value| value.is_finite()));
+    let figures = Timing { obstacles, ways, waits, clearance, free_until };
+    Some(InTime { timed: Timed { curve, trajectory }, figures })
+}
+
+/// The distance that the arm is proven to keep from what moves while it stands for so many seconds from the beginning of the scene's clock on; none
+/// where that is not more than the clearance.
+pub fn stands(scene: &Scene, q: Configuration, seconds: f64) -> Option<f64> {
+    let times = if seconds > 0.0 { vec![0.0, seconds] } else { vec![0.0] };
+    let (positions, velocities) = (vec![q; times.len()], vec![Configuration::zeros(); times.len()]);
+    let standing = Recording::new(positions, Some(times), Some(velocities)).ok()?;
+    match certify_in_time(scene, &standing, scene.workspace().clearance) {
+        CollisionCheck::Free { clearance, .. } => Some(clearance),
+        CollisionCheck::Collision { .. } | CollisionCheck::Undecided(_) => None,
+    }
+}
+
+/// A motion by its cubics, and by the polynomials that it states.
+fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
+    let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
+    let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
+    let cubic = Recording::new(position, Some(trajectory.time.clone()), Some(velocity)).ok()?;
+    let quartic = cubic.clone().accelerated(rows(&trajectory.acceleration), Interpolation::Quartic).ok()?;
+    Some([cubic, quartic])
+}
+
+/// The same problem with what a motion first meets standing where it meets it; none if it meets nothing, or start or goals are not free then.
+fn around_what_is_met(problem: &MotionProblem, trajectory: &Trajectory) -> Option<MotionProblem> {
+    let scene = problem.scene();
+    let [cubic, _] = recordings(trajectory)?;
+    let met = met_in_time(scene, &cubic, scene.workspace().clearance)?;
+    let mover = scene.mover(met.contact.pair)?.at(met.moment.time);
+    let scene = scene.with_standing(mover);
+    let is_open = |goal: &&Segment| !goal.is_point() || scene.obstructions(goal.ends()[0]).is_empty();
+    let goals: GoalSet = problem.goals().pieces().iter().filter(is_open).copied().collect();
+    MotionProblem::new(scene, problem.start(), goals).ok()
+}

@@ -1,0 +1,110 @@
+//! Proofs that no timing helps: that whoever goes along a path, in whatever way, meets what moves.
+
+use super::blocked::{Around, Movers, complement};
+use cplan_core::check::{Deviation, Posture};
+use cplan_core::model::Arm;
+use cplan_core::space::{Configuration, Path};
+use cplan_geometry::{Interval, Ordered, merge_in_place};
+use cplan_interrupt::checkpoint;
+use std::cell::OnceCell;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+/// Stretches that a path is cut into, at least.
+const STRETCHES: usize = 64;
+
+/// Times of overlap are found to this, seconds.
+const STEP: f64 = 1e-3;
+
+/// What a stretch takes at least is lowered by this share of it: far more than rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A stretch of a path.
+struct Stretch {
+    /// Its middle, and how far it goes to either side.
+    middle: Configuration,
+    half: Configuration,
+    /// What it takes at least to go from one end to the other, seconds.
+    takes: f64,
+    /// The times that are left, once they are asked for: at all others each of its postures meets something that moves.
+    left: OnceCell<Vec<Interval>>,
+}
+
+impl Stretch {
+    fn left(&self, movers: &Movers) -> &[Interval] {
+        self.left.get_or_init(|| {
+            let posture = Posture::new(movers.scene(), self.middle);
+            let (mut met, mut known) = (Vec::new(), None);
+            for &meeting in movers.meetings() {
+                let around = Around::of(&mut known, movers, &posture, Deviation::Along(self.half), meeting);
+                movers.met(around, meeting, STEP, &mut met);
+            }
+            merge_in_place(&mut met);
+            complement(&met)
+        })
+    }
+}
+
+/// Whether it is proven that no motion along a path gets to its end, forwards and backwards as it pleases and at whatever speeds the joints allow, without
+/// coming nearer to what moves than the clearance, or meeting it.
+///
+/// Place on the path and time are a plane. For each of some stretches of the path the times are found at which all of its postures overlap
+/// something that moves, deeper than the arm moves in the stretch; of what is left only that counts which is reached: from the
+/// start at time 0, on to neighbouring stretches at times that are left in both, not faster than the joints' top speeds.
+pub fn no_timing(movers: &Movers, path: &Path) -> bool {
+    let stretches = stretches(path, movers.scene().arm());
+    let Some(first) = stretches.first() else { return false };
+    if first.left(movers).first().is_none_or(|left| left[0] > 0.0) {
+        return true;
+    }
+    // When a stretch's first (0) or second (1) end can be reached at the soonest, within one of the times that are left.
+    let mut known: BTreeMap<(usize, usize, usize), f64> = BTreeMap::new();
+    let mut open = BinaryHeap::from([Reverse((Ordered(0.0), 0, 0, 0))]);
+    known.insert((0, 0, 0), 0.0);
+    while let Some(Reverse((Ordered(time), stretch, gap, end))) = open.pop() {
+        checkpoint();
+        if known[&(stretch, gap, end)] < time {
+            continue;
+        }
+        if stretch + 1 == stretches.len() && end == 1 {
+            return false;
+        }
+        let takes = stretches[stretch].takes;
+        let until = stretches[stretch].left(movers)[gap][1];
+        let mut reach = |stretch: usize, gap: usize, end: usize, time: f64| {
+            if known.get(&(stretch, gap, end)).is_none_or(|known| time < *known) {
+                known.insert((stretch, gap, end), time);
+                open.push(Reverse((Ordered(time), stretch, gap, end)));
+            }
+        };
+        if time + takes <= until {
+            reach(stretch, gap, 1 - end, time + takes);
+        }
+        let beyond = if end == 1 { stretch + 1 } else { stretch.wrapping_sub(1) };
+        for (other, &[begins, ends]) in
+            stretches.get(beyond).iter().flat_map(|next| next.left(movers).iter().enumerate())
+        {
+            let at = time.max(begins);
+            if at <= until.min(ends) {
+                reach(beyond, other, 1 - end, at);
+            }
+        }
+    }
+    true
+}
+
+fn stretches(path: &Path, arm: &Arm) -> Vec<Stretch> {
+    let length = path.length();
+    let speeds = arm.joints.each_ref().map(|joint| joint.velocity);
+    let mut stretches = Vec::new();
+    for (a, b) in path.segments() {
+        let parts = ((b - a).norm() / length * STRETCHES as f64).ceil().max(1.0) as usize;
+        for part in 0..parts {
+            let at = |k: usize| a + (b - a) * (k as f64 / parts as f64);
+            let half: Configuration = (at(part + 1) - at(part)) / 2.0;
+            let takes = (0..2).map(|k| 2.0 * half[k].abs() / speeds[k]).fold(0.0, f64::max) * (1.0 - ROUNDING);
+            stretches.push(Stretch { middle: at(part) + half, half, takes, left: OnceCell::new() });
+        }
+    }
+    stretches
+}

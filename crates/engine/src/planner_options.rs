@@ -1,0 +1,426 @@
+//! A planner with options of its own.
+
+use super::{CellCounts, GridSpace, Method};
+use cplan_core::model::{Arm, Preference};
+use cplan_core::planner::{GridSearch, PathKind, RoadmapSearch, Wavefront};
+use cplan_core::space::Metric;
+use cplan_core::waves::Neighborhood;
+use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
+use cplan_roadmaps::Prm;
+use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+
+/// What makes a path short.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Criterion {
+    /// Square root of the sum of squares, radians and metres as they come.
+    #[default]
+    Euclidean,
+    /// The same with the joints' values multiplied by these weights, both positive.
+    Weighted([f64; 2]),
+    /// Seconds at the joints' top speeds.
+    Time,
+}
+
+impl Criterion {
+    /// The metric for an arm.
+    #[must_use]
+    pub fn metric(self, arm: &Arm) -> Metric {
+        match self {
+            Criterion::Euclidean => Metric::Euclidean,
+            Criterion::Weighted(weights) => Metric::Weighted { weights },
+            Criterion::Time => Metric::Time { speeds: arm.joints.each_ref().map(|joint| joint.velocity) },
+        }
+    }
+}
+
+/// A planner with what it can be told. [`Planner::named`] has the defaults.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Planner {
+    /// The shortest path, from exact slices, with a proven bound on the optimum.
+    Shortest {
+        /// What makes a path short.
+        criterion: Criterion,
+        /// Refine until the path is proven to be longer than the optimum by no more than this share of it; none for 1e-4. A
+        /// larger one leaves room in which motions are faster.
+        gap: Option<f64>,
+        /// As of [`Planner::Visibility`], whose graph has its turn where slices do not tell.
+        margin: f64,
+    },
+    /// The first certified path that is found.
+    First,
+    /// Visibility graph and A*: the shortest path, with a proven bound on the optimum.
+    Visibility {
+        /// What makes a path short.
+        criterion: Criterion,
+        /// As of [`Planner::Shortest`]; none for what the first margin gives.
+        gap: Option<f64>,
+        /// First margin by which polygonal obstacles are grown, as a share of the arm's reach; quartered where needed.
+        margin: f64,
+        /// How the graph is searched.
+        #[serde(default)]
+        search: RoadmapSearch,
+    },
+    /// Trapezoidal decomposition: a channel of cells.
+    Trapezoid {
+        /// Which path through the channel.
+        path: PathKind,
+        /// As of [`Planner::Visibility`].
+        margin: f64,
+        /// How the adjacency of cells is searched.
+        #[serde(default)]
+        search: RoadmapSearch,
+    },
+    /// Triangular decomposition: a channel of triangles.
+    Triangles {
+        /// Which path through the channel.
+        path: PathKind,
+        /// As of [`Planner::Visibility`].
+        margin: f64,
+        /// How the roadmap is searched.
+        search: RoadmapSearch,
+    },
+    /// Voronoi diagram of the obstacles: the way whose least distance from them is the greatest.
+    Voronoi {
+        /// Which path: along the diagram, or that one pulled taut.
+        path: PathKind,
+        /// As of [`Planner::Visibility`].
+        margin: f64,
+        /// How the ways of greatest width are searched.
+        search: RoadmapSearch,
+    },
+    /// Probabilistic roadmap: random configurations, each joined to the nearest that it sees.
+    Prm {
+        /// How many, twice as many where needed.
+        samples: usize,
+        /// To how many of the nearest each is joined.
+        nearest: usize,
+        /// What they follow from.
+        seed: u64,
+        /// Which path.
+        path: PathKind,
+        /// As of [`Planner::Visibility`].
+        margin: f64,
+        /// How the roadmap is searched.
+        search: RoadmapSearch,
+    },
+    /// Manhattan wavefront, or another search of a grid.
+    Wavefront {
+        /// How the grid is searched.
+        search: GridSearch,
+        /// Where a move can lead.
+        neighborhood: Neighborhood,
+        /// How cells are decided.
+        space: GridSpace,
+        /// Which path through the cells.
+        path: PathKind,
+        /// First numbers of cells along the axes; doubled where needed.
+        cells: CellCounts,
+    },
+    /// Harmonic potential on a grid, or another field.
+    Harmonic {
+        /// The field in place of the harmonic one; its path is the one that stands beside it here.
+        field: Option<FieldPlanner>,
+        /// How cells are decided.
+        space: GridSpace,
+        /// Which path: the curve along the gradient, or that one pulled taut.
+        path: PathKind,
+        /// First numbers of cells along the axes; none for 256 x 256 cells' worth of cells that are square in joint space.
+        cells: Option<CellCounts>,
+    },
+    /// Subdivision into free, stuck and mixed boxes.
+    Subdivision {
+        /// Which path through the free boxes.
+        path: PathKind,
+    },
+}
+
+/// Shares of the arm's reach that a margin can be: more than 0, at most this.
+pub const MOST_MARGIN: f64 = 0.1;
+
+/// The first margin.
+const MARGIN: f64 = 1e-3;
+
+/// The first number of cells along an axis, if none is asked for.
+pub const FIRST_CELLS: usize = 256;
+
+/// Numbers of cells along an axis to begin with.
+pub const CELLS: RangeInclusive<usize> = 8..=2048;
+
+/// Numbers of samples to begin with.
+pub const SAMPLES: RangeInclusive<usize> = 1..=100_000;
+
+/// Numbers of samples to which each is joined.
+pub const NEAREST: RangeInclusive<usize> = 1..=1000;
+
+impl Planner {
+    /// The planner of that name, as it is if nothing else is said.
+    #[must_use]
+    pub fn named(method: Method) -> Self {
+        let (criterion, gap, margin) = (Criterion::Euclidean, None, MARGIN);
+        let (path, space, search) = (method.path_kind(), GridSpace::default(), RoadmapSearch::default());
+        match method {
+            Method::Shortest => Planner::Shortest { criterion, gap, margin },
+            Method::First => Planner::First,
+            Method::Visibility => Planner::Visibility { criterion, gap, margin, search },
+            Method::Trapezoid => Planner::Trapezoid { path, margin, search },
+            Method::Triangles => Planner::Triangles { path, margin, search },
+            Method::Voronoi => Planner::Voronoi { path, margin, search },
+            Method::Prm => {
+                let Prm { samples, nearest, seed, .. } = Prm::default();
+                Planner::Prm { samples, nearest, seed, path, margin, search }
+            }
+            Method::Wavefront => {
+                let Wavefront { search, neighborhood, .. } = Wavefront::default();
+                Planner::Wavefront { search, neighborhood, space, path, cells: CellCounts::square(FIRST_CELLS) }
+            }
+            Method::Harmonic => Planner::Harmonic { field: None, space, path, cells: None },
+            Method::Subdivision => Planner::Subdivision { path },
+        }
+    }
+
+    /// Which planner it is.
+    #[must_use]
+    pub fn method(&self) -> Method {
+        match self {
+            Planner::Shortest { .. } => Method::Shortest,
+            Planner::First => Method::First,
+            Planner::Visibility { .. } => Method::Visibility,
+            Planner::Trapezoid { .. } => Method::Trapezoid,
+            Planner::Triangles { .. } => Method::Triangles,
+            Planner::Voronoi { .. } => Method::Voronoi,
+            Planner::Prm { .. } => Method::Prm,
+            Planner::Wavefront { .. } => Method::Wavefront,
+            Planner::Harmonic { .. } => Method::Harmonic,
+            Planner::Subdivision { .. } => Method::Subdivision,
+        }
+    }
+
+    /// Which of its paths it gives.
+    #[must_use]
+    pub fn path_kind(&self) -> PathKind {
+        match *self {
+            Planner::Trapezoid { path, .. }
+            | Planner::Triangles { path, .. }
+            | Planner::Voronoi { path, .. }
+            | Planner::Prm { path, .. }
+            | Planner::Wavefront { path, .. }
+            | Planner::Harmonic { path, .. }
+            | Planner::Subdivision { path } => path,
+            Planner::Shortest { .. } | Planner::First | Planner::Visibility { .. } => PathKind::Taut,
+        }
+    }
+
+    /// The same planner, giving the other path, if it has two.
+    #[must_use]
+    pub fn with_path(mut self, kind: PathKind) -> Self {
+        if let Planner::Trapezoid { path, .. }
+        | Planner::Triangles { path, .. }
+        | Planner::Voronoi { path, .. }
+        | Planner::Prm { path, .. }
+        | Planner::Wavefront { path, .. }
+        | Planner::Harmonic { path, .. }
+        | Planner::Subdivision { path } = &mut self
+        {
+            *path = kind;
+        }
+        self
+    }
+
+    /// The same planner, for which this makes a path short, if it optimises.
+    #[must_use]
+    pub fn with_criterion(mut self, shortest: Criterion) -> Self {
+        if let Planner::Shortest { criterion, .. } | Planner::Visibility { criterion, .. } = &mut self {
+            *criterion = shortest;
+        }
+        self
+    }
+
+    /// The same planner, asked for this gap, if it optimises.
+    #[must_use]
+    pub fn with_gap(mut self, share: f64) -> Self {
+        if let Planner::Shortest { gap, .. } | Planner::Visibility { gap, .. } = &mut self {
+            *gap = Some(share);
+        }
+        self
+    }
+
+    /// The same planner with this first margin, if it has one.
+    #[must_use]
+    pub fn with_margin(mut self, share: f64) -> Self {
+        if let Planner::Shortest { margin, .. }
+        | Planner::Visibility { margin, .. }
+        | Planner::Trapezoid { margin, .. }
+        | Planner::Triangles { margin, .. }
+        | Planner::Voronoi { margin, .. }
+        | Planner::Prm { margin, .. } = &mut self
+        {
+            *margin = share;
+        }
+        self
+    }
+
+    /// The same planner with this first number of cells along each axis, if it has cells.
+    #[must_use]
+    pub fn with_cells(self, n: usize) -> Self {
+        self.with_cell_counts(CellCounts::square(n))
+    }
+
+    /// The same planner with these first numbers of cells along the axes, if it has cells.
+    #[must_use]
+    pub fn with_cell_counts(mut self, counts: CellCounts) -> Self {
+        match &mut self {
+            Planner::Wavefront { cells, .. } => *cells = counts,
+            Planner::Harmonic { cells, .. } => *cells = Some(counts),
+            _ => {}
+        }
+        self
+    }
+
+    /// The same planner that searches its roadmap like this, if it has one.
+    #[must_use]
+    pub fn with_search(mut self, how: RoadmapSearch) -> Self {
+        if let Planner::Visibility { search, .. }
+        | Planner::Trapezoid { search, .. }
+        | Planner::Triangles { search, .. }
+        | Planner::Voronoi { search, .. }
+        | Planner::Prm { search, .. } = &mut self
+        {
+            *search = how;
+        }
+        self
+    }
+
+    /// The same planner with cells decided like this, if it has cells.
+    #[must_use]
+    pub fn with_space(mut self, by: GridSpace) -> Self {
+        if let Planner::Wavefront { space, .. } | Planner::Harmonic { space, .. } = &mut self {
+            *space = by;
+        }
+        self
+    }
+
+    /// The first margin of its polygons, if it has any.
+    pub fn margin(&self) -> f64 {
+        match *self {
+            Planner::Shortest { margin, .. }
+            | Planner::Visibility { margin, .. }
+            | Planner::Trapezoid { margin, .. }
+            | Planner::Triangles { margin, .. }
+            | Planner::Voronoi { margin, .. }
+            | Planner::Prm { margin, .. } => margin,
+            _ => MARGIN,
+        }
+    }
+
+    /// How it measures paths of an arm.
+    #[must_use]
+    pub fn metric(&self, arm: &Arm) -> Metric {
+        match *self {
+            Planner::Shortest { criterion, .. } | Planner::Visibility { criterion, .. } => criterion.metric(arm),
+            _ => Metric::Euclidean,
+        }
+    }
+
+    /// What it is after: the gap asked for, of planners that optimise.
+    #[must_use]
+    pub fn gap(&self) -> Option<f64> {
+        match *self {
+            Planner::Shortest { gap, .. } | Planner::Visibility { gap, .. } => gap,
+            _ => None,
+        }
+    }
+
+    /// How it searches its roadmap, if it has one.
+    #[must_use]
+    pub fn search(&self) -> Option<RoadmapSearch> {
+        match *self {
+            Planner::Visibility { search, .. }
+            | Planner::Trapezoid { search, .. }
+            | Planner::Triangles { search, .. }
+            | Planner::Voronoi { search, .. }
+            | Planner::Prm { search, .. } => Some(search),
+            _ => None,
+        }
+    }
+
+    /// Whether it looks for the optimum as it is told to search.
+    #[must_use]
+    pub fn optimises(&self) -> bool {
+        self.method().optimises() && self.search().is_none_or(|search| search.order.is_optimal())
+    }
+
+    /// How the cells of its grid are decided, if it has one.
+    #[must_use]
+    pub fn space(&self) -> Option<GridSpace> {
+        match *self {
+            Planner::Wavefront { space, .. } | Planner::Harmonic { space, .. } => Some(space),
+            _ => None,
+        }
+    }
+
+    /// The field that it follows, if it is not the plain harmonic one.
+    #[must_use]
+    pub fn field(&self) -> Option<&FieldPlanner> {
+        if let Planner::Harmonic { field, .. } = self { field.as_ref() } else { None }
+    }
+
+    /// What its field needs and these regions of the world lack, if anything, with the cure.
+    #[must_use]
+    pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
+        let FieldChoice::Relaxed { equation, .. } = self.field()?.field else { return None };
+        let name = match equation {
+            EquationChoice::LocallyOriented { direction, .. } => {
+                if preferences.is_empty() {
+                    return Some("--field local needs [[preference]] regions in the world file".into());
+                }
+                let lost = preferences.iter().find(|region| region.direction.is_none() && direction.is_none())?;
+                let name = &lost.name;
+                return Some(format!(
+                    "--field local: the preference \"{name}\" has no direction; give it one, or --direction"
+                ));
+            }
+            EquationChoice::Preference { elsewhere: 0.0, .. } => "bvp",
+            EquationChoice::AlteredPreference { elsewhere: 0.0 } => "bvp2",
+            _ => return None,
+        };
+        let needs = || format!("--field {name} needs [[preference]] regions in the world file, or --epsilon");
+        preferences.is_empty().then(needs)
+    }
+
+    /// What of it makes no sense, by name.
+    pub(super) fn error(&self) -> Option<String> {
+        let positive = |name: &str, value: f64| {
+            (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} is not finite and positive"))
+        };
+        match *self {
+            Planner::Shortest { criterion, gap, margin } | Planner::Visibility { criterion, gap, margin, .. } => {
+                let weights = if let Criterion::Weighted(weights) = criterion { weights } else { [1.0; 2] };
+                let wrong = weights.into_iter().find_map(|weight| positive("weights", weight));
+                let blind = || "gap: a search that is not after the shortest path closes none".to_owned();
+                let blind = (gap.is_some() && !self.optimises()).then(blind);
+                wrong.or_else(|| positive("gap", gap?)).or(blind).or_else(|| wrong_margin(margin))
+            }
+            Planner::Trapezoid { margin, .. } | Planner::Triangles { margin, .. } | Planner::Voronoi { margin, .. } => {
+                wrong_margin(margin)
+            }
+            Planner::Prm { samples, nearest, margin, .. } => wrong_number("samples", samples, &SAMPLES)
+                .or_else(|| wrong_number("nearest", nearest, &NEAREST))
+                .or_else(|| wrong_margin(margin)),
+            Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => cells.error(),
+            Planner::Harmonic { cells: None, .. } | Planner::First | Planner::Subdivision { .. } => None,
+        }
+    }
+}
+
+/// What is wrong with a number that is to be in a range, if anything.
+pub(super) fn wrong_number(name: &str, n: usize, range: &RangeInclusive<usize>) -> Option<String> {
+    (!range.contains(&n)).then(|| format!("{name}: {n} is not from {} to {}", range.start(), range.end()))
+}
+
+fn wrong_margin(margin: f64) -> Option<String> {
+    (!(margin > 0.0 && margin <= MOST_MARGIN))
+        .then(|| format!("margin: {margin} is not more than 0 and at most {MOST_MARGIN} (of the arm's reach)"))
+}

@@ -1,0 +1,230 @@
+//! Where the tip can get, with which solutions of the inverse kinematics, from a home configuration: certified, or proven impossible.
+
+use super::Verdict;
+use super::settle::decide;
+use cplan_core::check::certify;
+use cplan_core::model::{Arm, MotionProblem, Scene, inverse};
+use cplan_core::space::{Configuration, GoalSet, Measure, Metric, Path, Segment};
+use cplan_geometry::Point;
+use cplan_interrupt::checkpoint;
+use petgraph::unionfind::UnionFind;
+use serde::{Serialize, Serializer};
+
+/// Places of the tip at the most.
+pub const MOST_PLACES: usize = 4_000_000;
+
+/// Boxes that are looked at for each set of configurations that small motions join.
+const BOXES: usize = 20_000;
+
+/// Configurations along each joint from which it is told where the tip can be at all.
+const SAMPLES: usize = 256;
+
+/// Whether a configuration can be reached from home.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Access {
+    /// A certified motion leads there.
+    Reachable,
+    /// It is not known.
+    Unknown,
+    /// It is free, and proven that no motion leads there.
+    Unreachable,
+    /// It is not free.
+    Blocked,
+}
+
+impl Access {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Reachable, Self::Unknown, Self::Unreachable, Self::Blocked];
+
+    /// Its word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reachable => "reachable",
+            Self::Unknown => "unknown",
+            Self::Unreachable => "unreachable",
+            Self::Blocked => "blocked",
+        }
+    }
+}
+
+/// A solution of the inverse kinematics.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Solution {
+    /// Joint values within the limits, base to tip; where one does not matter, where a motion leads, or else nearest to home.
+    #[serde(serialize_with = "pair")]
+    pub joints: Configuration,
+    /// Whether it can be reached.
+    pub access: Access,
+}
+
+fn pair<S: Serializer>(q: &Configuration, serializer: S) -> Result<S::Ok, S::Error> {
+    [q[0], q[1]].serialize(serializer)
+}
+
+/// Where the tip can get: the centres of square cells.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Reach {
+    /// Where the arm begins.
+    #[serde(serialize_with = "pair")]
+    pub home: Configuration,
+    /// Side of the cells, metres.
+    pub cell: f64,
+    /// Least coordinates of the first cell, metres.
+    pub corner: [f64; 2],
+    /// Cells along x, and along y.
+    pub size: [usize; 2],
+    /// Solutions with the tip at each cell's centre, row by row from below: none where it is out of reach.
+    pub places: Vec<Vec<Solution>>,
+}
+
+impl Reach {
+    /// The centre of a place.
+    #[must_use]
+    pub fn center(&self, place: usize) -> Point {
+        let at = [place % self.size[0], place / self.size[0]];
+        Point::from([0, 1].map(|k| self.corner[k] + self.cell * (at[k] as f64 + 0.5)))
+    }
+
+    /// Of each place with any solution how it can be got to at best, and with how many solutions so.
+    pub fn best(&self) -> impl Iterator<Item = (usize, Access, usize)> {
+        self.places.iter().enumerate().filter_map(|(number, solutions)| {
+            let best = solutions.iter().map(|solution| solution.access).min()?;
+            Some((number, best, solutions.iter().filter(|solution| solution.access == best).count()))
+        })
+    }
+
+    /// Places by how they can be got to at best, in the order of [`Access::ALL`].
+    #[must_use]
+    pub fn tally(&self) -> [usize; 4] {
+        Access::ALL.map(|access| self.best().filter(|(_, best, _)| *best == access).count())
+    }
+}
+
+/// Asks for the centre of each square cell of this side, metres, with which solutions of the inverse kinematics the tip can be there, and
+/// which of these a motion leads to from `home` that keeps the world's clearance.
+///
+/// Solutions of neighbouring cells are joined where the straight motion between them is certified. For each set of solutions that are so
+/// joined a single one is asked for ([`decide`]): a certified motion to it leads to all, and a proof that none does holds for all. `None` if there
+/// are more than [`MOST_PLACES`] places. Ends because sets are finite; `O(n)` short certificates for `n` solutions, and a question for each set.
+#[must_use]
+pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
+    let arm = scene.arm();
+    let [lower, upper] = tip_bounds(arm)?;
+    // A whole number of cells, with one to spare on each side for what lies between the samples.
+    let first = [0, 1].map(|k| (lower[k] / cell).floor() - 1.0);
+    let count = [0, 1].map(|k| (upper[k] / cell).floor() - first[k] + 2.0);
+    if !(cell > 0.0 && count[0] * count[1] <= MOST_PLACES as f64) {
+        return None;
+    }
+    let mut reach =
+        Reach { home, cell, corner: first.map(|n| n * cell), size: count.map(|n| n as usize), places: Vec::new() };
+    // Those that leave a joint free: of many configurations any will do.
+    let mut open = Vec::new();
+    reach.places = (0..reach.size[0] * reach.size[1])
+        .map(|place| {
+            checkpoint();
+            let solutions = inverse(arm, reach.center(place), home).solutions(arm).into_iter().enumerate();
+            let judged = |(number, solution): (usize, Segment)| {
+                let [joints, _] = solution.ends();
+                if !solution.is_point() {
+                    open.push((place, number, solution));
+                    return Solution { joints, access: Access::Blocked };
+                }
+                let access = if is_free(scene, joints) { Access::Unknown } else { Access::Blocked };
+                Solution { joints, access }
+            };
+            solutions.map(judged).collect()
+        })
+        .collect();
+    settle(scene, &mut reach);
+    for (place, number, solution) in open {
+        reach.places[place][number] = anywhere_on(scene, home, solution);
+    }
+    Some(reach)
+}
+
+/// Least and greatest coordinates of the tip; none of an arm whose joints have no values.
+fn tip_bounds(arm: &Arm) -> Option<[[f64; 2]; 2]> {
+    let values = arm.topology().ranges.map(|range| {
+        let (lower, upper) = range.domain();
+        (0..=SAMPLES).map(move |i| lower + (upper - lower) * i as f64 / SAMPLES as f64)
+    });
+    let [first, second] = values;
+    let tips = first.flat_map(|a| second.clone().map(move |b| arm.tip_at(Configuration::new(a, b))));
+    tips.map(|tip| [[tip.x, tip.y]; 2])
+        .reduce(|[lower, upper], [tip, _]| [[0, 1].map(|k| lower[k].min(tip[k])), [0, 1].map(|k| upper[k].max(tip[k]))])
+}
+
+/// Whether a configuration keeps the clearance, as its certificate says.
+fn is_free(scene: &Scene, q: Configuration) -> bool {
+    certify(scene, Path::new(vec![q]), scene.workspace().clearance).is_ok()
+}
+
+/// Tells of all free solutions whether they can be reached.
+fn settle(scene: &Scene, reach: &mut Reach) {
+    // All free solutions, with the first one of each place.
+    let mut firsts = Vec::with_capacity(reach.places.len() + 1);
+    let mut free: Vec<(usize, usize)> = Vec::new();
+    for (place, solutions) in reach.places.iter().enumerate() {
+        firsts.push(free.len());
+        free.extend((0..solutions.len()).filter(|&s| solutions[s].access == Access::Unknown).map(|s| (place, s)));
+    }
+    firsts.push(free.len());
+    let joints = |node: usize| reach.places[free[node].0][free[node].1].joints;
+    let mut sets = UnionFind::<usize>::new(free.len());
+    let (columns, places) = (reach.size[0], reach.places.len());
+    for place in 0..places {
+        checkpoint();
+        let right = (place % columns + 1 < columns).then_some(place + 1);
+        for beside in [right, Some(place + columns).filter(|&above| above < places)].into_iter().flatten() {
+            for a in firsts[place]..firsts[place + 1] {
+                // The nearest: of two elbows the same one.
+                let far = |b: &usize| scene.arm().topology().distance(joints(a), joints(*b));
+                let nearest = (firsts[beside]..firsts[beside + 1]).min_by(|b, c| far(b).total_cmp(&far(c)));
+                if let Some(b) = nearest.filter(|&b| !sets.equiv(a, b))
+                    && joins(scene, joints(a), joints(b))
+                {
+                    sets.union(a, b);
+                }
+            }
+        }
+    }
+    let labels = sets.into_labeling();
+    let mut known: Vec<Option<Access>> = vec![None; free.len()];
+    for node in 0..free.len() {
+        checkpoint();
+        let access = *known[labels[node]].get_or_insert_with(|| asked(scene, reach.home, joints(labels[node])).0);
+        known[node] = Some(access);
+    }
+    for (&(place, solution), access) in free.iter().zip(known) {
+        reach.places[place][solution].access = access.unwrap_or(Access::Unknown);
+    }
+}
+
+/// Whether the straight motion between two configurations is free, on circles the short way round.
+fn joins(scene: &Scene, from: Configuration, to: Configuration) -> bool {
+    let way = scene.arm().topology().displacement(from, to);
+    certify(scene, Path::new(vec![from, from + way]), scene.workspace().clearance).is_ok()
+}
+
+/// Whether a motion leads there from home, and where it ends.
+fn asked(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
+    let Ok(problem) = MotionProblem::new(scene.clone(), home, to) else { return (Access::Unknown, None) };
+    match decide(&problem, BOXES) {
+        Verdict::Found(path) => (Access::Reachable, Some(path.path().goal())),
+        Verdict::Infeasible(_) => (Access::Unreachable, None),
+        Verdict::Unknown(_) => (Access::Unknown, None),
+    }
+}
+
+/// A solution that leaves a joint free: it is not free only if it is so nowhere, and is reached if any of it is.
+fn anywhere_on(scene: &Scene, home: Configuration, solution: Segment) -> Solution {
+    let nearest = || solution.nearest(Measure::from(Metric::Euclidean), home);
+    if scene.blocked_along(&solution).is_some() {
+        return Solution { joints: nearest(), access: Access::Blocked };
+    }
+    let (access, end) = asked(scene, home, solution);
+    Solution { joints: end.unwrap_or_else(nearest), access }
+}

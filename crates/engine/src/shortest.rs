@@ -1,0 +1,223 @@
+//! About the shortest path, and how near it is to the optimum.
+//!
+//! Slabs say whether there is a path; the first one bounds how far to look. The search that bounds the optimum from below is
+//! run among obstacles that are grown by a hair: its way keeps off the true ones. Then it is run among the true ones with the
+//! same slices, for the bound. What that leaves of the gap is spent on fewer corners, and the result is certified. No
+//! polygons, graphs or grids are built unless that fails, but for gantries, whose C-obstacles are polygons: there a visibility
+//! graph has the path, and another one the bound.
+
+use super::bound::{Bound, FEW_POLYGONS, lower_bound, motions};
+use super::corners::fewer_corners;
+use super::first::answer;
+use super::ladder::{CLOSE, FIRST_BOXES, climb_polygons};
+use super::settle::decide;
+use super::{Answer, Method, Options, Stages, Verdict};
+use cplan_core::check::{CertifiedPath, certify};
+use cplan_core::model::MotionProblem;
+use cplan_core::planner::{Size, Trace};
+use cplan_interrupt::Instant;
+use cplan_proofs::{Motions, Proposed, Refused, short_motion};
+use std::time::Duration;
+
+/// What paths keep from obstacles beyond the clearance, as shares of the arm's reach and of the gap, one after the other.
+const KEPT: [f64; 4] = [0.25, 0.06, 0.015, 0.004];
+
+/// Share of the arm's reach that they keep at most, whatever gap is asked for.
+const MOST_KEPT: f64 = 0.01;
+
+/// With more pairs of shapes than this there is a single attempt, ...
+const FEW_PAIRS: usize = 1000;
+
+/// ... and with more than this none.
+const MOST_PAIRS: usize = 20_000;
+
+/// Part of the gap that the bound may leave open.
+const PART: f64 = 0.5;
+
+/// Part of what is left of the gap that fewer corners may cost.
+const SPENT: f64 = 0.9;
+
+/// Answers `problem` with about the shortest path. Where slabs do not tell whether there is one, or it is not proven to be within
+/// the gap, a visibility graph has its turn, and the better of both paths is the answer.
+pub(super) fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+    let metric = options.planner.metric(problem.scene().arm());
+    let clock = Instant::now();
+    let first = decide(problem, options.boxes.min(FIRST_BOXES));
+    let stages = Stages { query: clock.elapsed(), ..Stages::default() };
+    if let (Verdict::Found(_), "PP") = (&first, problem.scene().arm().kind())
+        && problem.scene().pairs().len() <= FEW_POLYGONS
+        && let Some(answer) = among_polygons(problem, options, stages)
+    {
+        return answer;
+    }
+    let mut by_graph = || climb_polygons(problem, options, progress);
+    let (own, by_graph) = match first {
+        Verdict::Infeasible(_) => return answer(Method::Shortest, first, stages),
+        // Among so many pieces polygons, which cover them by fewer, are the better way.
+        Verdict::Found(_) if problem.scene().pairs().len() > MOST_PAIRS => {
+            let by_graph = by_graph();
+            let own = answer(Method::Shortest, first, stages);
+            (own, by_graph)
+        }
+        Verdict::Found(path) => {
+            let own = shorter(problem, options, path, stages);
+            if is_content(&own, options) {
+                return own;
+            }
+            (own, by_graph())
+        }
+        Verdict::Unknown(_) => {
+            let by_graph = by_graph();
+            let Verdict::Found(path) = &by_graph.verdict else {
+                return Answer { stages: by_graph.stages + stages, ..by_graph };
+            };
+            (shorter(problem, options, path.clone(), stages), by_graph)
+        }
+    };
+    let length = |answer: &Answer| match &answer.verdict {
+        Verdict::Found(path) => metric.length(path.path()),
+        _ => f64::INFINITY,
+    };
+    let lower = [&own, &by_graph].into_iter().filter_map(|answer| answer.bound).map(|b| b.lower).fold(0.0, f64::max);
+    let stages = own.stages + by_graph.stages;
+    let mut best = if length(&own) <= length(&by_graph) { own } else { by_graph };
+    best.stages = stages;
+    best.bound = best.bound.map(|bound| Bound { lower, ..bound });
+    best
+}
+
+/// The first margin of gantries' polygons, as a share of the gap, unless the planner's is smaller. Motions are faster the farther
+/// paths keep from corners; where it is too great for the gap quarters of it follow.
+const MARGIN: f64 = 0.4;
+
+/// The answer of a gantry, whose C-obstacles are polygons: the shortest path among them, grown by so little that it is within the
+/// gap. None if it is not.
+fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) -> Option<Answer> {
+    let (scene, gap) = (problem.scene(), options.planner.gap().unwrap_or(CLOSE));
+    let planner = options.planner.with_gap(gap).with_margin(options.planner.margin().min(MARGIN * gap));
+    let mut answer = climb_polygons(problem, &Options { planner, ..*options }, &mut |_| ());
+    answer.stages = answer.stages + stages;
+    let Verdict::Found(path) = &answer.verdict else { return None };
+    if !is_content(&answer, options) {
+        return None;
+    }
+    let (metric, clock) = (planner.metric(scene.arm()), Instant::now());
+    let upper = metric.length(path.path());
+    let room = room(upper, answer.bound.map(|bound| bound.lower), gap);
+    if let Some(fewer) = fewer_corners(scene, path.path(), metric, room) {
+        answer.bound = answer.bound.map(|bound| Bound { upper: metric.length(fewer.path()), ..bound });
+        answer.verdict = Verdict::Found(fewer);
+    }
+    answer.stages.query += clock.elapsed();
+    Some(answer)
+}
+
+/// Whether there is nothing to be made better.
+fn is_content(answer: &Answer, options: &Options) -> bool {
+    !options.bounded || answer.bound.is_some_and(|bound| bound.gap() <= options.planner.gap().unwrap_or(CLOSE))
+}
+
+/// The answer that begins with a first path: a shorter one in its place, if one is found and certified.
+fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut stages: Stages) -> Answer {
+    let (scene, planner) = (problem.scene(), options.planner);
+    let (metric, gap) = (planner.metric(scene.arm()), planner.gap().unwrap_or(CLOSE));
+    let motions = motions(problem, metric);
+    let mut bounding =
+        Bounding { motions, gap, is_asked: options.bounded, lower: 0.0, beside: 0.0, took: Duration::ZERO };
+    let clock = Instant::now();
+    let (mut upper, mut path, mut free) = (metric.length(first.path()), first, Vec::new());
+    if path.path().waypoints().len() == 2 {
+        // Straight: seldom to be made shorter.
+        bounding.bound(upper, &[]);
+    }
+    // Among thousands of pieces an attempt may take a second.
+    let attempts = if scene.pairs().len() <= FEW_PAIRS { KEPT.len() } else { 1 };
+    for share in &KEPT[..attempts] {
+        if bounding.is_close(upper) {
+            break;
+        }
+        let kept = (share * gap).min(MOST_KEPT) * scene.arm().reach();
+        let mut tries = 0;
+        let judge = |Proposed { path: way, slices, is_shortest }: Proposed| {
+            let length = metric.length(&way);
+            let certificate = || certify(scene, way.clone(), motions.clearance).map_err(Refused::By);
+            // As a rule the first way is good, and then only the one with fewer corners needs a certificate.
+            tries += 1;
+            let certified = if tries > 1 { Some(certificate()?) } else { None };
+            bounding.bound(length, &slices);
+            if !is_shortest && !bounding.is_close(length) {
+                return Err(Refused::TooLong);
+            }
+            let fewer = fewer_corners(scene, &way, metric, bounding.room(length));
+            fewer.or(certified).map_or_else(certificate, Ok)
+        };
+        let Some(found) = short_motion(&motions, kept, upper, judge) else { continue };
+        let length = metric.length(found.path.path());
+        if length < upper {
+            (upper, path, free) = (length, found.path, found.free);
+            if !options.bounded {
+                break;
+            }
+        }
+    }
+    if bounding.lower == 0.0 {
+        bounding.bound(upper, &[]);
+    }
+    if free.is_empty()
+        && let Some(fewer) = fewer_corners(scene, path.path(), metric, bounding.room(upper))
+    {
+        (upper, path) = (metric.length(fewer.path()), fewer);
+    }
+    stages.bound += bounding.took;
+    stages.query += clock.elapsed() - bounding.took;
+    let mut answer = answer(Method::Shortest, Verdict::Found(path), stages);
+    answer.bound = options.bounded.then_some(Bound { metric, lower: bounding.lower, upper });
+    if !free.is_empty() {
+        answer.run.size = Size::Slices { slices: free.len() };
+        answer.run.trace = Trace::Slices { free };
+    }
+    answer
+}
+
+/// What is known of the shortest from below.
+struct Bounding<'a> {
+    motions: Motions<'a>,
+    /// The gap to come to.
+    gap: f64,
+    /// Whether a bound is asked for; if not, nothing is ever known.
+    is_asked: bool,
+    /// No motion is shorter.
+    lower: f64,
+    /// The length of the way that it was last looked for beside.
+    beside: f64,
+    /// Time that it took.
+    took: Duration,
+}
+
+impl Bounding<'_> {
+    /// Looks for a bound beside a way of length `upper`, unless it is known to be close, or was looked for.
+    fn bound(&mut self, upper: f64, slices: &[f64]) {
+        if self.is_asked && upper != self.beside && !self.is_close(upper) {
+            let clock = Instant::now();
+            self.beside = upper;
+            self.lower = self.lower.max(lower_bound(&self.motions, upper, PART * self.gap, slices));
+            self.took += clock.elapsed();
+        }
+    }
+
+    /// Whether a way of length `upper` is known to be within the gap.
+    fn is_close(&self, upper: f64) -> bool {
+        Bound { metric: self.motions.metric, lower: self.lower, upper }.gap() <= self.gap
+    }
+
+    /// How much longer a way of length `upper` may become.
+    fn room(&self, upper: f64) -> f64 {
+        room(upper, self.is_asked.then_some(self.lower), self.gap)
+    }
+}
+
+/// How much longer a way of length `upper` may become for the sake of fewer corners; without a lower bound what the gap that is
+/// aimed at leaves.
+fn room(upper: f64, lower: Option<f64>, gap: f64) -> f64 {
+    SPENT * lower.map_or(gap / 2.0 * upper, |lower| lower * (1.0 + gap) - upper)
+}

@@ -1,0 +1,142 @@
+//! Problems and plans as data, for serde: in JSON and formats like it, which say what a value is and have a word for none.
+//!
+//! A problem is its model: arm, obstacles and what is to be done; where it was read from does not matter. Reading makes it anew by
+//! the constructors that check, so what is read is as valid as what is loaded. Numbers are read back bit for bit.
+//!
+//! A plan is a problem, options and the result. Only `check` certifies, so nothing that a file states is believed: reading plans
+//! again and compares. The same input gives the same output, so a difference is a change of the file, or another version's answer.
+
+use super::Kind;
+use super::options::Options;
+use super::plan::{Plan, plan};
+use super::problem::{Asked, Problem};
+use cplan_core::model::{Driver, MotionProblem, RobotJoints, Scene, Task, TaskError, ToolJoint};
+use cplan_world::RobotReport;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Value;
+
+/// What a problem is made of.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ProblemRecord<W> {
+    asked: W,
+    robot: RobotReport,
+    notes: Vec<String>,
+}
+
+impl Serialize for Problem {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let asked = match self.asked() {
+            Asked::Motion(motion) => Kind::Motion(motion),
+            Asked::Task((task, _)) => Kind::Task(task),
+        };
+        ProblemRecord { asked, robot: self.robot().clone(), notes: self.notes().to_vec() }.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Problem {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let ProblemRecord { asked, robot, notes } =
+            ProblemRecord::<Kind<MotionProblem, Task>>::deserialize(deserializer)?;
+        if !are_joints(&robot.joints) {
+            return Err(D::Error::custom(
+                "the robot's joints need finite numbers within their ranges, and planned ones are 0 and 1",
+            ));
+        }
+        let asked = match asked {
+            Kind::Motion(motion) => Asked::Motion(motion),
+            Kind::Task(mut task) => {
+                task.hold_shapes();
+                let scene: Result<Scene, TaskError> = task.check();
+                if robot.joints.stroke.is_some() && robot.joints.stroke != task.stroke {
+                    return Err(D::Error::custom("the robot's stroke is not the task's"));
+                }
+                Asked::Task((task, scene.map_err(D::Error::custom)?))
+            }
+        };
+        Ok(Self::read(asked, robot, notes))
+    }
+}
+
+/// Whether messages can have values for all of a robot's joints.
+fn are_joints(robot: &RobotJoints) -> bool {
+    let is_driven = |driver: Driver| match driver {
+        Driver::Planned(joint) => joint < 2,
+        Driver::Held(value) => value.is_finite(),
+        Driver::Stroke | Driver::Wrist => true,
+    };
+    robot.joints.iter().all(|j| is_driven(j.driver) && j.factor.is_finite() && j.offset.is_finite())
+        && robot.wrist.iter().all(ToolJoint::is_sound)
+        && robot.stroke.iter().all(|stroke| stroke.joint.is_sound())
+}
+
+/// What a plan is made of: the result is there to be compared.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PlanRecord<P, O, R> {
+    problem: P,
+    options: O,
+    result: R,
+}
+
+impl Serialize for Plan {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let result = result(self).map_err(serde::ser::Error::custom)?;
+        PlanRecord { problem: self.problem(), options: self.options(), result }.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Plan {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let record = PlanRecord::<Problem, Options, Value>::deserialize(deserializer)?;
+        let planned = plan(&record.problem, &record.options).map_err(D::Error::custom)?;
+        match difference("result", &record.result, &result(&planned).map_err(D::Error::custom)?) {
+            Some(what) => Err(D::Error::custom(format!("{what}; plan the problem again to have a result that holds"))),
+            None => Ok(planned),
+        }
+    }
+}
+
+/// The result without the times that it took, which differ from run to run.
+fn result(plan: &Plan) -> serde_json::Result<Value> {
+    let mut result = serde_json::to_value(plan.report())?;
+    if let Value::Object(fields) = &mut result {
+        fields.remove("timings");
+    }
+    Ok(result)
+}
+
+/// Where a result that is stated is not the planned one, the first of the places in the order of names.
+fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
+    match (stated, planned) {
+        (Value::Object(theirs), Value::Object(ours)) => {
+            let missing = ours
+                .iter()
+                .find(|(name, _)| !theirs.contains_key(*name))
+                .map(|(name, _)| format!("{at}.{name} is missing"));
+            missing.or_else(|| {
+                theirs.iter().find_map(|(name, value)| match ours.get(name) {
+                    Some(own) => difference(&format!("{at}.{name}"), value, own),
+                    None => Some(format!("{at}.{name} is stated, and planning gives none")),
+                })
+            })
+        }
+        (Value::Array(theirs), Value::Array(ours)) if theirs.len() == ours.len() => {
+            theirs.iter().zip(ours).enumerate().find_map(|(k, (a, b))| difference(&format!("{at}[{k}]"), a, b))
+        }
+        _ if stated == planned => None,
+        (Value::Array(theirs), Value::Array(ours)) => {
+            Some(format!("{at} has {} entries, and planning gives {}", theirs.len(), ours.len()))
+        }
+        _ => Some(format!("{at} is {}, and planning gives {}", shown(stated), shown(planned))),
+    }
+}
+
+/// A value, in so many letters at the most.
+const SHOWN: usize = 60;
+
+fn shown(value: &Value) -> String {
+    let text = value.to_string();
+    if text.chars().count() <= SHOWN { text } else { text.chars().take(SHOWN).chain("...".chars()).collect() }
+}

@@ -1,0 +1,93 @@
+//! Planning by subdivision of the configuration space.
+
+use super::ladder::explain;
+use super::settle::checked;
+use super::{Answer, Method, Options, Space, Stages, Verdict};
+use cplan_core::check::CertifiedPath;
+use cplan_core::check::{Rejection, certify};
+use cplan_core::model::MotionProblem;
+use cplan_core::planner::{PathKind, Proposal, Run, Size, Trace};
+use cplan_core::space::{Configuration, Path, Portal, funnel_path, nearest_end};
+use cplan_geometry::Point;
+use cplan_interrupt::Instant;
+use cplan_proofs::{Channel, Connectivity, Exploration, Occupancy, explore};
+
+/// Answers `problem` by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
+/// [`Options::boxes`]. There is nothing to refine and try again: the boxes are refined where it matters as it goes.
+pub(super) fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+    let scene = problem.scene();
+    let clearance = scene.workspace().clearance;
+    let mut stages = Stages::default();
+    let clock = Instant::now();
+    let exploration = explore(scene, problem.start(), problem.goals(), clearance, options.boxes);
+    let size = Size::Graph { nodes: exploration.boxes.len(), edges: exploration.adjacencies };
+    let trace = trace(&exploration);
+    stages.query = clock.elapsed();
+    let clock = Instant::now();
+    let (outcome, verdict) = match exploration.answer {
+        Connectivity::Connected(channel) => {
+            let certified = match options.planner.path_kind() {
+                PathKind::Own => certify(scene, channel.path(), clearance),
+                PathKind::Taut => certified(problem, &channel),
+            };
+            stages.certify = clock.elapsed();
+            match certified {
+                Ok(path) => (Proposal::Found(path.path().clone()), Verdict::Found(path)),
+                Err(rejection) => {
+                    let reason = format!("its path is not certified: {}", explain(scene, rejection));
+                    (Proposal::Found(channel.path()), Verdict::Unknown(reason))
+                }
+            }
+        }
+        Connectivity::Disconnected(proof) => {
+            let proof = checked(problem, proof);
+            stages.prove = clock.elapsed();
+            let refused = || Verdict::Unknown("its proof does not hold".into());
+            let verdict = proof.map_or_else(refused, Verdict::Infeasible);
+            (Proposal::NoPath, verdict)
+        }
+        Connectivity::Undecided { boxes, .. } => {
+            let reason = format!("{boxes} boxes do not tell whether there is a path");
+            (Proposal::GaveUp(reason.clone()), Verdict::Unknown(reason))
+        }
+    };
+    if let Verdict::Unknown(reason) = &verdict {
+        progress(&format!("{}: {reason}", Method::Subdivision));
+    }
+    let run = Run { outcome, trace, size, note: None };
+    Answer {
+        method: Method::Subdivision,
+        verdict,
+        path: options.planner.path_kind(),
+        witness: None,
+        bound: None,
+        history: Vec::new(),
+        run,
+        space: Space::Scene,
+        stages,
+    }
+}
+
+/// The shortest path through the channel, or, should rounding spoil it where it touches the sides, the one through the
+/// middles.
+pub(super) fn certified(problem: &MotionProblem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
+    let clearance = problem.scene().workspace().clearance;
+    certify(problem.scene(), taut(channel), clearance).or_else(|_| certify(problem.scene(), channel.path(), clearance))
+}
+
+/// The channel's shortest path.
+pub(super) fn taut(channel: &Channel) -> Path {
+    let portal = |[left, right]: &[Configuration; 2]| Portal { left: Point::from(*left), right: Point::from(*right) };
+    let portals: Vec<Portal> = channel.portals().iter().map(portal).collect();
+    let start = Point::from(channel.start());
+    let path = funnel_path(start, nearest_end(start, channel.goals(), &portals), &portals);
+    Path::new(path.into_iter().map(|p| p.coords).collect())
+}
+
+fn trace(exploration: &Exploration) -> Trace {
+    let of = |kind: Occupancy| {
+        let boxes = exploration.boxes.iter().filter(|(_, occupancy)| *occupancy == kind);
+        boxes.map(|(cell, _)| [cell.lower.into(), cell.upper.into()]).collect()
+    };
+    Trace::Boxes { free: of(Occupancy::Free), stuck: of(Occupancy::Stuck), mixed: of(Occupancy::Mixed) }
+}

@@ -1,0 +1,473 @@
+//! Tasks among what moves, and picks of what moves: what is done next, with which IK solution, and when.
+//!
+//! States are reached at times, and each motion is planned from one on ([`in_time`]): to stand at its target long enough for the step, or, where an
+//! object passes that is picked there, when it does. Moments are tried all over its way, the soonest first, and between the first that works and
+//! the one before it a sooner one is looked for.
+//!
+//! The search goes on from the farthest state, by the soonest end of a step, so that it soon comes to an end of the task; then it looks, with motions that
+//! are left, for a sooner one. It knows nothing of what comes later: what is passed by while something else is done is missed, and another
+//! choice before it is tried. So it proves nothing of choices; but that what moves is never within reach is proven, and what cannot be done even if
+//! nothing moves.
+
+mod passing;
+mod ways;
+
+use super::answer::{Event, Leg, TaskAnswer, TaskVerdict};
+use super::heuristic::Heuristic;
+use super::impossible::{Impossible, Refused, farthest};
+use super::legs::{Legs, Refusal, of_legs, unobstructed};
+use super::state::State;
+use crate::Options;
+use crate::moving::{Demand, InTime, Movers, Timing, Wait, in_time, stands};
+use crate::result::finite;
+use cplan_core::check::Posture;
+use cplan_core::model::{Action, Item, MotionProblem, Step, Task};
+use cplan_geometry::Ordered;
+use cplan_interrupt::checkpoint;
+use cplan_motion::{Limits, Timed, after_pause, nanoseconds, not_before, seconds};
+use passing::passages;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::sync::Arc;
+use ways::{Choices, Here, Moment, Way};
+
+/// Motions that are planned in time until all is done: so many, and for each step.
+const MOTIONS: [usize; 2] = [150, 40];
+
+/// The same for a sooner end.
+const MORE_MOTIONS: [usize; 2] = [10, 8];
+
+/// Motions whose corners are rounded where jerks are limited, which takes tenths of a second for each: so many, and for each step. Later ones stop at
+/// their corners.
+const ROUNDED_MOTIONS: [usize; 2] = [12, 4];
+
+/// Parts of the span between a moment that works and the one before it in which a sooner one is looked for, again and again, ...
+const PARTS: usize = 4;
+
+/// ... until they are as near as this, seconds.
+const FINEST: f64 = 5e-3;
+
+/// Motions between two words on progress.
+const NEWS: usize = 50;
+
+/// Plans a task among what moves.
+pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
+    let heuristic = Heuristic::new(task);
+    let start = State::at_start(task);
+    let lower_bound = heuristic.remaining(start.q, start.progress).max(last_passage(task));
+    let unplanned = |verdict| TaskAnswer {
+        verdict,
+        legs: Vec::new(),
+        lower_bound,
+        exact: false,
+        motions: 0,
+        expanded: 0,
+        timing: None,
+    };
+    if let Some(impossible) = out_of_reach(task, &start) {
+        return unplanned(TaskVerdict::Infeasible(impossible));
+    }
+    let mut search = Search {
+        task,
+        options: of_legs(options),
+        stopping: Options { drive: options.drive.stopping_at_corners(), ..of_legs(options) },
+        heuristic: &heuristic,
+        legs: Legs::new(options),
+        stopping_legs: Legs::new(&Options { drive: options.drive.stopping_at_corners(), ..*options }),
+        nodes: Vec::new(),
+        open: BinaryHeap::new(),
+        is_done: false,
+        refused: Vec::new(),
+        motions: 0,
+    };
+    search.push(Node { parent: None, depth: 0, seconds: 0.0, stage: Stage::Reached(Box::new(start), None) });
+    let (verdict, last, timing) = match search.run(progress) {
+        Some(last) => (TaskVerdict::Found(()), last, search.timing(last)),
+        None => {
+            if let Some(impossible) = if_nothing_moved(task, options, progress) {
+                return unplanned(TaskVerdict::Infeasible(impossible));
+            }
+            let (impossible, last) = search.failure();
+            (TaskVerdict::Unknown(impossible), last, None)
+        }
+    };
+    let (legs, motions, expanded) = (search.legs(last), search.motions, search.nodes.len());
+    TaskAnswer { verdict, legs, lower_bound, exact: false, motions, expanded, timing }
+}
+
+/// That an object is never within reach when it is to be picked: proven.
+fn out_of_reach(task: &Task, start: &State) -> Option<Impossible> {
+    let mut moving: Vec<usize> = start.moving.to_vec();
+    let step = task.steps().find(|step| match &step.action {
+        Action::Pick { object, grasp, when, .. } => {
+            let is_first = moving.iter().position(|other| other == object).map(|place| moving.remove(place)).is_some();
+            is_first && passages(&task.arm, &task.objects[*object], *grasp, when, 0.0).is_empty()
+        }
+        Action::Place { .. } | Action::Move(_) => false,
+    })?;
+    let name = &task.objects[step.action.picked()?].name;
+    Some(Impossible {
+        step: step.clone(),
+        reasons: vec![format!("\"{name}\" is never within the arm's reach when it is to be picked")],
+        scene: Arc::new(start.scene(task, step.action.picked())),
+        from: start.q,
+        ik_solutions: Vec::new(),
+    })
+}
+
+/// That a task cannot be done even if nothing moves, where that is proven. Where objects would lie then that are picked on their way is not known.
+fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<Impossible> {
+    if task.moving_at_first().next().is_some() {
+        return None;
+    }
+    let mut standing = task.clone();
+    standing.workspace.movers.clear();
+    match super::plan::plan(&standing, options, progress).verdict {
+        TaskVerdict::Infeasible(impossible) => Some(impossible),
+        TaskVerdict::Found(()) | TaskVerdict::Unknown(_) => None,
+    }
+}
+
+/// No task ends before what is to be picked on its way may have come within reach, one thing after the other.
+fn last_passage(task: &Task) -> f64 {
+    let mut moving: Vec<usize> = task.moving_at_first().collect();
+    let mut after = |step: &Step, time: f64| {
+        let place = moving.iter().position(|object| step.action.picked() == Some(*object));
+        let passage = match &step.action {
+            Action::Pick { object, grasp, when, .. } if place.is_some() => {
+                passages(&task.arm, &task.objects[*object], *grasp, when, time).first().copied()
+            }
+            _ => None,
+        };
+        place.map(|place| moving.remove(place));
+        passage.map_or(time, |passage| passage.times[0]) + step.dwell
+    };
+    task.items.iter().fold(0.0, |time, item| match item {
+        Item::Step(step) => after(step, time),
+        Item::AnyOrder(pairs) => {
+            let each = pairs.iter().map(|[pick, place]| after(pick, time) + place.dwell);
+            each.fold(time, f64::max)
+        }
+        Item::Renew(_) => time,
+    })
+}
+
+/// A way to a state.
+struct Node<'a> {
+    parent: Option<usize>,
+    /// How many steps are done.
+    depth: usize,
+    /// When the last of them ends; a lower bound while its motion is not planned.
+    seconds: f64,
+    stage: Stage<'a>,
+}
+
+/// How far a node is looked into.
+enum Stage<'a> {
+    /// The motion is not planned yet.
+    Pending(Box<Way<'a>>),
+    /// It is; none to the start.
+    Reached(Box<State>, Option<Box<Done>>),
+}
+
+/// A step that is done.
+struct Done {
+    leg: Leg,
+    /// How its motion gets by what moves, on a clock of its own.
+    timing: Timing,
+}
+
+/// Depth, from which it goes on first while nothing is done; the soonest end of the task; the number of a node.
+type Rank = (Reverse<usize>, Ordered, usize);
+
+struct Search<'a> {
+    task: &'a Task,
+    options: Options,
+    heuristic: &'a Heuristic<'a>,
+    /// Motions as if nothing moved.
+    legs: Legs,
+    /// The same with a stop at every corner.
+    stopping: Options,
+    stopping_legs: Legs,
+    nodes: Vec<Node<'a>>,
+    open: BinaryHeap<Reverse<Rank>>,
+    /// Whether a way through the whole task is known.
+    is_done: bool,
+    refused: Vec<Refused<'a>>,
+    /// Motions planned in time.
+    motions: usize,
+}
+
+impl<'a> Search<'a> {
+    /// The node in which all is done at the soonest, as far as was looked.
+    fn run(&mut self, progress: &mut dyn FnMut(&str)) -> Option<usize> {
+        let steps = self.task.steps().count();
+        let budget = |[some, each]: [usize; 2]| some + each * steps;
+        let (mut best, mut most, mut told) = (None::<usize>, budget(MOTIONS), 0);
+        while let Some(Reverse((_, Ordered(least), index))) = self.open.pop() {
+            checkpoint();
+            if self.motions >= told + NEWS {
+                told = self.motions;
+                progress(&format!("{} motions planned in time, {} states seen", self.motions, self.nodes.len()));
+            }
+            if self.motions > most {
+                self.give_up(index, best.is_some());
+                break;
+            }
+            if best.is_some_and(|best| self.nodes[best].seconds <= least) {
+                continue;
+            }
+            // More may be known by now.
+            if self.soonest(index) > least {
+                self.open(index);
+                continue;
+            }
+            match &self.nodes[index].stage {
+                Stage::Pending(_) => self.settle(index),
+                Stage::Reached(state, _) if !state.is_done(self.task) => self.expand(index),
+                Stage::Reached(..) => {
+                    if best.is_none() {
+                        self.is_done = true;
+                        most = self.motions + budget(MORE_MOTIONS);
+                        let open: Vec<usize> = self.open.drain().map(|Reverse((_, _, index))| index).collect();
+                        open.into_iter().for_each(|index| self.open(index));
+                    }
+                    best = Some(index);
+                }
+            }
+        }
+        best
+    }
+
+    fn push(&mut self, node: Node<'a>) {
+        self.nodes.push(node);
+        self.open(self.nodes.len() - 1);
+    }
+
+    fn open(&mut self, index: usize) {
+        let depth = if self.is_done { 0 } else { self.nodes[index].depth };
+        self.open.push(Reverse((Reverse(depth), Ordered(self.soonest(index)), index)));
+    }
+
+    /// When the task ends by way of a node at the soonest, as far as is known.
+    fn soonest(&self, index: usize) -> f64 {
+        let node = &self.nodes[index];
+        let left = match &node.stage {
+            Stage::Pending(way) => self.heuristic.remaining(way.candidate.to, way.candidate.progress),
+            Stage::Reached(state, _) => self.heuristic.remaining(state.q, state.progress),
+        };
+        node.seconds + left
+    }
+
+    /// Takes note of where it left off, unless a way is known.
+    fn give_up(&mut self, index: usize, is_known: bool) {
+        let node = &self.nodes[index];
+        let next = match (&node.stage, node.parent) {
+            (Stage::Pending(way), Some(parent)) => Some((parent, way.candidate.step)),
+            (Stage::Pending(_), None) => None,
+            (Stage::Reached(state, _), _) => state.candidates(self.task).first().map(|next| (index, next.step)),
+        };
+        if let Some((node, step)) = next.filter(|_| !is_known) {
+            let refusal = Refusal::new(format!("given up after {} motions planned in time", self.motions), false);
+            let depth = self.nodes[node].depth;
+            self.refused.push(Refused { depth, node, step, ik_solution: None, refusal });
+        }
+    }
+
+    /// The state that a node has reached.
+    fn state(&self, node: usize) -> Option<&State> {
+        match &self.nodes[node].stage {
+            Stage::Reached(state, _) => Some(state),
+            Stage::Pending(_) => None,
+        }
+    }
+
+    fn expand(&mut self, index: usize) {
+        let Node { stage: Stage::Reached(state, _), depth, seconds, .. } = &self.nodes[index] else { return };
+        let depth = *depth;
+        let Choices { ways, refused } = Here { task: self.task, state, time: *seconds }.choices();
+        for reason in refused {
+            let (step, ik_solution, refusal) = (reason.step, reason.to, reason.refusal);
+            self.refused.push(Refused { depth, node: index, step, ik_solution, refusal });
+        }
+        for way in ways {
+            self.push(Node {
+                parent: Some(index),
+                depth: depth + 1,
+                seconds: way.ends,
+                stage: Stage::Pending(Box::new(way)),
+            });
+        }
+    }
+
+    /// Plans the motion to a node, and to a sooner moment.
+    fn settle(&mut self, index: usize) {
+        let (Some(parent), Stage::Pending(way)) = (self.nodes[index].parent, &self.nodes[index].stage) else { return };
+        let way = way.clone();
+        let Node { stage: Stage::Reached(state, _), seconds, depth, .. } = &self.nodes[parent] else { return };
+        let (state, time, depth) = (state.clone(), *seconds, *depth);
+        let here = Here { task: self.task, state: &state, time };
+        match self.done(here, &way) {
+            Ok(done) => {
+                self.leave_later_moments(parent, &way);
+                let (done, after, ends) = self.sooner(here, &way).unwrap_or(done);
+                let node = &mut self.nodes[index];
+                (node.seconds, node.stage) = (ends, Stage::Reached(Box::new(after), Some(Box::new(done))));
+                self.open(index);
+            }
+            Err(refusal) => {
+                // Of the many places at which something passes none says more than the others.
+                let ik_solution = way.moment.is_none().then_some(way.candidate.to);
+                let step = way.candidate.step;
+                self.refused.push(Refused { depth, node: parent, step, ik_solution, refusal });
+            }
+        }
+    }
+
+    /// The next moment of a pick is no sooner one's: what is between is known to work.
+    fn leave_later_moments(&mut self, parent: usize, done: &Way) {
+        let Some(done_at) = done.moment else { return };
+        for node in self.nodes.iter_mut().filter(|node| node.parent == Some(parent)) {
+            if let Stage::Pending(way) = &mut node.stage
+                && let Way { moment: Some(moment), branch, candidate, .. } = &mut **way
+                && moment.since == done_at.time
+                && *branch == done.branch
+            {
+                moment.since = moment.time;
+                node.seconds = moment.time + candidate.step.dwell;
+            }
+        }
+    }
+
+    /// The same pick at a sooner moment, if it can be done then.
+    fn sooner(&mut self, here: Here<'a, '_>, way: &Way<'a>) -> Option<(Done, State, f64)> {
+        let moment = way.moment?;
+        let (mut since, mut until, mut best) = (moment.since, moment.time, None);
+        while until - since > FINEST {
+            let step = (until - since) / PARTS as f64;
+            let parts = (1..PARTS).map(|k| not_before(since + step * k as f64));
+            let sooner =
+                parts.scan(since, |before, time| Some(Moment { time, since: std::mem::replace(before, time) }));
+            let found = sooner.into_iter().find_map(|moment| {
+                let way = here.at_moment(way, moment)?;
+                Some((moment, self.done(here, &way).ok()?))
+            });
+            let last = until - step;
+            match found {
+                Some((moment, done)) => (since, until, best) = (moment.since, moment.time, Some(done)),
+                None => since = last,
+            }
+        }
+        best
+    }
+
+    /// Does a step: what is after it, and when.
+    fn done(&mut self, here: Here<'a, '_>, way: &Way<'a>) -> Result<(Done, State, f64), Refusal> {
+        let Here { task, state, time } = here;
+        let (candidate, step) = (&way.candidate, way.candidate.step);
+        if matches!(candidate.event, Some(Event::Grasp { .. })) {
+            // What touches something where it is taken may be taken elsewhere on its way.
+            unobstructed(&here.standing(candidate, time), candidate.to, "after it")?;
+        }
+        let [some, each] = ROUNDED_MOTIONS;
+        let stops = Limits::from(&task.arm.joints).stops_at_corners()
+            && self.motions >= some + each * self.task.steps().count();
+        let (options, legs) =
+            if stops { (&self.stopping, &mut self.stopping_legs) } else { (&self.options, &mut self.legs) };
+        // As if nothing moved.
+        let motion = legs.motion(task, state, candidate)?;
+        self.motions += 1;
+        let problem = MotionProblem::trusted(here.scene(step), state.q, candidate.to);
+        // On the clock of the motion: differences of whole nanoseconds are whole ones, too.
+        let since = |at: f64| match at.is_finite() {
+            true => seconds(nanoseconds(at).saturating_sub(nanoseconds(time))),
+            false => at,
+        };
+        let demand = Demand {
+            speed: step.speed,
+            arrival: Some(way.arrival.map(since)),
+            until: way.moment.map(|moment| since(moment.time)),
+        };
+        let path = motion.timed.curve.straight();
+        let planned = in_time(&problem, &path, (*motion.timed).clone(), options, &demand);
+        let planned = planned.map_err(|error| Refusal::new(error.to_string(), false))?;
+        let InTime { timed: Timed { curve, trajectory }, figures } =
+            planned.map_err(|reason| Refusal::new(reason, false))?;
+        let arrival = after_pause(time + trajectory.duration(), 0.0);
+        if arrival > way.moment.map_or(way.arrival[1], |moment| moment.time) {
+            return Err(Refusal::new("it cannot stand still there within the time that it has", false));
+        }
+        let q = curve.curve().path().goal();
+        let kept = stands(&here.standing(candidate, arrival), q, step.dwell);
+        let kept = kept.ok_or_else(|| Refusal::new("something that moves comes while the arm stands there", false))?;
+        let leg = Leg {
+            step: step.clone(),
+            scene: self.legs.scene(task, state, step),
+            carried: state.held.as_ref().map(|held| held.object),
+            timed: Arc::new(Timed { curve: curve.among_movers(kept, None), trajectory }),
+            turn: None,
+            stroke: None,
+            event: candidate.event,
+            begin: time,
+        };
+        let clearance = figures.clearance.into_iter().chain(finite(kept)).reduce(f64::min);
+        let timing = Timing { clearance, ..figures };
+        Ok((Done { leg, timing }, state.after(task, candidate, q), after_pause(arrival, step.dwell)))
+    }
+
+    /// What is done up to a node.
+    fn way_to(&self, index: usize) -> Vec<&Done> {
+        let nodes = std::iter::successors(Some(index), |&index| self.nodes[index].parent);
+        let done = nodes.filter_map(|index| match &self.nodes[index].stage {
+            Stage::Reached(_, done) => done.as_deref(),
+            Stage::Pending(_) => None,
+        });
+        let mut done: Vec<&Done> = done.collect();
+        done.reverse();
+        done
+    }
+
+    /// The steps up to a node.
+    fn legs(&self, index: usize) -> Vec<Leg> {
+        self.way_to(index).into_iter().map(|done| done.leg.clone()).collect()
+    }
+
+    /// How the arm gets by what moves in all steps up to a node.
+    fn timing(&self, index: usize) -> Option<Timing> {
+        let task = self.task;
+        let mut whole = Timing {
+            obstacles: task.workspace.movers.len() + task.moving_at_first().count(),
+            ways: 0,
+            waits: Vec::new(),
+            clearance: None,
+            free_until: self.free_until(index),
+        };
+        for Done { leg, timing } in self.way_to(index) {
+            whole.ways += timing.ways;
+            whole.clearance = whole.clearance.into_iter().chain(timing.clearance).reduce(f64::min);
+            let later = |wait: &Wait| Wait { from: leg.begin + wait.from, to: leg.begin + wait.to, at: wait.at };
+            whole.waits.extend(timing.waits.iter().map(later));
+        }
+        Some(whole)
+    }
+
+    /// Until when the arm may stay where a node has led it; none if for ever.
+    fn free_until(&self, index: usize) -> Option<f64> {
+        let (node, state) = (&self.nodes[index], self.state(index)?);
+        let released = node.parent.and_then(|parent| self.state(parent)?.released);
+        let scene = state.scene(self.task, released).since(node.seconds);
+        let movers = Movers::new(&scene, scene.workspace().clearance);
+        let safe = movers.safe_intervals(&Posture::new(&scene, state.q));
+        safe.first().and_then(|[_, until]| finite(*until)).map(|until| node.seconds + until)
+    }
+
+    /// Why no more can be done than the steps to a node.
+    fn failure(&mut self) -> (Impossible, usize) {
+        let state = |node: usize| match &self.nodes[node].stage {
+            Stage::Reached(state, _) => Some(&**state),
+            Stage::Pending(_) => None,
+        };
+        let (task, legs) = (self.task, &mut self.legs);
+        farthest(&task.arm, &self.refused, state, |from, step| legs.scene(task, from, step))
+    }
+}

@@ -1,0 +1,100 @@
+//! When what moves passes where the arm may reach it.
+
+use cplan_core::model::{Arm, Course, JointType, Leg, Object};
+use cplan_core::space::JointRange;
+use cplan_geometry::{Interval, Point};
+
+/// Radii are larger than they are by this share: far more than rounding.
+const ROOM: f64 = 1e-9;
+
+/// A stretch of time in which an object may be within reach, on one leg of its course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Passage {
+    pub times: Interval,
+    /// Whether it stands still all the time.
+    pub is_still: bool,
+}
+
+/// Parts of a passage between the moments that are looked at.
+const PARTS: usize = 24;
+
+impl Passage {
+    /// Moments all over it; one where the object stands still.
+    pub fn moments(&self) -> Vec<f64> {
+        let [from, to] = self.times;
+        let parts = if self.is_still || from == to { 0 } else { PARTS };
+        (0..=parts).map(|k| from + if k == 0 { 0.0 } else { (to - from) * (k as f64 / PARTS as f64) }).collect()
+    }
+}
+
+/// When an object that moves may be picked by a point of it, from a time on: in order, and so that at all other times it is certainly out of the
+/// arm's reach, or not to be picked. `when` are the times that are asked for, all if there are none.
+pub(super) fn passages(arm: &Arm, object: &Object, grasp: Point, when: &[Interval], from: f64) -> Vec<Passage> {
+    let legs = object.course.as_ref().map_or(&[][..], Course::legs);
+    let reach = (tip_reach(arm) + grasp.coords.norm()) * (1.0 + ROOM);
+    let any = [[0.0, f64::INFINITY]];
+    let when = if when.is_empty() { &any[..] } else { when };
+    let mut all = Vec::new();
+    for leg in legs {
+        let Some([first, last]) = within(leg, arm.base, reach) else { continue };
+        for [begins, ends] in when {
+            let times = [first.max(*begins).max(from), last.min(*ends)];
+            if times[0] <= times[1] {
+                all.push(Passage { times, is_still: leg.is_still() });
+            }
+        }
+    }
+    all
+}
+
+/// Farthest that the tip gets from the base, metres.
+fn tip_reach(arm: &Arm) -> f64 {
+    let ways = [arm.offset.norm(), arm.tip.coords.norm()];
+    let of = |(joint, way): (usize, f64)| {
+        let joint = &arm.joints[joint];
+        match (joint.joint_type, joint.range) {
+            (JointType::Revolute { .. }, _) => way,
+            (JointType::Prismatic { .. }, JointRange::Interval { lower, upper }) => way + lower.abs().max(upper.abs()),
+            (JointType::Prismatic { .. }, JointRange::Circle) => f64::INFINITY,
+        }
+    };
+    ways.into_iter().enumerate().map(of).sum()
+}
+
+/// The times of a leg at which the frame's origin is in a disc; none if it never is.
+fn within(leg: &Leg, center: Point, radius: f64) -> Option<Interval> {
+    let (way, speed) = (center - leg.start.at, leg.velocity.norm());
+    if speed == 0.0 || radius == f64::INFINITY {
+        return (way.norm() <= radius).then_some([leg.from, leg.to]);
+    }
+    let along = leg.velocity.dot(&way) / speed;
+    let beside2 = way.norm_squared() - along * along;
+    let half = (radius * radius - beside2).max(0.0).sqrt();
+    let times = [leg.from + (along - half) / speed, leg.from + (along + half) / speed];
+    let both = [times[0].max(leg.from), times[1].min(leg.to)];
+    (beside2 <= radius * radius && both[0] <= both[1]).then_some(both)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_geometry::Vector;
+
+    #[test]
+    fn a_belt_crosses_a_disc() {
+        let course = Course::conveyor([1.0, -3.0], [0.0, 0.5]).unwrap();
+        let times = within(&course.legs()[0], Point::origin(), 2.0_f64.sqrt()).unwrap();
+        assert!((times[0] - 4.0).abs() < 1e-12 && (times[1] - 8.0).abs() < 1e-12, "{times:?}");
+        assert_eq!(within(&course.legs()[0], Point::origin(), 0.9), None);
+        let away = Course::conveyor([1.0, 3.0], [0.0, 0.5]).unwrap();
+        assert_eq!(within(&away.legs()[0], Point::origin(), 2.0), None);
+    }
+
+    #[test]
+    fn what_stays_is_there_for_ever() {
+        let stop = |time, x| cplan_core::model::Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
+        let course = Course::new(vec![stop(0.0, 9.0), stop(8.0, 1.0)], Vector::zeros()).unwrap();
+        let last = course.legs()[1];
+        assert_eq!(within(&last, Point::origin(), 2.0), Some([8.0, f64::INFINITY]));
+    }
+}

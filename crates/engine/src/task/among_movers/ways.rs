@@ -1,0 +1,218 @@
+//! What can be done next among what moves, and when.
+
+use super::super::least_time::least_time;
+use super::super::legs::Refusal;
+use super::super::state::{Candidate, State};
+use super::passing::{Passage, passages};
+use crate::moving::Movers;
+use cplan_core::check::Posture;
+use cplan_core::model::{Action, Scene, Step, Task};
+use cplan_core::space::Configuration;
+use cplan_geometry::Interval;
+use cplan_motion::{SHORTEST_INTERVAL, nanoseconds, nearest_within, not_after, not_before, seconds};
+
+/// Stretches of time in which a motion is to arrive, for each IK solution.
+const MOST_ARRIVALS: usize = 3;
+
+/// The last arrival that may wait for a moment comes so long before it, seconds: pauses that are shorter are none.
+const EARLY: f64 = 2.0 * SHORTEST_INTERVAL;
+
+/// A way to do the next step. All times are on the clock of the task.
+#[derive(Debug, Clone)]
+pub(super) struct Way<'a> {
+    pub candidate: Candidate<'a>,
+    /// When the motion may arrive.
+    pub arrival: Interval,
+    /// When the object is picked, if it moves then.
+    pub moment: Option<Moment>,
+    /// Which of the candidates it is.
+    pub branch: usize,
+    /// The step does not end before this.
+    pub ends: f64,
+}
+
+/// When an object passes that is picked.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moment {
+    pub time: f64,
+    /// From here on it may be picked as well, but for what is in the way.
+    pub since: f64,
+}
+
+/// Why a step cannot be done with an IK solution, or at all.
+pub(super) struct Reason<'a> {
+    pub step: &'a Step,
+    pub to: Option<Configuration>,
+    pub refusal: Refusal,
+}
+
+/// What can be done next, and why other steps cannot.
+#[derive(Default)]
+pub(super) struct Choices<'a> {
+    pub ways: Vec<Way<'a>>,
+    pub refused: Vec<Reason<'a>>,
+}
+
+/// A state that is reached at a time.
+#[derive(Clone, Copy)]
+pub(super) struct Here<'a, 's> {
+    pub task: &'a Task,
+    pub state: &'s State,
+    pub time: f64,
+}
+
+impl<'a> Here<'a, '_> {
+    /// What is around the arm in the motion of a step, on a clock that begins with it.
+    pub fn scene(&self, step: &Step) -> Scene {
+        self.state.scene(self.task, step.action.picked()).since(self.time)
+    }
+
+    /// What is around the arm when it stands at the end of a candidate's step, on a clock that begins at a time.
+    pub fn standing(&self, candidate: &Candidate, time: f64) -> Scene {
+        let left = self.state.left(self.task, candidate, candidate.to);
+        left.scene(self.task, self.state.released).since(time)
+    }
+
+    /// What can be done next.
+    pub fn choices(&self) -> Choices<'a> {
+        let mut choices = Choices::default();
+        for candidates in self.state.candidates(self.task) {
+            let step = candidates.step;
+            let scene = self.scene(step);
+            let movers = Movers::new(&scene, scene.workspace().clearance);
+            let (mut ways, mut refused) = (Vec::new(), Vec::new());
+            match &step.action {
+                Action::Pick { object, grasp, when, .. } if self.state.moving.contains(object) => {
+                    let passed = |from| passages(&self.task.arm, &self.task.objects[*object], *grasp, when, from);
+                    self.pick(&movers, step, *object, &passed(self.time), &mut ways);
+                    let reason = || self.missed(step, *object, passed);
+                    refused.extend(ways.is_empty().then(|| (None, reason())));
+                }
+                _ if candidates.ways.is_empty() => {
+                    let reason = "no IK solution within the joint limits reaches its target";
+                    refused.push((None, Refusal::new(reason, candidates.all)));
+                }
+                _ => {
+                    for candidate in &candidates.ways {
+                        let before = ways.len();
+                        self.arrivals(&movers, candidate, [0.0, f64::INFINITY], &mut ways);
+                        let reason =
+                            "something that moves is there, or comes while the arm stands, whenever it could arrive";
+                        let is_barred = ways.len() == before;
+                        refused.extend(is_barred.then(|| (Some(candidate.to), Refusal::new(reason, false))));
+                    }
+                }
+            }
+            choices.ways.append(&mut ways);
+            choices.refused.extend(refused.into_iter().map(|(to, refusal)| Reason { step, to, refusal }));
+        }
+        choices
+    }
+
+    /// The same pick at another moment, with the IK solution that is nearest.
+    pub fn at_moment(&self, way: &Way<'a>, moment: Moment) -> Option<Way<'a>> {
+        let object = way.candidate.step.action.picked()?;
+        let scene = self.scene(way.candidate.step);
+        let movers = Movers::new(&scene, scene.workspace().clearance);
+        let ways = self.passing(&movers, way.candidate.step, object, moment);
+        let far = |other: &Way| self.task.arm.topology().distance(other.candidate.to, way.candidate.to);
+        ways.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)))
+    }
+
+    /// The ways to pick an object that moves, where it may be.
+    fn pick(&self, movers: &Movers, step: &'a Step, object: usize, passages: &[Passage], ways: &mut Vec<Way<'a>>) {
+        for passage in passages {
+            let [mut since, _] = passage.times;
+            for time in passage.moments() {
+                if passage.is_still {
+                    for candidate in self.candidates(step, object, time) {
+                        self.arrivals(movers, &candidate, passage.times, ways);
+                    }
+                    continue;
+                }
+                // Clocks count nanoseconds: the one nearest to the window's beginning may be before it.
+                let [begins, ends] = passage.times;
+                let instant = || (begins == ends).then(|| seconds(nanoseconds(time)));
+                let Some(time) = nearest_within(time, passage.times).or_else(instant) else { continue };
+                let moment = Moment { time, since };
+                ways.extend(self.passing(movers, step, object, moment));
+                since = moment.time;
+            }
+        }
+    }
+
+    /// The candidates of a pick at a moment.
+    fn candidates(&self, step: &Step, object: usize, time: f64) -> Vec<Candidate<'a>> {
+        let stopped = self.state.stopped(self.task, object, time);
+        let same = |other: &Step| (other.number, other.cycle) == (step.number, step.cycle);
+        let all = stopped.candidates(self.task).into_iter().filter(|candidates| same(candidates.step));
+        all.flat_map(|candidates| candidates.ways).collect()
+    }
+
+    /// The ways to pick an object at a moment, waiting for it.
+    fn passing(&self, movers: &Movers, step: &Step, object: usize, moment: Moment) -> Vec<Way<'a>> {
+        let way = |(branch, candidate): (usize, Candidate<'a>)| {
+            let [safe, stays] = self.safe(movers, &candidate);
+            let stays_until = moment.time + step.dwell;
+            let before = safe.into_iter().find(|[from, to]| *from <= moment.time && moment.time <= *to)?;
+            stays.into_iter().find(|[from, to]| *from <= moment.time && stays_until <= *to)?;
+            let arrival = [not_before(before[0]), moment.time - EARLY];
+            let is_in_time = arrival[0].max(self.soonest(&candidate)) <= arrival[1];
+            // A sooner moment may be found for it.
+            let ends = moment.since + step.dwell;
+            is_in_time.then_some(Way { candidate, arrival, moment: Some(moment), branch, ends })
+        };
+        self.candidates(step, object, moment.time).into_iter().enumerate().filter_map(way).collect()
+    }
+
+    /// The ways to arrive at a candidate's target, within some times, and to stay there as long as the step asks for: from a whole nanosecond to another
+    /// one, both within these times.
+    fn arrivals(&self, movers: &Movers, candidate: &Candidate<'a>, within: Interval, ways: &mut Vec<Way<'a>>) {
+        let [safe, stays] = self.safe(movers, candidate);
+        let (dwell, soonest) = (candidate.step.dwell, self.soonest(candidate));
+        let both = |a: &Interval| {
+            let within = [a[0].max(within[0]), a[1].min(within[1])];
+            let common = |b: &Interval| [not_before(within[0].max(b[0])), not_after(within[1].min(b[1] - dwell))];
+            stays.iter().map(common).collect::<Vec<_>>()
+        };
+        let arrivals = safe.iter().flat_map(both).filter(|[from, to]| from.max(soonest) <= *to).take(MOST_ARRIVALS);
+        ways.extend(arrivals.map(|arrival| {
+            let ends = arrival[0].max(soonest) + dwell;
+            Way { candidate: *candidate, arrival, moment: None, branch: 0, ends }
+        }));
+    }
+
+    /// When the arm can be at a candidate's target at the soonest.
+    fn soonest(&self, candidate: &Candidate) -> f64 {
+        self.time + least_time(&self.task.arm, self.state.q, candidate.to, candidate.step.speed)
+    }
+
+    /// When nothing that moves is at a candidate's target while the arm comes there, and when while it stands there after the step's event.
+    fn safe(&self, movers: &Movers, candidate: &Candidate) -> [Vec<Interval>; 2] {
+        let after = self.standing(candidate, self.time);
+        let then = Movers::new(&after, after.workspace().clearance);
+        [movers, &then].map(|movers| {
+            let mut safe = movers.safe_intervals(&Posture::new(movers.scene(), candidate.to));
+            safe.iter_mut().flatten().for_each(|time| *time += self.time);
+            safe
+        })
+    }
+
+    /// Why an object that moves cannot be picked any more; `passed` are its passages from a time on.
+    fn missed(&self, step: &Step, object: usize, passed: impl Fn(f64) -> Vec<Passage>) -> Refusal {
+        let name = &self.task.objects[object].name;
+        let (all, left) = (passed(0.0), passed(self.time));
+        let is_reached = |passage: &Passage| {
+            passage.moments().into_iter().any(|time| !self.candidates(step, object, time).is_empty())
+        };
+        let begins = format!("the step begins at {:.3} s", self.time);
+        let reason = if !all.iter().any(is_reached) {
+            format!("no IK solution within the joint limits reaches \"{name}\" on its way")
+        } else if !left.iter().any(is_reached) {
+            format!("\"{name}\" has passed: {begins}")
+        } else {
+            format!("\"{name}\" passes before the arm can be there, or something that moves is there, too: {begins}")
+        };
+        Refusal::new(reason, false)
+    }
+}

@@ -1,0 +1,163 @@
+//! What becomes of a task.
+
+use super::impossible::Impossible;
+use super::stroke::ToolStroke;
+use crate::Timing;
+use cplan_core::model::{Outcome, Scene, Step};
+use cplan_geometry::Pose;
+use cplan_motion::Timed;
+use cplan_motion::recorded::WristTurn;
+use std::sync::Arc;
+
+/// What happens at the end of a step's motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event {
+    /// The gripper takes an object.
+    Grasp {
+        /// The number of the object in the task.
+        object: usize,
+    },
+    /// The gripper lets go of an object.
+    Release {
+        /// The number of the object in the task.
+        object: usize,
+        /// Where it lies from then on.
+        pose: Pose,
+    },
+}
+
+impl Event {
+    /// The object that is taken or let go of.
+    #[must_use]
+    pub fn object(&self) -> usize {
+        match *self {
+            Event::Grasp { object } | Event::Release { object, .. } => object,
+        }
+    }
+}
+
+/// What the arm does for one step: a motion from rest to rest, perhaps a turn of the wrist, perhaps an event, and a rest.
+///
+/// A pick: motion, stroke down, grasp, dwell, stroke up, turn. A place: motion, turn, stroke down, release, dwell, stroke up. A
+/// move: motion, dwell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Leg {
+    /// The step that it carries out.
+    pub step: Step,
+    /// The world during the motion, and what is carried.
+    pub scene: Arc<Scene>,
+    /// The object that is carried during the motion.
+    pub carried: Option<usize>,
+    /// The motion, on a clock of its own.
+    pub timed: Arc<Timed>,
+    /// Turn of the wrist, and the seconds that it takes.
+    pub turn: Option<(WristTurn, f64)>,
+    /// How the tool is lowered and raised, if it is.
+    pub stroke: Option<ToolStroke>,
+    /// What happens while it is lowered.
+    pub event: Option<Event>,
+    /// Seconds from the beginning of the task to that of the motion.
+    pub begin: f64,
+}
+
+impl Leg {
+    /// Seconds from the beginning of the task to the end of the motion.
+    #[must_use]
+    pub fn arrival(&self) -> f64 {
+        self.begin + self.timed.trajectory.duration()
+    }
+
+    /// Seconds that the arm stands still after the motion.
+    #[must_use]
+    pub fn rest(&self) -> f64 {
+        self.step.dwell + self.turning() + 2.0 * self.lowering()
+    }
+
+    /// Seconds that the wrist turns.
+    #[must_use]
+    pub fn turning(&self) -> f64 {
+        self.turn.map_or(0.0, |(_, seconds)| seconds)
+    }
+
+    /// Seconds that the tool takes down, and up again.
+    #[must_use]
+    pub fn lowering(&self) -> f64 {
+        self.stroke.map_or(0.0, |stroke| stroke.seconds)
+    }
+
+    /// Seconds from the end of the motion to the grasp or release, if there is one.
+    #[must_use]
+    pub fn event_after(&self) -> Option<f64> {
+        match self.event? {
+            Event::Grasp { .. } => Some(self.lowering()),
+            Event::Release { .. } => Some(self.turning() + self.lowering()),
+        }
+    }
+
+    /// Seconds from the beginning of the task to the grasp or release, if there is one.
+    #[must_use]
+    pub fn event_time(&self) -> Option<f64> {
+        self.event_after().map(|after| self.arrival() + after)
+    }
+
+    /// Seconds from the beginning of the task to the end of the step.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.arrival() + self.rest()
+    }
+
+    /// Proven lower bound on the distance to obstacles during the motion, the turn and the stroke, metres; infinite if nothing
+    /// can be hit.
+    #[must_use]
+    pub fn clearance(&self) -> f64 {
+        let turn = self.turn.map_or(f64::INFINITY, |(turn, _)| turn.clearance);
+        let stroke = self.stroke.map_or(f64::INFINITY, |stroke| stroke.clearance);
+        turn.min(stroke).min(self.timed.curve.clearance())
+    }
+}
+
+/// What became of a task: all steps can be done as planned; it cannot be done, whatever the IK solutions and the order: proven; or
+/// neither is known within the effort. Both name the step that fails.
+pub type TaskVerdict = Outcome<(), Impossible, Impossible>;
+
+/// The answer to a task and how it came about.
+#[derive(Debug, Clone)]
+pub struct TaskAnswer {
+    /// What was found out: a sequence, a proof, or neither.
+    pub verdict: TaskVerdict,
+    /// The steps in the order in which they are done: all, or those before the one that fails.
+    pub legs: Vec<Leg>,
+    /// No sequence of motions that does the whole task, from rest to rest at each step, takes less: proven, seconds.
+    pub lower_bound: f64,
+    /// Whether no other choice of IK solutions, turns and order is faster with the motions that this planner finds.
+    pub exact: bool,
+    /// Motions that were planned, those that were not needed in the end included.
+    pub motions: usize,
+    /// Nodes of the search that were expanded.
+    pub expanded: usize,
+    /// How the arm gets by what moves, if anything does and all is done; on the clock of the task.
+    pub timing: Option<Timing>,
+}
+
+impl TaskAnswer {
+    /// The step that fails, if one does.
+    #[must_use]
+    pub fn impossible(&self) -> Option<&Impossible> {
+        match &self.verdict {
+            TaskVerdict::Found(()) => None,
+            TaskVerdict::Infeasible(impossible) | TaskVerdict::Unknown(impossible) => Some(impossible),
+        }
+    }
+
+    /// Seconds from the beginning to the end of the last step.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.legs.last().map_or(0.0, Leg::end)
+    }
+
+    /// Proven lower bound on the distance to obstacles all the time, metres; infinite if nothing can be hit.
+    #[must_use]
+    pub fn clearance(&self) -> f64 {
+        self.legs.iter().map(Leg::clearance).fold(f64::INFINITY, f64::min)
+    }
+}

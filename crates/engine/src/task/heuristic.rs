@@ -1,0 +1,345 @@
+//! What remains of a task, if nothing were in the way.
+
+use super::ik_solutions::{goal_ik_solutions, ik_solutions};
+use super::least_time::least_time;
+use super::state::Progress;
+use super::stroke::least_rest;
+use cplan_core::model::{Action, Arm, Holding, Item, Object, Step, Task};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Point, Pose};
+use nalgebra::{Isometry2, Rotation2};
+
+/// Where a step can end.
+#[derive(Debug, Clone)]
+pub(super) struct Stop {
+    /// All IK solutions at the target; none if they are not known before the steps before are, or are infinitely many.
+    ik_solutions: Option<Vec<Configuration>>,
+    speed: f64,
+    /// Seconds that the arm stands still there, at the least.
+    dwell: f64,
+}
+
+impl Stop {
+    /// How many places there are to stand at: one if they are not known.
+    fn count(&self) -> usize {
+        self.ik_solutions.as_ref().map_or(1, Vec::len)
+    }
+
+    /// The configuration of a place to stand at, where it is known.
+    fn at(&self, place: usize) -> Option<Configuration> {
+        self.ik_solutions.as_ref().map(|ik_solutions| ik_solutions[place])
+    }
+
+    /// All IK solutions, if they are known.
+    pub fn ik_solutions(&self) -> Option<&[Configuration]> {
+        self.ik_solutions.as_deref()
+    }
+
+    /// The share of top speeds on the way to it.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Least seconds to a place to stand at and through its dwell.
+    fn seconds(&self, arm: &Arm, from: Option<Configuration>, place: usize) -> f64 {
+        let way = from.zip(self.at(place)).map_or(0.0, |(from, to)| least_time(arm, from, to, self.speed));
+        way + self.dwell
+    }
+}
+
+/// The stops of an item.
+#[derive(Debug, Clone)]
+pub(super) enum Stops {
+    /// Of a step.
+    One(Stop),
+    /// Of each pair: pick and place.
+    Pairs(Vec<[Stop; 2]>),
+    /// The item moves nothing.
+    Nothing,
+}
+
+/// Least seconds to the end of a task after each item.
+#[derive(Debug, Clone)]
+enum After {
+    /// By the place to stand at.
+    One(Vec<f64>),
+    /// Of a group in any order.
+    Pairs(Table),
+    /// Of a group that is too large for that: from its beginning, wherever the arm is.
+    Many(f64),
+    Nothing,
+}
+
+/// Pairs of a group up to which all subsets are looked at: some hundred thousand numbers.
+const MOST_PAIRS: usize = 12;
+
+/// Least seconds from within a group to the end of the task, by the pairs done (a bit each), one of these, and the place
+/// to stand at.
+#[derive(Debug, Clone)]
+struct Table {
+    /// From the pick of a pair, which counts as done here.
+    picked: Vec<Vec<Vec<f64>>>,
+    /// From the place of the last pair done.
+    placed: Vec<Vec<Vec<f64>>>,
+}
+
+/// Least times to the end of a task from everywhere in it, over all IK solutions and orders.
+pub(super) struct Heuristic<'a> {
+    arm: &'a Arm,
+    stops: Vec<Stops>,
+    after: Vec<After>,
+}
+
+impl<'a> Heuristic<'a> {
+    /// `O(n b^2)` for `n` steps with `b` IK solutions each, and `O(2^k k^2 b^2)` for a group of up to [`MOST_PAIRS`] pairs, whose
+    /// best order is found. Of larger ones each pick is reached from the nearest place, and the farthest of these ways left out
+    /// for the first.
+    pub fn new(task: &'a Task) -> Self {
+        let stops = stops(task);
+        let mut heuristic = Self { arm: &task.arm, after: vec![After::Nothing; stops.len()], stops };
+        for item in (0..heuristic.stops.len()).rev() {
+            heuristic.after[item] = match &heuristic.stops[item] {
+                Stops::One(stop) => {
+                    After::One((0..stop.count()).map(|place| heuristic.from(stop.at(place), item + 1)).collect())
+                }
+                Stops::Pairs(pairs) if pairs.len() <= MOST_PAIRS => After::Pairs(heuristic.table(pairs, item)),
+                Stops::Pairs(pairs) => After::Many(heuristic.at_least(pairs, item)),
+                Stops::Nothing => After::Nothing,
+            };
+        }
+        heuristic
+    }
+
+    /// Least seconds from a configuration to the end of the task; infinite where a target is out of reach.
+    pub fn remaining(&self, q: Configuration, progress: Progress) -> f64 {
+        let Progress { item, done, half } = progress;
+        match (self.stops.get(item), self.after.get(item), half) {
+            (Some(Stops::Pairs(pairs)), Some(After::Pairs(table)), Some(pair)) => {
+                let done = done as usize | 1 << pair;
+                self.over(&pairs[pair][1], Some(q), &table.placed[done][pair])
+            }
+            (Some(Stops::Pairs(pairs)), Some(After::Pairs(table)), None) => {
+                self.next_pair(pairs, table, Some(q), done as usize)
+            }
+            _ => self.from(Some(q), item),
+        }
+    }
+
+    /// Least seconds from the beginning of an item to the end of the task.
+    fn from(&self, q: Option<Configuration>, item: usize) -> f64 {
+        match (self.stops.get(item), self.after.get(item)) {
+            (Some(Stops::One(stop)), Some(After::One(after))) => self.over(stop, q, after),
+            (Some(Stops::Pairs(pairs)), Some(After::Pairs(table))) => self.next_pair(pairs, table, q, 0),
+            (Some(Stops::Pairs(_)), Some(After::Many(least))) => *least,
+            (Some(_), _) => self.from(q, item + 1),
+            (None, _) => 0.0,
+        }
+    }
+
+    /// The least over all places to stand at of a stop.
+    fn over(&self, stop: &Stop, q: Option<Configuration>, after: &[f64]) -> f64 {
+        let by = |(place, after): (usize, &f64)| stop.seconds(self.arm, q, place) + after;
+        after.iter().enumerate().map(by).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The least over all pairs that are not done.
+    fn next_pair(&self, pairs: &[[Stop; 2]], table: &Table, q: Option<Configuration>, done: usize) -> f64 {
+        let open = (0..pairs.len()).filter(|pair| done & (1 << pair) == 0);
+        let by = |pair: usize| self.over(&pairs[pair][0], q, &table.picked[done | 1 << pair][pair]);
+        open.map(by).fold(f64::INFINITY, f64::min)
+    }
+
+    /// A bound for a group in any order and what follows it.
+    fn at_least(&self, pairs: &[[Stop; 2]], item: usize) -> f64 {
+        let least = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::INFINITY, f64::min);
+        let way = |from: &Stop, to: &Stop| {
+            let of = |at: usize| least(&mut (0..to.count()).map(|place| to.seconds(self.arm, from.at(at), place)));
+            least(&mut (0..from.count()).map(of))
+        };
+        let mut ways: Vec<f64> = (0..pairs.len())
+            .map(|pair| {
+                let others = (0..pairs.len()).filter(|other| *other != pair);
+                least(&mut others.map(|other| way(&pairs[other][1], &pairs[pair][0])))
+            })
+            .collect();
+        ways.sort_by(f64::total_cmp);
+        ways.pop();
+        let carried: f64 = pairs.iter().map(|[pick, place]| way(pick, place)).sum();
+        let ends = pairs.iter().flat_map(|[_, place]| (0..place.count()).map(|at| place.at(at)));
+        let onward = least(&mut ends.map(|end| self.from(end, item + 1)));
+        // The dwell at the first pick is in the way that is left out.
+        let dwell = pairs.iter().map(|[pick, _]| pick.dwell).fold(f64::INFINITY, f64::min);
+        ways.iter().sum::<f64>() + dwell + carried + onward
+    }
+
+    fn table(&self, pairs: &[[Stop; 2]], item: usize) -> Table {
+        let all = (1_usize << pairs.len()) - 1;
+        let empty = || vec![vec![Vec::new(); pairs.len()]; all + 1];
+        let mut table = Table { picked: empty(), placed: empty() };
+        for done in (1..=all).rev() {
+            for pair in (0..pairs.len()).filter(|pair| done & (1 << pair) != 0) {
+                let [pick, place] = &pairs[pair];
+                let onward = |at: usize| match done == all {
+                    true => self.from(place.at(at), item + 1),
+                    false => self.next_pair(pairs, &table, place.at(at), done),
+                };
+                let placed: Vec<f64> = (0..place.count()).map(onward).collect();
+                let picked = (0..pick.count()).map(|at| self.over(place, pick.at(at), &placed)).collect();
+                (table.placed[done][pair], table.picked[done][pair]) = (placed, picked);
+            }
+        }
+        table
+    }
+}
+
+/// Where an object lies, as far as that does not depend on IK solutions: its origin, and its orientation if known.
+#[derive(Clone, Copy)]
+struct Lies {
+    at: Point,
+    angle: Option<f64>,
+}
+
+impl Lies {
+    /// Where a point of the object is.
+    fn place_of(&self, point: Point) -> Option<Point> {
+        if point == Point::origin() {
+            return Some(self.at);
+        }
+        self.angle.map(|angle| self.at + Rotation2::new(angle) * point.coords)
+    }
+}
+
+impl From<&Object> for Lies {
+    fn from(object: &Object) -> Self {
+        let pose: &Pose = &object.at;
+        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()) }
+    }
+}
+
+/// The stops of all items.
+pub(super) fn stops(task: &Task) -> Vec<Stops> {
+    // Nobody knows beforehand where what moves is picked.
+    let lies = |object: &Object| object.course.is_none().then(|| Lies::from(object));
+    let mut lies: Vec<Option<Lies>> = task.objects.iter().map(lies).collect();
+    let mut held = None;
+    let mut stop = |step: &Step, lies: &mut [Option<Lies>]| {
+        let object = match step.action {
+            Action::Pick { object, .. } => Some(object),
+            Action::Place { .. } => held.map(|(object, _)| object),
+            Action::Move(_) => None,
+        };
+        let dwell = least_rest(task, step, object);
+        Stop { ik_solutions: targets(task, step, lies, &mut held), speed: step.speed, dwell }
+    };
+    let of = |item: &Item| match item {
+        Item::Step(step) => Stops::One(stop(step, &mut lies)),
+        Item::AnyOrder(pairs) => {
+            Stops::Pairs(pairs.iter().map(|pair| pair.each_ref().map(|step| stop(step, &mut lies))).collect())
+        }
+        Item::Renew(objects) => {
+            objects.iter().for_each(|&object| lies[object] = Some(Lies::from(&task.objects[object])));
+            Stops::Nothing
+        }
+    };
+    task.items.iter().map(of).collect()
+}
+
+/// All IK solutions of a step, and what becomes of its object.
+fn targets(
+    task: &Task,
+    step: &Step,
+    lies: &mut [Option<Lies>],
+    held: &mut Option<(usize, Point)>,
+) -> Option<Vec<Configuration>> {
+    let arm = &task.arm;
+    let tip_to = |target: Option<Point>| {
+        let reach = ik_solutions(arm, arm.tip, target?, task.start);
+        reach.all.then_some(reach.configurations)
+    };
+    match &step.action {
+        Action::Move(goal) => {
+            let reach = goal_ik_solutions(arm, goal, task.start);
+            reach.all.then_some(reach.configurations)
+        }
+        Action::Pick { object, grasp, .. } => {
+            *held = Some((*object, *grasp));
+            tip_to(lies[*object]?.place_of(*grasp))
+        }
+        Action::Place { at, angle, .. } => {
+            let (object, grasp) = held.take()?;
+            let turned = match task.objects[object].holding {
+                Holding::Level => angle.or(lies[object]?.angle),
+                Holding::Rigid => None,
+            };
+            // The same expression as that of the state, so that values are the same.
+            let exact = turned.map(|angle| Isometry2::new(at.coords, angle) * grasp);
+            let placed = Lies { at: *at, angle: turned };
+            lies[object] = Some(placed);
+            tip_to(exact.or_else(|| placed.place_of(grasp)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_core::model::{Joint, JointType, Link, OutlineSource, Plane};
+    use cplan_core::space::JointRange;
+    use cplan_geometry::Vector;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    fn arm() -> Arm {
+        let joint = |name: &str| Joint {
+            name: name.into(),
+            joint_type: JointType::Revolute { sign: 1.0 },
+            range: JointRange::Circle,
+            velocity: 2.0,
+            acceleration: 9.0,
+            jerk: None,
+        };
+        let link = |name: &str| Link { name: name.into(), parts: Vec::new(), source: OutlineSource::None };
+        Arm {
+            name: "arm".into(),
+            joints: [joint("a"), joint("b")],
+            links: [link("a"), link("b")],
+            base: Point::origin(),
+            offset: Vector::new(1.0, 0.0),
+            tip: Point::new(0.7, 0.0),
+            tip_name: "tip".into(),
+            plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+            dynamics: None,
+            self_obstacles: Vec::new(),
+        }
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(64))]
+
+        /// What is said of large groups is less than the best of all orders.
+        #[test]
+        fn the_bound_of_a_large_group_is_a_bound(
+            spots in prop::collection::vec(((0.4..1.6f64, -3.0..3.0f64), (0.4..1.6f64, -3.0..3.0f64)), 2..7),
+            dwells in prop::collection::vec((0.0..1.0f64, 0.0..1.0f64), 7),
+        ) {
+            let arm = arm();
+            let stop = |(radius, angle): (f64, f64), dwell| Stop {
+                ik_solutions: Some(ik_solutions(&arm, arm.tip, Point::new(radius * angle.cos(), radius * angle.sin()), Configuration::zeros()).configurations),
+                speed: 1.0,
+                dwell,
+            };
+            let pairs: Vec<[Stop; 2]> = spots.iter().zip(&dwells).map(|((a, b), (c, d))| [stop(*a, *c), stop(*b, *d)]).collect();
+            let home = stop((1.2, 0.3), 0.1);
+            let mut heuristic = Heuristic {
+                arm: &arm,
+                after: vec![After::Nothing, After::One(vec![0.0; home.count()])],
+                stops: vec![Stops::Pairs(pairs.clone()), Stops::One(home)],
+            };
+            let least = heuristic.at_least(&pairs, 0);
+            heuristic.after[0] = After::Pairs(heuristic.table(&pairs, 0));
+            let best = heuristic.from(Some(Configuration::new(0.3, -1.0)), 0);
+            prop_assert!(least <= best + 1e-12, "{least} {best}");
+            prop_assert!(least > 0.0);
+        }
+    }
+}

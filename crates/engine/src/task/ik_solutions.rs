@@ -1,0 +1,40 @@
+//! The configurations that put a point of the arm somewhere.
+
+use cplan_core::model::{Arm, Goal, inverse, within};
+use cplan_core::space::Configuration;
+use cplan_geometry::Point;
+
+/// Configurations for a target.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct IkSolutions {
+    /// Within the joint limits; none where the target is out of reach.
+    pub configurations: Vec<Configuration>,
+    /// Whether there are no others, up to whole turns of a joint without limits.
+    pub all: bool,
+}
+
+/// All configurations within the limits that put the tip (or another point of link 2 in its place) at `target`; where
+/// infinitely many do, those with the `preferred` value of the joint that is free.
+pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Configuration) -> IkSolutions {
+    let solved = if point == arm.tip {
+        inverse(arm, target, preferred)
+    } else {
+        inverse(&Arm { tip: point, ..arm.clone() }, target, preferred)
+    };
+    let mut configurations = Vec::new();
+    for branch in &solved.branches {
+        let copies = [0, 1].map(|k| within(arm.joints[k].range, arm.joints[k].joint_type.is_revolute(), branch[k]));
+        for &first in &copies[0] {
+            configurations.extend(copies[1].iter().map(|&second| Configuration::new(first, second)));
+        }
+    }
+    IkSolutions { configurations, all: solved.free.is_none() }
+}
+
+/// The same for where a step is to move.
+pub(super) fn goal_ik_solutions(arm: &Arm, goal: &Goal, preferred: Configuration) -> IkSolutions {
+    match goal {
+        Goal::Joints(q) => IkSolutions { configurations: vec![*q], all: true },
+        Goal::Tip(tip) => ik_solutions(arm, arm.tip, *tip, preferred),
+    }
+}

@@ -1,0 +1,267 @@
+//! All joints of the robot through a task, for messages that name them.
+//!
+//! The arm moves with the tool raised. While it stands the wrist turns, and the tool is lowered and raised. A wrist whose joint
+//! is named keeps the orientation of level payloads, against that of link 2; with an empty hand it goes back to its rest as far
+//! as its limits allow on the way.
+
+use super::answer::{Event, Leg};
+use super::sequence::Sequence;
+use cplan_core::model::{Driver, Drives, Holding, JointType, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
+use cplan_core::space::JointRange;
+use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, seconds, single, whole_nanoseconds};
+use thiserror::Error;
+
+/// Why messages cannot name all joints as asked.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MessageError {
+    /// Accelerations that would mislead their readers.
+    #[error(transparent)]
+    Jump(#[from] AccelerationJump),
+    /// A joint of the tool that moves, of which no accelerations are known.
+    #[error(
+        "accelerations cannot be written: those of the tool's joint \"{joint}\", which moves at {time:.6} s, jump; write the two planned joints \
+         alone (--joints planned), or leave out --accelerations"
+    )]
+    Tool {
+        /// The joint's name in the URDF.
+        joint: String,
+        /// When it moves first, seconds from the beginning.
+        time: f64,
+    },
+    /// A wrist that cannot keep up.
+    #[error(
+        "joint \"{joint}\" cannot keep what is carried level: at {time:.6} s it would {what}; let it have a wider range, give the \
+         step less speed, or write the two planned joints alone (--joints planned)"
+    )]
+    Wrist {
+        /// The joint's name in the URDF.
+        joint: String,
+        /// When that would be, seconds from the beginning.
+        time: f64,
+        /// What it would do.
+        what: String,
+    },
+}
+
+/// The motion of all joints that messages name, as one and step by step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Messages {
+    /// The whole task, standing still included.
+    pub whole: JointMotion,
+    /// Of each step, when it begins, seconds, and its motion up to where the last of these joints comes to rest.
+    pub steps: Vec<(f64, JointMotion)>,
+}
+
+/// Share of a limit by which rounding may exceed it.
+const ROUNDING: f64 = 1e-6;
+
+impl Messages {
+    /// Of the steps of a sequence, with the accelerations of the arm, and none of the tool.
+    pub fn new(robot: &RobotJoints, task: &Task, legs: &[Leg], sequence: &Sequence) -> Result<Self, MessageError> {
+        let mut tool = Tool { robot, task, wrist: robot.wrist.as_ref().map_or(0.0, |joint| joint.rest) };
+        let mut whole = Rows::default();
+        let mut steps = Vec::new();
+        for (index, leg) in legs.iter().enumerate() {
+            let rows = tool.rows(leg, sequence.times(index).map(nanoseconds));
+            tool.check(&rows)?;
+            let begin = rows.0.first().map_or(0, |row| row.at);
+            rows.0.iter().for_each(|row| whole.push(*row));
+            steps.push((seconds(begin), rows.motion(robot, begin).without_rest()));
+        }
+        Ok(Self { whole: whole.motion(robot, 0), steps })
+    }
+}
+
+impl Messages {
+    /// The same for readers that join samples by cubics.
+    pub fn without_accelerations(self) -> Self {
+        let steps = self.steps.into_iter().map(|(begin, motion)| (begin, motion.without_accelerations()));
+        Self { whole: self.whole.without_accelerations(), steps: steps.collect() }
+    }
+
+    /// Whether quintics are the motion of the tool, too: it does not move, because its acceleration would jump.
+    pub fn check_accelerations(&self, robot: &RobotJoints) -> Result<(), MessageError> {
+        let tool = |driver: Driver| matches!(driver, Driver::Stroke | Driver::Wrist);
+        let moved = |(k, joint): (usize, &RobotJoint)| {
+            let moving = self.whole.velocity.iter().position(|rates| rates[k] != 0.0);
+            moving.filter(|_| tool(joint.driver)).map(|sample| (joint.name.clone(), self.whole.time[sample]))
+        };
+        match robot.joints.iter().enumerate().find_map(moved) {
+            Some((joint, time)) => Err(MessageError::Tool { joint, time }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What drives the joints at a nanosecond.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    at: u64,
+    value: Drives,
+    rate: Drives,
+    /// Accelerations of the planned joints.
+    pull: [f64; 2],
+}
+
+/// Rows in the order of time.
+#[derive(Debug, Default)]
+struct Rows(Vec<Row>);
+
+impl Rows {
+    /// Of two rows at one time the later counts: its acceleration is that of the interval which begins.
+    fn push(&mut self, row: Row) {
+        self.0.pop_if(|last| last.at == row.at);
+        self.0.push(row);
+    }
+
+    fn motion(&self, robot: &RobotJoints, begin: u64) -> JointMotion {
+        let pull = |row: &Row| robot.rates(&Drives { planned: row.pull, ..Drives::default() });
+        JointMotion {
+            joints: robot.names().map(str::to_owned).collect(),
+            time: self.0.iter().map(|row| seconds(row.at - begin)).collect(),
+            position: self.0.iter().map(|row| robot.values(&row.value)).collect(),
+            velocity: self.0.iter().map(|row| robot.rates(&row.rate)).collect(),
+            acceleration: Some(self.0.iter().map(pull).collect()),
+        }
+    }
+}
+
+/// The tool on its way through the steps.
+struct Tool<'a> {
+    robot: &'a RobotJoints,
+    task: &'a Task,
+    /// The value of the wrist's joint.
+    wrist: f64,
+}
+
+impl Tool<'_> {
+    /// A step, which begins, arrives and ends at these nanoseconds.
+    fn rows(&mut self, leg: &Leg, [begin, arrival, end]: [u64; 3]) -> Rows {
+        let mut rows = Rows::default();
+        let trajectory = &leg.timed.trajectory;
+        let raised = self.robot.stroke.as_ref().map_or(0.0, |stroke| stroke.joint.rest);
+        for (k, time) in trajectory.time.iter().enumerate() {
+            let [wrist, turning] = self.underway(leg, k);
+            rows.push(Row {
+                at: begin + nanoseconds(*time),
+                value: Drives { planned: trajectory.position[k], stroke: raised, wrist },
+                rate: Drives { planned: trajectory.velocity[k], stroke: 0.0, wrist: turning },
+                pull: trajectory.acceleration[k],
+            });
+        }
+        let Some(&Row { value, .. }) = rows.0.last() else { return rows };
+        self.wrist = value.wrist;
+        let mut still = Row { at: arrival, value, rate: Drives::default(), pull: [0.0; 2] };
+        // A place turns before it lowers the tool, a pick after it has raised it.
+        let places = matches!(leg.event, Some(Event::Release { .. }));
+        if places {
+            self.turn(leg, &mut still, &mut rows);
+        }
+        self.stroke(leg, false, &mut still, &mut rows);
+        still.at += nanoseconds(whole_nanoseconds(leg.step.dwell));
+        self.stroke(leg, true, &mut still, &mut rows);
+        if !places {
+            self.turn(leg, &mut still, &mut rows);
+        }
+        // The whole ends when the sequence says, to the nanosecond.
+        rows.0.pop_if(|last| last.at >= end);
+        rows.push(Row { at: end, ..still });
+        rows
+    }
+
+    /// Value and rate of the wrist's joint at a sample of the arm's motion.
+    fn underway(&self, leg: &Leg, k: usize) -> [f64; 2] {
+        let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return [self.wrist, 0.0] };
+        let trajectory = &leg.timed.trajectory;
+        match leg.carried.map(|object| self.task.objects[object].holding) {
+            Some(Holding::Rigid) => [self.wrist, 0.0],
+            Some(Holding::Level) => {
+                let turned = self.turned(trajectory.position[k]) - self.turned(trajectory.position[0]);
+                [self.wrist - joint.sign * turned, -joint.sign * self.turned(trajectory.velocity[k])]
+            }
+            None => {
+                let duration = trajectory.duration();
+                if duration == 0.0 {
+                    return [self.wrist, 0.0];
+                }
+                let way = back(joint.rest - self.wrist, duration, limits);
+                let u = trajectory.time[k] / duration;
+                [self.wrist + way * u * u * (3.0 - 2.0 * u), way * 6.0 * u * (1.0 - u) / duration]
+            }
+        }
+    }
+
+    /// By how much link 2 is turned, or how fast.
+    fn turned(&self, planned: [f64; 2]) -> f64 {
+        let of = |k: usize| match self.task.arm.joints[k].joint_type {
+            JointType::Revolute { sign } => sign * planned[k],
+            JointType::Prismatic { .. } => 0.0,
+        };
+        of(0) + of(1)
+    }
+
+    /// Turns the wrist from a row on, while all else stands.
+    fn turn(&mut self, leg: &Leg, still: &mut Row, rows: &mut Rows) {
+        let (Some((turn, seconds)), Some(limits)) = (leg.turn, self.task.wrist) else { return };
+        let Some(joint) = &self.robot.wrist else {
+            still.at += nanoseconds(seconds);
+            return;
+        };
+        let sign = joint.sign * (turn.to - turn.from).signum();
+        let from = *still;
+        for [time, way, speed] in single((turn.to - turn.from).abs(), limits.velocity, limits.acceleration) {
+            still.at = from.at + nanoseconds(time);
+            still.value.wrist = from.value.wrist + sign * way;
+            rows.push(Row { rate: Drives { wrist: sign * speed, ..Drives::default() }, ..*still });
+        }
+        self.wrist = still.value.wrist;
+    }
+
+    /// Lowers the tool from a row on, or raises it, while all else stands.
+    fn stroke(&self, leg: &Leg, up: bool, still: &mut Row, rows: &mut Rows) {
+        let (Some(stroke), Some(limits)) = (leg.stroke, &self.task.stroke) else { return };
+        if self.robot.stroke.is_none() {
+            still.at += nanoseconds(stroke.seconds);
+            return;
+        }
+        let ends = if up { [stroke.lowered, stroke.raised] } else { [stroke.raised, stroke.lowered] };
+        let sign = (ends[1] - ends[0]).signum();
+        let (from, samples) = (still.at, single((ends[1] - ends[0]).abs(), limits.velocity, limits.acceleration));
+        for (k, [time, way, speed]) in samples.iter().enumerate() {
+            still.at = from + nanoseconds(*time);
+            // Exactly where it ends, whatever the rounding of the way.
+            still.value.stroke = if k + 1 == samples.len() { ends[1] } else { ends[0] + sign * way };
+            rows.push(Row { rate: Drives { stroke: sign * speed, ..Drives::default() }, ..*still });
+        }
+    }
+
+    /// Whether the wrist's joint keeps its range and its top speed.
+    fn check(&self, rows: &Rows) -> Result<(), MessageError> {
+        let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return Ok(()) };
+        let what = |row: &Row| beyond(joint, limits, row.value.wrist, row.rate.wrist);
+        match rows.0.iter().find_map(|row| what(row).map(|what| (row.at, what))) {
+            Some((at, what)) => Err(MessageError::Wrist { joint: joint.name.clone(), time: seconds(at), what }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// How much of a way the wrist can go in a time, from rest to rest along a cubic: its top speed is 1.5 times the mean one, its
+/// greatest acceleration 6 times the way over the squared time.
+fn back(way: f64, duration: f64, limits: Wrist) -> f64 {
+    let most = (limits.velocity * duration / 1.5).min(limits.acceleration * duration * duration / 6.0);
+    way.clamp(-most, most)
+}
+
+/// What a joint would have to do that it cannot, in words.
+fn beyond(joint: &ToolJoint, limits: Wrist, value: f64, rate: f64) -> Option<String> {
+    if rate.abs() > limits.velocity * (1.0 + ROUNDING) {
+        return Some(format!("turn at {:.3} rad/s, and its top speed is {} rad/s", rate.abs(), limits.velocity));
+    }
+    match joint.range {
+        JointRange::Interval { lower, upper } if value < lower - ROUNDING || value > upper + ROUNDING => {
+            Some(format!("be at {value:.3} rad, outside its limits [{lower}, {upper}] rad"))
+        }
+        _ => None,
+    }
+}

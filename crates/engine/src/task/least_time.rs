@@ -1,0 +1,30 @@
+//! Times that no motion undercuts.
+
+use cplan_core::model::Arm;
+use cplan_core::space::Configuration;
+
+/// Seconds that one joint takes over a distance from rest to rest: with constant acceleration, and constant speed where its
+/// top speed is reached.
+#[must_use]
+pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
+    if distance * acceleration <= velocity * velocity {
+        2.0 * (distance / acceleration).sqrt()
+    } else {
+        distance / velocity + velocity / acceleration
+    }
+}
+
+/// Share by which such a time is lowered, so that it stays below that of the straight motion in spite of rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A lower bound on the seconds of any motion between two configurations from rest to rest, at a share of the joints' top
+/// speeds: each joint takes at least its own time, the shorter way round on a circle.
+#[must_use]
+pub(super) fn least_time(arm: &Arm, from: Configuration, to: Configuration, speed: f64) -> f64 {
+    let way = arm.topology().displacement(from, to);
+    let of = |k: usize| {
+        let joint = &arm.joints[k];
+        rest_to_rest(way[k].abs(), joint.velocity * speed, joint.acceleration * speed * speed)
+    };
+    of(0).max(of(1)) * (1.0 - ROUNDING)
+}

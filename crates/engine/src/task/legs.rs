@@ -1,0 +1,441 @@
+//! The motions of a task, each planned once.
+
+use super::least_time::rest_to_rest;
+use super::state::{Candidate, Held, State};
+use super::stroke::{ToolStroke, stroke};
+use crate::settle::LARGE_PROOF;
+use crate::{Answer, Options, Verdict, solve};
+use cplan_core::check::{CertifiedPath, CheckedProof, certify};
+use cplan_core::model::{Grip, MotionProblem, Scene, Step, Task};
+use cplan_core::space::{Configuration, Path};
+use cplan_geometry::Pose;
+use cplan_motion::recorded::{WristTurn, wrist_turn};
+use cplan_motion::{Timed, TorqueLimit, single};
+use cplan_proofs::{Connectivity, slab_connectivity};
+use cplan_text::{counted, listed};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// Why a motion is not possible.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Refusal {
+    /// Why, in words for the summary.
+    pub reason: String,
+    /// Whether that is proven, or just what came of trying.
+    pub proven: bool,
+    /// The proof that there is no way, where that is the reason.
+    pub proof: Option<CheckedProof>,
+    /// What would have to be elsewhere.
+    pub blockers: Blockers,
+}
+
+/// What a motion fails for: obstacles by their number in [`Task::obstacles`], ascending.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Blockers {
+    /// The arm or what it carries hits all of these at the end of the motion.
+    AtEnd(Vec<usize>),
+    /// These together bar the way.
+    OnTheWay(Vec<usize>),
+    /// It is not known.
+    Unknown,
+}
+
+impl Refusal {
+    /// A reason without a proof by boxes, from which nothing is learned.
+    pub fn new(reason: impl Into<String>, proven: bool) -> Self {
+        Self { reason: reason.into(), proven, proof: None, blockers: Blockers::Unknown }
+    }
+
+    /// There is no way, as this proves.
+    fn barred(proof: CheckedProof) -> Self {
+        let stuck = proof.stuck();
+        let reason =
+            format!("there is no way: colliding configurations bar it (proven, {})", counted(stuck.len(), "box"));
+        let blockers = Blockers::OnTheWay(distinct(stuck.iter().map(|stuck| stuck.pair.obstacle)));
+        Self { proof: Some(proof), blockers, ..Self::new(reason, true) }
+    }
+}
+
+fn distinct(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
+    numbers.collect::<BTreeSet<_>>().into_iter().collect()
+}
+
+/// A motion with the turn and the stroke that follow it.
+#[derive(Debug, Clone)]
+pub(super) struct Motion {
+    pub timed: Arc<Timed>,
+    pub turn: Option<(WristTurn, f64)>,
+    pub stroke: Option<ToolStroke>,
+}
+
+impl Motion {
+    /// Seconds that the arm moves, and stands still after it for more than the step's dwell.
+    pub fn seconds(&self) -> f64 {
+        let turn = self.turn.map_or(0.0, |(_, seconds)| seconds);
+        self.timed.trajectory.duration() + turn + self.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds)
+    }
+}
+
+/// What is known of a way before its motion is planned.
+enum Way {
+    /// Straight there: certified. Nothing is shorter, whatever the metric.
+    Straight(CertifiedPath),
+    /// Not straight; none of the rest is ruled out.
+    Open,
+    /// There is none.
+    Barred(Refusal),
+}
+
+/// Slabs after which it is left to the planner whether there is a way: some milliseconds.
+const SLABS: usize = 2_000;
+
+/// How often a path is planned among some of the objects before it is planned among all.
+const TRIES: usize = 3;
+
+/// Configurations between two waypoints at which it is looked what a path hits.
+const LOOKS: u32 = 16;
+
+/// What a scene depends on, bit by bit.
+type SceneKey = Vec<u64>;
+
+/// By which share paths may be longer than the shortest.
+const GAP: f64 = 0.01;
+
+/// A scene, and from where to where.
+type WayKey = (usize, [u64; 4]);
+
+/// Plans motions, and remembers them: the same motion among the same things that can be hit is planned once. Tasks that differ
+/// in their items alone share them.
+pub(super) struct Legs {
+    options: Options,
+    /// Scenes as far as they matter, by number.
+    numbers: BTreeMap<SceneKey, usize>,
+    ways: BTreeMap<WayKey, Way>,
+    /// Paths among the workspace's own obstacles and some of the objects.
+    fewer: BTreeMap<(SceneKey, [u64; 4]), Result<CertifiedPath, Refusal>>,
+    /// By way and speed.
+    motions: BTreeMap<(WayKey, u64), Result<Arc<Timed>, Refusal>>,
+    /// Whole scenes, for answers.
+    scenes: BTreeMap<SceneKey, Arc<Scene>>,
+}
+
+impl Legs {
+    pub fn new(options: &Options) -> Self {
+        Self {
+            options: of_legs(options),
+            numbers: BTreeMap::new(),
+            ways: BTreeMap::new(),
+            fewer: BTreeMap::new(),
+            motions: BTreeMap::new(),
+            scenes: BTreeMap::new(),
+        }
+    }
+
+    /// Motions planned so far.
+    pub fn planned(&self) -> usize {
+        self.motions.len()
+    }
+
+    /// Ways looked at so far, those of motions included.
+    pub fn looked_at(&self) -> usize {
+        self.ways.len()
+    }
+
+    /// The scene of a motion; the same one for the same state of the world.
+    pub fn scene(&mut self, task: &Task, from: &State, step: &Step) -> Arc<Scene> {
+        let key = scene_key(from, step, |_| true);
+        self.scenes.entry(key).or_insert_with(|| Arc::new(from.scene(task, step.action.picked()))).clone()
+    }
+
+    /// The motion to a candidate's target and the turn there.
+    pub fn motion(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
+        let key = self.way(task, from, candidate)?;
+        let speed = candidate.step.speed;
+        let known = self.motions.get(&(key, speed.to_bits())).cloned();
+        let timed = known.unwrap_or_else(|| {
+            let planned = self.planned_motion(task, from, candidate, key);
+            self.motions.insert((key, speed.to_bits()), planned.clone());
+            planned
+        })?;
+        let turn = candidate.turn.map(|turn| self.turn(task, from, candidate, turn)).transpose()?;
+        let stroke = stroke(task, from, candidate)?;
+        Ok(Motion { timed, turn, stroke })
+    }
+
+    fn planned_motion(
+        &mut self,
+        task: &Task,
+        from: &State,
+        candidate: &Candidate,
+        key: WayKey,
+    ) -> Result<Arc<Timed>, Refusal> {
+        let scene = from.scene(task, candidate.step.action.picked());
+        let path = match &self.ways[&key] {
+            _ if !self.options.planner.method().optimises() => path(&scene, from.q, candidate.to, &self.options)?,
+            Way::Straight(path) => path.clone(),
+            Way::Open | Way::Barred(_) => self.shortest(task, from, candidate, &scene)?,
+        };
+        let timed = self.options.drive.along(&scene, &path, candidate.step.speed);
+        timed.map(Arc::new).map_err(|error| Refusal::new(error.to_string(), false))
+    }
+
+    /// The planner's path among all objects: the one among fewer, if it is free among all, as none is shorter then. Objects that
+    /// it hits are added, and it is planned again; and what is planned among few is the same for many motions.
+    fn shortest(
+        &mut self,
+        task: &Task,
+        from: &State,
+        candidate: &Candidate,
+        scene: &Scene,
+    ) -> Result<CertifiedPath, Refusal> {
+        let (q, to, picked) = (from.q, candidate.to, candidate.step.action.picked());
+        let ends = [q[0], q[1], to[0], to[1]].map(f64::to_bits);
+        let own = task.workspace.obstacles.len();
+        let found = among_few(scene, own, |among| {
+            let lies = |(object, pose): (usize, &Option<Pose>)| pose.filter(|_| among.contains(&object));
+            let poses = from.poses.iter().enumerate().map(lies).collect();
+            let fewer = State { poses, ..from.clone() };
+            let key = (scene_key(&fewer, candidate.step, |object| among.contains(&object)), ends);
+            let options = &self.options;
+            let plan = || path(&fewer.scene(task, picked), q, to, options);
+            self.fewer.entry(key).or_insert_with(plan).clone()
+        });
+        found.unwrap_or_else(|| path(scene, q, to, &self.options))
+    }
+
+    /// Whether nothing is known that rules the motion to a candidate's target out, and the turn there: most of what can, and
+    /// in a small part of the time that the motion takes to plan.
+    pub fn promising(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<(), Refusal> {
+        let key = self.way(task, from, candidate)?;
+        if let Some(Err(refusal)) = self.motions.get(&(key, candidate.step.speed.to_bits())) {
+            return Err(refusal.clone());
+        }
+        stroke(task, from, candidate)?;
+        candidate.turn.map_or(Ok(()), |turn| self.turn(task, from, candidate, turn).map(|_| ()))
+    }
+
+    /// What is known of the way to a candidate's target, if it is not ruled out.
+    fn way(&mut self, task: &Task, from: &State, candidate: &Candidate) -> Result<WayKey, Refusal> {
+        let left = from.left(task, candidate, candidate.to);
+        if left.is_done(task) {
+            // No motion follows that would begin there.
+            let left = left.scene(task, from.released);
+            unobstructed(&left, candidate.to, "after it")?;
+            let held = TorqueLimit::held_at(&left, candidate.to);
+            held.map_err(|error| Refusal::new(format!("after it {error}"), false))?;
+        } else if left.is_unsettled(task) {
+            // The motion that follows begins among other objects.
+            unobstructed(&left.scene(task, None), candidate.to, "after it")?;
+        }
+        let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
+        let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
+        let matters = |object: usize| own().chain(carried).any(|h| h.meet(task.objects[object].heights));
+        let key = scene_key(from, candidate.step, matters);
+        let next = self.numbers.len();
+        let number = *self.numbers.entry(key).or_insert(next);
+        let (q, to) = (from.q, candidate.to);
+        let key = (number, [q[0], q[1], to[0], to[1]].map(f64::to_bits));
+        let look = || way(&from.scene(task, candidate.step.action.picked()), q, to);
+        match self.ways.entry(key).or_insert_with(look) {
+            Way::Barred(refusal) => Err(refusal.clone()),
+            Way::Straight(_) | Way::Open => Ok(key),
+        }
+    }
+
+    /// The turn of the wrist at a candidate's target, and the seconds that it takes.
+    fn turn(
+        &self,
+        task: &Task,
+        from: &State,
+        candidate: &Candidate,
+        turn: [f64; 2],
+    ) -> Result<(WristTurn, f64), Refusal> {
+        let unproven = |reason: &str| Refusal::new(reason, false);
+        // The object is no obstacle to itself: it lies nowhere before it is let go of, or from when it is taken.
+        let left = from.left(task, candidate, candidate.to);
+        let with = if left.held.is_some() { &left } else { from };
+        let Some(held @ Held { grip: Grip::Level { point, .. }, .. }) = &with.held else {
+            return Err(unproven("nothing is held that could be turned"));
+        };
+        let Some(wrist) = task.wrist else {
+            return Err(unproven("the arm has no wrist that could turn the object"));
+        };
+        let (arm, workspace) = (&task.arm, task.obstacles(&with.poses));
+        let found = wrist_turn(arm, &workspace, &held.payload(task), *point, candidate.to, turn);
+        let way = found.ok_or_else(|| unproven("the object cannot be turned there, neither way round"))?;
+        let turning = single((way.to - way.from).abs(), wrist.velocity, wrist.acceleration);
+        Ok((way, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
+    }
+
+    /// A lower bound on the seconds that a turn takes.
+    pub fn least_turn(task: &Task, [from, to]: [f64; 2]) -> f64 {
+        let ahead = (to - from).rem_euclid(std::f64::consts::TAU);
+        let least = ahead.min(std::f64::consts::TAU - ahead);
+        task.wrist.map_or(0.0, |wrist| rest_to_rest(least, wrist.velocity, wrist.acceleration))
+    }
+}
+
+/// How motions of a task are planned. Tasks bound times, not the lengths of paths: what is somewhat longer leaves room for faster
+/// motions.
+pub(super) fn of_legs(options: &Options) -> Options {
+    let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
+    Options { planner, bounded: false, ..*options }
+}
+
+/// IK solutions are rounded: what is in the way at one is so for certain if it is at all that are this far beside it, radians and metres.
+const BESIDE: f64 = 1e-9;
+
+/// Refuses a configuration in which something is hit; `when` is when the arm is there, in words.
+pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
+    let hits = scene.obstructions(q);
+    if hits.is_empty() {
+        return Ok(());
+    }
+    let words: Vec<String> = hits.iter().map(|hit| scene.explain(hit)).collect();
+    let blockers = Blockers::AtEnd(distinct(hits.iter().map(|hit| hit.contact.pair.obstacle)));
+    let certain = scene.inner();
+    let beside = [[0.0, 0.0], [BESIDE, 0.0], [-BESIDE, 0.0], [0.0, BESIDE], [0.0, -BESIDE]];
+    let is_proven = beside.iter().all(|&by| !certain.obstructions(q + Configuration::from(by)).is_empty());
+    Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", listed(&words)), is_proven) })
+}
+
+/// A path that is free among all objects, found among few of them, which are those that a path among fewer hits; a proof that there is
+/// none even so; or nothing, where it is to be planned among all. `own` obstacles are no objects; `plan` plans among some.
+fn among_few(
+    scene: &Scene,
+    own: usize,
+    mut plan: impl FnMut(&BTreeSet<usize>) -> Result<CertifiedPath, Refusal>,
+) -> Option<Result<CertifiedPath, Refusal>> {
+    let hit_at = |q: Configuration| {
+        let hits = scene.obstructions(q).into_iter().map(|hit| hit.contact.pair.obstacle);
+        hits.filter_map(|obstacle| obstacle.checked_sub(own)).collect::<Vec<_>>()
+    };
+    let mut among: BTreeSet<usize> = BTreeSet::new();
+    for _ in 0..TRIES {
+        let found = match plan(&among) {
+            Ok(found) => found.path().clone(),
+            Err(refusal) if refusal.proven => return Some(Err(refusal)),
+            Err(_) => return None,
+        };
+        if let Ok(path) = certify(scene, found.clone(), scene.workspace().clearance) {
+            return Some(Ok(path));
+        }
+        let before = among.len();
+        for ends in found.waypoints().windows(2) {
+            for part in 0..=LOOKS {
+                among.extend(hit_at(ends[0].lerp(&ends[1], f64::from(part) / f64::from(LOOKS))));
+            }
+        }
+        if among.len() == before {
+            return None;
+        }
+    }
+    None
+}
+
+/// What a motion was planned in, and the planner's answer, planned again as [`Legs`] does; none of one that is straight.
+pub(super) fn planned_again(
+    scene: &Scene,
+    own: usize,
+    [from, to]: [Configuration; 2],
+    options: &Options,
+) -> Option<(MotionProblem, Answer)> {
+    let asked = |scene: Scene| {
+        let problem = MotionProblem::trusted(scene, from, to);
+        let answer = solve(&problem, options, &mut |_| {});
+        (problem, answer)
+    };
+    if !options.planner.method().optimises() {
+        return Some(asked(scene.clone()));
+    }
+    if straight(scene, from, to).is_some() {
+        return None;
+    }
+    let mut last = None;
+    let found = among_few(scene, own, |among| {
+        let (_, answer) = last.insert(asked(only(scene, own, among)));
+        found(answer.verdict.clone())
+    });
+    match found {
+        Some(Ok(_)) => last,
+        _ => Some(asked(scene.clone())),
+    }
+}
+
+/// The scene with some of its objects alone; the others keep their numbers.
+fn only(scene: &Scene, own: usize, among: &BTreeSet<usize>) -> Scene {
+    let mut number = 0;
+    scene.reshaped(
+        |_| {},
+        |obstacle| {
+            number += 1;
+            let stays = number <= own || among.contains(&(number - 1 - own));
+            if stays { obstacle.pieces.clone() } else { Vec::new() }
+        },
+    )
+}
+
+/// The straight way from one configuration to another, if it is free.
+fn straight(scene: &Scene, from: Configuration, to: Configuration) -> Option<CertifiedPath> {
+    let straight = Path::new(vec![from, scene.arm().topology().lift(to, from)]);
+    certify(scene, straight, scene.workspace().clearance).ok()
+}
+
+/// What cheap questions tell of the way from one configuration to another.
+fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
+    let ends = unobstructed(scene, from, "at its beginning")
+        .map_err(|refusal| Refusal { blockers: Blockers::Unknown, ..refusal })
+        .and_then(|()| unobstructed(scene, to, "at its end"));
+    if let Err(refusal) = ends {
+        return Way::Barred(refusal);
+    }
+    let clearance = scene.workspace().clearance;
+    if let Some(path) = straight(scene, from, to) {
+        return Way::Straight(path);
+    }
+    let goal = to.into();
+    match slab_connectivity(scene, from, &goal, clearance, SLABS, LARGE_PROOF) {
+        Connectivity::Disconnected(proof) => {
+            proof.checked(scene, from, &goal, clearance).map_or(Way::Open, |proof| Way::Barred(Refusal::barred(proof)))
+        }
+        _ => Way::Open,
+    }
+}
+
+/// The planner's path from one configuration to another.
+fn path(scene: &Scene, from: Configuration, to: Configuration, options: &Options) -> Result<CertifiedPath, Refusal> {
+    let problem = MotionProblem::trusted(scene.clone(), from, to);
+    found(solve(&problem, options, &mut |_| {}).verdict)
+}
+
+/// The path that was found, or why there is none.
+fn found(verdict: Verdict) -> Result<CertifiedPath, Refusal> {
+    match verdict {
+        Verdict::Found(path) => Ok(path),
+        Verdict::Infeasible(proof) => Err(Refusal::barred(proof)),
+        Verdict::Unknown(reason) => Err(Refusal::new(reason, false)),
+    }
+}
+
+/// What the scene of a motion depends on, of the objects that matter.
+fn scene_key(from: &State, step: &Step, matters: impl Fn(usize) -> bool) -> SceneKey {
+    let mut key = Vec::new();
+    let picked = step.action.picked();
+    for (object, pose) in from.poses.iter().enumerate().filter(|(object, _)| matters(*object)) {
+        let allowed_contacts = from.released == Some(object) || picked == Some(object);
+        key.extend([object as u64, u64::from(allowed_contacts)]);
+        match pose {
+            None => key.push(u64::MAX),
+            Some(pose) => key.extend([pose.translation.x, pose.translation.y, pose.rotation.angle()].map(f64::to_bits)),
+        }
+    }
+    if let Some(held) = &from.held {
+        key.push(held.object as u64);
+        match held.grip {
+            Grip::Rigid(p) => key.extend([p.translation.x, p.translation.y, p.rotation.angle()].map(f64::to_bits)),
+            Grip::Level { angle, point } => key.extend([angle, point.x, point.y].map(f64::to_bits)),
+        }
+        key.extend(held.supports.iter().map(|&support| support as u64));
+    }
+    key
+}

@@ -1,0 +1,122 @@
+//! Which pairs have to come before which, as far as the ends of their motions tell: where the arm, or what it carries, would
+//! hit what another pair has not taken away yet, or has placed already.
+
+use super::super::state::State;
+use super::Group;
+use super::condition::{Before, Condition};
+use cplan_core::model::{Action, Item, Scene, Step, Task};
+use cplan_core::space::Configuration;
+use cplan_geometry::Pose;
+use nalgebra::Isometry2;
+use std::sync::Arc;
+
+/// Where all objects lie, as far as that does not depend on IK solutions; elsewhere as if they were not turned.
+type Poses = Arc<[Option<Pose>]>;
+
+/// Where all objects lie before an item of a task.
+fn poses_before(task: &Task, item: usize) -> Poses {
+    let mut poses: Vec<Option<Pose>> = task.objects.iter().map(|object| Some(object.at)).collect();
+    let mut held = None;
+    for before in &task.items[..item] {
+        match before {
+            Item::Step(step) => follow(step, &mut poses, &mut held),
+            Item::AnyOrder(pairs) => pairs.iter().flatten().for_each(|step| follow(step, &mut poses, &mut held)),
+            Item::Renew(objects) => objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at)),
+        }
+    }
+    poses.into()
+}
+
+fn follow(step: &Step, poses: &mut [Option<Pose>], held: &mut Option<(usize, Option<Pose>)>) {
+    match step.action {
+        Action::Pick { object, .. } => *held = Some((object, poses[object].take())),
+        Action::Place { at, angle, .. } => {
+            if let Some((object, pose)) = held.take() {
+                let turned = angle.or(pose.map(|pose| pose.rotation.angle())).unwrap_or(0.0);
+                poses[object] = Some(Isometry2::new(at.coords, turned));
+            }
+        }
+        Action::Move(_) => {}
+    }
+}
+
+/// The conditions that the ends of a group's motions make: one for each pick and each place that could be in the way of
+/// others, or they in its.
+pub(super) fn conditions(task: &Task, group: &Group) -> Vec<Condition> {
+    let before = poses_before(task, group.item);
+    let after = poses_before(task, group.item + 1);
+    let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
+    let objects = || group.objects().map(|object| &task.objects[object]);
+    let heights = || own().chain(objects().map(|object| object.carried_heights()));
+    // Where all parts are carried above all others there is nothing to learn.
+    if !objects().any(|object| heights().any(|h| h.meet(object.heights))) {
+        return Vec::new();
+    }
+    (0..group.pairs.len())
+        .flat_map(|pair| Ends { task, group, pair, before: &before, after: &after }.conditions())
+        .collect()
+}
+
+/// The ends of one pair's motions.
+struct Ends<'a> {
+    task: &'a Task,
+    group: &'a Group<'a>,
+    pair: usize,
+    before: &'a Poses,
+    after: &'a Poses,
+}
+
+impl Ends<'_> {
+    fn conditions(&self) -> Vec<Condition> {
+        let [pick, place] = &self.group.pairs[self.pair];
+        let items = [pick, place, place].map(|step| Item::Step(step.clone()));
+        let task = Task { items: items.into(), ..self.task.clone() };
+        let Action::Pick { object, .. } = pick.action else { return Vec::new() };
+        let mut goals = self.after.clone();
+        Arc::make_mut(&mut goals)[object] = self.before[object];
+        let worlds = [self.before, &goals].map(|poses| State {
+            poses: poses.clone(),
+            held: None,
+            released: None,
+            ..State::at_start(&task)
+        });
+        let [source, goal] = &worlds;
+        let mut picks = Vec::new();
+        let mut places = Vec::new();
+        let mut grips = Vec::new();
+        let scenes = worlds.each_ref().map(|world| world.scene(&task, Some(object)));
+        for way in source.candidates(&task).into_iter().flat_map(|candidates| candidates.ways) {
+            let lifted = [source, goal].map(|world| world.after(&task, &way, way.to));
+            let carrying = lifted.each_ref().map(|world| world.scene(&task, None));
+            let at_pick = self.alternative(&scenes, way.to);
+            picks.extend(at_pick.zip(self.alternative(&carrying, way.to)).map(|(a, b)| [a, b].concat()));
+            let grip = lifted[0].held.as_ref().map(|held| held.grip);
+            if grips.contains(&grip) {
+                continue;
+            }
+            grips.push(grip);
+            for way in lifted[0].candidates(&task).into_iter().flat_map(|candidates| candidates.ways) {
+                let released = lifted.each_ref().map(|world| world.after(&task, &way, way.to).scene(&task, None));
+                let at_place = self.alternative(&carrying, way.to);
+                places.extend(at_place.zip(self.alternative(&released, way.to)).map(|(a, b)| [a, b].concat()));
+            }
+        }
+        // Where there is no alternative at all no order helps: that is for the search to find out.
+        let made = [picks, places].into_iter().filter(|alternatives| !alternatives.is_empty());
+        made.filter_map(Condition::of).collect()
+    }
+
+    /// What has to be elsewhere for the arm to be here, in the world before the group and in the one after it; none if no
+    /// order of the group sees to it.
+    fn alternative(&self, [before, after]: &[Scene; 2], q: Configuration) -> Option<Vec<Before>> {
+        let hit = |scene: &Scene, ahead: bool| {
+            let others = scene.obstructions(q).into_iter().map(move |hit| {
+                let other = self.group.pair_of(self.task, hit.contact.pair.obstacle)?;
+                let before = if ahead { Before(other, self.pair) } else { Before(self.pair, other) };
+                (other != self.pair).then_some(before)
+            });
+            others.collect::<Option<Vec<Before>>>()
+        };
+        Some([hit(before, true)?, hit(after, false)?].concat())
+    }
+}

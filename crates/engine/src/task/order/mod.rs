@@ -1,0 +1,312 @@
+//! Orders for groups that are too large to try all: proposed by times with nothing in the way, tried without planning motions,
+//! and proposed again with what the failure tells.
+
+mod condition;
+mod ends;
+mod tour;
+mod walk;
+
+use super::answer::Leg;
+use super::heuristic::{Heuristic, stops};
+use super::least_time::least_time;
+use super::legs::Legs;
+use super::state::State;
+use condition::Condition;
+use cplan_core::model::{Arm, Item, Step, Task};
+use std::collections::BTreeSet;
+use tour::Tour;
+use walk::{Layer, advance, walk};
+
+/// Ways that are looked at for an order, at most: some seconds' worth.
+const MOST_WAYS: usize = 20_000;
+
+/// Orders of a group that are proposed by their times before one is built up pair by pair.
+const PROPOSALS: usize = 64;
+
+/// Pairs of a group whose ends are looked at beforehand.
+const MOST_ENDS: usize = 64;
+
+/// The groups of a task that leave the order free, each with an order.
+pub(super) struct Orders<'a> {
+    task: &'a Task,
+    groups: Vec<Group<'a>>,
+}
+
+/// Pairs of a pick and a place that may be done in any order.
+struct Group<'a> {
+    /// Which item of the task it is.
+    item: usize,
+    pairs: &'a [[Step; 2]],
+    /// None for groups that are too large.
+    tour: Option<Tour>,
+    /// The order, pairs by number.
+    order: Vec<usize>,
+    conditions: Vec<Condition>,
+}
+
+/// Where an item of a task in a fixed order comes from: a group, and how many of its pairs come before.
+type Origin = Option<(usize, usize)>;
+
+/// What became of looking for an order.
+pub(super) enum Outcome {
+    /// Nothing is known that rules it out.
+    Promising,
+    /// None was found; these pairs of a group were in each other's way at last.
+    Stuck {
+        /// Which item of the task the group is.
+        item: usize,
+        /// Pairs of the group; the first is the one that could not be done.
+        pairs: Vec<usize>,
+    },
+    /// A step that is in no group cannot be done after the orders before it.
+    Elsewhere,
+}
+
+impl<'a> Orders<'a> {
+    /// The orders of the file.
+    pub fn of_file(task: &'a Task) -> Self {
+        let stops = stops(task);
+        let groups = task.items.iter().enumerate().filter_map(|(item, group)| match group {
+            Item::AnyOrder(pairs) => Some(Group {
+                item,
+                pairs,
+                tour: Tour::new(task, &stops, item),
+                order: (0..pairs.len()).collect(),
+                conditions: Vec::new(),
+            }),
+            _ => None,
+        });
+        Self { task, groups: groups.collect() }
+    }
+
+    /// The task in these orders.
+    pub fn settled(&self) -> Task {
+        self.with_origins().0
+    }
+
+    fn with_origins(&self) -> (Task, Vec<Origin>) {
+        let mut settled = Task { items: Vec::new(), ..self.task.clone() };
+        let mut origins = Vec::new();
+        let mut groups = self.groups.iter().enumerate();
+        for item in &self.task.items {
+            let Item::AnyOrder(pairs) = item else {
+                settled.items.push(item.clone());
+                origins.push(None);
+                continue;
+            };
+            let Some((number, group)) = groups.next() else { continue };
+            for (before, &pair) in group.order.iter().enumerate() {
+                settled.items.extend(pairs[pair].clone().map(Item::Step));
+                origins.extend([Some((number, before)); 2]);
+            }
+        }
+        (settled, origins)
+    }
+
+    /// The order of each group, pairs by number.
+    pub fn order(&self) -> Vec<Vec<usize>> {
+        self.groups.iter().map(|group| group.order.clone()).collect()
+    }
+
+    /// Seconds that nothing in these orders undercuts.
+    pub fn least_seconds(&self) -> f64 {
+        let settled = self.settled();
+        let start = State::at_start(&settled);
+        Heuristic::new(&settled).remaining(start.q, start.progress)
+    }
+
+    /// Takes the orders of `other`.
+    pub fn take_over(&mut self, other: &Self) {
+        for (group, other) in self.groups.iter_mut().zip(&other.groups) {
+            group.order.clone_from(&other.order);
+        }
+    }
+
+    /// Learns how long motions take that have been planned in these orders.
+    pub fn learn_times(&mut self, arm: &Arm, legs: &[Leg]) {
+        let (settled, origins) = self.with_origins();
+        let steps = settled.items.iter().zip(origins).filter(|(item, _)| matches!(item, Item::Step(_)));
+        let mut before = None;
+        for (leg, (_, origin)) in legs.iter().zip(steps) {
+            let path = leg.timed.curve.curve().path();
+            let least = least_time(arm, path.start(), path.goal(), leg.step.speed);
+            let more = (leg.timed.trajectory.duration() - least).max(0.0);
+            if let Some((number, at)) = origin {
+                let group = &mut self.groups[number];
+                let pair = group.order[at];
+                match (&mut group.tour, leg.step.action.picked(), before) {
+                    (Some(tour), Some(_), Some((last, other))) if last == number => tour.learn_way(other, pair, more),
+                    (Some(tour), None, _) => tour.learn_carry(pair, more),
+                    _ => {}
+                }
+                before = Some((number, pair));
+            } else {
+                before = None;
+            }
+        }
+    }
+
+    /// Other orders that seem faster by what is known now, and that nothing rules out. Whether there are such.
+    pub fn improve(&mut self, legs: &mut Legs) -> bool {
+        for _ in 0..PROPOSALS {
+            let before = self.order();
+            let meets_all = self.groups.iter_mut().filter(|group| group.tour.is_some()).all(Group::propose);
+            if !meets_all || self.order() == before {
+                return false;
+            }
+            let (settled, origins) = self.with_origins();
+            let Err(failure) = walk(&settled, legs) else { return true };
+            let Some((number, at)) = origins[failure.item] else { return false };
+            self.groups[number].learn(self.task, at, &failure.refusals);
+        }
+        false
+    }
+
+    /// Whether nothing is known that rules these orders out.
+    pub fn promising(&self, legs: &mut Legs) -> bool {
+        walk(&self.settled(), legs).is_ok()
+    }
+
+    /// Looks for orders that can be done.
+    pub fn search(&mut self, legs: &mut Legs, progress: &mut dyn FnMut(&str)) -> Outcome {
+        let most = legs.looked_at() + MOST_WAYS;
+        for group in &mut self.groups {
+            if group.pairs.len() <= MOST_ENDS {
+                group.conditions = ends::conditions(self.task, group);
+            }
+            group.propose();
+        }
+        let mut proposals = vec![0; self.groups.len()];
+        let mut built = vec![false; self.groups.len()];
+        loop {
+            let (settled, origins) = self.with_origins();
+            let Err(failure) = walk(&settled, legs) else { return Outcome::Promising };
+            let Some((number, before)) = origins[failure.item] else { return Outcome::Elsewhere };
+            let group = &mut self.groups[number];
+            let learned = group.learn(self.task, before, &failure.refusals);
+            let stuck = Outcome::Stuck { item: group.item, pairs: learned };
+            if built[number] || legs.looked_at() > most {
+                return stuck;
+            }
+            proposals[number] += 1;
+            if proposals[number] <= PROPOSALS && group.propose() {
+                progress(&format!("order {} of {} pairs", proposals[number] + 1, group.pairs.len()));
+                continue;
+            }
+            built[number] = true;
+            progress("building up an order pair by pair");
+            let first = origins.iter().position(|origin| matches!(origin, Some((group, _)) if *group == number));
+            let entry = entered(&settled, legs, first.unwrap_or(0));
+            let group = &mut self.groups[number];
+            match entry.and_then(|layer| Build::new(self.task, group, legs, most).order(&layer)) {
+                Some(order) => group.order = order,
+                None => return stuck,
+            }
+        }
+    }
+}
+
+impl Group<'_> {
+    /// The objects that it moves.
+    fn objects(&self) -> impl Iterator<Item = usize> + '_ {
+        self.pairs.iter().filter_map(|[pick, _]| pick.action.picked())
+    }
+
+    /// The pair that moves an obstacle.
+    fn pair_of(&self, task: &Task, obstacle: usize) -> Option<usize> {
+        let object = obstacle.checked_sub(task.workspace.obstacles.len())?;
+        self.pairs.iter().position(|[pick, _]| pick.action.picked() == Some(object))
+    }
+
+    /// Changes the order for one that is faster, or meets more of the conditions. Whether it meets all.
+    fn propose(&mut self) -> bool {
+        let Some(tour) = &self.tour else { return false };
+        let (order, (broken, _)) = tour.improved(self.order.clone(), &self.conditions);
+        self.order = order;
+        broken == 0
+    }
+
+    /// Learns from the pair that cannot be done after so many others. It, and those that it has to do with.
+    fn learn(&mut self, task: &Task, before: usize, refusals: &[super::legs::Refusal]) -> Vec<usize> {
+        let pair = self.order[before];
+        let mut done = vec![false; self.pairs.len()];
+        self.order[..before].iter().for_each(|&pair| done[pair] = true);
+        let condition = Condition::learned(pair, &done, refusals, |obstacle| self.pair_of(task, obstacle));
+        let others: BTreeSet<usize> = condition.pairs().filter(|&other| other != pair).collect();
+        if !self.conditions.contains(&condition) {
+            self.conditions.push(condition);
+        }
+        [pair].into_iter().chain(others).collect()
+    }
+}
+
+/// The states before an item of a task in a fixed order.
+fn entered(task: &Task, legs: &mut Legs, item: usize) -> Option<Layer> {
+    let mut layer = vec![(0.0, State::at_start(task))];
+    while layer[0].1.progress.item < item {
+        layer = advance(task, legs, &layer).ok()?;
+    }
+    Some(layer)
+}
+
+/// Building up an order pair by pair, the one that comes first in the order proposed before the others.
+struct Build<'a, 'g> {
+    group: &'a mut Group<'g>,
+    legs: &'a mut Legs,
+    most: usize,
+    /// What has been done where it could not go on, with the pair done last.
+    dead: BTreeSet<(Vec<bool>, Option<usize>)>,
+    /// The task of one pair, with something after it.
+    alone: Task,
+}
+
+impl<'a, 'g> Build<'a, 'g> {
+    fn new(task: &'a Task, group: &'a mut Group<'g>, legs: &'a mut Legs, most: usize) -> Self {
+        let alone = Task { items: Vec::new(), ..task.clone() };
+        Self { group, legs, most, dead: BTreeSet::new(), alone }
+    }
+
+    fn order(mut self, entry: &Layer) -> Option<Vec<usize>> {
+        let mut order = Vec::new();
+        let mut done = vec![false; self.group.pairs.len()];
+        self.build(entry, &mut order, &mut done).then_some(order)
+    }
+
+    fn build(&mut self, layer: &Layer, order: &mut Vec<usize>, done: &mut Vec<bool>) -> bool {
+        if order.len() == done.len() {
+            return true;
+        }
+        let key = (done.clone(), order.last().copied());
+        if self.dead.contains(&key) {
+            return false;
+        }
+        let preferred = self.group.order.clone();
+        for pair in preferred.into_iter().filter(|&pair| !done[pair]).collect::<Vec<_>>() {
+            if self.legs.looked_at() > self.most {
+                return false;
+            }
+            let Some(next) = self.with(layer, pair) else { continue };
+            order.push(pair);
+            done[pair] = true;
+            if self.build(&next, order, done) {
+                return true;
+            }
+            order.pop();
+            done[pair] = false;
+        }
+        self.dead.insert(key);
+        false
+    }
+
+    /// The states after a pair.
+    fn with(&mut self, layer: &Layer, pair: usize) -> Option<Layer> {
+        let [pick, place] = &self.group.pairs[pair];
+        self.alone.items = [pick, place, place].map(|step| Item::Step(step.clone())).into();
+        let mut layer = layer.clone();
+        layer.iter_mut().for_each(|(_, state)| state.progress.item = 0);
+        for _ in 0..2 {
+            layer = advance(&self.alone, self.legs, &layer).ok()?;
+        }
+        Some(layer)
+    }
+}

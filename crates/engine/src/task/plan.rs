@@ -1,0 +1,232 @@
+//! From a task to its answer: which search is made, and how long.
+
+use super::among_movers;
+use super::answer::{TaskAnswer, TaskVerdict};
+use super::heuristic::Heuristic;
+use super::legs::Legs;
+use super::order::{Orders, Outcome};
+use super::part;
+use super::search::{Ending, Limits, Search};
+use super::state::State;
+use crate::Options;
+use cplan_core::model::{Item, Task};
+use std::collections::BTreeSet;
+
+/// Motions that are planned, and nodes that are expanded, while a search insists on the fastest choice where the order is
+/// fixed: some seconds' worth. Beyond, what is left counts more than what is done, so that it goes straight for the end.
+const MOST_MOTIONS: usize = 2_000;
+const MOST_EXPANDED: usize = 100_000;
+
+/// The same where orders are free: about a second's worth. Beyond, an order is settled on.
+const FREE_MOTIONS: usize = 500;
+
+/// An order that is settled on is compared with the file's, and made better with so many motions and orders more, unless it is
+/// within this factor of the bound.
+const IMPROVING_MOTIONS: usize = 100;
+const IMPROVING_ORDERS: usize = 6;
+const CLOSE: f64 = 1.15;
+
+/// States for each step of a task, beside these: long tasks have more of them.
+const EXPANDED_PER_STEP: usize = 16;
+
+/// A weighted search ends without an answer after so many times the first two numbers.
+const WEIGHTED_BUDGET: usize = 10;
+
+/// Pairs in a group up to which all orders are searched: the table of all subsets has some thousand entries then, and doubles
+/// with each pair more.
+const MOST_PAIRS: usize = 10;
+
+/// Plans a task: the fastest sequence of motions over all IK solutions at the targets, turns of the wrist and orders that
+/// are free, up to what [`TaskAnswer`] says of it. `progress` hears of long work.
+///
+/// Where there are too many orders, it is one that is good with nothing in the way and meets what proofs and collisions tell of
+/// the orders that fail; the file's own, if that is faster; or a better one still, by the times of the motions planned.
+#[must_use]
+pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
+    if task.has_movers() {
+        return among_movers::plan(task, options, progress);
+    }
+    let heuristic = Heuristic::new(task);
+    let start = State::at_start(task);
+    let lower_bound = heuristic.remaining(start.q, start.progress);
+    let planning = Planning { task, options, legs: Legs::new(options), lower_bound, expanded: 0, progress };
+    let pairs = |item: &Item| if let Item::AnyOrder(pairs) = item { pairs.len() } else { 0 };
+    match task.items.iter().map(pairs).max().unwrap_or(0) {
+        0 => planning.in_order(&heuristic),
+        1..=MOST_PAIRS => planning.in_any_order(&heuristic),
+        _ => planning.in_settled_order(),
+    }
+}
+
+struct Planning<'a, 'p> {
+    task: &'a Task,
+    options: &'a Options,
+    legs: Legs,
+    lower_bound: f64,
+    /// Nodes that all searches have expanded.
+    expanded: usize,
+    progress: &'p mut dyn FnMut(&str),
+}
+
+impl Planning<'_, '_> {
+    /// Where no order is free.
+    fn in_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
+        let mut search = Search::new(self.task, heuristic, &mut self.legs);
+        let mut ending = search.run(limits(self.task, MOST_MOTIONS), self.progress);
+        let exact = ending != Ending::Spent;
+        if !exact {
+            ending = hurried(&mut search, self.task, WEIGHTED_BUDGET * MOST_MOTIONS, self.progress);
+        }
+        let found = Found::of(&mut search, ending, exact);
+        self.expanded += search.expanded();
+        self.answer(found)
+    }
+
+    /// Where all orders can be looked at, unless that takes too long.
+    fn in_any_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
+        let mut search = Search::new(self.task, heuristic, &mut self.legs);
+        let mut ending = search.run(limits(self.task, FREE_MOTIONS), self.progress);
+        if ending != Ending::Spent {
+            let found = Found::of(&mut search, ending, true);
+            self.expanded += search.expanded();
+            return self.answer(found);
+        }
+        self.expanded += search.expanded();
+        let found = self.settled();
+        if !matches!(found.verdict, TaskVerdict::Unknown(_)) {
+            return self.answer(found);
+        }
+        // There may still be an order that the search for one has missed.
+        let mut search = Search::new(self.task, heuristic, &mut self.legs);
+        ending = hurried(&mut search, self.task, MOST_MOTIONS, self.progress);
+        let last = Found::of(&mut search, ending, ending == Ending::Dry);
+        self.expanded += search.expanded();
+        self.answer(if ending == Ending::Spent { found } else { Found { exact: false, ..last } })
+    }
+
+    /// Where there are more orders than can be looked at.
+    fn in_settled_order(mut self) -> TaskAnswer {
+        let found = self.settled();
+        self.answer(found)
+    }
+
+    /// In an order that is settled on.
+    fn settled(&mut self) -> Found {
+        let mut orders = Orders::of_file(self.task);
+        let outcome = orders.search(&mut self.legs, self.progress);
+        let mut best = match outcome {
+            Outcome::Promising => Some(self.in_orders(&orders, f64::INFINITY)).filter(Found::is_done),
+            Outcome::Stuck { .. } | Outcome::Elsewhere => None,
+        };
+        // The file's own order, unless it takes longer, or little less, or is known not to work.
+        let file = Orders::of_file(self.task);
+        let below = best.as_ref().map_or(f64::INFINITY, |best| best.seconds);
+        if below > CLOSE * self.lower_bound
+            && file.order() != orders.order()
+            && file.least_seconds() < below
+            && file.promising(&mut self.legs)
+        {
+            let own = self.in_orders(&file, below);
+            if own.is_done() {
+                orders.take_over(&file);
+                best = Some(own);
+            }
+        }
+        if let Some(best) = best {
+            return self.improved(orders, best);
+        }
+        let proof = match &outcome {
+            Outcome::Stuck { item, pairs } => part::impossible(self.task, *item, pairs, self.options, self.progress),
+            Outcome::Promising | Outcome::Elsewhere => None,
+        };
+        proof.unwrap_or_else(|| self.in_orders(&orders, f64::INFINITY))
+    }
+
+    /// The same, or a better order: proposed by the times that motions have turned out to take.
+    fn improved(&mut self, mut orders: Orders, mut best: Found) -> Found {
+        let most = self.legs.planned() + IMPROVING_MOTIONS;
+        let mut tried = BTreeSet::from([orders.order()]);
+        orders.learn_times(&self.task.arm, &best.legs);
+        while tried.len() <= IMPROVING_ORDERS
+            && best.seconds > CLOSE * self.lower_bound
+            && self.legs.planned() < most
+            && orders.improve(&mut self.legs)
+        {
+            if !tried.insert(orders.order()) {
+                break;
+            }
+            let next = self.in_orders(&orders, best.seconds);
+            orders.learn_times(&self.task.arm, &next.legs);
+            if next.is_done() {
+                best = next;
+            }
+        }
+        best
+    }
+
+    /// The fastest choice in these orders, if it takes less than `below` seconds.
+    fn in_orders(&mut self, orders: &Orders, below: f64) -> Found {
+        let settled = orders.settled();
+        let heuristic = Heuristic::new(&settled);
+        let mut search = Search::new(&settled, &heuristic, &mut self.legs);
+        let limits = Limits { below, ..limits(&settled, MOST_MOTIONS) };
+        let mut ending = search.run(limits, self.progress);
+        if ending == Ending::Spent && below.is_infinite() {
+            ending = hurried(&mut search, &settled, MOST_MOTIONS, self.progress);
+        }
+        let found = Found::of(&mut search, ending, false);
+        self.expanded += search.expanded();
+        found
+    }
+
+    fn answer(self, Found { verdict, legs, exact, .. }: Found) -> TaskAnswer {
+        let (motions, expanded) = (self.legs.planned(), self.expanded);
+        TaskAnswer { verdict, legs, lower_bound: self.lower_bound, exact, motions, expanded, timing: None }
+    }
+}
+
+/// What a search has found.
+pub(super) struct Found {
+    pub verdict: TaskVerdict,
+    pub legs: Vec<super::answer::Leg>,
+    /// Whether no other choice is faster, or may be possible.
+    pub exact: bool,
+    /// Seconds that it takes; infinite if not all can be done.
+    pub seconds: f64,
+}
+
+impl Found {
+    /// `exact` says whether the search has looked at all there is.
+    pub fn of(search: &mut Search, ending: Ending, exact: bool) -> Self {
+        if let Ending::Done(node) = ending {
+            let (legs, seconds) = (search.legs(node), search.seconds(node));
+            return Self { verdict: TaskVerdict::Found(()), legs, exact, seconds };
+        }
+        if ending == Ending::Spent {
+            search.give_up();
+        }
+        let (impossible, node, proven) = search.failure();
+        let verdict = match proven && exact {
+            true => TaskVerdict::Infeasible(impossible),
+            false => TaskVerdict::Unknown(impossible),
+        };
+        Self { verdict, legs: search.legs(node), exact, seconds: f64::INFINITY }
+    }
+
+    fn is_done(&self) -> bool {
+        self.verdict == TaskVerdict::Found(())
+    }
+}
+
+/// Limits of a search that insists on the fastest choice.
+pub(super) fn limits(task: &Task, motions: usize) -> Limits {
+    let expanded = MOST_EXPANDED + EXPANDED_PER_STEP * task.steps().count();
+    Limits { motions, expanded, below: f64::INFINITY }
+}
+
+/// Goes straight for the end.
+fn hurried(search: &mut Search, task: &Task, motions: usize, progress: &mut dyn FnMut(&str)) -> Ending {
+    search.hurry();
+    let once = limits(task, motions);
+    search.run(Limits { expanded: WEIGHTED_BUDGET * once.expanded, ..once }, progress)
+}

@@ -1,0 +1,117 @@
+//! How the planner came to each motion of a task, told again.
+
+use super::answer::{Leg, TaskAnswer};
+use super::legs::{of_legs, planned_again};
+use crate::{Options, Phase, Replay, Shows};
+use cplan_core::model::Task;
+use cplan_core::planner::Trace;
+use std::sync::Arc;
+
+/// How the planner came to the motions of a task. Those that are repeated are told once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TaskReplay {
+    /// Each motion that is told.
+    pub motions: Vec<MotionReplay>,
+    /// Which of them each leg is, in order.
+    pub legs: Vec<usize>,
+}
+
+/// How the planner came to a motion, and what it saw.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionReplay {
+    /// What happened.
+    pub replay: Replay,
+    /// What the replay shows parts of; none of a motion that nobody had to search.
+    pub trace: Option<Trace>,
+}
+
+impl TaskReplay {
+    /// The replay of an answer to a task that was asked with these options. Its motions are planned again, as they were.
+    #[must_use]
+    pub fn new(task: &Task, options: &Options, answer: &TaskAnswer) -> Self {
+        let options = of_legs(options);
+        let mut told: Vec<&Leg> = Vec::new();
+        let legs = answer.legs.iter().map(|leg| {
+            let same = |other: &&Leg| Arc::ptr_eq(&other.timed, &leg.timed) && other.scene == leg.scene;
+            told.iter().position(same).unwrap_or_else(|| {
+                told.push(leg);
+                told.len() - 1
+            })
+        });
+        let legs = legs.collect();
+        Self { motions: told.into_iter().map(|leg| MotionReplay::new(task, &options, leg)).collect(), legs }
+    }
+}
+
+impl MotionReplay {
+    fn new(task: &Task, options: &Options, leg: &Leg) -> Self {
+        let path = leg.timed.curve.curve().path();
+        let ends = [path.start(), task.arm.topology().wrap(path.goal())];
+        match planned_again(&leg.scene, task.workspace.obstacles.len(), ends, options) {
+            Some((problem, answer)) => {
+                let mut replay = Replay::new(&problem, options, &answer);
+                let gone = problem.scene() != &*leg.scene;
+                if let (true, Some(first)) = (gone, replay.phases.first_mut()) {
+                    first.caption.push_str("; objects that are not in the way are left out");
+                }
+                Self { replay, trace: Some(answer.drawn().into_owned()) }
+            }
+            None => {
+                let caption = "The straight way: certified, and none is shorter".to_owned();
+                let phase = Phase { caption, shows: Shows::Path, events: path.waypoints().len() };
+                Self { replay: Replay { phases: vec![phase] }, trace: None }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Plan, Problem, Verdict, plan};
+    use cplan_world::{Overrides, Source, scene_from};
+
+    fn planned(urdf: &str, world: &str, options: &Options) -> Plan {
+        let read = |file: &str| {
+            let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+            Source::read(&path).unwrap()
+        };
+        let scene = scene_from(read(urdf), read(world)).unwrap();
+        plan(&Problem::of_scene(scene, &Overrides::default()).unwrap(), options).unwrap()
+    }
+
+    /// Each motion is planned again as it was: the path is the same one, to the last digits of where it ends.
+    #[test]
+    fn the_run_that_is_told_is_the_run() {
+        let (mut among_few, mut straight) = (0, 0);
+        for (urdf, world) in [
+            ("robots/rrbot_vertical.urdf", "workspaces/tasks/tower.toml"),
+            ("robots/scara.urdf", "workspaces/tasks/kitting_cell.toml"),
+            ("robots/rail_arm.urdf", "workspaces/tasks/sorting.toml"),
+        ] {
+            let options = Options::default();
+            let plan = planned(urdf, world, &options);
+            let task = plan.task().unwrap();
+            for leg in &task.answer.legs {
+                let path = leg.timed.curve.curve().path();
+                let ends = [path.start(), task.task.arm.topology().wrap(path.goal())];
+                let own = task.task.workspace.obstacles.len();
+                let Some((problem, answer)) = planned_again(&leg.scene, own, ends, &of_legs(&options)) else {
+                    straight += 1;
+                    assert_eq!(path.waypoints().len(), 2, "{world}");
+                    continue;
+                };
+                among_few += usize::from(problem.scene() != &*leg.scene);
+                let Verdict::Found(found) = &answer.verdict else { panic!("{world}: no path") };
+                let (told, real) = (found.path().waypoints(), path.waypoints());
+                assert_eq!(told.len(), real.len(), "{world}, step {}", leg.step.number);
+                assert!(told.iter().zip(real).all(|(a, b)| (a - b).norm() < 1e-9), "{world}, step {}", leg.step.number);
+            }
+            let replay = plan.task_replay().unwrap();
+            assert_eq!(replay.legs.len(), task.answer.legs.len());
+            assert!(replay.legs.iter().all(|&told| told < replay.motions.len()));
+            assert!(replay.motions.iter().all(|told| told.replay.phases.last().unwrap().shows == Shows::Path));
+        }
+        assert!(among_few > 3 && straight > 3, "{among_few} among few, {straight} straight");
+    }
+}

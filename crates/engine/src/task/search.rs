@@ -1,0 +1,277 @@
+//! The search for the fastest sequence of motions.
+//!
+//! No search for petgraph, which asks what an arc costs before it is put on the open list: here that is to plan a motion, and
+//! most need none.
+
+use super::answer::Leg;
+use super::heuristic::Heuristic;
+use super::impossible::{Impossible, Refused, farthest};
+use super::least_time::least_time;
+use super::legs::{Legs, Motion, Refusal};
+use super::state::{Candidate, State};
+use super::stroke::least_rest;
+use cplan_core::model::Task;
+use cplan_geometry::OpenList;
+use cplan_interrupt::checkpoint;
+use std::cmp::Reverse;
+use std::collections::BTreeSet;
+
+/// Weight of the heuristic in the weighted A* that goes straight for the end.
+const WEIGHT: f64 = 4.0;
+
+/// Motions between two words on progress.
+const NEWS: usize = 50;
+
+/// When a search leaves off.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    /// Motions that it may plan.
+    pub motions: usize,
+    /// Nodes that it may expand.
+    pub expanded: usize,
+    /// It looks for what takes less than this, seconds.
+    pub below: f64,
+}
+
+/// How a search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ending {
+    /// At a node in which all is done.
+    Done(usize),
+    /// There is nothing left to look at.
+    Dry,
+    /// At a limit.
+    Spent,
+}
+
+/// A way to a state.
+struct Node<'a> {
+    parent: Option<usize>,
+    /// How many steps are done.
+    depth: usize,
+    /// Seconds to here; a lower bound while the motion is not planned.
+    seconds: f64,
+    stage: Stage<'a>,
+}
+
+/// How far a node is looked into.
+enum Stage<'a> {
+    /// The motion is not planned yet.
+    Pending(Candidate<'a>),
+    /// The motion is planned; none to the start.
+    Reached(Box<State>, Option<(Candidate<'a>, Motion)>),
+}
+
+/// A search over all IK solutions at the targets, turns of the wrist and orders that a task leaves free.
+pub(super) struct Search<'a, 'l> {
+    task: &'a Task,
+    heuristic: &'a Heuristic<'a>,
+    legs: &'l mut Legs,
+    /// Motions planned when it began.
+    planned: usize,
+    nodes: Vec<Node<'a>>,
+    /// By least total time; of equals the one that is farther, then the earlier found.
+    open: OpenList<(Reverse<usize>, usize)>,
+    closed: BTreeSet<Vec<i64>>,
+    /// Weight of the heuristic: above 1 it is weighted A*.
+    weight: f64,
+    /// Steps that could not be done.
+    refused: Vec<Refused<'a>>,
+    /// Whether all there is is looked at.
+    complete: bool,
+    expanded: usize,
+}
+
+impl<'a, 'l> Search<'a, 'l> {
+    pub fn new(task: &'a Task, heuristic: &'a Heuristic<'a>, legs: &'l mut Legs) -> Self {
+        let mut search = Self {
+            task,
+            heuristic,
+            planned: legs.planned(),
+            legs,
+            nodes: Vec::new(),
+            open: OpenList::default(),
+            closed: BTreeSet::new(),
+            weight: 1.0,
+            refused: Vec::new(),
+            complete: true,
+            expanded: 0,
+        };
+        let stage = Stage::Reached(Box::new(State::at_start(task)), None);
+        search.push(Node { parent: None, depth: 0, seconds: 0.0, stage });
+        search
+    }
+
+    /// Goes on up to the limits; what is found is the fastest, if it did not [`Search::hurry`].
+    pub fn run(&mut self, limits: Limits, progress: &mut dyn FnMut(&str)) -> Ending {
+        let mut told = 0;
+        while let Some((least, (_, index))) = self.open.pop() {
+            checkpoint();
+            let planned = self.legs.planned() - self.planned;
+            if planned >= told + NEWS {
+                told = planned;
+                progress(&format!("{} motions planned, {} states seen", self.legs.planned(), self.expanded));
+            }
+            if planned > limits.motions
+                || self.expanded > limits.expanded
+                || (least >= limits.below && limits.below.is_finite())
+            {
+                // It may be run again, with other limits.
+                self.open(index);
+                return Ending::Spent;
+            }
+            let Stage::Reached(state, _) = &self.nodes[index].stage else {
+                self.settle(index);
+                continue;
+            };
+            if !self.closed.insert(state.key(self.task)) {
+                continue;
+            }
+            self.expanded += 1;
+            if state.is_done(self.task) {
+                return Ending::Done(index);
+            }
+            self.expand(index);
+        }
+        Ending::Dry
+    }
+
+    /// Nodes expanded so far.
+    pub fn expanded(&self) -> usize {
+        self.expanded
+    }
+
+    /// Seconds to a node.
+    pub fn seconds(&self, index: usize) -> f64 {
+        self.nodes[index].seconds
+    }
+
+    fn push(&mut self, node: Node<'a>) {
+        self.nodes.push(node);
+        self.open(self.nodes.len() - 1);
+    }
+
+    /// Puts a node on the open list.
+    fn open(&mut self, index: usize) {
+        let node = &self.nodes[index];
+        let (q, progress) = match &node.stage {
+            Stage::Pending(candidate) => (candidate.to, candidate.progress),
+            Stage::Reached(state, _) => (state.q, state.progress),
+        };
+        let left = self.heuristic.remaining(q, progress);
+        self.open.push(node.seconds + self.weight * left, (Reverse(node.depth), index));
+    }
+
+    /// Gives up on the fastest choice: from now on what is left counts more than what is done.
+    pub fn hurry(&mut self) {
+        self.weight = WEIGHT;
+        self.open.drain().into_iter().for_each(|(_, index)| self.open(index));
+    }
+
+    /// Leaves off: what comes after the farthest state reached could not be done in time.
+    pub fn give_up(&mut self) {
+        let open = |&node: &usize| self.state(node).is_some_and(|state| !state.is_done(self.task));
+        let farthest = (0..self.nodes.len()).filter(open).max_by_key(|&node| (self.nodes[node].depth, Reverse(node)));
+        let next = farthest.zip(farthest.and_then(|node| self.state(node)?.candidates(self.task).into_iter().next()));
+        if let Some((node, candidates)) = next {
+            let (motions, states) = (self.legs.planned(), self.expanded);
+            let reason = format!("given up after {motions} motions and {states} states of the world");
+            let refusal = Refusal::new(reason, false);
+            let depth = self.nodes[node].depth;
+            self.refused.push(Refused { depth, node, step: candidates.step, ik_solution: None, refusal });
+        }
+    }
+
+    /// Plans the motion to a node.
+    fn settle(&mut self, index: usize) {
+        let (Some(parent), Stage::Pending(candidate)) = (self.nodes[index].parent, &self.nodes[index].stage) else {
+            return;
+        };
+        let candidate = *candidate;
+        let Stage::Reached(from, _) = &self.nodes[parent].stage else { return };
+        match self.legs.motion(self.task, from, &candidate) {
+            Ok(motion) => {
+                let seconds = motion.seconds() + candidate.step.dwell;
+                let state = from.after(self.task, &candidate, motion.timed.curve.curve().path().goal());
+                let seconds = self.nodes[parent].seconds + seconds;
+                let node = &mut self.nodes[index];
+                (node.seconds, node.stage) = (seconds, Stage::Reached(Box::new(state), Some((candidate, motion))));
+                self.open(index);
+            }
+            Err(refusal) => self.refused.push(Refused {
+                depth: self.nodes[parent].depth,
+                node: parent,
+                step: candidate.step,
+                ik_solution: Some(candidate.to),
+                refusal,
+            }),
+        }
+    }
+
+    fn expand(&mut self, index: usize) {
+        let Node { stage: Stage::Reached(state, _), depth, seconds, .. } = &self.nodes[index] else { return };
+        let (depth, seconds, from) = (*depth, *seconds, state.q);
+        for candidates in state.candidates(self.task) {
+            self.complete &= candidates.all;
+            if candidates.ways.is_empty() {
+                let refusal = Refusal::new("no IK solution within the joint limits reaches its target", candidates.all);
+                self.refused.push(Refused { depth, node: index, step: candidates.step, ik_solution: None, refusal });
+            }
+            for way in candidates.ways {
+                let turn = way.turn.map_or(0.0, |turn| Legs::least_turn(self.task, turn));
+                let least = least_time(&self.task.arm, from, way.to, way.step.speed) + turn;
+                let least = least + least_rest(self.task, way.step, way.event.map(|event| event.object()));
+                let stage = Stage::Pending(way);
+                self.push(Node { parent: Some(index), depth: depth + 1, seconds: seconds + least, stage });
+            }
+        }
+    }
+
+    /// The steps up to a node.
+    pub fn legs(&mut self, index: usize) -> Vec<Leg> {
+        let mut legs = Vec::new();
+        let mut at = Some(index);
+        while let Some(node) = at.map(|index| &self.nodes[index]) {
+            let before = node.parent.map(|parent| &self.nodes[parent]);
+            if let (
+                Some(Node { stage: Stage::Reached(from, _), seconds, .. }),
+                Stage::Reached(_, Some((candidate, motion))),
+            ) = (before, &node.stage)
+            {
+                legs.push(Leg {
+                    step: candidate.step.clone(),
+                    scene: self.legs.scene(self.task, from, candidate.step),
+                    carried: from.held.as_ref().map(|held| held.object),
+                    timed: motion.timed.clone(),
+                    turn: motion.turn,
+                    stroke: motion.stroke,
+                    event: candidate.event,
+                    begin: *seconds,
+                });
+            }
+            at = node.parent;
+        }
+        legs.reverse();
+        legs
+    }
+
+    /// Why no more can be done than the steps to a node, and whether that is proven of all there is, if the search ran dry.
+    pub fn failure(&mut self) -> (Impossible, usize, bool) {
+        let state = |node: usize| match &self.nodes[node].stage {
+            Stage::Reached(state, _) => Some(&**state),
+            Stage::Pending(_) => None,
+        };
+        let (task, legs) = (self.task, &mut *self.legs);
+        let (impossible, node) = farthest(&task.arm, &self.refused, state, |from, step| legs.scene(task, from, step));
+        let proven = self.complete && self.refused.iter().all(|refused| refused.refusal.proven);
+        (impossible, node, proven)
+    }
+
+    /// The state that a node has reached.
+    fn state(&self, node: usize) -> Option<&State> {
+        match &self.nodes[node].stage {
+            Stage::Reached(state, _) => Some(state),
+            Stage::Pending(_) => None,
+        }
+    }
+}

@@ -1,0 +1,336 @@
+//! How far a task is, and what can be done next.
+
+use super::answer::Event;
+use super::ik_solutions::{goal_ik_solutions, ik_solutions};
+use cplan_core::model::{Action, Grip, Holding, Item, Object, Payload, Scene, Step, Task};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Point, Pose};
+use nalgebra::Isometry2;
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// How much of the items is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Progress {
+    /// The item that is next, or under way.
+    pub item: usize,
+    /// In a group in any order: the pairs that are done, one bit each.
+    pub done: u64,
+    /// In a group: the pair whose object is carried.
+    pub half: Option<usize>,
+}
+
+/// What is carried, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Held {
+    pub object: usize,
+    pub grip: Grip,
+    /// What it rested on, and what it will rest on: obstacles by number, ascending.
+    pub supports: Vec<usize>,
+}
+
+/// Where everything is.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct State {
+    pub progress: Progress,
+    pub q: Configuration,
+    /// Of each object, where it lies; none while it is carried, or moves as yet.
+    pub poses: Arc<[Option<Pose>]>,
+    /// The objects that move as yet, in order.
+    pub moving: Arc<[usize]>,
+    pub held: Option<Held>,
+    /// The object just let go of.
+    pub released: Option<usize>,
+}
+
+/// One way to do the next step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Candidate<'a> {
+    pub step: &'a Step,
+    /// Where the motion is to end.
+    pub to: Configuration,
+    /// Orientations between which the wrist has to turn the object then.
+    pub turn: Option<[f64; 2]>,
+    pub event: Option<Event>,
+    /// How an object is held that is taken.
+    grip: Option<Grip>,
+    /// What is done then.
+    pub progress: Progress,
+}
+
+/// The ways to do a step.
+pub(super) struct Candidates<'a> {
+    pub step: &'a Step,
+    pub ways: Vec<Candidate<'a>>,
+    /// Whether there are no other ways.
+    pub all: bool,
+}
+
+/// Orientations that differ by less, radians, are the same: rounding.
+const SAME_ANGLE: f64 = 1e-9;
+
+/// Poses and configurations are told apart to this, metres and radians: rounding of those that are the same.
+const GRAIN: f64 = 1e-9;
+
+/// Orientations in which rigid payloads are let go of are rounded to this, radians: far below all tolerances, and far above the
+/// rounding of doubles, so that repeated cycles come back to the same world, bit by bit, and are planned once.
+const FINEST_TURN: f64 = 1e-12;
+
+impl State {
+    pub fn at_start(task: &Task) -> Self {
+        let state = Self {
+            progress: Progress { item: 0, done: 0, half: None },
+            q: task.start,
+            poses: task.objects.iter().map(Object::standing_at_first).collect(),
+            moving: task.moving_at_first().collect(),
+            held: None,
+            released: None,
+        };
+        state.settled(task)
+    }
+
+    pub fn is_done(&self, task: &Task) -> bool {
+        self.progress.item == task.items.len()
+    }
+
+    /// What tells states apart, as far as what follows depends on it.
+    pub fn key(&self, task: &Task) -> Vec<i64> {
+        let grains = |value: f64| (value / GRAIN).round() as i64;
+        let Progress { item, done, half } = self.progress;
+        let q = task.arm.topology().wrap(self.q);
+        let mut key = vec![item as i64, done as i64, half.map_or(-1, |pair| pair as i64), grains(q[0]), grains(q[1])];
+        let mut pose = |pose: &Pose| {
+            let turn = normalized(pose.rotation.angle());
+            key.extend([pose.translation.x, pose.translation.y, turn].map(grains));
+        };
+        self.poses.iter().flatten().for_each(&mut pose);
+        match &self.held {
+            Some(Held { grip: Grip::Rigid(in_link), .. }) => pose(in_link),
+            Some(Held { grip: Grip::Level { angle, .. }, .. }) => key.push(grains(normalized(*angle))),
+            None => {}
+        }
+        key.extend(self.held.iter().map(|held| held.object as i64));
+        key.extend(self.released.iter().map(|&object| object as i64));
+        key
+    }
+
+    /// The same at a moment at which an object that moves is there where it is then, and picked.
+    pub fn stopped(&self, task: &Task, object: usize, time: f64) -> Self {
+        let mut state = self.clone();
+        Arc::make_mut(&mut state.poses)[object] = task.objects[object].course.as_ref().map(|course| course.pose(time));
+        state.moving = self.moving.iter().copied().filter(|&other| other != object).collect();
+        state
+    }
+
+    /// The scene as it is, what moves on the clock of the task. Link 2 is free to meet the object just let go of, and another one: that which it goes
+    /// to, or which it let go of before.
+    pub fn scene(&self, task: &Task, allowed_contacts: Option<usize>) -> Scene {
+        let allowed_contacts: Vec<usize> =
+            self.released.into_iter().chain(allowed_contacts).map(|o| task.number_among(&self.moving, o)).collect();
+        let payload = self.held.as_ref().map(|held| held.payload(task));
+        let workspace = task.surroundings(&self.poses, &self.moving);
+        Scene::handling_trusted(task.arm.clone(), workspace, payload, &allowed_contacts)
+    }
+
+    /// The ways to do each of the steps that can be next.
+    pub fn candidates<'a>(&self, task: &'a Task) -> Vec<Candidates<'a>> {
+        let Some(item) = task.items.get(self.progress.item) else { return Vec::new() };
+        match (item, self.progress.half) {
+            (Item::Step(step), _) => {
+                let place = following_place(task, self.progress.item);
+                vec![self.ways(task, step, place, None)]
+            }
+            (Item::AnyOrder(pairs), Some(half)) => vec![self.ways(task, &pairs[half][1], None, Some(half))],
+            (Item::AnyOrder(pairs), None) => {
+                let open = (0..pairs.len()).filter(|pair| self.progress.done & (1 << pair) == 0);
+                open.map(|pair| self.ways(task, &pairs[pair][0], Some(&pairs[pair][1]), Some(pair))).collect()
+            }
+            // States are settled.
+            (Item::Renew(_), _) => Vec::new(),
+        }
+    }
+
+    /// The ways to do a step; `place` is the one that follows a pick.
+    fn ways<'a>(&self, task: &'a Task, step: &'a Step, place: Option<&Step>, pair: Option<usize>) -> Candidates<'a> {
+        let progress = self.progress.after(&step.action, pair, task);
+        let mut ways = Vec::new();
+        let mut add = |to: Configuration, turn: Option<[f64; 2]>, event: Option<Event>, grip: Option<Grip>| {
+            ways.push(Candidate { step, to, turn, event, grip, progress });
+        };
+        let arm = &task.arm;
+        let reach = match (&step.action, &self.held) {
+            (Action::Move(goal), _) => {
+                let reach = goal_ik_solutions(arm, goal, self.q);
+                reach.configurations.iter().for_each(|&to| add(to, None, None, None));
+                reach
+            }
+            (Action::Pick { object, grasp, .. }, None) => {
+                let Some(lies) = self.poses[*object] else { return Candidates { step, ways, all: false } };
+                let reach = ik_solutions(arm, arm.tip, lies * grasp, self.q);
+                let wanted = place.and_then(|place| match place.action {
+                    Action::Place { angle, .. } => angle,
+                    _ => None,
+                });
+                let event = Some(Event::Grasp { object: *object });
+                for &to in &reach.configurations {
+                    match task.objects[*object].holding {
+                        Holding::Rigid => add(to, None, event, Some(Payload::rigid_grip(arm, to, &lies))),
+                        Holding::Level => {
+                            let angle = lies.rotation.angle();
+                            add(to, None, event, Some(Grip::Level { angle, point: *grasp }));
+                            if let Some(wanted) = wanted.filter(|wanted| !same_angle(*wanted, angle)) {
+                                let grip = Grip::Level { angle: wanted, point: *grasp };
+                                add(to, Some([angle, wanted]), event, Some(grip));
+                            }
+                        }
+                    }
+                }
+                reach
+            }
+            (Action::Place { at, angle, .. }, Some(held)) => {
+                let object = held.object;
+                match held.grip {
+                    Grip::Rigid(in_link) => {
+                        let origin = Point::from(in_link.translation.vector);
+                        let reach = ik_solutions(arm, origin, *at, self.q);
+                        for &to in &reach.configurations {
+                            let turned = (arm.pose(1, to) * in_link).rotation.angle();
+                            let turned = (turned / FINEST_TURN).round() * FINEST_TURN;
+                            let pose = Isometry2::new(at.coords, turned);
+                            add(to, None, Some(Event::Release { object, pose }), None);
+                        }
+                        reach
+                    }
+                    Grip::Level { angle: carried, point } => {
+                        let wanted = angle.unwrap_or(carried);
+                        let pose = Isometry2::new(at.coords, wanted);
+                        let reach = ik_solutions(arm, arm.tip, pose * point, self.q);
+                        let turn = (!same_angle(carried, wanted)).then_some([carried, wanted]);
+                        let event = Some(Event::Release { object, pose });
+                        reach.configurations.iter().for_each(|&to| add(to, turn, event, None));
+                        reach
+                    }
+                }
+            }
+            // The loader lets picks and places alternate.
+            (Action::Pick { .. }, Some(_)) | (Action::Place { .. }, None) => {
+                return Candidates { step, ways, all: false };
+            }
+        };
+        // A turn could also be made on the way.
+        let turns = ways.iter().any(|way| way.turn.is_some());
+        Candidates { step, ways, all: reach.all && !turns }
+    }
+
+    /// Whether what is carried goes to a place that asks for an angle.
+    pub fn may_turn(&self, task: &Task) -> bool {
+        let place = match (task.items.get(self.progress.item), self.progress.half) {
+            (Some(Item::AnyOrder(pairs)), Some(pair)) => Some(&pairs[pair][1]),
+            (Some(_), _) => following_place(task, self.progress.item),
+            (None, _) => None,
+        };
+        place.is_some_and(|place| matches!(place.action, Action::Place { angle: Some(_), .. }))
+    }
+
+    /// The state after a candidate's step, with the arm at `q`, and what is to be renewed before the next step renewed.
+    pub fn after(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
+        self.left(task, candidate, q).settled(task)
+    }
+
+    /// The state in which a candidate's step leaves everything until the next one begins, with the arm at `q`.
+    pub fn left(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
+        let mut poses = self.poses.clone();
+        let mut after = Self { progress: candidate.progress, q, released: None, ..self.clone() };
+        match candidate.event {
+            Some(Event::Grasp { object }) => {
+                Arc::make_mut(&mut poses)[object] = None;
+                after.moving = self.moving.iter().copied().filter(|&other| other != object).collect();
+                let supports = supports(candidate.step, self.progress.place(task, candidate));
+                after.held = candidate.grip.map(|grip| Held { object, grip, supports });
+            }
+            Some(Event::Release { object, pose }) => {
+                Arc::make_mut(&mut poses)[object] = Some(pose);
+                (after.held, after.released) = (None, Some(object));
+            }
+            None => {}
+        }
+        Self { poses, ..after }
+    }
+
+    /// Whether something is to be renewed before the next step: then no motion begins where the last one ended, with all where it left it.
+    pub fn is_unsettled(&self, task: &Task) -> bool {
+        matches!(task.items.get(self.progress.item), Some(Item::Renew(_)))
+    }
+
+    /// Supplies what is to be renewed before the next step.
+    pub fn settled(mut self, task: &Task) -> Self {
+        while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
+            let poses = Arc::make_mut(&mut self.poses);
+            objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at));
+            // A new one is not the one that may be touched.
+            self.released = self.released.filter(|released| !objects.contains(released));
+            self.progress.item += 1;
+        }
+        self
+    }
+}
+
+impl Progress {
+    /// The place that ends the carrying that a candidate begins.
+    fn place<'a>(self, task: &'a Task, candidate: &Candidate) -> Option<&'a Step> {
+        match (&task.items[self.item], candidate.progress.half) {
+            (Item::AnyOrder(pairs), Some(pair)) => Some(&pairs[pair][1]),
+            _ => following_place(task, self.item),
+        }
+    }
+
+    fn after(self, action: &Action, pair: Option<usize>, task: &Task) -> Self {
+        let next = Self { item: self.item + 1, done: 0, half: None };
+        let Some(pair) = pair else { return next };
+        if matches!(action, Action::Pick { .. }) {
+            return Self { half: Some(pair), ..self };
+        }
+        let done = self.done | 1 << pair;
+        let all = matches!(&task.items[self.item], Item::AnyOrder(pairs) if done.count_ones() as usize == pairs.len());
+        if all { next } else { Self { done, half: None, ..self } }
+    }
+}
+
+impl Held {
+    /// What the arm carries.
+    pub fn payload(&self, task: &Task) -> Payload {
+        task.objects[self.object].carried(self.grip, self.supports.clone())
+    }
+}
+
+/// What an object may touch from the pick to the place: obstacles by number, ascending.
+fn supports(pick: &Step, place: Option<&Step>) -> Vec<usize> {
+    let of = |step: &Step| match &step.action {
+        Action::Pick { supports, .. } | Action::Place { supports, .. } => supports.clone(),
+        Action::Move(_) => Vec::new(),
+    };
+    let mut both = of(pick);
+    both.extend(place.map(of).unwrap_or_default());
+    both.sort_unstable();
+    both.dedup();
+    both
+}
+
+/// The place that ends the carrying that begins with an item.
+fn following_place(task: &Task, item: usize) -> Option<&Step> {
+    task.items[item..].iter().find_map(|item| match item {
+        Item::Step(step) if matches!(step.action, Action::Place { .. }) => Some(step),
+        _ => None,
+    })
+}
+
+/// Whether two orientations are the same up to whole turns.
+pub(super) fn same_angle(a: f64, b: f64) -> bool {
+    normalized(a - b).abs() < SAME_ANGLE
+}
+
+/// The same orientation in `[-pi, pi)`, and those within rounding of `pi` as `-pi`.
+fn normalized(angle: f64) -> f64 {
+    let turn = (angle + PI).rem_euclid(TAU) - PI;
+    if turn > PI - SAME_ANGLE { -PI } else { turn }
+}

@@ -1,0 +1,204 @@
+//! The steps of a task in its result.
+
+use super::answer::{Event, Leg};
+use super::sequence::Sequence;
+use super::stroke::ToolStroke;
+use crate::result::finite;
+use cplan_core::model::{Action, Task};
+use cplan_motion::Blends;
+use cplan_motion::recorded::WristTurn;
+use serde::Serialize;
+
+/// What a step does, in one word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ActionName {
+    /// Takes an object.
+    Pick,
+    /// Lets go of one.
+    Place,
+    /// Goes somewhere and handles nothing there.
+    Move,
+}
+
+impl From<&Action> for ActionName {
+    fn from(action: &Action) -> Self {
+        match action {
+            Action::Pick { .. } => Self::Pick,
+            Action::Place { .. } => Self::Place,
+            Action::Move(_) => Self::Move,
+        }
+    }
+}
+
+/// A turn of the wrist while the arm stands still.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TurnReport {
+    /// Orientation of the object at the beginning, radians.
+    pub from: f64,
+    /// At the end; beyond the beginning in the direction of the turn.
+    pub to: f64,
+    /// How long it takes.
+    pub seconds: f64,
+    /// Proven lower bound on the distance between the object and obstacles, metres; none where nothing can be hit.
+    pub clearance: Option<f64>,
+}
+
+/// The tool goes down, and up again after the gripper's work, while the arm stands still.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StrokeReport {
+    /// The joint's value while the tool is raised, metres.
+    pub raised: f64,
+    /// The same while it is lowered.
+    pub lowered: f64,
+    /// How long either way takes.
+    pub seconds: f64,
+    /// Proven lower bound on the distance to obstacles, metres; none where nothing can be hit.
+    pub clearance: Option<f64>,
+}
+
+/// A step as it is done: a motion from rest to rest, and standing still.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StepReport {
+    /// Its number in the world file, from 1.
+    pub step: usize,
+    /// Which repetition of it this is, from 1.
+    pub cycle: usize,
+    /// What it does.
+    pub action: ActionName,
+    /// The object that is picked or placed.
+    pub object: Option<String>,
+    /// The object that is carried during the motion.
+    pub carried: Option<String>,
+    /// Seconds from the beginning of the task to that of the motion, ...
+    pub begin: f64,
+    /// ... to the end of the motion, ...
+    pub arrival: f64,
+    /// ... and to the end of the step.
+    pub end: f64,
+    /// Waypoints of the motion, straight segments between them.
+    pub path: Vec<[f64; 2]>,
+    /// Euclidean length of the path in joint space.
+    pub length: f64,
+    /// Proven lower bound on the distance between obstacles and the arm with what it carries during the step, metres; none
+    /// where nothing can be hit.
+    pub clearance: Option<f64>,
+    /// The link (or payload) and the obstacle that come closest during the motion, in words.
+    pub closest: Option<String>,
+    /// The path's corners that the motion rounds.
+    pub blends: Blends,
+    /// The turn of the wrist after the motion.
+    pub turn: Option<TurnReport>,
+    /// How the tool is lowered at its end, where the world has a stroke.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stroke: Option<StrokeReport>,
+    /// The motion's first sample in the whole trajectory, from 0; none without a whole trajectory.
+    pub first_sample: Option<usize>,
+    /// Its last one, at which the arm stands.
+    pub last_sample: Option<usize>,
+}
+
+impl StepReport {
+    /// Of step `index` of a sequence, whose trajectory is among the results if `is_whole`.
+    pub fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize, is_whole: bool) -> Self {
+        let curve = &leg.timed.curve;
+        let path = curve.curve().path();
+        let name = |object: usize| task.objects[object].name.clone();
+        let [begin, arrival, end] = sequence.times(index);
+        let samples = &sequence.samples[index];
+        Self {
+            step: leg.step.number,
+            cycle: leg.step.cycle,
+            action: (&leg.step.action).into(),
+            object: leg.event.map(|event| name(event.object())),
+            carried: leg.carried.map(name),
+            begin,
+            arrival,
+            end,
+            path: path.waypoints().iter().map(|q| [q[0], q[1]]).collect(),
+            length: path.length(),
+            clearance: finite(leg.clearance()),
+            closest: curve.nearest().map(|nearest| leg.scene.describe(nearest.contact.pair)),
+            blends: Blends::of(curve),
+            turn: leg.turn.map(|(WristTurn { from, to, clearance }, seconds)| TurnReport {
+                from,
+                to,
+                seconds,
+                clearance: finite(clearance),
+            }),
+            stroke: leg.stroke.map(|ToolStroke { raised, lowered, seconds, clearance }| StrokeReport {
+                raised,
+                lowered,
+                seconds,
+                clearance: finite(clearance),
+            }),
+            first_sample: is_whole.then_some(*samples.start()),
+            last_sample: is_whole.then_some(*samples.end()),
+        }
+    }
+}
+
+/// What the gripper does, in one word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum EventName {
+    /// Takes an object.
+    Grasp,
+    /// Lets go of it.
+    Release,
+}
+
+/// Where an object lies.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PoseReport {
+    /// Its origin in the plane, metres.
+    pub at: [f64; 2],
+    /// Its orientation, radians.
+    pub angle: f64,
+}
+
+/// What the gripper does and when.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EventReport {
+    /// Seconds from the beginning of the task.
+    pub time: f64,
+    /// What it does.
+    pub event: EventName,
+    /// With which object.
+    pub object: String,
+    /// Number of the step in the world file, from 1.
+    pub step: usize,
+    /// Which repetition of it this is, from 1.
+    pub cycle: usize,
+    /// Where the tip is, metres.
+    pub tip: [f64; 2],
+    /// Where the object lies from then on, if it is let go of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<PoseReport>,
+}
+
+impl EventReport {
+    /// Of step `index` of a sequence, if the gripper does something in it.
+    pub fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize) -> Option<Self> {
+        let happens = leg.event?;
+        let [_, arrival, end] = sequence.times(index);
+        let tip = task.arm.tip_at(leg.timed.curve.curve().path().goal());
+        let time = (arrival + leg.event_after()?).min(end);
+        let (event, pose) = match happens {
+            Event::Grasp { .. } => (EventName::Grasp, None),
+            Event::Release { pose, .. } => {
+                let (at, angle) = (pose.translation.vector, pose.rotation.angle());
+                (EventName::Release, Some(PoseReport { at: [at.x, at.y], angle }))
+            }
+        };
+        Some(Self {
+            time,
+            event,
+            object: task.objects[happens.object()].name.clone(),
+            step: leg.step.number,
+            cycle: leg.step.cycle,
+            tip: [tip.x, tip.y],
+            pose,
+        })
+    }
+}

@@ -1,0 +1,69 @@
+//! The stroke that lowers the tool at picks and places.
+
+use super::answer::Event;
+use super::least_time::rest_to_rest;
+use super::legs::{Refusal, unobstructed};
+use super::state::{Candidate, State};
+use cplan_core::check::certify;
+use cplan_core::model::{Arm, Grip, Heights, Scene, Step, Stroke, Task};
+use cplan_core::space::Path;
+use cplan_motion::single;
+
+/// The tool goes down, and up again after the gripper's work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToolStroke {
+    /// The joint's value while the tool is raised, ...
+    pub raised: f64,
+    /// ... and while it is lowered.
+    pub lowered: f64,
+    /// Seconds that either way takes, whole nanoseconds.
+    pub seconds: f64,
+    /// Proven lower bound on the distance to obstacles in it, metres; infinite if nothing can be hit.
+    pub clearance: f64,
+}
+
+/// A lower bound on the seconds that the arm stands still for a step with an object, but for turns of the wrist: the dwell, and
+/// down and up.
+pub(super) fn least_rest(task: &Task, step: &Step, object: Option<usize>) -> f64 {
+    let down = |(stroke, object): (&Stroke, usize)| {
+        rest_to_rest(stroke.depth(&task.objects[object]).abs(), stroke.velocity, stroke.acceleration)
+    };
+    step.dwell + 2.0 * task.stroke.as_ref().zip(object).map_or(0.0, down)
+}
+
+/// The stroke at a candidate's target; none where the tool is not lowered. What is placed is free where it lies, also without one.
+pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result<Option<ToolStroke>, Refusal> {
+    let Some(event) = candidate.event else { return Ok(None) };
+    let is_placed = matches!(event, Event::Release { .. });
+    let Some((arm, heights)) = task.lowered(event.object(), is_placed) else { return Ok(None) };
+    let scene = lowered(task, from, candidate, arm, heights);
+    let when = if task.stroke.is_some() { "while the tool is lowered" } else { "lying there" };
+    unobstructed(&scene, candidate.to, when)?;
+    let there = Path::new(vec![candidate.to, candidate.to]);
+    let certified = certify(&scene, there, scene.workspace().clearance);
+    let certified = certified.map_err(|_| Refusal::new(format!("it cannot be shown to be free {when}"), false))?;
+    let Some(stroke) = &task.stroke else { return Ok(None) };
+    let depth = stroke.depth(&task.objects[event.object()]);
+    let way = single(depth.abs(), stroke.velocity, stroke.acceleration);
+    let seconds = way.last().map_or(0.0, |[seconds, ..]| *seconds);
+    let (raised, lowered) = (stroke.joint.rest, stroke.lowered(depth));
+    Ok(Some(ToolStroke { raised, lowered, seconds, clearance: certified.clearance() }))
+}
+
+/// The scene with the arm, and what it holds, while the tool is lowered. A pick rises with its object, a place goes down
+/// with it: the other way the hand is empty, and meets no more.
+fn lowered(task: &Task, from: &State, candidate: &Candidate, arm: Arm, heights: Heights) -> Scene {
+    let left = from.left(task, candidate, candidate.to);
+    // A wrist turns after a pick, and before a place.
+    let (with, turn) = if left.held.is_some() { (&left, 0) } else { (from, 1) };
+    let payload = with.held.as_ref().map(|held| {
+        let mut payload = held.payload(task);
+        payload.heights = heights;
+        if let (Grip::Level { angle, .. }, Some(turned)) = (&mut payload.grip, candidate.turn) {
+            *angle = turned[turn];
+        }
+        payload
+    });
+    let allowed_contacts: Vec<usize> = with.released.iter().map(|&object| task.obstacle_number(object)).collect();
+    Scene::handling_trusted(arm, task.obstacles(&with.poses), payload, &allowed_contacts)
+}

@@ -1,0 +1,69 @@
+//! Problems with fewer pieces of obstacles: what is closed there is closed in truth.
+
+use cplan_core::model::{MotionProblem, Obstacle, Pair};
+use cplan_geometry::{Convex, Point};
+use std::collections::HashMap;
+
+/// A problem with some of the pieces of its obstacles.
+pub(super) struct Thinned {
+    /// The problem.
+    pub problem: MotionProblem,
+    /// For each obstacle the numbers that its pieces have in truth, and how many these are in all.
+    kept: Vec<(Vec<usize>, usize)>,
+}
+
+impl Thinned {
+    /// Of pieces whose bounds are the same on a lattice of so many metres, and that lean the same way, only the largest.
+    ///
+    /// What is left out lies about where something else lies, which is not needed: fewer obstacles close less. `O(n)`.
+    pub fn new(problem: &MotionProblem, lattice: f64) -> Self {
+        let kept: Vec<(Vec<usize>, usize)> = problem
+            .scene()
+            .workspace()
+            .obstacles
+            .iter()
+            .map(|obstacle| (largest_alike(obstacle, lattice), obstacle.pieces.len()))
+            .collect();
+        let mut numbers = kept.iter();
+        let some = |obstacle: &Obstacle| {
+            let (kept, _) = numbers.next().unwrap_or_else(|| unreachable!("as many as obstacles"));
+            kept.iter().map(|&k| obstacle.pieces[k].clone()).collect()
+        };
+        let scene = problem.scene().reshaped(|_| {}, some);
+        Self { problem: MotionProblem::trusted(scene, problem.start(), problem.goals().clone()), kept }
+    }
+
+    /// The pair that a pair of the thinned scene is in truth.
+    pub fn in_truth(&self, pair: Pair) -> Pair {
+        // Links of the robot keep all their pieces.
+        let Some((kept, all)) = self.kept.get(pair.obstacle) else { return pair };
+        // What a level payload makes of the pieces is numbered after them, once or several times over.
+        Pair { piece: pair.piece / kept.len() * all + kept[pair.piece % kept.len()], ..pair }
+    }
+}
+
+/// Numbers of the pieces that are kept, ascending.
+fn largest_alike(obstacle: &Obstacle, lattice: f64) -> Vec<usize> {
+    let mut largest: HashMap<[i64; 5], (f64, usize)> = HashMap::new();
+    for (number, piece) in obstacle.pieces.iter().enumerate() {
+        let size = piece.depth();
+        let best = largest.entry(place(piece, lattice)).or_insert((size, number));
+        if size > best.0 {
+            *best = (size, number);
+        }
+    }
+    let mut kept: Vec<usize> = largest.into_values().map(|(_, number)| number).collect();
+    kept.sort_unstable();
+    kept
+}
+
+/// The bounds on a lattice, and on which diagonal of them the piece mostly lies.
+fn place(piece: &Convex, lattice: f64) -> [i64; 5] {
+    let [lower, upper] = piece.bounds();
+    let on = |v: f64| (v / lattice).floor() as i64;
+    let core = piece.core();
+    let middle = |k: usize| core.iter().map(|p| p[k]).sum::<f64>() / core.len() as f64;
+    let (x, y) = (middle(0), middle(1));
+    let leans = core.iter().map(|p: &Point| (p.x - x) * (p.y - y)).sum::<f64>();
+    [on(lower.x), on(lower.y), on(upper.x), on(upper.y), i64::from(leans > 0.0)]
+}

@@ -1,0 +1,91 @@
+//! `motion` of the world file's `[[obstacle]]` and `[[object]]`: how it moves while the arm does.
+
+use super::error::Diagnostic;
+use super::quantity::Written;
+use super::schema::{AngleOrLength, NotNegative, Two};
+use super::world::{Number, Numbers, Reader};
+use cplan_core::model::{Course, CourseError, Stop};
+use cplan_geometry::{Point, Pose, Vector};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// How an obstacle moves: straight and evenly from stop to stop, and on from the last at a constant velocity. At least one of both.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "motion", extend("anyOf" = [{ "required": ["stops"] }, { "required": ["velocity"] }]))]
+pub(super) struct CourseTable {
+    /// Where it is at some times, which increase; before the first it waits there. By default a single one, at time 0.
+    #[schemars(with = "Option<Vec<StopTable>>", length(min = 1))]
+    stops: Option<Spanned<Vec<Spanned<StopTable>>>>,
+    /// How it leaves the last stop, for ever, m/s: what a conveyor carries; by default it stays there.
+    #[schemars(with = "Option<Two>")]
+    velocity: Option<Numbers>,
+}
+
+/// Where an obstacle is at a time.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "stop")]
+pub(super) struct StopTable {
+    /// Seconds since the arm's motion begins.
+    #[schemars(with = "NotNegative")]
+    time: Number,
+    /// The origin of its own frame then, m; by default the obstacle's `at`.
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// How its frame is turned then, rad; by default the obstacle's `angle`. It turns by the difference, whole turns included.
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
+}
+
+impl CourseTable {
+    /// The course of something whose frame is at `place` where nothing else is said.
+    ///
+    /// # Errors
+    /// Times that do not increase, numbers that are not finite, and a table that says nothing.
+    pub fn read(&self, reader: &Reader, what: &str, place: Option<&Pose>, at: Span) -> Result<Course, Diagnostic> {
+        let what = format!("{what}, motion");
+        if self.stops.is_none() && self.velocity.is_none() {
+            let message = format!("{what} says neither stops nor a velocity");
+            return Err(reader.source.diagnostic_at(at, message).help(HELP));
+        }
+        let given = |time: f64| {
+            let origin = place.map_or_else(Vector::zeros, |place| place.translation.vector);
+            Stop { time, at: Point::from(origin), angle: place.map_or(0.0, |place| place.rotation.angle()) }
+        };
+        let tables = self.stops.iter().flat_map(|stops| stops.get_ref());
+        let stops = tables.clone().zip(1..).map(|(stop, number)| {
+            let (what, table) = (format!("{what}, stop {number}"), stop.get_ref());
+            let mut stop = given(reader.not_negative(&table.time, &format!("{what}, time"))?);
+            if let Some(at) = &table.at {
+                stop.at = reader.point(at, &format!("{what}, at"))?;
+            }
+            if let Some(angle) = &table.angle {
+                stop.angle = reader.quantity(angle, &format!("{what}, angle"))?;
+            }
+            Ok(stop)
+        });
+        let stops = stops.collect::<Result<Vec<Stop>, Diagnostic>>()?;
+        let velocity = self.velocity.as_ref().map(|v| reader.two(v, &format!("{what}, velocity"))).transpose()?;
+        let stops = if self.stops.is_none() { vec![given(0.0)] } else { stops };
+        Course::new(stops, velocity.map_or_else(Vector::zeros, Vector::from)).map_err(|error| {
+            let (message, at, help) = match error {
+                CourseError::Time { stop, time } => (
+                    format!("{what}, stop {}: the time {time} s does not come after the one before", stop + 1),
+                    tables.clone().nth(stop).map_or(at, |stop| stop.get_ref().time.span()),
+                    "times increase from stop to stop",
+                ),
+                CourseError::Empty | CourseError::Place { .. } => {
+                    (format!("{what}: {error}"), self.stops.as_ref().map_or(at, Spanned::span), HELP)
+                }
+            };
+            reader.source.diagnostic_at(at, message).help(help)
+        })
+    }
+}
+
+const HELP: &str =
+    "motion = { stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y] }] }, or { velocity = [vx, vy] }";
+
+type Span = std::ops::Range<usize>;

@@ -1,0 +1,298 @@
+//! Files and options to a planning problem or a task: URDF, world TOML, and errors that name the place and what to do about it.
+//!
+//! ```text
+//! .map, .yaml with .pgm or .png
+//!       |
+//! world.toml --+-> World ------------------+            +--> Task (of a world with steps)
+//!              |                           +--> Scene --+
+//! arm.urdf ----+-> Arm (planar reduction) -+            +--> MotionProblem (of any other)
+//!                                                       |
+//! --start, --goal, --goal-tip, --clearance -------------+
+//!
+//! motion.json, .csv, .yaml ---> Recording
+//! ```
+//!
+//! [`load`] reads both files, finds the plane and the two joints, projects the geometry of all that each joint moves,
+//! decomposes polygons into convex pieces, and checks start and goal. Out comes a problem, or every diagnostic at once.
+//! [`load_recording`] makes a recording of anyone's motion, and of a result of a task its steps, too.
+
+mod course;
+mod help;
+mod digest;
+mod ends;
+mod error;
+mod explorable;
+mod group;
+mod identity;
+mod inspection;
+mod line_map;
+mod map_text;
+mod nearness;
+mod notes;
+mod object;
+mod obstacle;
+mod occupancy;
+mod pallet;
+mod polygon;
+mod reasons;
+mod preference;
+mod preference_map;
+mod problem;
+mod quantity;
+mod query;
+mod requirement;
+mod robot_file;
+mod schema;
+mod sensor;
+mod sequence;
+mod source;
+mod start;
+mod step;
+mod stroke;
+mod suite;
+mod table;
+mod task;
+mod trajectory;
+mod urdf;
+mod values;
+mod world;
+mod world_map;
+mod wrist;
+
+pub use digest::Digests;
+pub use error::{Diagnostic, DiagnosticKind, InputError};
+pub use explorable::Explorable;
+pub use identity::{FileIdentity, read_from};
+pub use inspection::{
+    BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
+    RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry,
+};
+pub use line_map::{Chain, LineMap};
+pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
+pub use preference_map::{PreferenceMap, PreferenceRectangle};
+pub use quantity::Quantity;
+pub use query::Query;
+pub use robot_file::RobotFile;
+pub use schema::world_schema;
+pub use schema::{AngleOrLength, toml_schema};
+pub use source::{Position, Source};
+pub use suite::{Asked, LeftOut, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
+pub use task::LoadedTask;
+pub use trajectory::{LoadedRecording, load_recording, load_topic, read_recording};
+pub use values::{JointValues, Overrides, TipPoint};
+use world::RobotTable;
+pub use world::in_toml_words;
+pub use world::{LARGEST, World};
+
+use cplan_core::model::{Arm, AssumedLimits, Goal, HeldJoint, MotionProblem, RobotJoints, Scene};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// What the user should know of how the robot was read.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotReport {
+    /// What is made of the robot: the plane, the tip, the outline of each link.
+    pub geometry: Vec<String>,
+    /// What was taken for granted: joints held still, defaults, outlines of what is not meant for it, things ignored.
+    pub notes: Vec<String>,
+    /// What may surprise: links that cannot collide, meshes that a bar stands in for.
+    pub warnings: Vec<String>,
+    /// Limits that nobody gives.
+    pub assumed: AssumedLimits,
+    /// Joints that could move but are held, and whose value matters to the arm: names and values, radians or metres.
+    pub held: Vec<(String, f64)>,
+    /// The same joints with what they would do if they moved.
+    #[serde(default)]
+    pub held_joints: Vec<HeldJoint>,
+    /// All joints that can move, for messages that name them.
+    pub joints: RobotJoints,
+    /// Why torques are not known, unless they are.
+    #[serde(default)]
+    pub no_dynamics: Option<String>,
+}
+
+impl RobotReport {
+    /// What may surprise and what is assumed, for programs that print no summary: lines that begin with `warning:` or `note:`.
+    #[must_use]
+    pub fn remarks(&self, arm: &Arm) -> Vec<String> {
+        let warnings = self.warnings.iter().map(|warning| format!("warning: {warning}"));
+        warnings.chain(self.assumptions(arm).iter().map(|assumption| format!("note: {assumption}"))).collect()
+    }
+
+    /// Limits of an arm that nobody gives, in words: the same wherever they matter.
+    #[must_use]
+    pub fn assumptions(&self, arm: &Arm) -> Vec<String> {
+        self.assumed.notes(arm.joints.each_ref().map(|joint| (joint.name.as_str(), joint.unit())))
+    }
+}
+
+/// Arm, obstacles and objects as the files have them, without start, goal and steps.
+#[derive(Debug, Clone)]
+pub struct LoadedScene {
+    /// The arm among its obstacles, with the world's clearance. Objects lie where they lie at first, and follow the
+    /// obstacles that stay where they are.
+    pub scene: Scene,
+    /// The world file.
+    pub world: World,
+    /// The arm as it is without the place that the world gives it.
+    arm: Arm,
+    /// How the robot was read.
+    pub robot: RobotReport,
+}
+
+/// A planning problem and how it was read.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// Scene, start and goals; start and goals are within the limits and free.
+    pub problem: MotionProblem,
+    /// How the robot was read.
+    pub robot: RobotReport,
+    /// What the user should know of the goal: branches that are blocked, joints whose value does not matter.
+    pub notes: Vec<String>,
+}
+
+/// Reads a robot and a world. Start and goal may be missing or wrong, and steps out of the arm's reach: see
+/// [`LoadedScene::problem`] and [`LoadedScene::task`].
+///
+/// # Errors
+/// [`InputError`] for everything that is wrong with the files themselves.
+pub fn load_scene(robot: impl Into<RobotFile>, world: &Path) -> Result<LoadedScene, InputError> {
+    let world = world::read(Source::read(world)?)?;
+    among(world, robot.into().read()?)
+}
+
+/// The same from texts, which need not be files.
+///
+/// # Errors
+/// [`InputError`] for everything that is wrong with the texts themselves.
+pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError> {
+    among(world::read(world)?, urdf)
+}
+
+/// The same for an arm that is made in code, whose two joints are all that moves.
+///
+/// # Errors
+/// [`InputError`] for everything that is wrong with the world; a `[robot]` table, which is about a URDF; an arm whose numbers make no sense.
+pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
+    let world = world::read(world)?;
+    let refused = |message: String, help: &str| Diagnostic::new(world.source.name(), message).help(help);
+    if world.robot.unplaced() != RobotTable::default() {
+        let message = "[robot] says how a URDF is read, and this arm is made in code".into();
+        return Err(refused(message, "leave the table out, but for `at` and `angle`").into());
+    }
+    for pair in &world.in_degrees {
+        pair.check(&world.source, &arm.joints)?;
+    }
+    let joints = RobotJoints::planned(&arm.joints.each_ref().map(|joint| joint.name.clone()));
+    let scene = Scene::new(standing(&arm, &world), world.at_first())
+        .map_err(|error| refused(error.to_string(), "make the arm of numbers that are finite, and sizes above 0"))?;
+    Ok(LoadedScene { scene, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
+}
+
+/// Reads a world alone.
+///
+/// # Errors
+/// [`InputError`] for everything that is wrong with it but what depends on the arm.
+pub fn world_from(world: Source) -> Result<World, InputError> {
+    world::read(world)
+}
+
+/// A file's content.
+///
+/// # Errors
+/// I/O, and a file larger than 256 MiB.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
+    Ok(source::read_bytes(path)?)
+}
+
+impl LoadedScene {
+    /// Start and goal as the world gives them, whether or not anything is wrong with them.
+    #[must_use]
+    pub fn given(&self) -> [Option<Goal>; 2] {
+        [&self.world.start, &self.world.goal].map(|place| place.as_ref().map(|&(goal, _)| goal))
+    }
+
+    /// As [`scene_from`] for another text of the world, without reading the robot again where the world's `[robot]` table
+    /// says the same but for its place: for worlds that are edited.
+    ///
+    /// # Errors
+    /// [`InputError`] for everything that is wrong with the texts themselves.
+    pub fn edited(&self, urdf: &Source, world: Source) -> Result<Self, InputError> {
+        let world = world::read(world)?;
+        if world.robot.unplaced() != self.world.robot.unplaced() {
+            return among(world, urdf.clone());
+        }
+        for pair in &world.in_degrees {
+            pair.check(&world.source, &self.scene.arm().joints)?;
+        }
+        let scene = Scene::trusted(standing(&self.arm, &world), world.at_first());
+        Ok(Self { scene, world, arm: self.arm.clone(), robot: self.robot.clone() })
+    }
+}
+
+/// The arm in its world.
+fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
+    let (arm, mut robot) = urdf::load(urdf, &world)?;
+    for pair in &world.in_degrees {
+        pair.check(&world.source, &arm.joints)?;
+    }
+    let scene = Scene::trusted(standing(&arm, &world), world.at_first());
+    robot.warnings.extend(nearness::warning(&scene));
+    Ok(LoadedScene { scene, world, arm, robot })
+}
+
+/// The arm where the world puts it.
+fn standing(arm: &Arm, world: &World) -> Arm {
+    world.place.as_ref().map_or_else(|| arm.clone(), |place| arm.placed(place))
+}
+
+/// Examines a robot without stopping at the first thing that is wrong. Without a world file nothing is chosen, held or
+/// overridden; what a world would have to decide is then among the diagnostics and in [`Inspection::help`].
+#[must_use]
+pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection {
+    let mut unread = None;
+    let file = match world.map(|path| Source::read(path).and_then(world::read)) {
+        None => World::silent(),
+        Some(Ok(file)) => file,
+        Some(Err(error)) => {
+            unread = Some(error);
+            World::silent()
+        }
+    };
+    let mut inspection =
+        Inspection { world: world.map(|p| p.display().to_string()), ..urdf::survey(&robot.into(), &file) };
+    if let Some(error) = unread {
+        inspection.errors.insert(0, error);
+    }
+    inspection.warnings.extend(inspection.scene.as_ref().and_then(nearness::warning));
+    if world.is_some() && inspection.is_plannable() {
+        let loaded = inspection.scene.clone().map(|scene| {
+            let arm = scene.arm().clone();
+            LoadedScene { scene, world: file, arm, robot: RobotReport::default() }
+        });
+        let overrides = Overrides::default();
+        let query = loaded.and_then(|l| match l.has_steps() {
+            true => l.task(&overrides).err().map(|e| ("task", e)),
+            false => l.problem(&overrides).err().map(|e| ("start and goal", e)),
+        });
+        if let Some((what, error)) = query {
+            inspection.warnings.extend(error.diagnostics().iter().map(|d| format!("{what}: {}", d.message)));
+        }
+    }
+    inspection
+}
+
+/// The meshes that a robot finds where it is, but not if its text were the file `other`.
+#[must_use]
+pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
+    urdf::meshes_elsewhere(robot, other)
+}
+
+/// Reads a planning problem: [`load_scene`], then [`LoadedScene::problem`].
+///
+/// # Errors
+/// [`InputError`], for the files or for start and goal.
+pub fn load(robot: impl Into<RobotFile>, world: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
+    load_scene(robot, world)?.problem(overrides)
+}

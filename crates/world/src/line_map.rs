@@ -1,0 +1,91 @@
+//! Line maps, as MobileSim draws them: a `2D-Map` file of straight walls.
+//!
+//! ```text
+//! 2D-Map
+//! LineMinPos: -1000 -1000
+//! LineMaxPos: 1000 1000
+//! NumLines: 2
+//! LINES
+//! -500 -500 500 -500
+//! 500 -500 500 500
+//! DATA
+//! ```
+
+use super::error::InputError;
+use super::map_text::MapText;
+use cplan_geometry::Point;
+use std::collections::VecDeque;
+use std::path::Path;
+
+/// A line map in its own unit, by custom the millimetre.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LineMap {
+    /// `LineMinPos` and `LineMaxPos`: lower left and upper right corner; all lines lie within.
+    pub bounds: [Point; 2],
+    /// Ends of every line, in the order of the file. Both are the same where the file has a line without length.
+    pub lines: Vec<[Point; 2]>,
+}
+
+/// Consecutive lines of a map, joined end to end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    /// Corners; no two neighbours are the same. One alone is a line without length, which is a point.
+    pub points: Vec<Point>,
+    /// Numbers of the first and the last of its lines in [`LineMap::lines`].
+    pub lines: [usize; 2],
+}
+
+impl LineMap {
+    /// Reads a map. Blank lines, lines that begin with `#`, tabs and carriage returns are tolerated.
+    ///
+    /// # Errors
+    /// With line and column: what is no map, is out of order, is missing, follows the end, is no finite number, lies
+    /// outside the bounds; and a `NumLines` that is not the number of lines.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let mut text = MapText::read(path)?;
+        let bounds = text.bounds()?;
+        let announced = text.count("NumLines")?;
+        text.word("LINES")?;
+        let list = text.list::<4>(announced, "NumLines", "a line", "DATA")?;
+        text.end()?;
+        let lines = list.iter().map(|line| text.corners(&line.values, &line.at, &bounds)).collect::<Result<_, _>>()?;
+        Ok(Self { bounds, lines })
+    }
+
+    /// The lines as few polylines: one that shares an end with the chain so far prolongs it, at either end. Linear.
+    #[must_use]
+    pub fn chains(&self) -> Vec<Chain> {
+        let mut chains: Vec<Chain> = Vec::new();
+        let mut open: VecDeque<Point> = VecDeque::new();
+        let mut first = 0;
+        let mut close = |open: &mut VecDeque<Point>, lines| {
+            if !open.is_empty() {
+                chains.push(Chain { points: std::mem::take(open).into(), lines });
+            }
+        };
+        for (i, &[a, b]) in self.lines.iter().enumerate() {
+            let ends = [open.front().copied(), open.back().copied()];
+            match ends {
+                [_, Some(back)] if back == a || back == b => {
+                    let other = if back == a { b } else { a };
+                    if other != back {
+                        open.push_back(other);
+                    }
+                }
+                [Some(front), _] if front == a || front == b => {
+                    let other = if front == a { b } else { a };
+                    if other != front {
+                        open.push_front(other);
+                    }
+                }
+                _ => {
+                    close(&mut open, [first, i.saturating_sub(1)]);
+                    first = i;
+                    open.extend(if a == b { vec![a] } else { vec![a, b] });
+                }
+            }
+        }
+        close(&mut open, [first, self.lines.len().saturating_sub(1)]);
+        chains
+    }
+}

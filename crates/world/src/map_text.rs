@@ -1,0 +1,197 @@
+//! The text that line maps and preference files have in common: `2D-Map`, bounds, counted lists of numbers.
+
+use super::error::{Diagnostic, InputError};
+use super::source::Source;
+use cplan_geometry::Point;
+use std::ops::Range;
+use std::path::Path;
+
+/// What a map file begins with.
+const HEADER: &str = "2D-Map";
+
+/// A file of the `2D-Map` family, line by line. Blank lines and lines that begin with `#` are passed over; words are
+/// separated by any white space.
+pub(super) struct MapText {
+    pub source: Source,
+    /// The lines that say something.
+    lines: Vec<Range<usize>>,
+    next: usize,
+}
+
+/// The numbers of a line, and where the line is.
+pub(super) struct Numbers<const N: usize> {
+    pub values: [f64; N],
+    pub at: Range<usize>,
+}
+
+impl MapText {
+    /// Reads a file up to and including its header.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let source = Source::read(path)?;
+        let mut lines = Vec::new();
+        let mut start = 0;
+        for line in source.text.split_inclusive('\n') {
+            let said = line.trim();
+            if !said.is_empty() && !said.starts_with('#') {
+                let from = start + (line.len() - line.trim_start().len());
+                lines.push(from..from + said.len());
+            }
+            start += line.len();
+        }
+        let mut text = Self { source, lines, next: 0 };
+        text.word(HEADER).map_err(|diagnostic| diagnostic.help(format!("a map begins with a line \"{HEADER}\"")))?;
+        Ok(text)
+    }
+
+    fn line(&self) -> Option<(&str, Range<usize>)> {
+        let at = self.lines.get(self.next)?;
+        Some((&self.source.text[at.clone()], at.clone()))
+    }
+
+    /// The next line, which must be there.
+    fn expected(&self, what: &str) -> Result<(&str, Range<usize>), Diagnostic> {
+        self.line().ok_or_else(|| {
+            let end = self.source.text.trim_end().len();
+            let message = format!("the file ends where {what} should come");
+            self.source.diagnostic_at(end..end, message).help("write what is missing, or export the map again")
+        })
+    }
+
+    /// Passes over a line that is this word.
+    pub fn word(&mut self, word: &str) -> Result<(), Diagnostic> {
+        let what = format!("\"{word}\"");
+        let (found, at) = self.expected(&what)?;
+        if found != word {
+            return Err(self.unexpected(at, &what));
+        }
+        self.next += 1;
+        Ok(())
+    }
+
+    fn unexpected(&self, at: Range<usize>, what: &str) -> Diagnostic {
+        self.source.diagnostic_at(at, format!("expected {what}")).help(format!("write {what} on this line"))
+    }
+
+    /// The numbers of a line `key: n n ...`.
+    pub fn keyed<const N: usize>(&mut self, key: &str) -> Result<Numbers<N>, Diagnostic> {
+        let what = format!("\"{key}:\" and {}", counted(N));
+        let (found, at) = self.expected(&what)?;
+        let Some(rest) = found.strip_prefix(key).and_then(|rest| rest.trim_start().strip_prefix(':')) else {
+            return Err(self.unexpected(at, &what));
+        };
+        let from = at.end - rest.len();
+        let values = self.parsed(from..at.end, &what)?;
+        self.next += 1;
+        Ok(Numbers { values, at })
+    }
+
+    /// The whole number of a line `key: n`.
+    pub fn count(&mut self, key: &str) -> Result<(usize, Range<usize>), Diagnostic> {
+        let Numbers { values: [value], at } = self.keyed::<1>(key)?;
+        if value < 0.0 || value.fract() != 0.0 || value > MOST_COUNTED {
+            let message = format!("{key}: {value} is no number of lines");
+            return Err(self.source.diagnostic_at(at, message).help("count the lines that follow"));
+        }
+        Ok((value as usize, at))
+    }
+
+    /// The numbers of a line that has nothing else.
+    pub fn numbers<const N: usize>(&mut self, what: &str) -> Result<Numbers<N>, Diagnostic> {
+        let (_, at) = self.expected(&format!("{what} ({})", counted(N)))?;
+        let values = self.parsed(at.clone(), what)?;
+        self.next += 1;
+        Ok(Numbers { values, at })
+    }
+
+    /// The lines of numbers up to the word `end`, which is passed over: as many as were announced.
+    pub fn list<const N: usize>(
+        &mut self,
+        announced: (usize, Range<usize>),
+        key: &str,
+        item: &str,
+        end: &str,
+    ) -> Result<Vec<Numbers<N>>, Diagnostic> {
+        let what = format!("{item} or \"{end}\"");
+        let mut list = Vec::new();
+        while self.expected(&what)?.0 != end {
+            list.push(self.numbers(&what)?);
+        }
+        self.next += 1;
+        let (count, at) = announced;
+        if count != list.len() {
+            let message = format!("{key} says {count}, but {} follow", list.len());
+            return Err(self
+                .source
+                .diagnostic_at(at, message)
+                .help("correct the number, or the lines that are missing"));
+        }
+        Ok(list)
+    }
+
+    /// `LineMinPos` and `LineMaxPos`.
+    pub fn bounds(&mut self) -> Result<[Point; 2], Diagnostic> {
+        let Numbers { values: lower, .. } = self.keyed::<2>("LineMinPos")?;
+        let Numbers { values: upper, at } = self.keyed::<2>("LineMaxPos")?;
+        if (0..2).any(|k| lower[k] >= upper[k]) {
+            let message = format!("LineMaxPos {upper:?} is not above LineMinPos {lower:?} in both coordinates");
+            return Err(self.source.diagnostic_at(at, message).help("write the lower left corner first"));
+        }
+        Ok([lower.into(), upper.into()])
+    }
+
+    /// Two points of a line, which must lie within the bounds.
+    pub fn corners(&self, values: &[f64], at: &Range<usize>, bounds: &[Point; 2]) -> Result<[Point; 2], Diagnostic> {
+        let corners = [Point::new(values[0], values[1]), Point::new(values[2], values[3])];
+        let [lower, upper] = bounds;
+        match corners.iter().find(|p| (0..2).any(|k| p[k] < lower[k] || p[k] > upper[k])) {
+            None => Ok(corners),
+            Some(p) => {
+                let message = format!("({}, {}) lies outside the bounds of the map", p.x, p.y);
+                let help = "correct it, or widen LineMinPos and LineMaxPos";
+                Err(self.source.diagnostic_at(at.clone(), message).help(help))
+            }
+        }
+    }
+
+    /// Nothing may follow.
+    pub fn end(&self) -> Result<(), Diagnostic> {
+        match self.line() {
+            None => Ok(()),
+            Some((_, at)) => {
+                let message = "the map has ended above, but something follows";
+                Err(self.source.diagnostic_at(at, message).help("remove it, or put it before the last word of the map"))
+            }
+        }
+    }
+
+    /// Exactly `N` finite numbers.
+    fn parsed<const N: usize>(&self, at: Range<usize>, what: &str) -> Result<[f64; N], Diagnostic> {
+        let text = &self.source.text[at.clone()];
+        let mut values = [0.0; N];
+        let mut found = 0;
+        for word in text.split_whitespace() {
+            let from = at.start + (word.as_ptr() as usize - text.as_ptr() as usize);
+            let place = from..from + word.len();
+            let Some(value) = word.parse().ok().filter(|value: &f64| value.is_finite()) else {
+                let message = format!("{what}: \"{word}\" is not a finite number");
+                return Err(self.source.diagnostic_at(place, message).help("write numbers, such as 1500 or -0.5"));
+            };
+            if let Some(slot) = values.get_mut(found) {
+                *slot = value;
+            }
+            found += 1;
+        }
+        if found != N {
+            let message = format!("{what}: expected {}, found {found}", counted(N));
+            return Err(self.source.diagnostic_at(at, message).help("separate numbers by blanks, one item a line"));
+        }
+        Ok(values)
+    }
+}
+
+/// More lines than a file of the greatest size can hold.
+const MOST_COUNTED: f64 = 1e9;
+
+fn counted(n: usize) -> String {
+    if n == 1 { "a number".to_owned() } else { format!("{n} numbers") }
+}

@@ -1,0 +1,31 @@
+//! Whether a world is about the arm at all: drawings and maps come in other units, and with their origin elsewhere.
+
+use cplan_core::model::Scene;
+use cplan_core::space::JointRange;
+use cplan_geometry::{Convex, separation};
+use cplan_text::told_apart;
+
+/// What to say of a world with obstacles none of which the arm can reach. The first that it may reach ends the search.
+pub(super) fn warning(scene: &Scene) -> Option<String> {
+    let arm = scene.arm();
+    let slides = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| match joint.range {
+        JointRange::Interval { lower, upper } => lower.abs().max(upper.abs()),
+        JointRange::Circle => f64::INFINITY,
+    });
+    let reach = arm.reach() + slides.sum::<f64>();
+    let base = Convex::trusted(vec![arm.base], 0.0);
+    let mut nearest = f64::INFINITY;
+    for piece in scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces) {
+        nearest = nearest.min(separation(&base, piece).distance);
+        if nearest <= reach + scene.workspace().clearance {
+            return None;
+        }
+    }
+    nearest.is_finite().then(|| {
+        let [nearest, reach] = told_apart([nearest, reach], 4);
+        format!(
+            "no obstacle is within the arm's reach: the nearest is {nearest} m from joint 1, no part of the arm comes farther than \
+             {reach} m; is the world in metres, and [robot] `at` where the arm stands?"
+        )
+    })
+}

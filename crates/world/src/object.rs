@@ -1,0 +1,384 @@
+//! The world file's `[[object]]`.
+
+use super::course::CourseTable;
+use super::error::{Diagnostic, quoted};
+use super::obstacle::{CircleTable, circle};
+use super::pallet::Pallets;
+use super::polygon::{Ring, polygon};
+use super::quantity::Written;
+use super::schema::{AngleOrLength, HeldAs, NotNegative, Rings, Two};
+use super::world::{Number, Numbers, Reader};
+use cplan_core::model::{Course, Holding, Mover, Object, Obstacle};
+use cplan_geometry::{Point, Pose};
+use nalgebra::{Isometry2, Translation2};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use toml::Spanned;
+
+/// Something that can be picked and placed; an obstacle wherever it lies.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "object", extend("allOf" = [
+    { "oneOf": [{ "required": ["polygon"] }, { "required": ["circle"] }] },
+    { "oneOf": [{ "required": ["at"] }, { "required": ["pallet"] }] }
+]))]
+pub(super) struct ObjectTable {
+    /// A name that no other object or obstacle has; of objects on a pallet, what comes before row and column: "NAME 2,3".
+    #[schemars(with = "String")]
+    name: Spanned<String>,
+    /// Corners in its own frame, in order round the shape, m; may be non-convex and touch itself in points, but not cross
+    /// itself. Or a list of such rings: the outer one, then holes.
+    #[schemars(with = "Option<Rings>")]
+    polygon: Option<Ring>,
+    /// A disc in its own frame.
+    circle: Option<CircleTable>,
+    /// Where its origin lies at first, m.
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// In place of `at`: the pallet on each place of which one lies at first.
+    #[schemars(with = "Option<String>")]
+    pallet: Option<Spanned<String>>,
+    /// How it is turned at first, on a pallet with respect to that, rad; by default 0.
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
+    /// Its extent along the plane's normal where it lies, m; by default all heights.
+    #[schemars(with = "Option<Two>")]
+    height: Option<Numbers>,
+    /// By how much it is raised while it is carried, m; by default 0.
+    #[schemars(with = "Option<NotNegative>")]
+    lift: Option<Number>,
+    /// What it weighs, kg, spread evenly over its outline; by default 0. Counts where torques do.
+    #[schemars(with = "Option<NotNegative>")]
+    mass: Option<Number>,
+    /// How it is held; by default as [robot] says.
+    #[schemars(with = "Option<HeldAs>")]
+    payload: Option<Spanned<String>>,
+    /// The point of it that the tip goes to, in its own frame, m; by default its origin.
+    #[schemars(with = "Option<Two>")]
+    grasp: Option<Numbers>,
+    /// Obstacles and objects that it may touch where it is picked and placed.
+    #[schemars(with = "Option<Vec<String>>")]
+    supports: Option<NameList>,
+    /// Whether each repetition of the steps that pick it finds a new one where it lay at first; the old one is gone when the arm goes on.
+    #[serde(default)]
+    renew: bool,
+    /// How it moves from `at` on, until it is picked; by default it lies still.
+    #[schemars(with = "Option<CourseTable>")]
+    motion: Option<Spanned<CourseTable>>,
+}
+
+/// Names, with the place of each.
+pub(super) type NameList = Spanned<Vec<Spanned<String>>>;
+
+/// An object, and what holds for the steps that do not say otherwise.
+#[derive(Debug, Clone)]
+pub(super) struct Movable {
+    pub object: Object,
+    /// The point of it that the tip goes to, in its own frame.
+    pub grasp: Point,
+    pub supports: Supports,
+    /// Whether a new one lies there in each repetition.
+    pub is_renewed: bool,
+}
+
+/// What an object may touch where it rests.
+#[derive(Debug, Clone)]
+pub(super) struct Supports {
+    /// Obstacles; objects follow the obstacles that stay where they are.
+    pub numbers: Vec<usize>,
+    /// Where they are named.
+    pub at: Range<usize>,
+}
+
+/// Numbers of objects and obstacles by name.
+pub(super) struct Names<'a> {
+    objects: BTreeMap<String, usize>,
+    /// Those on a pallet, by what they have in common.
+    families: BTreeMap<&'a str, Range<usize>>,
+    /// Obstacles may share a name.
+    obstacles: BTreeMap<&'a str, Vec<usize>>,
+    /// How many obstacles stay where they are.
+    fixed: usize,
+}
+
+/// More names than this are not listed in a message.
+const LISTED: usize = 12;
+
+impl<'a> Names<'a> {
+    /// # Errors
+    /// When two objects, or an object and an obstacle, have the same name.
+    fn of(
+        reader: &Reader,
+        placed: &[Placed<'a>],
+        obstacles: &'a [Obstacle],
+        movers: &[Mover],
+    ) -> Result<Self, Diagnostic> {
+        let mut names = Self {
+            objects: BTreeMap::new(),
+            families: BTreeMap::new(),
+            obstacles: BTreeMap::new(),
+            fixed: obstacles.len(),
+        };
+        for (number, obstacle) in obstacles.iter().enumerate() {
+            names.obstacles.entry(obstacle.name.as_str()).or_default().push(number);
+        }
+        for (number, Placed { table, name, .. }) in placed.iter().enumerate() {
+            let given = &table.get_ref().name;
+            let family = given.get_ref().as_str();
+            let is_mover = |name: &str| movers.iter().any(|mover| mover.obstacle.name == name);
+            let is_obstacle =
+                [name.as_str(), family].iter().any(|name| names.obstacles.contains_key(name) || is_mover(name));
+            let mut is_object = names.objects.insert(name.clone(), number).is_some();
+            if name == family {
+                is_object |= names.families.contains_key(family);
+            } else {
+                is_object |= names.objects.contains_key(family);
+                let members = names.families.entry(family).or_insert(number..number);
+                is_object |= members.end != number;
+                members.end = number + 1;
+            }
+            if is_obstacle || is_object {
+                let other = if is_object { "a second object" } else { "an obstacle" };
+                let message = format!("{other} is named \"{}\"", if is_object { name.as_str() } else { family });
+                let help = "steps refer to objects by name: give each a name of its own";
+                return Err(reader.source.diagnostic_at(given.span(), message).help(help));
+            }
+        }
+        Ok(names)
+    }
+
+    /// The object of this name.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn object(&self, reader: &Reader, name: &Spanned<String>) -> Result<usize, Diagnostic> {
+        let wanted = name.get_ref().as_str();
+        if let Some(number) = self.objects.get(wanted) {
+            return Ok(*number);
+        }
+        let message = format!("there is no object \"{wanted}\"");
+        let help = match (self.obstacles.contains_key(wanted), self.families.get(wanted)) {
+            (true, _) => "that is an obstacle, which stays where it is: make it an [[object]]".to_owned(),
+            (_, Some(all)) => format!(
+                "there are {} on a pallet: name one, as \"{wanted} 1,1\"; transfer = {{ objects = \"{wanted}\", to = \"PALLET\" }} moves all",
+                all.len()
+            ),
+            _ => format!("the objects are {}", self.all()),
+        };
+        Err(reader.source.diagnostic_at(name.span(), message).help(help))
+    }
+
+    /// The objects on a pallet that have this in common, row by row.
+    ///
+    /// # Errors
+    /// When there are none.
+    pub fn family(&self, reader: &Reader, name: &Spanned<String>) -> Result<Range<usize>, Diagnostic> {
+        let wanted = name.get_ref().as_str();
+        if let Some(family) = self.families.get(wanted) {
+            return Ok(family.clone());
+        }
+        let message = format!("there are no objects \"{wanted}\" on a pallet");
+        let help = match self.objects.contains_key(wanted) {
+            true => format!("that is a single object: pick = \"{wanted}\", then place it"),
+            false if self.families.is_empty() => "give an [[object]] of this name pallet = \"PALLET\"".into(),
+            false => format!("the objects on pallets are {}", listed(self.families.keys().copied())),
+        };
+        Err(reader.source.diagnostic_at(name.span(), message).help(help))
+    }
+
+    /// The names to choose from: those on a pallet together.
+    fn all(&self) -> String {
+        let single = self.objects.iter().filter(|(_, number)| !self.families.values().any(|all| all.contains(number)));
+        listed(single.map(|(name, _)| name.as_str()).chain(self.families.keys().copied()))
+    }
+
+    /// The numbers of these obstacles and objects, for something that rests on them.
+    ///
+    /// # Errors
+    /// When there is none of such a name.
+    pub fn supports(&self, reader: &Reader, list: &NameList) -> Result<Supports, Diagnostic> {
+        let mut numbers = Vec::new();
+        for name in list.get_ref() {
+            let wanted = name.get_ref().as_str();
+            match (self.obstacles.get(wanted), self.objects.get(wanted), self.families.get(wanted)) {
+                (Some(found), _, _) => numbers.extend(found),
+                (None, Some(object), _) => numbers.push(self.fixed + object),
+                (None, None, Some(all)) => numbers.extend(all.clone().map(|object| self.fixed + object)),
+                (None, None, None) => {
+                    let message = format!("there is no obstacle and no object \"{wanted}\" to rest on");
+                    let names = self.obstacles.keys().copied().chain(self.objects.keys().map(String::as_str));
+                    let help = format!("there are {}", listed(names));
+                    return Err(reader.source.diagnostic_at(name.span(), message).help(help));
+                }
+            }
+        }
+        numbers.sort_unstable();
+        numbers.dedup();
+        Ok(Supports { numbers, at: list.span() })
+    }
+
+    /// The number under which an object counts as an obstacle.
+    pub fn as_obstacle(&self, object: usize) -> usize {
+        self.fixed + object
+    }
+}
+
+/// A table's object, or one of those on a pallet.
+struct Placed<'a> {
+    table: &'a Spanned<ObjectTable>,
+    name: String,
+    /// Where it lies at first.
+    at: Pose,
+}
+
+/// All objects, with where each lies: those of a table on a pallet row by row.
+fn placed<'a>(
+    reader: &Reader,
+    tables: &'a [Spanned<ObjectTable>],
+    pallets: &Pallets,
+) -> Result<Vec<Placed<'a>>, Diagnostic> {
+    let mut all = Vec::new();
+    for table in tables {
+        let given = table.get_ref();
+        let name = given.name.get_ref();
+        let what = format!("object \"{name}\"");
+        let angle =
+            given.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
+        let turned = Isometry2::rotation(angle);
+        match (&given.at, &given.pallet) {
+            (Some(at), None) => {
+                let at = reader.point(at, &format!("{what}, at"))?;
+                all.push(Placed { table, name: name.clone(), at: Translation2::from(at.coords) * turned });
+            }
+            (None, Some(pallet)) => {
+                let places = pallets.named(reader, pallet)?.places();
+                all.extend(places.map(|(place, pose)| Placed {
+                    table,
+                    name: format!("{name} {place}"),
+                    at: pose * turned,
+                }));
+            }
+            (at, _) => {
+                let found = if at.is_some() { "both" } else { "neither" };
+                let message = format!("{what} needs either `at` or `pallet`, it has {found}");
+                let help = "at = [x, y], or pallet = \"NAME\" for one on each of its places";
+                return Err(reader.source.diagnostic_at(table.span(), message).help(help));
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// Reads all objects. `default` is how they are held where they do not say it.
+///
+/// # Errors
+/// On names that are not unique, not exactly one shape, not exactly one of a place and a pallet, shapes that are none, values
+/// that are none, unknown pallets and supports.
+pub(super) fn read<'a>(
+    reader: &Reader,
+    tables: &'a [Spanned<ObjectTable>],
+    pallets: &Pallets,
+    obstacles: &'a [Obstacle],
+    movers: &[Mover],
+    default: Holding,
+) -> Result<(Vec<Movable>, Names<'a>), Diagnostic> {
+    let placed = placed(reader, tables, pallets)?;
+    let names = Names::of(reader, &placed, obstacles, movers)?;
+    let objects = placed.into_iter().enumerate().map(|(i, placed)| movable(reader, placed, i, &names, default));
+    Ok((objects.collect::<Result<_, _>>()?, names))
+}
+
+fn movable(
+    reader: &Reader,
+    Placed { table, name, at }: Placed,
+    index: usize,
+    names: &Names,
+    default: Holding,
+) -> Result<Movable, Diagnostic> {
+    let given = table.get_ref();
+    let what = format!("object \"{name}\"");
+    let (shape, pieces) = match (&given.polygon, &given.circle) {
+        (Some(corners), None) => {
+            polygon(reader, corners, None, None, &what, "list the corners in order round the shape, each once")?
+        }
+        (None, Some(disc)) => circle(reader, disc, &what)?,
+        (polygon, _) => {
+            let count = if polygon.is_some() { 2 } else { 0 };
+            let message = format!("{what} needs exactly one shape, it has {count}");
+            return Err(reader.source.diagnostic_at(table.span(), message).help("give it a polygon or a circle"));
+        }
+    };
+    let lift = given.lift.as_ref().map(|l| reader.not_negative(l, &format!("{what}: lift"))).transpose()?;
+    let mass = given.mass.as_ref().map(|m| reader.not_negative(m, &format!("{what}: mass"))).transpose()?;
+    let grasp = given.grasp.as_ref().map(|g| reader.point(g, &format!("{what}, grasp"))).transpose()?;
+    let supports = match &given.supports {
+        Some(list) => names.supports(reader, list)?,
+        None => Supports { numbers: Vec::new(), at: table.span() },
+    };
+    if supports.numbers.contains(&names.as_obstacle(index)) {
+        return Err(rests_on_itself(reader, &name, &supports));
+    }
+    let course = given.motion.as_ref().map(|motion| course(reader, given, motion, &at, &what)).transpose()?;
+    // What is said of its first place is said by the course.
+    let at = course.as_ref().map_or(at, |course| course.pose(0.0));
+    let object = Object {
+        name,
+        shape,
+        pieces,
+        heights: reader.heights(given.height.as_ref(), &what)?,
+        lift: lift.unwrap_or(0.0),
+        holding: given.payload.as_ref().map(|p| holding(reader, p)).transpose()?.unwrap_or(default),
+        at,
+        mass: mass.unwrap_or(0.0),
+        course,
+    };
+    Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::origin), supports, is_renewed: given.renew })
+}
+
+/// How an object moves that lies here where its motion says nothing else.
+fn course(
+    reader: &Reader,
+    given: &ObjectTable,
+    motion: &Spanned<CourseTable>,
+    at: &Pose,
+    what: &str,
+) -> Result<Course, Diagnostic> {
+    let refuse = |message: &str, help: &str| {
+        Err(reader.source.diagnostic_at(motion.span(), format!("{what}, motion: {message}")).help(help))
+    };
+    if given.pallet.is_some() {
+        return refuse("what lies on a pallet does not move", "give each that moves an [[object]] with `at`");
+    }
+    if given.renew {
+        return refuse("what moves is not renewed", "give each that comes an [[object]] of its own");
+    }
+    motion.get_ref().read(reader, what, Some(at), motion.span())
+}
+
+/// The diagnostic of an object that is among its own supports.
+pub(super) fn rests_on_itself(reader: &Reader, name: &str, supports: &Supports) -> Diagnostic {
+    let message = format!("object \"{name}\" cannot rest on itself");
+    reader.source.diagnostic_at(supports.at.clone(), message).help("remove it from `supports`")
+}
+
+/// How objects are held: `"rigid"` or `"level"`.
+pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding, Diagnostic> {
+    match word.get_ref().as_str() {
+        "rigid" => Ok(Holding::Rigid),
+        "level" => Ok(Holding::Level),
+        other => {
+            let message = format!("a payload is \"rigid\" or \"level\", not \"{other}\"");
+            let help = "rigid: it turns with link 2; level: a wrist keeps its orientation";
+            Err(reader.source.diagnostic_at(word.span(), message).help(help))
+        }
+    }
+}
+
+fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let mut names: Vec<&str> = names.take(LISTED + 1).collect();
+    let more = names.len() > LISTED;
+    names.truncate(LISTED);
+    quoted(names) + if more { ", ..." } else { "" }
+}

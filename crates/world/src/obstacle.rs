@@ -1,0 +1,183 @@
+//! The world file's `[[obstacle]]`.
+
+use super::course::CourseTable;
+use super::error::{Diagnostic, InputError};
+use super::occupancy::OccupancyMap;
+use super::polygon::{Ring, polygon, polyline};
+use super::quantity::Written;
+use super::schema::{AngleOrLength, Corners, Positive, Rings, Two, UnknownAs};
+use super::world::{Number, Numbers, Reader};
+use cplan_core::model::{Mover, Obstacle, Shape};
+use cplan_geometry::{Convex, Pose};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// What the arm must not touch: exactly one of polygon, circle, polyline and image.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "obstacle", extend(
+    "oneOf" = [
+        { "required": ["polygon"] }, { "required": ["circle"] }, { "required": ["polyline"] }, { "required": ["image"] }
+    ],
+    "dependencies" = { "unknown": ["image"], "holes": ["polygon"] },
+))]
+pub(super) struct ObstacleTable {
+    /// For messages and pictures; need not be its own.
+    name: Option<String>,
+    /// Corners in order round the shape, m; may be non-convex and touch itself in points, but not cross itself. Or, as in
+    /// GeoJSON, a list of such rings: the outer one, then holes.
+    #[schemars(with = "Option<Rings>")]
+    polygon: Option<Ring>,
+    /// Rings of corners inside the polygon: what they surround is free.
+    #[schemars(with = "Option<Vec<Corners>>")]
+    holes: Option<Spanned<Vec<Ring>>>,
+    /// A disc.
+    circle: Option<CircleTable>,
+    /// Points of a thin wall, m: no area, still solid.
+    #[schemars(with = "Option<Vec<Two>>", length(min = 2))]
+    polyline: Option<Ring>,
+    /// An occupancy map: the YAML of ROS's map server, which names a PGM or PNG. Relative to this file.
+    #[schemars(with = "Option<String>")]
+    image: Option<Spanned<String>>,
+    /// What cells of an image are that nobody has looked at; by default "solid".
+    #[schemars(with = "Option<UnknownAs>")]
+    unknown: Option<Spanned<String>>,
+    /// Where the origin of its own frame lies, in which its points are then given, m; by default that of the world.
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// How its frame is turned, rad; by default 0.
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
+    /// How its frame moves while the arm does; by default it stands still.
+    #[schemars(with = "Option<CourseTable>")]
+    motion: Option<Spanned<CourseTable>>,
+    /// Its extent along the plane's normal, m: only parts of the arm at these heights can hit it; by default all heights.
+    #[schemars(with = "Option<Two>")]
+    height: Option<Numbers>,
+}
+
+/// A disc.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "circle")]
+pub(super) struct CircleTable {
+    /// Coordinates of its centre, m.
+    #[schemars(with = "Two")]
+    center: Numbers,
+    /// Its radius, m.
+    #[schemars(with = "Positive")]
+    radius: Number,
+}
+
+/// Convex pieces of the largest map: beyond it each planner takes minutes.
+pub(super) const MOST_PIECES: usize = 1 << 20;
+
+/// What an `[[obstacle]]` is.
+pub(super) enum Read {
+    /// It stands where it is.
+    Standing(Obstacle),
+    /// It has a motion.
+    Moving(Mover),
+}
+
+const SIMPLE: &str =
+    "list the corners in order round the shape (and round each hole), each once; a wall without area is a polyline";
+
+impl ObstacleTable {
+    /// The obstacle, the `index`-th of its file.
+    ///
+    /// # Errors
+    /// On not exactly one shape, values that are not finite, shapes that are none, and files that cannot be used.
+    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Read, InputError> {
+        let obstacle = table.get_ref();
+        let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
+        let what = format!("obstacle \"{name}\"");
+        let place = reader.pose(obstacle.at.as_ref(), obstacle.angle.as_ref(), &what)?;
+        let course = obstacle.motion.as_ref().map(|m| m.get_ref().read(reader, &what, place.as_ref(), m.span()));
+        let course = course.transpose()?;
+        // What moves has its shape in its own frame.
+        let place = place.as_ref().filter(|_| course.is_none());
+        let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
+            (Some(corners), None, None, None) => {
+                polygon(reader, corners, obstacle.holes.as_ref(), place, &what, SIMPLE)?
+            }
+            (None, Some(disc), None, None) => moved(circle(reader, disc, &what)?, place),
+            (None, None, Some(points), None) => polyline(reader, points, place, &what)?,
+            (None, None, None, Some(file)) => moved(image(reader, file, obstacle.unknown.as_ref(), &what)?, place),
+            (polygon, circle, polyline, image) => {
+                let given = [polygon.is_some(), circle.is_some(), polyline.is_some(), image.is_some()];
+                let count = given.iter().filter(|x| **x).count();
+                let message = format!("{what} needs exactly one shape, it has {count}");
+                let help =
+                    "give it one of polygon, circle, polyline, image; a second shape is an [[obstacle]] of its own";
+                return Err(reader.source.diagnostic_at(table.span(), message).help(help).into());
+            }
+        };
+        if let (Some(unknown), None) = (&obstacle.unknown, &obstacle.image) {
+            let message = format!("{what}: only an image has unknown cells");
+            return Err(reader.source.diagnostic_at(unknown.span(), message).help("remove the key").into());
+        }
+        if let (Some(holes), None) = (&obstacle.holes, &obstacle.polygon) {
+            let message = format!("{what}: only a polygon has holes");
+            return Err(reader.source.diagnostic_at(holes.span(), message).help("remove the key").into());
+        }
+        let heights = reader.heights(obstacle.height.as_ref(), &what)?;
+        let obstacle = Obstacle { name, shape, pieces, heights };
+        Ok(match course {
+            Some(course) => Read::Moving(Mover { obstacle, course }),
+            None => Read::Standing(obstacle),
+        })
+    }
+}
+
+fn moved((shape, pieces): (Shape, Vec<Convex>), place: Option<&Pose>) -> (Shape, Vec<Convex>) {
+    match place {
+        Some(place) => (shape.at(place), pieces.iter().map(|piece| piece.at(place)).collect()),
+        None => (shape, pieces),
+    }
+}
+
+fn image(
+    reader: &Reader,
+    image: &Spanned<String>,
+    unknown: Option<&Spanned<String>>,
+    what: &str,
+) -> Result<(Shape, Vec<Convex>), InputError> {
+    let unknown_is_free = match unknown.map(|u| (u.get_ref().as_str(), u.span())) {
+        None | Some(("solid", _)) => false,
+        Some(("free", _)) => true,
+        Some((other, at)) => {
+            let message = format!("{what}: unknown cells are \"solid\" or \"free\", not \"{other}\"");
+            return Err(reader.source.diagnostic_at(at, message).help("unknown = \"solid\", or leave it out").into());
+        }
+    };
+    let path = reader.beside(image, what)?;
+    if path.extension().is_some_and(|e| e != "yaml" && e != "yml") {
+        let message = format!("{what}: an image needs the YAML of ROS's map server, which says how large it is");
+        let help = "name the YAML; it names the picture";
+        return Err(reader.source.diagnostic_at(image.span(), message).help(help).into());
+    }
+    let map = OccupancyMap::read(&path)?;
+    map.notes.iter().for_each(|note| reader.taken.note(what, note.clone()));
+    let pieces = map.pieces(unknown_is_free, MOST_PIECES).ok_or_else(|| {
+        let message = format!("{what}: its pixels make more than {MOST_PIECES} rectangles");
+        let help = "remove single pixels from the picture, or make its pixels larger";
+        reader.source.diagnostic_at(image.span(), message).help(help)
+    })?;
+    Ok((Shape::Pieces, pieces))
+}
+
+/// A disc.
+pub(super) fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Diagnostic> {
+    let center = reader.point(&circle.center, &format!("{what}, center"))?;
+    let radius = reader.finite(&circle.radius, &format!("{what}, radius"))?;
+    if radius <= 0.0 {
+        let message = format!("{what}: the radius must be positive, is {radius}");
+        return Err(reader
+            .source
+            .diagnostic_at(circle.radius.span(), message)
+            .help("give a radius above 0, in metres, or leave the obstacle out"));
+    }
+    Ok((Shape::Circle { center, radius }, vec![Convex::trusted(vec![center], radius)]))
+}

@@ -1,0 +1,155 @@
+//! The YAML beside a picture.
+
+use super::Occupancy;
+use super::picture::Shade;
+use crate::error::{Diagnostic, quoted};
+use crate::source::Source;
+use crate::world::LARGEST;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use serde_saphyr::Spanned;
+use std::collections::BTreeMap;
+
+/// As the file has it.
+#[derive(Deserialize)]
+struct File {
+    image: Spanned<String>,
+    resolution: Spanned<f64>,
+    origin: Spanned<Vec<f64>>,
+    negate: Spanned<Negate>,
+    occupied_thresh: Spanned<f64>,
+    free_thresh: Spanned<f64>,
+    mode: Option<Spanned<String>>,
+}
+
+/// The keys that are read; other programs add their own.
+const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
+
+/// Darkness that ROS's map savers give to cells that nobody has seen, of 255: the shade 205. They write it whatever
+/// `free_thresh` is, and write `free_thresh: 0.25` beside it, by which it would be free.
+const UNSEEN: f64 = 50.0;
+
+/// ROS writes 0 or 1, people also false or true.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Negate {
+    Word(bool),
+    Number(i64),
+    Neither(serde::de::IgnoredAny),
+}
+
+/// How a picture becomes a map: valid.
+pub(super) struct Description {
+    pub image: Spanned<String>,
+    pub resolution: f64,
+    pub origin: [f64; 3],
+    negate: bool,
+    occupied: f64,
+    free: f64,
+    /// Keys that are not read.
+    unused: Vec<String>,
+}
+
+impl Description {
+    pub fn read(source: &Source) -> Result<Self, Diagnostic> {
+        let file: File = serde_saphyr::from_str(&source.text).map_err(|error| {
+            source
+                .yaml_diagnostic(&error)
+                .help("a map of ROS's map server needs image, resolution, origin, negate, occupied_thresh, free_thresh")
+        })?;
+        let keys: BTreeMap<String, IgnoredAny> = serde_saphyr::from_str(&source.text).unwrap_or_default();
+        let unused = keys.into_keys().filter(|key| !KEYS.contains(&key.as_str())).collect();
+        let resolution = file.resolution.value;
+        if !(resolution > 0.0 && resolution <= LARGEST) {
+            let message = format!("resolution: {resolution} is no length of a pixel's side");
+            return Err(diagnostic(source, &file.resolution, message).help("give metres a pixel, such as 0.05"));
+        }
+        let origin = <[f64; 3]>::try_from(file.origin.value.as_slice()).map_err(|_| {
+            let message = format!("origin: expected three numbers, found {}", file.origin.value.len());
+            diagnostic(source, &file.origin, message).help("origin: [x, y, yaw], metres and radians")
+        })?;
+        if let Some(bad) = origin.iter().find(|v| v.is_nan() || v.abs() > LARGEST) {
+            let message = format!("origin: {bad} is not finite, or too large (at most {LARGEST:e})");
+            let help = format!("origin: [x, y, yaw], metres and radians, from -{LARGEST:e} to {LARGEST:e}");
+            return Err(diagnostic(source, &file.origin, message).help(help));
+        }
+        let negate = match file.negate.value {
+            Negate::Word(negate) => negate,
+            Negate::Number(0) => false,
+            Negate::Number(1) => true,
+            Negate::Number(_) | Negate::Neither(_) => {
+                return Err(diagnostic(source, &file.negate, "negate: it is neither 0 nor 1")
+                    .help("0 if dark is occupied, 1 if light is"));
+            }
+        };
+        for (key, threshold) in [("occupied_thresh", &file.occupied_thresh), ("free_thresh", &file.free_thresh)] {
+            if !(0.0..=1.0).contains(&threshold.value) {
+                let message = format!("{key}: {} is not between 0 and 1", threshold.value);
+                return Err(diagnostic(source, threshold, message).help("ROS's usual values are 0.65 and 0.196"));
+            }
+        }
+        let (occupied, free) = (file.occupied_thresh.value, file.free_thresh.value);
+        if free > occupied {
+            let message = format!("free_thresh: {free} is above occupied_thresh, {occupied}");
+            return Err(diagnostic(source, &file.free_thresh, message).help("ROS's usual values are 0.65 and 0.196"));
+        }
+        match &file.mode {
+            Some(mode) if mode.value == "raw" => {
+                return Err(diagnostic(
+                    source,
+                    mode,
+                    "mode: raw has costs for values, which do not say what is occupied",
+                )
+                .help("save the map with mode trinary or scale, whose shades do (map_saver_cli --mode trinary)"));
+            }
+            Some(mode) if mode.value != "trinary" && mode.value != "scale" => {
+                return Err(diagnostic(source, mode, format!("mode: \"{}\" is unknown", mode.value))
+                    .help("use trinary or scale, or leave it out"));
+            }
+            _ => {}
+        }
+        Ok(Self { image: file.image, resolution, origin, negate, occupied, free, unused })
+    }
+
+    /// Darkness of a shade, from 0 to that of white.
+    fn dark(&self, Shade { value, white }: Shade) -> f64 {
+        if self.negate { value } else { white - value }
+    }
+
+    /// Whether a shade is the one of cells that nobody has seen. Whole numbers, without rounding.
+    fn is_unseen(&self, shade: Shade) -> bool {
+        self.dark(shade) * 255.0 == UNSEEN * shade.white
+    }
+
+    /// What a shade, from 0 for black to that of white, says of its cell; none is of a pixel that one can see through. Of whole numbers the
+    /// quotient that is held against the thresholds is rounded as they are, so that it is no less than one that it equals.
+    pub fn judge(&self, shade: Option<Shade>) -> Occupancy {
+        match shade.map(|shade| (self.dark(shade) / shade.white, self.is_unseen(shade))) {
+            Some((p, _)) if p > self.occupied => Occupancy::Occupied,
+            Some((p, false)) if p < self.free => Occupancy::Free,
+            _ => Occupancy::Unknown,
+        }
+    }
+
+    /// What to say of a map, which has unknown cells or not.
+    pub fn notes(&self, has_unknown: bool) -> Vec<String> {
+        let mut notes = Vec::new();
+        if !self.unused.is_empty() {
+            notes.push(format!("keys that are not used: {}", quoted(&self.unused)));
+        }
+        if has_unknown && self.free > UNSEEN / 255.0 {
+            notes.push(format!(
+                "shade {} counts as unknown, as ROS's map savers mean it, though free_thresh {} would make it free; to take what \
+                 is unknown for free, write unknown = \"free\" in the world file",
+                if self.negate { 50 } else { 205 },
+                self.free
+            ));
+        }
+        notes
+    }
+}
+
+/// A diagnostic where the value is.
+fn diagnostic<T>(source: &Source, value: &Spanned<T>, message: impl Into<String>) -> Diagnostic {
+    source.diagnostic_at_position(value.referenced.line() as usize, value.referenced.column() as usize, message)
+}

@@ -1,0 +1,141 @@
+//! Occupancy maps: a picture of a place from above, described by the YAML of ROS's map server.
+//!
+//! ```yaml
+//! image: room.pgm
+//! resolution: 0.05
+//! origin: [-1.0, -2.0, 0.0]
+//! negate: 0
+//! occupied_thresh: 0.65
+//! free_thresh: 0.196
+//! ```
+
+mod description;
+mod pgm;
+mod picture;
+mod png;
+mod rectangles;
+
+pub use rectangles::{PixelRectangle, rectangles};
+
+use super::error::{Diagnostic, InputError};
+use super::source::{Source, read_bounded};
+use super::world::LARGEST;
+use cplan_geometry::{Convex, Point, Pose};
+use description::Description;
+use nalgebra::{Isometry2, Vector2};
+use picture::Broken;
+use std::path::Path;
+
+/// What a map says of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Occupancy {
+    /// Nothing is there.
+    Free,
+    /// Something is there.
+    Occupied,
+    /// Nobody has looked, or the picture does not say.
+    Unknown,
+}
+
+/// An occupancy map in the plane.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OccupancyMap {
+    /// Number of cells along the picture's width and height.
+    pub size: [usize; 2],
+    /// Side of a cell, metres.
+    pub resolution: f64,
+    /// Where the lower left corner of the picture lies, and how the picture is turned about it.
+    pub pose: Pose,
+    /// Row by row as in the picture: from the top, from the left.
+    pub cells: Vec<Occupancy>,
+    /// What the user should know of how the description was read.
+    pub notes: Vec<String>,
+}
+
+impl OccupancyMap {
+    /// Reads a description and the picture that it names, relative to itself: PGM (P2, P5; 8 or 16 bits) or PNG.
+    ///
+    /// With `p = 1 - shade` (`p = shade` with `negate`), where black is 0 and white is 1, a cell is occupied if `p >
+    /// occupied_thresh`, free if `p < free_thresh`, and else unknown, in the modes `trinary` and `scale`, which for an obstacle
+    /// are the same. Except the shade that ROS's map savers give to cells that nobody has seen, 205 of 255 (50 with `negate`): it is
+    /// unknown also where `free_thresh` is above its `p` of 0.196. The mode `raw` is refused: its values are costs. Colours are averaged; what is not opaque is unknown.
+    ///
+    /// # Errors
+    /// For a description that is not as above, a picture that is broken, of another format or of more than [`MOST_CELLS`], and
+    /// a place farther off than the program computes with.
+    pub fn read(yaml: &Path) -> Result<Self, InputError> {
+        let source = Source::read(yaml)?;
+        let description = Description::read(&source)?;
+        let image = &description.image;
+        let path = yaml.with_file_name(&image.value);
+        let (line, column) = (image.referenced.line() as usize, image.referenced.column() as usize);
+        if !path.is_file() {
+            let message = format!("there is no file {}", path.display());
+            let help = "name the picture relative to this file";
+            return Err(source.diagnostic_at_position(line, column, message).help(help).into());
+        }
+        let broken = |Broken { message, help }: Broken| Diagnostic::new(path.display().to_string(), message).help(help);
+        let bytes = read_bounded(&path)
+            .map_err(|e| broken(Broken::new(format!("cannot be read: {e}"), "check the file's permissions")))?;
+        let picture = picture::read(&bytes, &|shade| description.judge(shade)).map_err(broken)?;
+        let size = [picture.width, picture.height];
+        let [x, y, yaw] = description.origin;
+        let extent = size[0].max(size[1]) as f64 * description.resolution;
+        if x.abs().max(y.abs()) + 2.0 * extent > LARGEST {
+            let message = format!(
+                "a picture of {} x {} pixels with a resolution of {} m reaches farther than {LARGEST:e} m",
+                size[0], size[1], description.resolution
+            );
+            return Err(source
+                .diagnostic(message)
+                .help(format!("the resolution is in metres a pixel, and a map may reach {LARGEST:e} m"))
+                .into());
+        }
+        let pose = Isometry2::new(Vector2::new(x, y), yaw);
+        let notes = description.notes(picture.cells.contains(&Occupancy::Unknown));
+        Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells, notes })
+    }
+
+    /// What the map says of a place; none beyond the picture. A cell has its lower and left side, not the others.
+    #[must_use]
+    pub fn at(&self, place: Point) -> Option<Occupancy> {
+        let cell = self.pose.inverse_transform_point(&place) / self.resolution;
+        let [width, height] = self.size;
+        if cell.x < 0.0 || cell.y < 0.0 || cell.x >= width as f64 || cell.y >= height as f64 {
+            return None;
+        }
+        Some(self.cells[(height - 1 - cell.y as usize) * width + cell.x as usize])
+    }
+
+    /// What is solid as rectangles with disjoint interiors: the occupied cells, and the unknown ones unless they count as
+    /// `unknown_is_free`. As many as [`rectangles`] makes; none if these are more than `most`. Corners that cells share are the
+    /// same points.
+    #[must_use]
+    pub fn pieces(&self, unknown_is_free: bool, most: usize) -> Option<Vec<Convex>> {
+        let is_solid = |cell: usize| match self.cells[cell] {
+            Occupancy::Free => false,
+            Occupancy::Occupied => true,
+            Occupancy::Unknown => !unknown_is_free,
+        };
+        self.rectangles_of(is_solid, most)
+    }
+
+    /// Some cells as rectangles with disjoint interiors, as [`OccupancyMap::pieces`].
+    pub fn rectangles_of(&self, is_among: impl Fn(usize) -> bool, most: usize) -> Option<Vec<Convex>> {
+        let [width, height] = self.size;
+        let corner = |x: usize, y: usize| {
+            self.pose * Point::new(x as f64 * self.resolution, (height - y) as f64 * self.resolution)
+        };
+        let piece = |r: &PixelRectangle| {
+            let ([left, right], [top, bottom]) = (r.columns, r.rows);
+            Convex::trusted(
+                vec![corner(left, bottom), corner(right, bottom), corner(right, top), corner(left, top)],
+                0.0,
+            )
+        };
+        Some(rectangles(self.size, |x, y| is_among(y * width + x), most)?.iter().map(piece).collect())
+    }
+}
+
+/// Cells of the largest picture that is read.
+pub const MOST_CELLS: usize = 1 << 26;

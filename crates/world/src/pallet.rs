@@ -1,0 +1,203 @@
+//! The world file's `[[pallet]]`: places in rows and columns.
+
+use super::error::{Diagnostic, quoted};
+use super::quantity::Written;
+use super::schema::{AngleOrLength, Two};
+use super::world::{Numbers, Reader};
+use cplan_geometry::{Point, Pose};
+use nalgebra::{Isometry2, Point2, Translation2};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Spanned;
+
+/// Places in rows and columns, for objects to lie on and to be placed on: "NAME 1,1", "NAME 1,2", and so on, row and column
+/// from 1.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "pallet")]
+pub(super) struct PalletTable {
+    /// A name that no other pallet has.
+    #[schemars(with = "String")]
+    name: Spanned<String>,
+    /// How many rows.
+    #[schemars(with = "i64", range(min = 1))]
+    rows: Spanned<i64>,
+    /// How many places in a row.
+    #[schemars(with = "i64", range(min = 1))]
+    columns: Spanned<i64>,
+    /// From one column to the next, along the pallet's x, and from one row to the next, along its y, m; may be negative.
+    #[schemars(with = "Two")]
+    pitch: Numbers,
+    /// Where the place of row 1 and column 1 is, m.
+    #[schemars(with = "Two")]
+    at: Numbers,
+    /// How the pallet is turned about that place, rad; by default 0. Objects on it turn with it.
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
+}
+
+/// Places of one pallet, at most: more than any machine has.
+const MOST_PLACES: usize = 10_000;
+
+/// Significant digits of places, of the largest number that they are made of: so they are the decimals that people would write.
+const DIGITS: i32 = 15;
+
+/// A grid of places.
+#[derive(Debug, Clone)]
+pub(super) struct Pallet {
+    rows: usize,
+    columns: usize,
+    /// Of row 1 and column 1, turned as the pallet is.
+    origin: Pose,
+    /// By column and by row.
+    pitch: [f64; 2],
+}
+
+impl Pallet {
+    /// How many places it has.
+    pub fn count(&self) -> usize {
+        self.rows * self.columns
+    }
+
+    /// All places, row by row: each with its row and column, as names have them, and its pose.
+    pub fn places(&self) -> impl Iterator<Item = (String, Pose)> + '_ {
+        (0..self.rows).flat_map(move |row| {
+            (0..self.columns).map(move |column| {
+                let offset = Point2::new(column as f64 * self.pitch[0], row as f64 * self.pitch[1]);
+                let largest = self.origin.translation.vector.amax().max(offset.coords.amax());
+                let at = (self.origin * offset).map(|x| rounded(x, largest));
+                let pose = Translation2::from(at) * self.origin.rotation;
+                (format!("{},{}", row + 1, column + 1), pose)
+            })
+        })
+    }
+}
+
+/// A sum of numbers that are at most as large as `largest`, without what rounding adds.
+fn rounded(sum: f64, largest: f64) -> f64 {
+    let before = largest.log10().ceil().clamp(-300.0, 300.0) as i32;
+    let decimals = usize::try_from(DIGITS - before).unwrap_or(0);
+    format!("{sum:.decimals$}").parse().unwrap_or(sum) + 0.0
+}
+
+/// All pallets by name.
+#[derive(Default)]
+pub(super) struct Pallets<'a> {
+    by_name: BTreeMap<&'a str, Pallet>,
+    /// Where the place of a name is.
+    places: BTreeMap<String, Point>,
+}
+
+impl<'a> Pallets<'a> {
+    /// # Errors
+    /// On two of one name, on none or too many places, and on places that coincide.
+    pub fn read(reader: &Reader, tables: &'a [Spanned<PalletTable>]) -> Result<Self, Diagnostic> {
+        let mut pallets = Self::default();
+        for table in tables.iter().map(Spanned::get_ref) {
+            let name = table.name.get_ref().as_str();
+            let pallet = table.pallet(reader)?;
+            let places =
+                pallet.places().map(|(place, pose)| (format!("{name} {place}"), pose.translation.vector.into()));
+            pallets.places.extend(places);
+            if pallets.by_name.insert(name, pallet).is_some() {
+                let diagnostic =
+                    reader.source.diagnostic_at(table.name.span(), format!("a second pallet is named \"{name}\""));
+                return Err(diagnostic.help("objects and steps refer to pallets by name: give each a name of its own"));
+            }
+        }
+        Ok(pallets)
+    }
+
+    /// The pallet of this name.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn named(&self, reader: &Reader, name: &Spanned<String>) -> Result<&Pallet, Diagnostic> {
+        let wanted = name.get_ref().as_str();
+        self.by_name.get(wanted).ok_or_else(|| {
+            let diagnostic = reader.source.diagnostic_at(name.span(), format!("there is no pallet \"{wanted}\""));
+            diagnostic.help(self.names())
+        })
+    }
+
+    /// Where the place of this name is: `tray 2,3`.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn place(&self, reader: &Reader, name: &Spanned<String>) -> Result<Point, Diagnostic> {
+        let wanted = name.get_ref().as_str();
+        if let Some(place) = self.places.get(wanted) {
+            return Ok(*place);
+        }
+        let of = |name: &str| wanted.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
+        let help = match self.by_name.iter().find(|(name, _)| of(name)) {
+            Some((name, Pallet { rows, columns, .. })) => format!(
+                "pallet \"{name}\" has rows 1 to {rows} and columns 1 to {columns}: \"{name} 1,1\" to \"{name} {rows},{columns}\""
+            ),
+            None => self.names(),
+        };
+        let message = format!("there is no place \"{wanted}\" on a pallet");
+        Err(reader.source.diagnostic_at(name.span(), message).help(help))
+    }
+
+    fn names(&self) -> String {
+        match self.by_name.is_empty() {
+            true => "give the world a [[pallet]] of this name".into(),
+            false => format!("the pallets are {}", quoted(self.by_name.keys().copied())),
+        }
+    }
+}
+
+impl PalletTable {
+    fn pallet(&self, reader: &Reader) -> Result<Pallet, Diagnostic> {
+        let what = format!("pallet \"{}\"", self.name.get_ref());
+        let counted = |number: &Spanned<i64>, of: &str| {
+            usize::try_from(*number.get_ref()).ok().filter(|count| *count > 0).ok_or_else(|| {
+                let message = format!("{what}: {of} must be 1 or more, is {}", number.get_ref());
+                reader.source.diagnostic_at(number.span(), message).help("a single row or column counts as 1")
+            })
+        };
+        let (rows, columns) = (counted(&self.rows, "rows")?, counted(&self.columns, "columns")?);
+        if rows.saturating_mul(columns) > MOST_PLACES {
+            let message = format!("{what} has {} places (at most {MOST_PLACES})", rows.saturating_mul(columns));
+            return Err(reader.source.diagnostic_at(self.rows.span(), message).help("give it fewer rows or columns"));
+        }
+        let pitch = reader.two(&self.pitch, &format!("{what}, pitch"))?;
+        for (pitch, count, along) in [(pitch[0], columns, "column"), (pitch[1], rows, "row")] {
+            if count > 1 && pitch == 0.0 {
+                let message =
+                    format!("{what}, pitch: places would lie on each other, as a {along} is 0 m from the next");
+                return Err(reader
+                    .source
+                    .diagnostic_at(self.pitch.span(), message)
+                    .help("pitch = [by column, by row], m"));
+            }
+        }
+        let at = reader.point(&self.at, &format!("{what}, at"))?;
+        let angle =
+            self.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
+        Ok(Pallet { rows, columns, origin: Isometry2::new(at.coords, angle), pitch })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The last place of two rows and two columns.
+    fn last(at: [f64; 2], pitch: [f64; 2], angle: f64) -> Point {
+        let pallet = Pallet { rows: 2, columns: 2, origin: Pose::new(Point::from(at).coords, angle), pitch };
+        pallet.places().last().unwrap().1.translation.vector.into()
+    }
+
+    #[test]
+    fn places_are_decimals_that_people_write() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        assert_eq!(last([0.1, 0.7], [0.2, 0.1], 0.0), Point::new(0.3, 0.8));
+        assert_eq!(last([0.3, -0.3], [0.3, 0.3], quarter), Point::new(0.0, 0.0));
+        // Those of the smallest and the largest arms too.
+        assert_eq!(last([1.2345678901e-5, 0.0], [1e-6, 0.0], 0.0), Point::new(1.3345678901e-5, 0.0));
+        assert_eq!(last([1234.5678901234, 0.0], [0.1, 0.0], 0.0), Point::new(1234.6678901234, 0.0));
+    }
+}

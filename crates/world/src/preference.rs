@@ -1,0 +1,90 @@
+//! The world file's `[[preference]]`.
+
+use super::error::Diagnostic;
+use super::polygon::{Ring, simple_polygon};
+use super::schema::{Corners, Two};
+use super::world::{Number, Numbers, Reader};
+use cplan_core::model::{Preference, Region};
+use cplan_geometry::SimplePolygon;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// A region that field planners prefer or avoid: where the tip is, or a region in joint space. Where several overlap the last one counts.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "preference", extend("oneOf" = [{ "required": ["configurations"] }, { "required": ["polygon"] }]))]
+pub(super) struct PreferenceTable {
+    /// For messages and pictures.
+    name: Option<String>,
+    /// Strength per grid cell; fields bvp and bvp2 avoid a region above 0 and seek one below.
+    #[schemars(with = "f64")]
+    epsilon: Number,
+    /// Direction in joint space, of any length, for the field local.
+    #[schemars(with = "Option<Two>")]
+    direction: Option<Numbers>,
+    /// Corners of a region in joint space, rad or m.
+    #[schemars(with = "Option<Corners>")]
+    configurations: Option<Ring>,
+    /// Corners of the region where the tip is, m.
+    #[schemars(with = "Option<Corners>")]
+    polygon: Option<Ring>,
+}
+
+/// Widest region in configurations, radians or metres: it is looked up copy by copy on a circle.
+const WIDEST: f64 = 100.0;
+
+/// Help for regions that are no simple polygons.
+const ORDERED: &str = "list the corners in order round the region, each once";
+
+impl PreferenceTable {
+    /// The preference, the `index`-th of its file.
+    ///
+    /// # Errors
+    /// On values that are not finite, a direction without length, and not exactly one region, which is a simple polygon.
+    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Preference, Diagnostic> {
+        let given = table.get_ref();
+        let name = given.name.clone().unwrap_or_else(|| format!("preference {}", index + 1));
+        let what = format!("preference \"{name}\"");
+        let epsilon = reader.finite(&given.epsilon, &format!("{what}, epsilon"))?;
+        let direction = given.direction.as_ref().map(|d| direction(reader, d, &what)).transpose()?;
+        let region = match (&given.configurations, &given.polygon) {
+            (Some(corners), None) => Region::Configurations(configurations(reader, corners, &what)?),
+            (None, Some(corners)) => Region::Tip(simple_polygon(reader, corners, &what, ORDERED)?),
+            (configurations, _) => {
+                let found = if configurations.is_some() { "both" } else { "neither" };
+                let message = format!("{what} needs either `configurations` or `polygon`, it has {found}");
+                let help = "configurations = [[q1, q2], ...] in joint values, or polygon = [[x, y], ...] for the tip";
+                return Err(reader.source.diagnostic_at(table.span(), message).help(help));
+            }
+        };
+        Ok(Preference { name, region, epsilon, direction })
+    }
+}
+
+fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
+    let vector = reader.two(numbers, &format!("{what}, direction"))?;
+    let length = vector[0].hypot(vector[1]);
+    // Below the square root of the least normal number its components would lose their digits.
+    if length < 1e-150 {
+        let diagnostic = reader.source.diagnostic_at(numbers.span(), format!("{what}: the direction has no length"));
+        return Err(diagnostic.help("direction = [q1, q2], such as [1, 0]; leave it out where there is none"));
+    }
+    Ok(vector.map(|x| x / length))
+}
+
+fn configurations(reader: &Reader, corners: &Ring, what: &str) -> Result<SimplePolygon, Diagnostic> {
+    let polygon = simple_polygon(reader, corners, what, ORDERED)?;
+    let is_wide = |k: usize| {
+        let values = || polygon.corners().iter().map(|corner| corner[k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min) > WIDEST
+    };
+    if is_wide(0) || is_wide(1) {
+        let message = format!("{what} is too wide (at most {WIDEST} in joint values)");
+        return Err(reader
+            .source
+            .diagnostic_at(corners.span(), message)
+            .help("angles are radians; circles repeat themselves"));
+    }
+    Ok(polygon)
+}

@@ -1,0 +1,78 @@
+//! Preference files: a `2D-Map` file of goal rectangles and of rectangles that a field planner prefers or avoids.
+//!
+//! ```text
+//! 2D-Map
+//! LineMinPos: -1000 -1000
+//! LineMaxPos: 1000 1000
+//! NumGoal: 1
+//! GOAL
+//! 400 400 500 500
+//! NumPoint: 1
+//! POINTS
+//! -200 -200 200 200 0.5
+//! END
+//! ```
+
+use super::error::InputError;
+use super::map_text::MapText;
+use cplan_geometry::Point;
+use std::path::Path;
+
+/// A preference file in its own unit, by custom the millimetre.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreferenceMap {
+    /// `LineMinPos` and `LineMaxPos`: lower left and upper right corner; all rectangles lie within. They need not be those
+    /// of the line map.
+    pub bounds: [Point; 2],
+    /// The goal: lower left and upper right corner. It may be a point.
+    pub goal: [Point; 2],
+    /// In the order of the file.
+    pub rectangles: Vec<PreferenceRectangle>,
+}
+
+/// A rectangle that is preferred or avoided.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PreferenceRectangle {
+    /// Lower left and upper right corner; it has an area.
+    pub corners: [Point; 2],
+    /// Strength of the preference: the field equation's epsilon there.
+    pub epsilon: f64,
+}
+
+impl PreferenceMap {
+    /// Reads a file. Rectangles may be given by any two opposite corners.
+    ///
+    /// # Errors
+    /// As [`super::LineMap::read`]; likewise without exactly one goal, or with a preference rectangle without area.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let mut text = MapText::read(path)?;
+        let bounds = text.bounds()?;
+        let (count, at) = text.count("NumGoal")?;
+        if count != 1 {
+            let diagnostic = text.source.diagnostic_at(at, format!("NumGoal is {count}, but a plan has one goal"));
+            return Err(diagnostic.help("keep one goal rectangle").into());
+        }
+        text.word("GOAL")?;
+        let goal = text.numbers::<4>("the goal rectangle")?;
+        let goal = ordered(text.corners(&goal.values, &goal.at, &bounds)?);
+        let announced = text.count("NumPoint")?;
+        text.word("POINTS")?;
+        let list = text.list::<5>(announced, "NumPoint", "a rectangle and its epsilon", "END")?;
+        text.end()?;
+        let mut rectangles = Vec::with_capacity(list.len());
+        for line in list {
+            let corners = ordered(text.corners(&line.values, &line.at, &bounds)?);
+            if (0..2).any(|k| corners[0][k] == corners[1][k]) {
+                let diagnostic = text.source.diagnostic_at(line.at, "the rectangle has no area");
+                return Err(diagnostic.help("give two opposite corners").into());
+            }
+            rectangles.push(PreferenceRectangle { corners, epsilon: line.values[4] });
+        }
+        Ok(Self { bounds, goal, rectangles })
+    }
+}
+
+/// Lower left and upper right corner of the rectangle with these opposite corners.
+fn ordered([a, b]: [Point; 2]) -> [Point; 2] {
+    [a.inf(&b), a.sup(&b)]
+}

@@ -1,0 +1,211 @@
+//! Start and goal: within the limits, free, and for a goal of the tip every IK solution that reaches it.
+
+use super::error::{Diagnostic, DiagnosticKind, InputError};
+use super::reasons::{
+    HELP_FOR_LIMITS, beyond_limits, describe, describe_segment, help_at, help_for_ik_solutions, help_for_reach,
+    obstructions, out_of_reach, within_limits,
+};
+use super::{Loaded, LoadedScene, Overrides};
+use cplan_core::model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, inverse};
+use cplan_core::space::{Configuration, GoalSet, Segment};
+use cplan_geometry::Point;
+use cplan_text::{first_lines, listed};
+use std::ops::Range;
+
+/// Where a value was given: on the command line, or in the world file.
+pub(super) enum Place<'a> {
+    Option(&'static str),
+    World(&'a LoadedScene, Range<usize>),
+}
+
+impl Place<'_> {
+    pub(super) fn diagnostic(&self, message: String) -> Diagnostic {
+        match self {
+            Place::Option(name) => Diagnostic::new(*name, message),
+            Place::World(loaded, at) => loaded.world.source.diagnostic_at(at.clone(), message),
+        }
+    }
+}
+
+impl LoadedScene {
+    /// Puts start and goal into the scene: the command line's, else the world file's.
+    ///
+    /// # Errors
+    /// When the world has steps; when either is missing, outside the joint limits, in contact with an obstacle or nearer to one than the
+    /// clearance, or when no IK solution puts the tip at the goal. The message says which link hits which obstacle and how
+    /// deep.
+    pub fn problem(self, overrides: &Overrides) -> Result<Loaded, InputError> {
+        if self.has_steps() {
+            return Err(self.has_no_goal(overrides).into());
+        }
+        let loaded = self.keeping(overrides.clearance)?;
+        let mut notes = loaded.world.notes.clone();
+        let (start, place) = loaded.start(overrides, &mut notes)?;
+        let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
+        is_free.map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
+        let about = |diagnostic: Diagnostic| diagnostic.about(DiagnosticKind::Goal);
+        let (goal, place) = loaded.goal(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
+        let goals = match goal {
+            Goal::Joints(q) => {
+                let q = loaded.at_limits("the goal", q, &mut notes);
+                loaded.require("the goal", q, &place).map_err(about)?;
+                GoalSet::from(q)
+            }
+            Goal::Tip(tip) => loaded.ik_solutions(tip, start, &place, &mut notes).map_err(about)?,
+        };
+        Ok(Loaded { problem: MotionProblem::trusted(loaded.scene, start, goals), robot: loaded.robot, notes })
+    }
+
+    pub(super) fn goal(&self, overrides: &Overrides) -> Result<(Goal, Place<'_>), InputError> {
+        match (&overrides.goal, &overrides.goal_tip) {
+            (Some(_), Some(_)) => {
+                let diagnostic = Diagnostic::new("--goal and --goal-tip", "both give a goal");
+                return Err(diagnostic.help("give one of them").into());
+            }
+            (Some(values), None) => {
+                let q = values.resolve(&self.scene.arm().joints, "--goal")?;
+                return Ok((Goal::Joints(q), Place::Option("--goal")));
+            }
+            (None, Some(tip)) => return Ok((Goal::Tip(tip.0), Place::Option("--goal-tip"))),
+            (None, None) => {}
+        }
+        match &self.world.goal {
+            Some((goal, at)) => Ok((*goal, Place::World(self, at.clone()))),
+            None => {
+                let help =
+                    "[goal] joints = [q1, q2] or tip = [x, y] in the world file, or --goal q1,q2, or --goal-tip x,y";
+                Err(self.missing("goal", help).into())
+            }
+        }
+    }
+
+    /// The diagnostic of asking for the goal of a world that has steps.
+    pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Diagnostic {
+        let message = "this world has steps, not a goal";
+        let option = match (&overrides.goal, &overrides.goal_tip) {
+            (Some(_), _) => "--goal",
+            (None, Some(_)) => "--goal-tip",
+            (None, None) => {
+                let at = self.world.steps.as_ref().map_or(0..0, |steps| steps.at.clone());
+                let help = "only `cplan ROBOT WORLD` plans steps; for other commands put a [goal] in their place";
+                return self.world.source.diagnostic_at(at, message).help(help);
+            }
+        };
+        Diagnostic::new(option, message).help("leave the option out, or remove the steps from the world")
+    }
+
+    pub(super) fn missing(&self, what: &str, help: &str) -> Diagnostic {
+        self.world.source.diagnostic(format!("there is no {what}")).help(help)
+    }
+
+    /// Refuses a configuration outside the limits or not free.
+    pub(super) fn require(&self, what: &str, q: Configuration, place: &Place) -> Result<(), Diagnostic> {
+        let outside = beyond_limits(&self.scene, q);
+        if !outside.is_empty() {
+            let message = format!("{what} is outside the joint limits: {}", outside.join("; "));
+            return Err(place.diagnostic(message).help(HELP_FOR_LIMITS));
+        }
+        let hits = obstructions(&self.scene, q);
+        if !hits.is_empty() {
+            let message = format!("{what} ({}) is not free: {}", describe(&self.scene, q), listed(&hits));
+            return Err(place.diagnostic(message).help(help_at(&self.scene, q)));
+        }
+        Ok(())
+    }
+
+    /// Whether an obstacle has a motion.
+    pub(super) fn has_movers(&self) -> bool {
+        !self.scene.workspace().movers.is_empty()
+    }
+
+    /// Refuses what moves, for all that knows no time: `what` says so.
+    ///
+    /// # Errors
+    /// When an obstacle has a motion.
+    pub fn require_standing(&self, what: &str) -> Result<(), InputError> {
+        let Some(mover) = self.scene.workspace().movers.first() else { return Ok(()) };
+        let message = format!("{what}, and obstacle \"{}\" moves", mover.obstacle.name);
+        let help = "remove its motion; motions and tasks are planned, verified and checked among what moves";
+        Err(self.world.source.diagnostic(message).help(help).into())
+    }
+
+    /// Refuses a start where something that moves is at first.
+    pub(super) fn require_clear(&self, start: Configuration, place: &Place) -> Result<(), Diagnostic> {
+        let hits = self.scene.obstructions_at(start, 0.0);
+        if hits.is_empty() {
+            return Ok(());
+        }
+        let hits: Vec<String> = hits.iter().map(|hit| self.scene.explain(hit)).collect();
+        let message = format!(
+            "the start ({}) is not free when the motion begins: {}",
+            describe(&self.scene, start),
+            listed(&hits)
+        );
+        Err(place.diagnostic(message).help("let the motion of the obstacle begin elsewhere, or choose another start"))
+    }
+
+    /// Every IK solution that puts the tip at `tip`, within the limits, but for those that are proven not to be free.
+    fn ik_solutions(
+        &self,
+        tip: Point,
+        start: Configuration,
+        place: &Place,
+        notes: &mut Vec<String>,
+    ) -> Result<GoalSet, Diagnostic> {
+        let scene = &self.scene;
+        let solved = inverse(scene.arm(), tip, start);
+        let at = format!("({}, {})", tip.x, tip.y);
+        if solved.branches.is_empty() {
+            return Err(place.diagnostic(out_of_reach(scene, "the goal", tip)).help(help_for_reach(scene, tip)));
+        }
+        notes.extend(solved.free.map(|free| freedom(scene, &at, free)));
+        let (allowed, outside) = within_limits(scene, &solved);
+        let (mut goals, mut blocked) = (Vec::new(), Vec::new());
+        for piece in allowed {
+            match blocked_all_along(scene, &piece) {
+                Some(reasons) => blocked.extend(reasons),
+                None => goals.push(piece),
+            }
+        }
+        if goals.is_empty() {
+            let help = help_for_ik_solutions(scene, !outside.is_empty(), !blocked.is_empty());
+            let reasons = listed(&[outside, blocked].concat());
+            let message = format!("no IK solution that puts the tip at {at} is allowed and free: {reasons}");
+            return Err(place.diagnostic(message).help(help));
+        }
+        let ruled_out = |reason: String| format!("an IK solution with the tip at {at} is ruled out: {reason}");
+        let reasons = outside.into_iter().chain(blocked).map(ruled_out).collect();
+        notes.extend(first_lines(reasons, |more| format!("and so are {more} more")));
+        Ok(goals.into_iter().collect())
+    }
+}
+
+/// What is free when the tip is at a place, in words.
+fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
+    let name = |joint: usize| &scene.arm().joints[joint].name;
+    match free {
+        Freedom::Joint(joint) => {
+            format!("the tip is at {at} whatever the value of joint \"{}\": any that is free will do", name(joint))
+        }
+        Freedom::Share => format!(
+            "joints \"{}\" and \"{}\" turn about one axis: the tip is at {at} however they share the angle, and any free \
+             way to share it will do",
+            name(0),
+            name(1)
+        ),
+        Freedom::Both => format!("the tip is always at {at}: the goal is the start"),
+    }
+}
+
+/// Why none of a segment is free, in words, stretch by stretch; none unless that is proven.
+fn blocked_all_along(scene: &Scene, piece: &Segment) -> Option<Vec<String>> {
+    if piece.is_point() {
+        let [q, _] = piece.ends();
+        let hits = obstructions(scene, q);
+        return (!hits.is_empty()).then(|| vec![format!("({}): {}", describe(scene, q), listed(&hits))]);
+    }
+    let reason = |blocked: &BlockedStretch| {
+        format!("({}): {}", describe_segment(scene, &blocked.stretch), scene.explain(&blocked.obstruction))
+    };
+    Some(scene.blocked_along(piece)?.iter().map(reason).collect())
+}

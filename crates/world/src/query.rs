@@ -1,0 +1,52 @@
+//! What is asked, also where start or goal is not free: for explaining why.
+
+use super::error::{DiagnosticKind, InputError};
+use super::{LoadedScene, Overrides, RobotReport};
+use cplan_core::model::{Goal, Scene};
+use cplan_core::space::Configuration;
+
+/// Scene, start and goal, and how they were read.
+#[derive(Debug, Clone)]
+pub struct Query {
+    /// The arm among its obstacles.
+    pub scene: Scene,
+    /// Where the arm begins, free or not.
+    pub start: Configuration,
+    /// Where it is to go, whether or not it can be there.
+    pub goal: Goal,
+    /// How the robot was read.
+    pub robot: RobotReport,
+    /// What the user should know of how the world was read.
+    pub notes: Vec<String>,
+}
+
+impl LoadedScene {
+    /// Puts start and goal into the scene as [`LoadedScene::problem`] does, but looks neither at limits nor at obstacles.
+    ///
+    /// # Errors
+    /// When the world has steps; when start or goal is missing, or a start of the tip is not reached by just one IK solution.
+    pub fn query(self, overrides: &Overrides) -> Result<Query, InputError> {
+        if self.has_steps() {
+            return Err(self.has_no_goal(overrides).into());
+        }
+        let loaded = self.keeping(overrides.clearance)?;
+        let mut notes = loaded.world.notes.clone();
+        let (start, _) = loaded.start(overrides, &mut notes)?;
+        let (goal, _) = loaded.goal(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
+        let goal = match goal {
+            Goal::Joints(q) => Goal::Joints(loaded.at_limits("the goal", q, &mut notes)),
+            tip => tip,
+        };
+        Ok(Query { scene: loaded.scene, start, goal, robot: loaded.robot, notes })
+    }
+    /// The start alone, of a world with steps, too: to stay there.
+    ///
+    /// # Errors
+    /// When the start is missing, or one of the tip is not reached by just one IK solution.
+    pub fn start_alone(self, overrides: &Overrides) -> Result<Query, InputError> {
+        let loaded = self.keeping(overrides.clearance)?;
+        let mut notes = loaded.world.notes.clone();
+        let (start, _) = loaded.start(overrides, &mut notes)?;
+        Ok(Query { scene: loaded.scene, start, goal: Goal::Joints(start), robot: loaded.robot, notes })
+    }
+}

@@ -1,0 +1,136 @@
+//! Configurations in words: why one is outside the limits or not free, why no IK solution reaches a point.
+
+use cplan_core::model::{Freedom, Inverse, Obstruction, Scene, within};
+use cplan_core::space::{Configuration, JointRange, Segment};
+use cplan_geometry::Point;
+use cplan_text::{fixed, told_apart};
+
+/// Which IK solutions of `solved` the joint limits allow, turns of circles and long ranges included; and of each branch that
+/// they rule out, why.
+pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, Vec<String>) {
+    let joints = &scene.arm().joints;
+    let outside = |branch: &Configuration| {
+        let counts = |i: usize| solved.free.is_none_or(|free| free == Freedom::Joint(1 - i));
+        let copies = [0, 1].map(|i| within(joints[i].range, joints[i].joint_type.is_revolute(), branch[i]));
+        let beyond = (0..2).any(|i| counts(i) && copies[i].is_empty());
+        // What is free is within the limits somewhere.
+        let shown = Configuration::from_fn(|i, _| match joints[i].range {
+            JointRange::Interval { lower, upper } if !counts(i) => branch[i].clamp(lower, upper),
+            _ => copies[i].first().copied().unwrap_or(branch[i]),
+        });
+        beyond.then(|| format!("({}): {}", describe(scene, shown), beyond_limits(scene, shown).join("; ")))
+    };
+    (solved.solutions(scene.arm()), solved.branches.iter().filter_map(outside).collect())
+}
+
+/// The joint values in words: `shoulder -0.9 rad, elbow 0.4 rad`.
+pub(super) fn describe(scene: &Scene, q: Configuration) -> String {
+    let value = |i: usize| format!("{} {} {}", scene.arm().joints[i].name, rounded(q[i]), scene.arm().joints[i].unit());
+    format!("{}, {}", value(0), value(1))
+}
+
+/// A joint's values along a segment in words: `shoulder 1 rad, elbow from -2.5 to 2.5 rad`.
+pub(super) fn describe_segment(scene: &Scene, segment: &Segment) -> String {
+    let [from, to] = segment.ends();
+    let value = |i: usize| {
+        let (name, unit) = (&scene.arm().joints[i].name, scene.arm().joints[i].unit());
+        if from[i] == to[i] {
+            format!("{name} {} {unit}", rounded(from[i]))
+        } else {
+            format!("{name} from {} to {} {unit}", rounded(from[i]), rounded(to[i]))
+        }
+    };
+    format!("{}, {}", value(0), value(1))
+}
+
+/// Six decimals are plenty for people.
+fn rounded(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6 + 0.0
+}
+
+/// Which joints are outside their limits, in words.
+pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
+    let mut outside = Vec::new();
+    for (joint, value) in scene.arm().joints.iter().zip(q.iter()) {
+        if let JointRange::Interval { lower, upper } = joint.range
+            && !joint.range.contains(*value)
+        {
+            let unit = joint.unit();
+            // Unrounded when rounding would hide the excess.
+            let shown = if joint.range.contains(rounded(*value)) { *value } else { rounded(*value) };
+            outside.push(format!(
+                "joint \"{}\" at {shown} {unit} exceeds its limits [{lower}, {upper}] {unit}",
+                joint.name
+            ));
+        }
+    }
+    outside
+}
+
+/// What to do about a configuration outside the limits.
+pub(super) const HELP_FOR_LIMITS: &str = "choose values within, or override [robot] limits in the world file";
+
+/// The same about a place of the tip.
+pub(super) const HELP_FOR_TIP: &str = "choose another point, or override [robot] limits in the world file";
+
+/// Why `q` is not free, in words, the worst pair of shapes for each link and obstacle.
+pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
+    scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
+}
+
+/// The hint for a configuration in which links of the robot hit each other alone.
+const HELP_FOR_OWN_BODY: &str =
+    "choose another configuration, or let these links touch: [robot] ignore_contact = [[\"LINK\", \"LINK\"]]";
+
+/// The hint for a configuration that is not free.
+pub(super) fn help_at(scene: &Scene, q: Configuration) -> &'static str {
+    let hits = scene.obstructions(q);
+    let is_own = |hit: &Obstruction| scene.self_obstacle(hit.contact.pair.obstacle).is_some();
+    if !hits.is_empty() && hits.iter().all(is_own) { HELP_FOR_OWN_BODY } else { help_for_contact(scene) }
+}
+
+/// What to do about a configuration that is not free.
+pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
+    if scene.workspace().clearance > 0.0 {
+        "move it away from the obstacle, or ask for less clearance"
+    } else {
+        "move it away from the obstacle (touching counts as contact)"
+    }
+}
+
+/// What to do where no IK solution is allowed and free: some of them are `outside` the limits, others `blocked`.
+pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool) -> String {
+    let contact = help_for_contact(scene);
+    match (outside, blocked) {
+        (true, false) => HELP_FOR_TIP.to_owned(),
+        (true, true) => format!("{contact}, or {HELP_FOR_TIP}"),
+        (false, _) => contact.to_owned(),
+    }
+}
+
+/// That no IK solution reaches `point`, in words; `what` it is begins the sentence.
+pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
+    let arm = scene.arm();
+    let from_joint = (point - arm.base).norm();
+    let [distance, reach] = match arm.kind() {
+        "RR" => {
+            let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
+            let [distance, least, most] = told_apart([from_joint, (upper - lower).abs(), upper + lower], 4);
+            [distance, format!(", the tip reaches from {least} to {most} m")]
+        }
+        _ => [fixed(from_joint, 4), String::new()],
+    };
+    format!(
+        "{what} ({}, {}) m is out of reach of the tip \"{}\", whatever the joint limits: it is {distance} m from joint \"{}\"{reach}",
+        point.x, point.y, arm.tip_name, arm.joints[0].name,
+    )
+}
+
+/// What to do about a point out of reach.
+pub(super) fn help_for_reach(scene: &Scene, point: Point) -> String {
+    let arm = scene.arm();
+    let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
+    let is_inside = arm.kind() == "RR" && (point - arm.base).norm() < (upper - lower).abs();
+    let place = if is_inside { "farther from joint 1" } else { "nearer by" };
+    format!("choose a point {place}; coordinates are metres in the arm's plane")
+}

@@ -1,0 +1,49 @@
+//! What steps require of the arm, each thing once.
+
+use cplan_core::space::Configuration;
+use cplan_geometry::Point;
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// Something that a step requires.
+#[derive(Debug, Clone)]
+pub(super) struct Requirement {
+    pub required: Required,
+    /// The step's number.
+    pub step: usize,
+    /// What in the file asks for it.
+    pub at: Range<usize>,
+}
+
+/// What can be required.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Required {
+    /// The arm can take these values.
+    Joints(Configuration),
+    /// The tip can be here.
+    Tip(Point),
+    /// This object can rest on something.
+    Rest(usize),
+}
+
+/// Requirements of steps that are repeated.
+#[derive(Default)]
+pub(super) struct Requirements {
+    pub all: Vec<Requirement>,
+    /// Step, kind, and bits of the values.
+    known: BTreeSet<(usize, u8, [u64; 2])>,
+}
+
+impl Requirements {
+    /// Adds what a step requires, unless it has required the same before.
+    pub fn add(&mut self, step: usize, required: Required, at: Range<usize>) {
+        let (kind, values) = match required {
+            Required::Joints(q) => (0, [q[0], q[1]].map(f64::to_bits)),
+            Required::Tip(tip) => (1, [tip.x, tip.y].map(f64::to_bits)),
+            Required::Rest(object) => (2, [object as u64, at.start as u64]),
+        };
+        if self.known.insert((step, kind, values)) {
+            self.all.push(Requirement { required, step, at });
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! The JSON schema of world files, for editors: derived from the types that read them.
+
+use super::world::WorldFile;
+use schemars::generate::SchemaSettings;
+use schemars::transform::{Transform, transform_subschemas};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::Value;
+use std::borrow::Cow;
+
+/// The schema of the world file, JSON Schema draft 7 (what editors of TOML read). It has every key with its meaning and
+/// unit, and refuses unknown keys, missing ones and all but exactly one shape, region or kind of goal.
+///
+/// What it cannot say is checked only when the file is read: that polygons are simple, that names exist, that files are
+/// there, that numbers are not too large, that an arm can take the values.
+#[must_use]
+pub fn world_schema() -> Value {
+    toml_schema::<WorldFile>()
+}
+
+/// The schema of a file in TOML.
+pub fn toml_schema<T: JsonSchema>() -> Value {
+    let mut settings = SchemaSettings::draft07();
+    // First, because what it leaves may be for the draft's own transforms.
+    settings.transforms.insert(0, Box::new(AsToml));
+    let mut schema = settings.into_generator().into_root_schema_for::<T>().to_value();
+    // In any order of serde_json's maps, which other crates may choose.
+    schema.sort_all_objects();
+    schema
+}
+
+/// Takes back that optional keys may be null, as TOML has no null, and the formats of numbers, which are Rust's.
+#[derive(Debug, Clone)]
+struct AsToml;
+
+impl Transform for AsToml {
+    fn transform(&mut self, schema: &mut Schema) {
+        transform_subschemas(self, schema);
+        let Some(object) = schema.as_object_mut() else { return };
+        object.remove("format");
+        if let Some(Value::Array(types)) = object.get_mut("type") {
+            types.retain(|name| name != "null");
+            if let [only] = &types[..] {
+                let only = only.clone();
+                object.insert("type".into(), only);
+            }
+        }
+        if let Some(Value::Array(choices)) = object.get_mut("anyOf") {
+            choices.retain(|choice| choice.get("type").is_none_or(|name| name != "null"));
+            if let [Value::Object(only)] = &choices[..] {
+                let only = only.clone();
+                object.remove("anyOf");
+                object.extend(only);
+            }
+        }
+    }
+}
+
+/// Two numbers.
+pub(super) type Two = [f64; 2];
+
+/// A type that stands for what a field may hold.
+macro_rules! stands_for {
+    ($(#[$doc:meta])* $name:ident, $schema:tt) => {
+        $(#[$doc])*
+        pub struct $name;
+
+        impl JsonSchema for $name {
+            fn inline_schema() -> bool {
+                true
+            }
+
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                json_schema!($schema)
+            }
+        }
+    };
+}
+
+stands_for! {
+    /// A number above 0.
+    Positive, { "type": "number", "exclusiveMinimum": 0 }
+}
+stands_for! {
+    /// An angle or a length.
+    AngleOrLength, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *deg *$" }
+}
+stands_for! {
+    /// A number of 0 or more.
+    NotNegative, { "type": "number", "minimum": 0 }
+}
+stands_for! {
+    /// A number above 0 and at most 1.
+    Share, { "type": "number", "exclusiveMinimum": 0, "maximum": 1 }
+}
+stands_for! {
+    /// Corners of a polygon.
+    Corners, {
+        "type": "array",
+        "minItems": 3,
+        "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+    }
+}
+stands_for! {
+    /// Corners of a polygon, or of an outer ring and its holes.
+    Rings, {
+        "type": "array",
+        "anyOf": [
+            {
+                "minItems": 3,
+                "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+            },
+            {
+                "minItems": 1,
+                "items": {
+                    "type": "array",
+                    "minItems": 3,
+                    "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+                }
+            }
+        ]
+    }
+}
+stands_for! {
+    /// How objects are held.
+    HeldAs, { "type": "string", "enum": ["rigid", "level"] }
+}
+stands_for! {
+    /// What unknown cells of an image are.
+    UnknownAs, { "type": "string", "enum": ["solid", "free"] }
+}
+stands_for! {
+    /// What a sensor moves with.
+    SensorOn, { "type": "string", "enum": ["tip", "base"] }
+}
+stands_for! {
+    /// In which order steps are done.
+    DoneIn, { "type": "string", "enum": ["fixed", "free"] }
+}

@@ -1,0 +1,139 @@
+//! The range sensor in the world file's `[sensor]`.
+
+use super::LoadedScene;
+use super::error::Diagnostic;
+use super::quantity::Written;
+use super::schema::{AngleOrLength, NotNegative, Positive, SensorOn};
+use super::world::{Number, Reader};
+use cplan_core::model::{Mount, Sensor};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::f64::consts::TAU;
+use toml::Spanned;
+
+/// Rays at the most: more than any sensor has.
+const MOST_RAYS: u64 = 100_000;
+
+/// The least distance between readings, in joint space: a way of many turns has millions of places then.
+const SHORTEST_STEP: f64 = 1e-4;
+
+/// What sees the world where it is explored (`cplan explore`); everything has a default. Rays are as wide as the cells of the map that
+/// they cross.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "sensor")]
+pub(super) struct SensorTable {
+    /// What it moves with: "tip" (the default; straight ahead is from joint 2 to the tip) or "base".
+    #[schemars(with = "Option<SensorOn>")]
+    on: Option<Spanned<String>>,
+    /// Number of rays; by default 360.
+    #[schemars(with = "Option<u64>", range(min = 1, max = 100_000))]
+    rays: Option<Spanned<u64>>,
+    /// Angle over which they are spread, rad, at most a whole turn, which is the default.
+    #[schemars(with = "Option<AngleOrLength>")]
+    field_of_view: Option<Written>,
+    /// How far it sees, m; by default half the arm's reach.
+    #[schemars(with = "Option<Positive>")]
+    range: Option<Number>,
+    /// Distance between readings on the way, in joint space, rad and m as they come; by default 0.1.
+    #[schemars(with = "Option<Positive>")]
+    step: Option<Number>,
+    /// Greatest error of a distance, m: errors are uniform within it; by default 0.
+    #[schemars(with = "Option<NotNegative>")]
+    noise: Option<Number>,
+    /// What the errors follow from; by default 0.
+    seed: Option<u64>,
+    /// Side of the cells of the map, m; by default a fortieth of the arm's reach.
+    #[schemars(with = "Option<Positive>")]
+    cell: Option<Number>,
+}
+
+/// What is said of a sensor.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct SensorWishes {
+    mount: Option<Mount>,
+    rays: Option<usize>,
+    field_of_view: Option<f64>,
+    range: Option<f64>,
+    step: Option<f64>,
+    noise: Option<f64>,
+    seed: Option<u64>,
+    cell: Option<f64>,
+}
+
+impl SensorTable {
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// Words and numbers that make no sensor.
+    pub fn read(&self, reader: &Reader) -> Result<SensorWishes, Diagnostic> {
+        let mount = |word: &Spanned<String>| match word.get_ref().as_str() {
+            "tip" => Ok(Mount::Tip),
+            "base" => Ok(Mount::Base),
+            other => {
+                let message = format!("a sensor is on \"tip\" or \"base\", not on \"{other}\"");
+                Err(reader.source.diagnostic_at(word.span(), message).help("write on = \"tip\", or leave it out"))
+            }
+        };
+        let rays = |rays: &Spanned<u64>| match *rays.get_ref() {
+            n @ 1..=MOST_RAYS => Ok(n as usize),
+            n => {
+                let message = format!("a sensor has 1 to {MOST_RAYS} rays, not {n}");
+                Err(reader.source.diagnostic_at(rays.span(), message).help("write a number of rays, such as 360"))
+            }
+        };
+        let positive = |number: &Option<Number>, what: &str| {
+            let read = |number: &Number| match reader.finite(number, what)? {
+                value if value > 0.0 => Ok(value),
+                value => {
+                    let message = format!("{what} must be positive, is {value}");
+                    Err(reader.source.diagnostic_at(number.span(), message).help("write a number above 0"))
+                }
+            };
+            number.as_ref().map(read).transpose()
+        };
+        let step = |number: &Number| match reader.finite(number, "sensor step")? {
+            value if value >= SHORTEST_STEP => Ok(value),
+            value => {
+                let message = format!("sensor step must be at least {SHORTEST_STEP}, is {value}");
+                Err(reader.source.diagnostic_at(number.span(), message).help("a distance in joint space, such as 0.1"))
+            }
+        };
+        let field_of_view = |written: &Written| match reader.quantity(written, "sensor field_of_view")? {
+            value if 0.0 < value && value <= TAU * (1.0 + f64::EPSILON) => Ok(value),
+            value => {
+                let message = format!("sensor field_of_view must be above 0 and at most a whole turn, is {value} rad");
+                Err(reader.source.diagnostic_at(written.span(), message).help("radians, or \"360deg\""))
+            }
+        };
+        Ok(SensorWishes {
+            mount: self.on.as_ref().map(mount).transpose()?,
+            rays: self.rays.as_ref().map(rays).transpose()?,
+            field_of_view: self.field_of_view.as_ref().map(field_of_view).transpose()?,
+            range: positive(&self.range, "sensor range")?,
+            step: self.step.as_ref().map(step).transpose()?,
+            noise: self.noise.as_ref().map(|n| reader.not_negative(n, "sensor noise")).transpose()?,
+            seed: self.seed,
+            cell: positive(&self.cell, "sensor cell")?,
+        })
+    }
+}
+
+impl LoadedScene {
+    /// The sensor that the world describes; what it does not say is as [`Sensor::usual`] has it.
+    #[must_use]
+    pub fn sensor(&self) -> Sensor {
+        let (usual, wishes) = (Sensor::usual(self.scene.arm()), &self.world.sensor);
+        Sensor {
+            mount: wishes.mount.unwrap_or(usual.mount),
+            turn: self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle()),
+            rays: wishes.rays.unwrap_or(usual.rays),
+            field_of_view: wishes.field_of_view.unwrap_or(usual.field_of_view),
+            range: wishes.range.unwrap_or(usual.range),
+            step: wishes.step.unwrap_or(usual.step),
+            noise: wishes.noise.unwrap_or(usual.noise),
+            seed: wishes.seed.unwrap_or(usual.seed),
+            cell: wishes.cell.unwrap_or(usual.cell),
+        }
+    }
+}

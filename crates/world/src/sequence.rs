@@ -1,0 +1,293 @@
+//! Steps written out: repetitions one by one, and what is carried and where it lies after each of them.
+
+use super::error::Diagnostic;
+use super::group::{Body, Group, Leaf, LeafAction, Node, When};
+use super::object::{Movable, Names, Supports, rests_on_itself};
+
+use super::requirement::{Required, Requirement, Requirements};
+use super::world::Reader;
+use cplan_core::model::{Action, Goal, Holding, Item, Step};
+use cplan_geometry::Point;
+use nalgebra::Rotation2;
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// What a world file asks the arm to do.
+#[derive(Debug, Clone)]
+pub(super) struct Sequence {
+    pub items: Vec<Item>,
+    /// What the arm has to be able to do for them, each thing once for each step of the file.
+    pub requirements: Vec<Requirement>,
+    /// Where the first step stands.
+    pub at: Range<usize>,
+}
+
+/// Orientations that differ by no more than this, radians, are the same: far above the rounding of angles, and below
+/// what any wrist repeats.
+const SAME_ANGLE: f64 = 1e-9;
+
+/// Writes the file's steps out, the first of which stands at `at`.
+///
+/// # Errors
+/// On picks with something carried, places with nothing carried, repetitions that do not begin with what they end with,
+/// and orientations that nothing can give an object.
+pub(super) fn write_out(
+    reader: &Reader,
+    names: &Names,
+    objects: &[Movable],
+    has_wrist: bool,
+    steps: &Group,
+    at: Range<usize>,
+) -> Result<Sequence, Diagnostic> {
+    let lying = objects.iter().map(Lying::at_first).collect();
+    let mut writer = Writer {
+        reader,
+        names,
+        objects,
+        has_wrist,
+        carried: None,
+        lying,
+        cycles: Vec::new(),
+        items: Vec::new(),
+        requirements: Requirements::default(),
+    };
+    writer.group(steps)?;
+    Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at })
+}
+
+/// Where an object lies, or what is known of it while it is carried.
+#[derive(Clone, Copy)]
+struct Lying {
+    at: Point,
+    /// None when it depends on the configuration in which a rigid payload was let go of.
+    angle: Option<f64>,
+    /// The tip when it was let go of, which has been required already.
+    tip: Option<Point>,
+    /// Whether it moves: then the rest is where it is at first.
+    moves: bool,
+}
+
+impl Lying {
+    fn at_first(movable: &Movable) -> Self {
+        let pose = &movable.object.at;
+        let moves = movable.object.course.is_some();
+        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()), tip: None, moves }
+    }
+
+    /// Where a point of the object is, if that is known.
+    fn point(&self, own: Point) -> Option<Point> {
+        match self.angle {
+            _ if own == Point::origin() => Some(self.at),
+            Some(angle) => Some(self.at + Rotation2::new(angle) * own.coords),
+            None => None,
+        }
+    }
+}
+
+/// An object in the gripper.
+#[derive(Clone, Copy)]
+struct Carried {
+    object: usize,
+    grasp: Point,
+}
+
+struct Writer<'a> {
+    reader: &'a Reader<'a>,
+    names: &'a Names<'a>,
+    objects: &'a [Movable],
+    has_wrist: bool,
+    carried: Option<Carried>,
+    lying: Vec<Lying>,
+    /// Of each step, how often it has been done.
+    cycles: Vec<usize>,
+    items: Vec<Item>,
+    requirements: Requirements,
+}
+
+impl Writer<'_> {
+    fn group(&mut self, group: &Group) -> Result<(), Diagnostic> {
+        let at_first = self.carried.map(|c| c.object);
+        for repetition in 0..group.repeat {
+            if repetition > 0 {
+                self.repeat(group, at_first)?;
+            }
+            match &group.body {
+                Body::InOrder(nodes) => {
+                    for node in nodes {
+                        match node {
+                            Node::Group(group) => self.group(group)?,
+                            Node::Step(leaf) => {
+                                let step = self.step(leaf)?;
+                                self.items.push(Item::Step(step));
+                            }
+                        }
+                    }
+                }
+                Body::AnyOrder(pairs) => {
+                    let pairs = pairs.iter().map(|[pick, place]| Ok([self.step(pick)?, self.step(place)?]));
+                    let pairs = pairs.collect::<Result<_, Diagnostic>>()?;
+                    self.items.push(Item::AnyOrder(pairs));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Comes back to the beginning of a group that began with this object carried.
+    fn repeat(&mut self, group: &Group, at_first: Option<usize>) -> Result<(), Diagnostic> {
+        let carried = self.carried.map(|c| c.object);
+        if carried != at_first {
+            let message = format!(
+                "these steps cannot be repeated: they begin carrying {} and end carrying {}",
+                self.in_words(at_first),
+                self.in_words(carried)
+            );
+            let help = "let them end with what they begin with";
+            return Err(self.reader.source.diagnostic_at(group.at.clone(), message).help(help));
+        }
+        if let Some(object) = carried.filter(|object| group.renewed.contains(object)) {
+            let name = self.in_words(Some(object));
+            let message = format!("object {name} is carried when it would be renewed");
+            let help = "place it before the steps are repeated, or remove its `renew`";
+            return Err(self.reader.source.diagnostic_at(group.at.clone(), message).help(help));
+        }
+        if !group.renewed.is_empty() {
+            for object in &group.renewed {
+                self.lying[*object] = Lying::at_first(&self.objects[*object]);
+            }
+            self.items.push(Item::Renew(group.renewed.iter().copied().collect()));
+        }
+        Ok(())
+    }
+
+    fn in_words(&self, object: Option<usize>) -> String {
+        object.map_or_else(|| "nothing".to_owned(), |o| format!("\"{}\"", self.objects[o].object.name))
+    }
+
+    fn step(&mut self, leaf: &Leaf) -> Result<Step, Diagnostic> {
+        let action = match &leaf.action {
+            LeafAction::Pick { object, grasp, supports, when } => {
+                self.pick(leaf, *object, *grasp, supports, when.as_ref())?
+            }
+            LeafAction::Place { at, angle, supports } => self.place(leaf, *at, angle.as_ref(), supports.as_ref())?,
+            LeafAction::Move(goal) => {
+                let required = match *goal {
+                    Goal::Joints(q) => Required::Joints(q),
+                    Goal::Tip(tip) => Required::Tip(tip),
+                };
+                self.requirements.add(leaf.number, required, leaf.at.clone());
+                Action::Move(*goal)
+            }
+        };
+        if self.cycles.len() < leaf.number {
+            self.cycles.resize(leaf.number, 0);
+        }
+        let cycle = &mut self.cycles[leaf.number - 1];
+        *cycle += 1;
+        Ok(Step {
+            action,
+            number: leaf.number,
+            cycle: *cycle,
+            place: leaf.place.clone(),
+            speed: leaf.speed,
+            dwell: leaf.dwell,
+        })
+    }
+
+    fn pick(
+        &mut self,
+        leaf: &Leaf,
+        object: usize,
+        grasp: Point,
+        supports: &Supports,
+        when: Option<&When>,
+    ) -> Result<Action, Diagnostic> {
+        if let Some(carried) = self.carried {
+            let message = format!(
+                "step {} picks {} while {} is carried",
+                leaf.number,
+                self.in_words(Some(object)),
+                self.in_words(Some(carried.object))
+            );
+            let diagnostic = self.reader.source.diagnostic_at(leaf.at.clone(), message);
+            return Err(diagnostic.help("place what is carried first"));
+        }
+        self.rest(leaf, object, supports)?;
+        let lying = self.lying[object];
+        if let Some(when) = when.filter(|_| !lying.moves) {
+            let name = self.in_words(Some(object));
+            let message = format!("step {}: {name} has been picked before, and lies where it was placed", leaf.number);
+            let diagnostic = self.reader.source.diagnostic_at(when.at.clone(), message);
+            return Err(diagnostic.help("only the first pick of what moves has `at` and `window`"));
+        }
+        if lying.moves {
+            self.lying[object].moves = false;
+        } else if let Some(tip) = lying.point(grasp).filter(|tip| lying.tip != Some(*tip)) {
+            self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
+        }
+        self.carried = Some(Carried { object, grasp });
+        let when = when.map_or_else(Vec::new, |when| when.times.clone());
+        Ok(Action::Pick { object, grasp, supports: supports.numbers.clone(), when })
+    }
+
+    fn place(
+        &mut self,
+        leaf: &Leaf,
+        at: Point,
+        angle: Option<&(f64, Range<usize>)>,
+        supports: Option<&Supports>,
+    ) -> Result<Action, Diagnostic> {
+        let Some(Carried { object, grasp }) = self.carried.take() else {
+            let message = format!("step {} places something, but nothing is carried", leaf.number);
+            return Err(self.reader.source.diagnostic_at(leaf.at.clone(), message).help("pick an object first"));
+        };
+        let supports = supports.unwrap_or(&self.objects[object].supports);
+        self.rest(leaf, object, supports)?;
+        let asked = angle.map(|(angle, place)| self.turned(leaf, object, *angle, place)).transpose()?;
+        let mut lying = match self.objects[object].object.holding {
+            Holding::Rigid => Lying { at, angle: None, tip: None, moves: false },
+            Holding::Level => Lying { at, angle: asked.or(self.lying[object].angle), tip: None, moves: false },
+        };
+        lying.tip = lying.point(grasp);
+        self.lying[object] = lying;
+        if let Some(tip) = lying.tip {
+            self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
+        }
+        Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })
+    }
+
+    /// The orientation that an object gets: the one it has, if that is the same.
+    fn turned(&self, leaf: &Leaf, object: usize, angle: f64, place: &Range<usize>) -> Result<f64, Diagnostic> {
+        let refuse = |message: String, help: &str| {
+            let message = format!("step {}: {message}", leaf.number);
+            Err(self.reader.source.diagnostic_at(place.clone(), message).help(help))
+        };
+        let name = self.in_words(Some(object));
+        // Only a rigid payload's orientation can be unknown.
+        let (Holding::Level, Some(before)) = (self.objects[object].object.holding, self.lying[object].angle) else {
+            let message =
+                format!("object {name} is held rigidly, so its orientation follows from the arm's configuration");
+            return refuse(message, "payload = \"level\" for the object, or leave the angle out");
+        };
+        let turn = (angle - before).rem_euclid(TAU);
+        if turn.min(TAU - turn) <= SAME_ANGLE {
+            return Ok(before);
+        }
+        if !self.has_wrist {
+            let message = format!("object {name} has to be turned from {before} to {angle} rad, and there is no wrist");
+            return refuse(message, "[robot] wrist = { velocity = 6.0 }, in rad/s, or leave the angle out");
+        }
+        Ok(angle)
+    }
+
+    /// Notes that an object rests on something.
+    fn rest(&mut self, leaf: &Leaf, object: usize, supports: &Supports) -> Result<(), Diagnostic> {
+        if supports.numbers.contains(&self.names.as_obstacle(object)) {
+            return Err(rests_on_itself(self.reader, &self.objects[object].object.name, supports));
+        }
+        if !supports.numbers.is_empty() {
+            self.requirements.add(leaf.number, Required::Rest(object), supports.at.clone());
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,121 @@
+//! Where the arm is at first: joint values, or the only IK solution that puts the tip somewhere.
+
+use super::error::{Diagnostic, DiagnosticKind, InputError};
+use super::problem::Place;
+use super::reasons::{describe, help_for_ik_solutions, help_for_reach, obstructions, out_of_reach, within_limits};
+use super::{LoadedScene, Overrides};
+use cplan_core::model::{Goal, inverse};
+use cplan_core::space::{Configuration, JointRange};
+use cplan_geometry::Point;
+use cplan_text::listed;
+
+/// Values beyond a limit by no more than this, radians or metres, are the limit: what is left of it after it was written
+/// with nine digits, and far below what any drive can do.
+const LIMIT_ROUNDING: f64 = 1e-9;
+
+/// More IK solutions than this are counted, not listed.
+const LISTED: usize = 6;
+
+impl LoadedScene {
+    /// The joint values that the world's start and goal are; none of a place of the tip, and where it has none.
+    #[must_use]
+    pub fn said_ends(&self) -> [Option<Configuration>; 2] {
+        [&self.world.start, &self.world.goal].map(|end| match end {
+            Some((Goal::Joints(q), _)) => Some(*q),
+            _ => None,
+        })
+    }
+
+    /// The start, and where it was given: within the limits up to rounding, which is taken off with a note.
+    pub(super) fn start(
+        &self,
+        overrides: &Overrides,
+        notes: &mut Vec<String>,
+    ) -> Result<(Configuration, Place<'_>), InputError> {
+        let (start, place) = self.given_start(overrides, notes).map_err(|error| error.about(DiagnosticKind::Start))?;
+        Ok((self.at_limits("the start", start, notes), place))
+    }
+
+    fn given_start(
+        &self,
+        overrides: &Overrides,
+        notes: &mut Vec<String>,
+    ) -> Result<(Configuration, Place<'_>), InputError> {
+        if let Some(values) = &overrides.start {
+            return Ok((values.resolve(&self.scene.arm().joints, "--start")?, Place::Option("--start")));
+        }
+        let Some((start, at)) = &self.world.start else {
+            return Err(self.missing("start", "[start] joints = [q1, q2] in the world file, or --start q1,q2").into());
+        };
+        let place = Place::World(self, at.clone());
+        let q = match start {
+            Goal::Joints(q) => *q,
+            Goal::Tip(tip) => self.only_ik_solution(*tip, &place, notes)?,
+        };
+        Ok((q, place))
+    }
+
+    /// The same configuration with values that are beyond a limit by rounding alone put there.
+    pub(super) fn at_limits(&self, what: &str, q: Configuration, notes: &mut Vec<String>) -> Configuration {
+        let joints = &self.scene.arm().joints;
+        Configuration::from_fn(|i, _| {
+            let JointRange::Interval { lower, upper } = joints[i].range else { return q[i] };
+            let nearest = q[i].clamp(lower, upper);
+            if nearest == q[i] || (q[i] - nearest).abs() > LIMIT_ROUNDING {
+                return q[i];
+            }
+            let (name, unit) = (&joints[i].name, joints[i].unit());
+            notes.push(format!(
+                "{what} has joint \"{name}\" at {} {unit}, beyond its limit by rounding; taken as {nearest} {unit}",
+                q[i]
+            ));
+            nearest
+        })
+    }
+
+    /// The IK solution that puts the tip at a point, if it is the only one that is within the limits and free.
+    fn only_ik_solution(
+        &self,
+        tip: Point,
+        place: &Place,
+        notes: &mut Vec<String>,
+    ) -> Result<Configuration, Diagnostic> {
+        let scene = &self.scene;
+        let solved = inverse(scene.arm(), tip, Configuration::zeros());
+        let at = format!("({}, {})", tip.x, tip.y);
+        if solved.branches.is_empty() {
+            return Err(place.diagnostic(out_of_reach(scene, "the start", tip)).help(help_for_reach(scene, tip)));
+        }
+        if solved.free.is_some() {
+            let message = format!("the start puts the tip at {at}, which leaves a joint free: many IK solutions do");
+            return Err(place.diagnostic(message).help("give the start's joint values: joints = [q1, q2]"));
+        }
+        let (allowed, outside) = within_limits(scene, &solved);
+        // No joint is free, so these are points.
+        let allowed: Vec<Configuration> = allowed.iter().map(|ik_solution| ik_solution.ends()[0]).collect();
+        let (free, blocked): (Vec<_>, Vec<_>) = allowed.into_iter().partition(|q| obstructions(scene, *q).is_empty());
+        match free[..] {
+            [only] => {
+                notes
+                    .push(format!("the start is the only IK solution with the tip at {at}: {}", describe(scene, only)));
+                Ok(only)
+            }
+            [] => {
+                let hits =
+                    |q: &Configuration| format!("({}): {}", describe(scene, *q), listed(&obstructions(scene, *q)));
+                let help = help_for_ik_solutions(scene, !outside.is_empty(), !blocked.is_empty());
+                let why: Vec<String> = outside.into_iter().chain(blocked.iter().map(hits)).collect();
+                let message = format!("no IK solution that puts the tip at {at} is allowed and free: {}", listed(&why));
+                Err(place.diagnostic(message).help(help))
+            }
+            _ => {
+                let listed: Vec<String> =
+                    free.iter().take(LISTED).map(|q| format!("joints = [{}, {}]", q[0], q[1])).collect();
+                let more = if free.len() > LISTED { ", ..." } else { "" };
+                let message =
+                    format!("{} IK solutions put the tip at {at}, and which is meant is not said", free.len());
+                Err(place.diagnostic(message).help(format!("give joint values: {}{more}", listed.join(", or "))))
+            }
+        }
+    }
+}

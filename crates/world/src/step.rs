@@ -1,0 +1,446 @@
+//! The world file's `[[step]]` and `[task]`: which steps there are, and in which groups.
+
+use super::error::Diagnostic;
+use super::group::{Body, Group, Leaf, LeafAction, Node, When};
+use super::object::{Movable, NameList, Names};
+use super::pallet::Pallets;
+use super::quantity::Written;
+use super::schema::{AngleOrLength, DoneIn, NotNegative, Share, Two};
+use super::source::Cursor;
+use super::table::Table;
+use super::world::{GoalTable, Number, Numbers, Reader};
+use cplan_core::model::{LATEST, Object};
+use cplan_geometry::Pose;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeSet;
+use std::ops::Range;
+use toml::Spanned;
+
+/// One thing to do, or several: exactly one of pick, place, move, transfer and steps.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "step", extend(
+    "oneOf" = [
+        { "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["transfer"] },
+        { "required": ["steps"] }
+    ],
+    "dependencies" = {
+        "grasp": ["pick"], "supports": ["pick"], "at": ["pick"], "window": ["pick"], "repeat": ["steps"], "order": ["steps"]
+    },
+))]
+pub(super) struct StepTable {
+    /// Name of the object to pick.
+    #[schemars(with = "Option<String>")]
+    pick: Option<Spanned<String>>,
+    /// Where to place what is carried.
+    #[schemars(with = "Option<PlaceTable>")]
+    place: Option<Table<PlaceTable>>,
+    /// Where to go with whatever is carried.
+    #[serde(rename = "move")]
+    #[schemars(with = "Option<GoalTable>")]
+    goal: Option<Spanned<Table<GoalTable>>>,
+    /// Picks and places, one after the other: all objects on a pallet, to the places of another.
+    #[schemars(with = "Option<TransferTable>")]
+    transfer: Option<Table<TransferTable>>,
+    /// A group; its speed and dwell are the defaults of its steps.
+    #[schemars(with = "Option<Vec<StepTable>>", length(min = 1))]
+    steps: Option<Vec<Spanned<StepTable>>>,
+    /// Of a pick: the point of the object that the tip goes to, in the object's frame, m; by default the object's.
+    #[schemars(with = "Option<Two>")]
+    grasp: Option<Numbers>,
+    /// Of a pick: obstacles and objects that the object may touch; by default the object's.
+    #[schemars(with = "Option<Vec<String>>")]
+    supports: Option<NameList>,
+    /// Of a pick of what moves: where its origin is when it is picked, m; by default wherever that is soonest.
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// Of a pick of what moves: the times from which and until which it may be picked, s; by default at any time.
+    #[schemars(with = "Option<Two>")]
+    window: Option<Numbers>,
+    /// Of a group: how often its steps are done.
+    #[schemars(with = "Option<i64>", range(min = 1))]
+    repeat: Option<Spanned<i64>>,
+    /// Of a group: "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
+    #[schemars(with = "Option<DoneIn>")]
+    order: Option<Spanned<String>>,
+    /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
+    #[schemars(with = "Option<Share>")]
+    speed: Option<Number>,
+    /// How long the arm stands still at the end, s; by default 0.
+    #[schemars(with = "Option<NotNegative>")]
+    dwell: Option<Number>,
+}
+
+/// Where an object is placed: at a point, or on a place of a pallet.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "place", extend("oneOf" = [{ "required": ["at"] }, { "required": ["on"] }]))]
+struct PlaceTable {
+    /// Where the object's origin goes, m.
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// The place of a pallet that its origin goes to: "NAME 2,3".
+    #[schemars(with = "Option<String>")]
+    on: Option<Spanned<String>>,
+    /// How a level payload is turned there, rad; by default as it was.
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
+    /// Obstacles and objects that it may touch there; by default those of the object.
+    #[schemars(with = "Option<Vec<String>>")]
+    supports: Option<NameList>,
+}
+
+/// Objects that go from one pallet to another: the first one, row by row, to the first place, and so on.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "transfer")]
+struct TransferTable {
+    /// Name of the objects, without row and column.
+    #[schemars(with = "String")]
+    objects: Spanned<String>,
+    /// Name of the pallet that they go to, which has as many places.
+    #[schemars(with = "String")]
+    to: Spanned<String>,
+    /// How level payloads are turned there, rad; by default as they were.
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
+    /// Obstacles and objects that they may touch there; by default those of the objects.
+    #[schemars(with = "Option<Vec<String>>")]
+    supports: Option<NameList>,
+}
+
+/// What holds for all steps together.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "task")]
+pub(super) struct TaskTable {
+    /// How often the steps are done; by default once.
+    #[schemars(with = "Option<i64>", range(min = 1))]
+    repeat: Option<Spanned<i64>>,
+    /// "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
+    #[schemars(with = "Option<DoneIn>")]
+    order: Option<Spanned<String>>,
+    /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
+    #[schemars(with = "Option<Share>")]
+    speed: Option<Number>,
+    /// How long the arm stands still at the end of each step, s; by default 0.
+    #[schemars(with = "Option<NotNegative>")]
+    dwell: Option<Number>,
+}
+
+/// Most steps of a task, repetitions written out: some days of work.
+const MOST_STEPS: usize = 100_000;
+
+/// A place counts as passed by what comes this near to it, metres: what people write of places that are not on an axis.
+const PASSES_WITHIN: f64 = 1e-3;
+
+/// How fast steps are done where they do not say it.
+#[derive(Clone, Copy)]
+struct Pace {
+    speed: f64,
+    dwell: f64,
+}
+
+/// Keys that a group has beside its steps.
+struct Manner<'a> {
+    repeat: Option<&'a Spanned<i64>>,
+    order: Option<&'a Spanned<String>>,
+}
+
+/// Reads the tables of steps.
+pub(super) struct StepReader<'a> {
+    reader: &'a Reader<'a>,
+    pallets: &'a Pallets<'a>,
+    names: &'a Names<'a>,
+    objects: &'a [Movable],
+    cursor: Cursor<'a>,
+    file: String,
+    /// Steps read so far.
+    count: usize,
+}
+
+impl<'a> StepReader<'a> {
+    pub fn new(reader: &'a Reader<'a>, pallets: &'a Pallets<'a>, names: &'a Names<'a>, objects: &'a [Movable]) -> Self {
+        Self { reader, pallets, names, objects, cursor: reader.source.cursor(), file: reader.source.name(), count: 0 }
+    }
+
+    /// All steps of the file, of which there is at least one.
+    ///
+    /// # Errors
+    /// On steps that do not do exactly one thing, keys in the wrong place, values that are none, unknown objects and
+    /// supports, groups in free order of anything but picks and places, and more than [`MOST_STEPS`] steps.
+    pub fn all(mut self, tables: &[Spanned<StepTable>], task: Option<&TaskTable>) -> Result<Group, Diagnostic> {
+        let pace = Pace { speed: 1.0, dwell: 0.0 };
+        let pace = task.map_or(Ok(pace), |t| self.pace(pace, t.speed.as_ref(), t.dwell.as_ref()))?;
+        let manner =
+            Manner { repeat: task.and_then(|t| t.repeat.as_ref()), order: task.and_then(|t| t.order.as_ref()) };
+        let at = tables.first().map_or(0..0, Spanned::span);
+        self.group(tables, &manner, pace, at)
+    }
+
+    fn group(
+        &mut self,
+        tables: &[Spanned<StepTable>],
+        manner: &Manner,
+        pace: Pace,
+        at: Range<usize>,
+    ) -> Result<Group, Diagnostic> {
+        let source = self.reader.source;
+        if tables.is_empty() {
+            let diagnostic = source.diagnostic_at(at, "this group has no steps");
+            return Err(diagnostic.help("give it [[step.steps]], or remove it"));
+        }
+        let repeat = manner.repeat.map_or(Ok(1), |repeat| {
+            usize::try_from(*repeat.get_ref()).ok().filter(|n| *n > 0).ok_or_else(|| {
+                let message = format!("steps can be repeated 1 time or more often, not {}", repeat.get_ref());
+                source.diagnostic_at(repeat.span(), message).help("remove the key for steps that are done once")
+            })
+        })?;
+        let nodes = tables.iter().map(|table| self.nodes(table, pace)).collect::<Result<Vec<_>, _>>()?;
+        let nodes: Vec<Node> = nodes.into_iter().flatten().collect();
+        let at = manner.repeat.map_or(at, Spanned::span);
+        let length = nodes.iter().map(Node::length).fold(0, usize::saturating_add).saturating_mul(repeat);
+        if length > MOST_STEPS {
+            let message = format!("written out these are {length} steps (at most {MOST_STEPS})");
+            return Err(source.diagnostic_at(at, message).help("repeat them less often"));
+        }
+        let renewed = nodes.iter().flat_map(|node| self.renewed(node)).collect();
+        let body = match manner.order.map(|order| (order.get_ref().as_str(), order.span())) {
+            None | Some(("fixed", _)) => Body::InOrder(nodes),
+            Some(("free", _)) => Body::AnyOrder(self.pairs(nodes)?),
+            Some((other, at)) => {
+                let message = format!("an order is \"fixed\" or \"free\", not \"{other}\"");
+                return Err(source.diagnostic_at(at, message).help("order = \"free\", or leave it out"));
+            }
+        };
+        Ok(Group { body, repeat, at, renewed, length })
+    }
+
+    fn renewed(&self, node: &Node) -> Vec<usize> {
+        match node {
+            Node::Step(Leaf { action: LeafAction::Pick { object, .. }, .. }) if self.objects[*object].is_renewed => {
+                vec![*object]
+            }
+            Node::Step(_) => Vec::new(),
+            Node::Group(group) => group.renewed.iter().copied().collect(),
+        }
+    }
+
+    /// The steps of a group in free order.
+    fn pairs(&self, nodes: Vec<Node>) -> Result<Vec<[Leaf; 2]>, Diagnostic> {
+        let source = self.reader.source;
+        let help = "steps in free order are pick, place, pick, place, and so on";
+        let mut picked = BTreeSet::new();
+        let mut pairs = Vec::new();
+        let mut nodes = nodes.into_iter();
+        while let Some(first) = nodes.next() {
+            let pick = match first {
+                Node::Step(pick @ Leaf { action: LeafAction::Pick { .. }, .. }) => pick,
+                other => return Err(source.diagnostic_at(other.at(), "this step has to be a pick").help(help)),
+            };
+            let place = match nodes.next() {
+                Some(Node::Step(place @ Leaf { action: LeafAction::Place { .. }, .. })) => place,
+                Some(other) => return Err(source.diagnostic_at(other.at(), "this step has to be a place").help(help)),
+                None => return Err(source.diagnostic_at(pick.at, "this pick has no place after it").help(help)),
+            };
+            if let LeafAction::Pick { object, .. } = pick.action
+                && !picked.insert(object)
+            {
+                let name = &self.objects[object].object.name;
+                let message = format!("object \"{name}\" is picked twice in one group in free order");
+                return Err(source.diagnostic_at(pick.at, message).help("pick it once, or use a group in fixed order"));
+            }
+            pairs.push([pick, place]);
+        }
+        Ok(pairs)
+    }
+
+    /// What a table stands for: a step, a group, or the steps of a transfer.
+    fn nodes(&mut self, table: &Spanned<StepTable>, pace: Pace) -> Result<Vec<Node>, Diagnostic> {
+        let step = table.get_ref();
+        let pace = self.pace(pace, step.speed.as_ref(), step.dwell.as_ref())?;
+        self.require_fitting_keys(step)?;
+        let one = |at, action| Ok(vec![(at, action)]);
+        let actions = match (&step.pick, &step.place, &step.goal, &step.transfer, &step.steps) {
+            (None, None, None, None, Some(steps)) => {
+                let manner = Manner { repeat: step.repeat.as_ref(), order: step.order.as_ref() };
+                return self.group(steps, &manner, pace, table.span()).map(|group| vec![Node::Group(group)]);
+            }
+            (Some(name), None, None, None, None) => one(name.span(), self.pick(step, name)?),
+            (None, Some(Table(place)), None, None, None) => {
+                self.place(place, table.span()).and_then(|(at, a)| one(at, a))
+            }
+            (None, None, Some(goal), None, None) => {
+                let (goal, at) = self.reader.goal(&goal.get_ref().0, goal.span(), "move")?;
+                one(at, LeafAction::Move(goal))
+            }
+            (None, None, None, Some(Table(transfer)), None) => self.transfer(transfer),
+            (pick, place, goal, transfer, steps) => {
+                let given = [pick.is_some(), place.is_some(), goal.is_some(), transfer.is_some(), steps.is_some()];
+                let count = given.iter().filter(|x| **x).count();
+                let message = format!(
+                    "a step needs exactly one of `pick`, `place`, `move`, `transfer` and `steps`, this has {count}"
+                );
+                let help = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, \
+                            transfer = { objects = \"NAME\", to = \"PALLET\" }, or [[step.steps]]";
+                return Err(self.reader.source.diagnostic_at(table.span(), message).help(help));
+            }
+        }?;
+        let position = self.cursor.position(table.span().start);
+        let place = format!("{}:{}:{}", self.file, position.line, position.column);
+        let leaf = |(at, action)| {
+            self.count += 1;
+            let (speed, dwell) = (pace.speed, pace.dwell);
+            Node::Step(Leaf { number: self.count, place: place.clone(), at, action, speed, dwell })
+        };
+        Ok(actions.into_iter().map(leaf).collect())
+    }
+
+    /// Refuses keys that mean nothing where they stand.
+    fn require_fitting_keys(&self, step: &StepTable) -> Result<(), Diagnostic> {
+        let refuse = |at: Option<Range<usize>>, message: &str, help: &str| match at {
+            Some(at) => Err(self.reader.source.diagnostic_at(at, message).help(help)),
+            None => Ok(()),
+        };
+        if step.pick.is_none() {
+            let at = step.grasp.as_ref().map(Spanned::span);
+            refuse(at, "only a pick has a `grasp`", "remove the key")?;
+            let at = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span);
+            refuse(
+                at,
+                "of all steps only a pick has `at` and `window`",
+                "remove the key; a place has its own: place = { at = [x, y] }",
+            )?;
+            let at = step.supports.as_ref().map(Spanned::span);
+            let help = "those of a place stand in it: place = { at = [x, y], supports = [\"NAME\"] }";
+            refuse(at, "of all steps only a pick has `supports`", help)?;
+        }
+        if step.steps.is_none() {
+            let help = "make it a group: [[step]] with these keys, then [[step.steps]] for each of its steps";
+            refuse(step.repeat.as_ref().map(Spanned::span), "only a group of steps can be repeated", help)?;
+            refuse(step.order.as_ref().map(Spanned::span), "only a group of steps has an `order`", help)?;
+        }
+        Ok(())
+    }
+
+    fn pick(&self, step: &StepTable, name: &Spanned<String>) -> Result<LeafAction, Diagnostic> {
+        let object = self.names.object(self.reader, name)?;
+        let default = &self.objects[object];
+        let grasp = step.grasp.as_ref().map(|g| self.reader.point(g, "grasp")).transpose()?;
+        let supports = step.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
+        Ok(LeafAction::Pick {
+            object,
+            grasp: grasp.unwrap_or(default.grasp),
+            supports: supports.unwrap_or_else(|| default.supports.clone()),
+            when: self.when(step, &default.object)?,
+        })
+    }
+
+    /// When what moves may be picked; none where nothing is said of that.
+    fn when(&self, step: &StepTable, object: &Object) -> Result<Option<When>, Diagnostic> {
+        let Some(said) = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span) else { return Ok(None) };
+        let name = &object.name;
+        let refuse = |at: Range<usize>, message: String, help: &str| {
+            Err(self.reader.source.diagnostic_at(at, message).help(help))
+        };
+        let Some(course) = &object.course else {
+            let message = format!("object \"{name}\" does not move: it is picked where it lies, at any time");
+            return refuse(said, message, "remove `at` and `window`, or give the object a motion");
+        };
+        let mut times = vec![[0.0, LATEST]];
+        if let Some(at) = &step.at {
+            times = course.passes(self.reader.point(at, "pick, at")?, PASSES_WITHIN);
+            times.iter_mut().flatten().for_each(|time| *time = time.min(LATEST));
+            if times.is_empty() {
+                let message = format!("object \"{name}\" never passes there");
+                return refuse(at.span(), message, "name a point that its origin passes within a millimetre");
+            }
+        }
+        if let Some(window) = &step.window {
+            let [from, to] = self.reader.two(window, "window")?;
+            if !(0.0 <= from && from <= to) {
+                let message = format!("window [{from}, {to}] is none");
+                return refuse(
+                    window.span(),
+                    message,
+                    "seconds since the task begins, from 0 on, the earlier one first",
+                );
+            }
+            let passed = times.clone();
+            times.iter_mut().for_each(|[begins, ends]| (*begins, *ends) = (begins.max(from), ends.min(to)));
+            times.retain(|[begins, ends]| begins <= ends);
+            if times.is_empty() {
+                let passes: Vec<String> = passed.iter().map(|[time, _]| format!("{time:.3} s")).collect();
+                let message =
+                    format!("object \"{name}\" is at that place at {}, outside the window", passes.join(", "));
+                return refuse(window.span(), message, "choose another window, or another place");
+            }
+        }
+        Ok(Some(When { times, at: said }))
+    }
+
+    /// A place, and what in the file says where; `at` is the step.
+    fn place(&self, place: &PlaceTable, at: Range<usize>) -> Result<(Range<usize>, LeafAction), Diagnostic> {
+        let (to, said) = match (&place.at, &place.on) {
+            (Some(at), None) => (self.reader.point(at, "place, at")?, at.span()),
+            (None, Some(name)) => (self.pallets.place(self.reader, name)?, name.span()),
+            (point, _) => {
+                let found = if point.is_some() { "both" } else { "neither" };
+                let message = format!("a place needs either `at` or `on`, this has {found}");
+                let help = "place = { at = [x, y] }, or place = { on = \"PALLET 1,1\" }";
+                return Err(self.reader.source.diagnostic_at(at, message).help(help));
+            }
+        };
+        let angle = self.angle(place.angle.as_ref())?;
+        let supports = place.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
+        Ok((said, LeafAction::Place { at: to, angle, supports }))
+    }
+
+    fn angle(&self, angle: Option<&Written>) -> Result<Option<(f64, Range<usize>)>, Diagnostic> {
+        angle.map(|angle| Ok((self.reader.quantity(angle, "place, angle")?, angle.span()))).transpose()
+    }
+
+    /// The steps of a transfer, with what in the file asks for each.
+    fn transfer(&self, transfer: &TransferTable) -> Result<Vec<(Range<usize>, LeafAction)>, Diagnostic> {
+        let TransferTable { objects, to, .. } = transfer;
+        let family = self.names.family(self.reader, objects)?;
+        let pallet = self.pallets.named(self.reader, to)?;
+        if family.len() != pallet.count() {
+            let (count, places) = (family.len(), pallet.count());
+            let message = format!(
+                "there are {count} objects \"{}\", and pallet \"{}\" has {places} places",
+                objects.get_ref(),
+                to.get_ref()
+            );
+            let help = "a transfer fills a pallet: give it as many places, or pick and place the objects one by one";
+            return Err(self.reader.source.diagnostic_at(to.span(), message).help(help));
+        }
+        let angle = self.angle(transfer.angle.as_ref())?;
+        let supports = transfer.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
+        let pair = |(object, (_, pose)): (usize, (String, Pose))| {
+            let Movable { grasp, supports: resting, .. } = &self.objects[object];
+            let pick = LeafAction::Pick { object, grasp: *grasp, supports: resting.clone(), when: None };
+            let at = pose.translation.vector.into();
+            let place = LeafAction::Place { at, angle: angle.clone(), supports: supports.clone() };
+            [(objects.span(), pick), (to.span(), place)]
+        };
+        Ok(family.zip(pallet.places()).flat_map(pair).collect())
+    }
+
+    fn pace(&self, default: Pace, speed: Option<&Number>, dwell: Option<&Number>) -> Result<Pace, Diagnostic> {
+        let mut pace = default;
+        if let Some(number) = speed {
+            pace.speed = self.reader.finite(number, "speed")?;
+            if !(pace.speed > 0.0 && pace.speed <= 1.0) {
+                let message = format!("speed must be more than 0 and at most 1, is {}", pace.speed);
+                let help = "it is a share of the joints' top speeds";
+                return Err(self.reader.source.diagnostic_at(number.span(), message).help(help));
+            }
+        }
+        if let Some(number) = dwell {
+            pace.dwell = self.reader.not_negative(number, "dwell")?;
+        }
+        Ok(pace)
+    }
+}

@@ -1,0 +1,149 @@
+//! The steps of a world as a task for its arm.
+
+use super::error::{Diagnostic, DiagnosticKind, InputError};
+use super::reasons::{HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, help_for_reach, out_of_reach, within_limits};
+use super::requirement::{Required, Requirement};
+use super::{LoadedScene, Overrides, RobotReport, World};
+use cplan_core::model::{Payload, Scene, Stroke, Task, Workspace, inverse};
+use cplan_core::space::{Configuration, JointRange};
+use cplan_geometry::Point;
+use cplan_text::listed;
+
+/// A task and how it was read.
+#[derive(Debug, Clone)]
+pub struct LoadedTask {
+    /// The task; its start is within the limits and free, unless it is [`LoadedScene::recorded_task`].
+    pub task: Task,
+    /// The arm, empty-handed, among obstacles and objects where they lie at first.
+    pub scene: Scene,
+    /// How the robot was read.
+    pub robot: RobotReport,
+    /// What the user should know of the task: defaults taken.
+    pub notes: Vec<String>,
+}
+
+impl LoadedScene {
+    /// Whether the world has steps, and so no goal.
+    #[must_use]
+    pub fn has_steps(&self) -> bool {
+        self.world.steps.is_some()
+    }
+
+    /// The task that the world's steps make, from the command line's start or else the world's.
+    ///
+    /// # Errors
+    /// When the world has no steps, or a goal is given on the command line; when the start is missing, outside the limits
+    /// or not free; when a step asks for joint values outside the limits, for a point out of the tip's reach, or for an
+    /// object to rest that is too thin for it.
+    pub fn task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
+        self.task_from(overrides, true)
+    }
+
+    /// The same for judging what was recorded of the task: the start may be outside the limits or not free, which is then a
+    /// finding.
+    ///
+    /// # Errors
+    /// As for [`LoadedScene::task`] else.
+    pub fn recorded_task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
+        self.task_from(overrides, false)
+    }
+
+    fn task_from(self, overrides: &Overrides, is_checked: bool) -> Result<LoadedTask, InputError> {
+        if !self.has_steps() {
+            let diagnostic = self.world.source.diagnostic("there are no steps");
+            return Err(diagnostic.help("[[step]] pick = \"NAME\", and so on").into());
+        }
+        if overrides.goal.is_some() || overrides.goal_tip.is_some() {
+            return Err(self.has_no_goal(overrides).into());
+        }
+        let loaded = self.keeping(overrides.clearance)?;
+        let mut notes = loaded.world.notes.clone();
+        let (start, place) = loaded.start(overrides, &mut notes)?;
+        if is_checked {
+            let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
+            is_free.map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
+        }
+        let requirements = loaded.world.steps.iter().flat_map(|steps| &steps.requirements);
+        InputError::check(requirements.filter_map(|r| loaded.unfulfilled(r, start)).collect())?;
+        let Self { scene, world, robot, .. } = loaded;
+        let stroke = robot.joints.stroke.clone();
+        if let Some(stroke) = &stroke {
+            InputError::check(too_deep(stroke, &world).collect())?;
+        }
+        let workspace = Workspace { clearance: scene.workspace().clearance, ..world.workspace };
+        let items = world.steps.map(|steps| steps.items).unwrap_or_default();
+        let (wrist, note) = world.wrist.unzip();
+        notes.extend(note.flatten());
+        let task = Task { arm: scene.arm().clone(), workspace, objects: world.objects, start, items, wrist, stroke };
+        if let Some((mover, why)) = task.unmoved() {
+            let help = "remove its motion, or what does not go with it";
+            return Err(world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
+        }
+        Ok(LoadedTask { task, scene, robot, notes })
+    }
+
+    /// Why the arm cannot do what a step requires.
+    fn unfulfilled(&self, requirement: &Requirement, start: Configuration) -> Option<Diagnostic> {
+        let step = format!("step {}", requirement.step);
+        let (message, help) = match requirement.required {
+            Required::Joints(q) => self.beyond_limits(&step, q)?,
+            Required::Tip(tip) => self.beyond_reach(&step, tip, start)?,
+            Required::Rest(object) => self.too_thin(&step, object)?,
+        };
+        Some(self.world.source.diagnostic_at(requirement.at.clone(), message).help(help))
+    }
+
+    fn beyond_limits(&self, step: &str, q: Configuration) -> Option<(String, String)> {
+        let outside = beyond_limits(&self.scene, q);
+        (!outside.is_empty())
+            .then(|| (format!("{step} is outside the joint limits: {}", outside.join("; ")), HELP_FOR_LIMITS.into()))
+    }
+
+    fn beyond_reach(&self, step: &str, tip: Point, start: Configuration) -> Option<(String, String)> {
+        let solved = inverse(self.scene.arm(), tip, start);
+        if solved.branches.is_empty() {
+            return Some((out_of_reach(&self.scene, &format!("{step}:"), tip), help_for_reach(&self.scene, tip)));
+        }
+        // Where a joint's value does not matter, others of its values may be within the limits.
+        let (allowed, outside) = within_limits(&self.scene, &solved);
+        (allowed.is_empty() && solved.free.is_none()).then(|| {
+            let message = format!(
+                "{step}: no IK solution that puts the tip at ({}, {}) m is within the joint limits: {}",
+                tip.x,
+                tip.y,
+                listed(&outside)
+            );
+            (message, HELP_FOR_TIP.into())
+        })
+    }
+
+    fn too_thin(&self, step: &str, object: usize) -> Option<(String, String)> {
+        let object = &self.world.objects[object];
+        let arm = self.scene.arm();
+        if object.can_rest(arm) {
+            return None;
+        }
+        let by = Payload::penetration_allowance(arm);
+        let message = format!(
+            "{step}: object \"{}\" is too thin to rest on anything: nothing of it lies {by:.2e} m deep, which is what it may press into its supports",
+            object.name
+        );
+        Some((message, "make it thicker, or remove its supports".into()))
+    }
+}
+
+/// The objects for which the tool would have to go farther down than its joint can.
+fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Diagnostic> + 'a {
+    let joint = &stroke.joint;
+    world.objects.iter().filter_map(|object| {
+        let JointRange::Interval { lower, upper } = joint.range else { return None };
+        let (depth, at) = (stroke.depth(object), stroke.lowered(stroke.depth(object)));
+        let message = format!(
+            "[robot] stroke: for object \"{}\" the tool is lowered by {depth} m, which takes joint \"{}\" to {at} m, outside its \
+             limits [{lower}, {upper}] m",
+            object.name, joint.name
+        );
+        let help = "choose another fixed value of the joint, less travel, or less lift of the object";
+        (!stroke.reaches(object)).then(|| world.source.diagnostic(message).help(help))
+    })
+}

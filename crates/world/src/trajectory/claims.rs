@@ -1,0 +1,214 @@
+//! What a result of cplan's says besides its samples.
+
+use crate::error::{Diagnostic, InputError, without_place};
+use crate::source::Source;
+use cplan_core::model::{BlendsClaim, Claims, EventClaim, OptimumClaim, StepClaims, TaskClaims};
+use cplan_core::space::Configuration;
+use serde::{Deserialize, Deserializer};
+
+/// Numbers beyond this are a mistake.
+const LARGEST: f64 = 1e12;
+
+/// Members that are read elsewhere, or say how others are to be read.
+const READ: [&str; 5] = ["joints", "trajectory", "interpolation", "steps", "events"];
+
+/// The members that are judged.
+#[derive(Deserialize)]
+struct Document {
+    status: Option<String>,
+    joints: Option<Vec<String>>,
+    certified: Option<bool>,
+    units: Option<Vec<String>>,
+    path: Option<Vec<Vec<f64>>>,
+    length: Option<f64>,
+    #[serde(default, deserialize_with = "said")]
+    clearance: Option<Option<f64>>,
+    blends: Option<BlendsMember>,
+    duration: Option<f64>,
+    optimum: Option<OptimumMember>,
+    lower_bound: Option<f64>,
+    gap: Option<f64>,
+    trajectory: Option<TrajectoryMember>,
+    steps: Option<Vec<StepMember>>,
+    events: Option<Vec<EventMember>>,
+}
+
+const JUDGED: [&str; 10] =
+    ["status", "certified", "units", "path", "length", "clearance", "blends", "duration", "optimum", "gap"];
+
+#[derive(Deserialize)]
+struct TrajectoryMember {
+    step: Option<Vec<usize>>,
+}
+
+#[derive(Deserialize)]
+struct BlendsMember {
+    count: usize,
+    largest_radius: f64,
+}
+
+#[derive(Deserialize)]
+struct OptimumMember {
+    metric: String,
+    weights: Option<[f64; 2]>,
+    length: f64,
+    lower_bound: f64,
+    gap: Option<f64>,
+}
+
+#[derive(Deserialize)]
+struct StepMember {
+    action: Option<String>,
+    #[serde(default, deserialize_with = "said")]
+    object: Option<Option<String>>,
+    #[serde(default, deserialize_with = "said")]
+    carried: Option<Option<String>>,
+    begin: Option<f64>,
+    arrival: Option<f64>,
+    end: Option<f64>,
+    path: Option<Vec<Vec<f64>>>,
+    length: Option<f64>,
+    #[serde(default, deserialize_with = "said")]
+    clearance: Option<Option<f64>>,
+    blends: Option<BlendsMember>,
+    turn: Option<TurnMember>,
+}
+
+#[derive(Deserialize)]
+struct TurnMember {
+    #[serde(default, deserialize_with = "said")]
+    clearance: Option<Option<f64>>,
+}
+
+#[derive(Deserialize)]
+struct EventMember {
+    time: f64,
+    event: String,
+    object: String,
+    step: usize,
+    cycle: usize,
+    tip: [f64; 2],
+    pose: Option<PoseMember>,
+}
+
+#[derive(Deserialize)]
+struct PoseMember {
+    at: [f64; 2],
+    angle: f64,
+}
+
+/// A member that may be null, which says something, too.
+fn said<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
+    Option::deserialize(deserializer).map(Some)
+}
+
+/// Reads what a result says besides its samples; none if it is no result of cplan's: one has a status.
+///
+/// # Errors
+/// Members that are none: of another type, numbers that are too large, or paths of other joints.
+pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, InputError> {
+    let wrong = |error: serde_json::Error| {
+        let message = without_place(&error.to_string());
+        source.diagnostic_at_position(error.line(), error.column(), message).help("verify a result as cplan writes it")
+    };
+    let members: serde_json::Map<String, serde_json::Value> = serde_json::from_str(source.text()).map_err(wrong)?;
+    if !members.contains_key("status") {
+        return Ok(None);
+    }
+    let document: Document = serde_json::from_str(source.text()).map_err(wrong)?;
+    let order = document.joints.as_deref().map_or(Some([0, 1]), |joints| order(joints, arm));
+    let Some(order) = order else {
+        // The reader of samples says what is wrong with the names.
+        return Ok(None);
+    };
+    let unjudged = members.keys().filter(|name| !JUDGED.contains(&name.as_str()) && !READ.contains(&name.as_str()));
+    let mut unjudged: Vec<String> = unjudged.cloned().collect();
+    let samples = members.get("trajectory").filter(|trajectory| !trajectory.is_null());
+    if samples.is_some_and(|samples| samples.get("torque").is_some_and(|torque| !torque.is_null())) {
+        unjudged.push("trajectory.torque".into());
+    }
+    if samples.is_none() && document.duration.is_some() {
+        unjudged.push("duration".into());
+    }
+    for (name, inner) in [("optimum", "optimum.lower_bound"), ("steps", "steps[..].closest, steps[..].stroke")] {
+        if members.contains_key(name) {
+            unjudged.push(inner.into());
+        }
+    }
+    let width = document.joints.as_ref().map_or(2, Vec::len);
+    if let Some(units) = document.units.as_ref().filter(|units| units.len() != width) {
+        let diagnostic = source.diagnostic(format!("units are {units:?}, but {width} joints are named"));
+        return Err(diagnostic.help("give every joint one unit, \"rad\" or \"m\"").into());
+    }
+    let paths = document.path.iter().chain(document.steps.iter().flatten().filter_map(|step| step.path.as_ref()));
+    if let Some(row) = paths.flatten().find(|row| row.len() != width || row.iter().any(|value| value.abs() > LARGEST)) {
+        let diagnostic = source.diagnostic(format!("a waypoint of a path is {row:?}, but {width} joints are named"));
+        return Err(diagnostic.help("give every waypoint one value for each joint, radians or metres").into());
+    }
+    let claims = document.claims(order, unjudged);
+    let numbers = [claims.length, claims.duration, claims.clearance.flatten(), claims.task.lower_bound];
+    if let Some(value) = numbers.into_iter().flatten().find(|value| value.abs() > LARGEST) {
+        let diagnostic: Diagnostic = source.diagnostic(format!("{value:e} is too large to be meant"));
+        return Err(diagnostic.help("radians, metres and seconds are expected").into());
+    }
+    Ok(Some(claims))
+}
+
+/// Where the arm's joints are among the file's.
+fn order(joints: &[String], arm: [&str; 2]) -> Option<[usize; 2]> {
+    let at = |name: &str| joints.iter().position(|joint| joint == name);
+    Some([at(arm[0])?, at(arm[1])?])
+}
+
+impl Document {
+    fn claims(self, order: [usize; 2], unjudged: Vec<String>) -> Claims {
+        let path = |rows: Option<Vec<Vec<f64>>>| {
+            rows.map(|rows| rows.into_iter().map(|q| Configuration::new(q[order[0]], q[order[1]])).collect())
+        };
+        let blends = |member: Option<BlendsMember>| {
+            member.map(|BlendsMember { count, largest_radius }| BlendsClaim { count, largest_radius })
+        };
+        let step = |member: StepMember| StepClaims {
+            action: member.action,
+            object: member.object,
+            carried: member.carried,
+            begin: member.begin,
+            arrival: member.arrival,
+            end: member.end,
+            path: path(member.path),
+            length: member.length,
+            clearance: member.clearance,
+            blends: blends(member.blends),
+            turn_clearance: member.turn.and_then(|turn| turn.clearance),
+        };
+        let event = |EventMember { time, event, object, step, cycle, tip, pose }: EventMember| {
+            let pose = pose.map(|PoseMember { at, angle }| (at, angle));
+            EventClaim { time, event, object, step, cycle, tip, pose }
+        };
+        Claims {
+            status: self.status,
+            certified: self.certified,
+            units: self
+                .units
+                .filter(|units| units.len() > order[0].max(order[1]))
+                .map(|units| order.map(|k| units[k].clone()).to_vec()),
+            path: path(self.path),
+            length: self.length,
+            clearance: self.clearance,
+            blends: blends(self.blends),
+            duration: self.duration,
+            optimum: self.optimum.map(|OptimumMember { metric, weights, length, lower_bound, gap }| {
+                let weights = weights.map(|weights| order.map(|k| weights[k]));
+                OptimumClaim { metric, weights, length, lower_bound, gap }
+            }),
+            task: TaskClaims {
+                lower_bound: self.lower_bound,
+                gap: self.gap,
+                step_of_sample: self.trajectory.and_then(|trajectory| trajectory.step),
+                steps: self.steps.unwrap_or_default().into_iter().map(step).collect(),
+                events: self.events.map(|events| events.into_iter().map(event).collect()),
+            },
+            unjudged,
+        }
+    }
+}

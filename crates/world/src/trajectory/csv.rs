@@ -1,0 +1,272 @@
+//! Joint values as a table: a header of names, then a sample a line. Values are separated by commas, semicolons or tabs, as
+//! the header has it; lines that begin with `#` are comments, but for the header itself.
+
+use super::columns::{Meaning, Quantity, meanings};
+use super::records::{Field, Records};
+use super::units::{self, Dimension, Unit};
+use super::{Names, Samples, Series};
+use crate::error::{Diagnostic, InputError, quoted};
+use crate::source::Source;
+
+/// Reads a table. See [`super::load_recording`] for the names of columns.
+pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError> {
+    let separator = separator(&source.text, names);
+    let mut records = Records::new(&source.text, separator);
+    // A comment may be the header.
+    let header = records.find(|record| !is_comment(record) || names_joints(record, names));
+    let header = header.ok_or_else(|| {
+        source.diagnostic("is empty").help("write a header of names, then the samples: time,joint1,joint2")
+    })?;
+    let mut columns = Columns::new(source, names, &header)?;
+    let mut samples = Samples { what: "sample".into(), ..Samples::default() };
+    let mut values: Vec<Vec<f64>> = columns.used.iter().map(|_| Vec::new()).collect();
+    let (mut repeated, mut blank) = (0, 0);
+    for record in records.filter(|record| !is_comment(record)) {
+        if record.len() != header.len() {
+            let message = format!("this line has {} values, the header has {} names", record.len(), header.len());
+            return Err(source
+                .diagnostic_at(whole(&record), message)
+                .help("give every line one value for each name of the header")
+                .into());
+        }
+        if columns.is_blank(&record) {
+            blank += 1;
+            continue;
+        }
+        let sample = (0..columns.used.len()).map(|k| columns.value(source, &header, k, &record));
+        let sample = sample.collect::<Result<Vec<f64>, Diagnostic>>()?;
+        // The same line again, its time included, is the same sample.
+        if columns.has_time()
+            && !sample.is_empty()
+            && values.iter().map(|column| column.last()).eq(sample.iter().map(Some))
+        {
+            repeated += 1;
+            continue;
+        }
+        values.iter_mut().zip(sample).for_each(|(column, value)| column.push(value));
+        samples.places.push(whole(&record));
+    }
+    if repeated > 0 {
+        let plural = if repeated == 1 { " repeats the one before it" } else { "s repeat the ones before them" };
+        columns.notes.push(format!("{repeated} sample{plural}; taken once"));
+    }
+    if blank > 0 {
+        let plural = if blank == 1 { " holds" } else { "s hold" };
+        columns.notes.push(format!("{blank} line{plural} no value of any joint: not used"));
+    }
+    if separator != ',' {
+        let name = if separator == ';' { "semicolons" } else { "tabs" };
+        columns.notes.push(format!("values are separated by {name}"));
+    }
+    columns.fill(&mut samples, values);
+    Ok(samples)
+}
+
+/// The character that separates values: of comma, semicolon and tab the first with which some line names a joint.
+fn separator(text: &str, names: &Names) -> char {
+    let names_some = |separator: &char| {
+        let mut heads = Records::new(text, *separator).take(HEAD);
+        heads.any(|record| record.len() > 1 && names_joints(&record, names))
+    };
+    [',', ';', '\t'].into_iter().find(names_some).unwrap_or(',')
+}
+
+/// So many lines are looked at for the header.
+const HEAD: usize = 64;
+
+fn is_comment(record: &[Field]) -> bool {
+    record.first().is_some_and(|field| field.text.starts_with('#'))
+}
+
+/// Whether a line names a joint of the arm.
+fn names_joints(record: &[Field], names: &Names) -> bool {
+    let joints: Vec<&str> = names.all().collect();
+    let name = |field: &Field| field.text.trim_start_matches(['#', ' ']).to_owned();
+    record.iter().any(|field| meant(&name(field), &joints).0.iter().any(|m| matches!(m, Meaning::Of(..))))
+}
+
+fn whole(record: &[Field]) -> std::ops::Range<usize> {
+    record.first().map_or(0, |f| f.range.start)..record.last().map_or(0, |f| f.range.end)
+}
+
+fn number(source: &Source, name: &Field, field: &Field) -> Result<f64, Diagnostic> {
+    match field.text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) => Err(source
+            .diagnostic_at(field.range.clone(), format!("{} is {value}", quoted([&name.text])))
+            .help("drop the samples that were not measured")),
+        Err(_) => Err(source
+            .diagnostic_at(
+                field.range.clone(),
+                format!("{} is \"{}\", which is no number", quoted([&name.text]), field.text),
+            )
+            .help("write numbers with a decimal point and no unit; a unit stands in the header: elbow [deg]")),
+    }
+}
+
+/// A column that is read.
+struct Column {
+    /// Its place in each line.
+    index: usize,
+    meaning: Meaning,
+    /// None: radians, metres and seconds.
+    unit: Option<Unit>,
+}
+
+/// Which columns are read.
+struct Columns {
+    /// Names of the joints that a meaning's index stands for.
+    joints: Vec<String>,
+    /// Ordered as in the file.
+    used: Vec<Column>,
+    /// Whole seconds of the first time that are left out of all times, if it is no time from a start.
+    epoch: Option<i64>,
+    notes: Vec<String>,
+}
+
+impl Columns {
+    fn new(source: &Source, names: &Names, header: &[Field]) -> Result<Self, Diagnostic> {
+        let joints: Vec<&str> = names.all().collect();
+        let (mut used, mut unknown): (Vec<Column>, Vec<&str>) = (Vec::new(), Vec::new());
+        for (index, field) in header.iter().enumerate() {
+            // Some programs begin the header as a comment.
+            let name = if index == 0 { field.text.trim_start_matches(['#', ' ']) } else { &field.text };
+            let (known, unit) = meant(name, &joints);
+            match known[..] {
+                [] => unknown.push(name),
+                [meaning] => {
+                    if let Some(other) = used.iter().find(|column| column.meaning == meaning) {
+                        let message = format!("columns \"{}\" and \"{name}\" mean the same", header[other.index].text);
+                        return Err(source.diagnostic_at(field.range.clone(), message).help("keep one of them"));
+                    }
+                    let unit = unit.map(|unit| unit_of(source, names, field, unit, meaning)).transpose()?.flatten();
+                    used.push(Column { index, meaning, unit });
+                }
+                _ => {
+                    let message = format!("the column \"{name}\" can be read in more than one way");
+                    let help = "name it after its joint, with .position, .velocity or .acceleration behind it";
+                    return Err(source.diagnostic_at(field.range.clone(), message).help(help));
+                }
+            }
+        }
+        if used.is_empty() && header.iter().all(|f| f.text.parse::<f64>().is_ok()) {
+            let help = format!("name the columns in the first line: time, {}", names.arm.join(", "));
+            return Err(source.diagnostic_at(whole(header), "there is no header").help(help));
+        }
+        let has = |index: usize| used.iter().any(|column| column.meaning == Meaning::Of(index, Quantity::Position));
+        // The arm's joints come first.
+        if let Some(missing) = (0..names.arm.len()).find(|index| !has(*index)) {
+            let columns = quoted(header.iter().map(|field| &field.text));
+            let message = format!("holds no positions of joint \"{}\"; its columns are {columns}", names.arm[missing]);
+            let help = format!("the arm's joints are {}: name the columns of positions so", quoted(names.arm));
+            return Err(source.diagnostic_at(whole(header), message).help(help));
+        }
+        let mut notes = Vec::new();
+        let converted = used.iter().filter(|column| column.unit.is_some_and(|unit| unit.is_converted()));
+        let converted: Vec<&str> = converted.map(|column| &*header[column.index].text).collect();
+        if !converted.is_empty() {
+            notes.push(format!("converted to radians, metres and seconds: {}", quoted(converted)));
+        }
+        if !unknown.is_empty() {
+            notes.push(format!("columns that are not used: {}", quoted(unknown)));
+        }
+        Ok(Self { joints: joints.into_iter().map(str::to_owned).collect(), used, epoch: None, notes })
+    }
+
+    fn has_time(&self) -> bool {
+        self.used.iter().any(|column| column.meaning == Meaning::Time)
+    }
+
+    /// Whether a line holds nothing of any joint, as in tables of several sources, which log at different moments.
+    fn is_blank(&self, record: &[Field]) -> bool {
+        let mut joints = self.used.iter().filter(|column| column.meaning != Meaning::Time);
+        joints.all(|column| record[column.index].text.is_empty())
+    }
+
+    /// The value of a column in a line, in radians, metres or seconds.
+    fn value(&mut self, source: &Source, header: &[Field], k: usize, record: &[Field]) -> Result<f64, Diagnostic> {
+        let Column { index, meaning, unit } = self.used[k];
+        let (name, field) = (&header[index], &record[index]);
+        let value = number(source, name, field)?;
+        if let Some(unit) = unit {
+            return Ok(unit.convert(value));
+        }
+        if meaning != Meaning::Time {
+            return Ok(value);
+        }
+        // A double resolves a date to a quarter of a microsecond: the decimals are read without it.
+        let parts = field.text.split_once('.').unwrap_or((&field.text, "0"));
+        let Ok(seconds) = parts.0.parse::<i64>() else { return Ok(value) };
+        if self.epoch.is_none() {
+            self.epoch = Some(if value > LATEST { seconds } else { 0 });
+            if value > LATEST {
+                self.notes.push(format!("times are dates: counted from {seconds} s"));
+            }
+        }
+        let rest = self.epoch.filter(|epoch| *epoch > 0 && seconds >= *epoch).map(|epoch| seconds - epoch);
+        Ok(rest.and_then(|rest| format!("{rest}.{}", parts.1).parse().ok()).unwrap_or(value))
+    }
+
+    /// Puts the columns' values where they belong.
+    fn fill(self, samples: &mut Samples, values: Vec<Vec<f64>>) {
+        let mut series: Vec<[Option<Vec<f64>>; 4]> = self.joints.iter().map(|_| Default::default()).collect();
+        for (column, values) in self.used.into_iter().zip(values) {
+            match column.meaning {
+                Meaning::Time => samples.time = Some(values),
+                Meaning::Of(joint, quantity) => series[joint][quantity as usize] = Some(values),
+            }
+        }
+        for (name, [position, velocity, acceleration, torque]) in self.joints.into_iter().zip(series) {
+            samples.has_torques |= torque.is_some();
+            if let Some(position) = position {
+                samples.joints.push(Series { name, position, velocity, acceleration });
+            }
+        }
+        samples.notes.extend(self.notes);
+    }
+}
+
+/// Times beyond this are dates and no times from a start: eleven days, in seconds.
+const LATEST: f64 = 1e6;
+
+/// What a column means, and its unit if its name has one behind it.
+fn meant<'a>(name: &'a str, joints: &[&str]) -> (Vec<Meaning>, Option<&'a str>) {
+    match (meanings(name, joints), units::split(name)) {
+        (known, Some((base, unit))) if known.is_empty() => (meanings(base, joints), Some(unit)),
+        (known, _) => (known, None),
+    }
+}
+
+/// The unit of a column; none of torques, which are not read.
+///
+/// # Errors
+/// Units that are unknown, or do not fit the joint.
+fn unit_of(
+    source: &Source,
+    names: &Names,
+    field: &Field,
+    unit: &str,
+    meaning: Meaning,
+) -> Result<Option<Unit>, Diagnostic> {
+    let dimensions: &[Dimension] = match meaning {
+        Meaning::Of(_, Quantity::Torque) => return Ok(None),
+        Meaning::Time => &[Dimension::Time],
+        Meaning::Of(joint, _) => match names.turns.get(joint) {
+            Some(true) => &[Dimension::Angle],
+            Some(false) => &[Dimension::Length],
+            None => &[Dimension::Angle, Dimension::Length],
+        },
+    };
+    let wrong = |message: String, help: String| Err(source.diagnostic_at(field.range.clone(), message).help(help));
+    match units::unit(unit, meaning) {
+        None => wrong(
+            format!("the unit \"{unit}\" of column \"{}\" is unknown", field.text),
+            format!("units are {}", units::KNOWN),
+        ),
+        Some(found) if !dimensions.contains(&found.dimension) => wrong(
+            format!("column \"{}\" cannot have the unit \"{unit}\"", field.text),
+            "joints that turn are in rad or deg, joints that slide in m, cm or mm, times in s, ms or ns".into(),
+        ),
+        found => Ok(found),
+    }
+}

@@ -1,0 +1,231 @@
+//! Joint values as a structured document: cplan's JSON, or a ROS 2 message in YAML or JSON.
+
+use super::{Samples, Series};
+use crate::error::{Diagnostic, InputError, without_place};
+use crate::source::Source;
+use cplan_core::space::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+/// The members that are looked at; others may be there.
+#[derive(Deserialize)]
+struct Document {
+    /// cplan's result.
+    status: Option<String>,
+    joints: Option<Vec<String>>,
+    path: Option<Vec<Vec<f64>>>,
+    interpolation: Option<String>,
+    trajectory: Option<Inner>,
+    /// A ROS message, alone or inside another.
+    joint_names: Option<Vec<String>>,
+    points: Option<Vec<Point>>,
+    joint_trajectory: Option<Inner>,
+}
+
+/// A trajectory: cplan's, or a ROS message.
+#[derive(Deserialize)]
+struct Inner {
+    time: Option<Vec<f64>>,
+    position: Option<Vec<Vec<f64>>>,
+    velocity: Option<Vec<Vec<f64>>>,
+    acceleration: Option<Vec<Vec<f64>>>,
+    torque: Option<IgnoredAny>,
+    joint_names: Option<Vec<String>>,
+    points: Option<Vec<Point>>,
+}
+
+/// A `trajectory_msgs/msg/JointTrajectoryPoint`.
+#[derive(Deserialize)]
+struct Point {
+    #[serde(default)]
+    positions: Vec<f64>,
+    #[serde(default)]
+    velocities: Vec<f64>,
+    #[serde(default)]
+    accelerations: Vec<f64>,
+    time_from_start: Option<Stamp>,
+}
+
+/// A `builtin_interfaces/msg/Duration`, also as ROS 1 spells it, or plain seconds.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "a time is {sec: 1, nanosec: 500000000}, both whole numbers, or seconds")]
+enum Stamp {
+    Parts {
+        #[serde(alias = "secs", default)]
+        sec: i64,
+        #[serde(alias = "nsecs", default)]
+        nanosec: u32,
+    },
+    Seconds(f64),
+}
+
+impl Stamp {
+    /// Correctly rounded, so that as a decimal it has no more than nine digits behind the point.
+    fn seconds(&self) -> f64 {
+        match *self {
+            Stamp::Parts { sec, nanosec } => (sec as f64 * 1e9 + f64::from(nanosec)) / 1e9,
+            Stamp::Seconds(seconds) => seconds,
+        }
+    }
+}
+
+/// Reads a result of cplan, or what others write as JSON.
+pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
+    let help = "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
+    // A list would be taken for the members of an object in their order.
+    let begins = source.text.len() - source.text.trim_start().len();
+    if source.text[begins..].starts_with('[') {
+        let message = "is a list: an object { ... } is expected";
+        return Err(source.diagnostic_at(begins..begins + 1, message).help(help).into());
+    }
+    let document: Document = serde_json::from_str(&source.text).map_err(|error| {
+        source.diagnostic_at_position(error.line(), error.column(), without_place(&error.to_string())).help(help)
+    })?;
+    Ok(samples(source, document)?)
+}
+
+/// Reads a JointTrajectory as ROS 2 prints it.
+pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
+    let mut options = serde_saphyr::Options::default();
+    // The file is in memory already, and its size is bounded: so are the events and nodes that it can make.
+    if let Some(budget) = &mut options.budget {
+        budget.max_events = source.text.len().max(budget.max_events);
+        budget.max_nodes = source.text.len().max(budget.max_nodes);
+        budget.max_total_scalar_bytes = source.text.len().max(budget.max_total_scalar_bytes);
+    }
+    // `ros2 topic echo` ends a message with a line of three dashes.
+    let text = source.text.trim_end();
+    let text = text.strip_suffix("\n---").unwrap_or(text);
+    let document: Document = serde_saphyr::from_str_with_options(text, options).map_err(|error| {
+        let help = "one trajectory_msgs/msg/JointTrajectory is expected, with joint_names and points";
+        source.yaml_diagnostic(&error).help(help)
+    })?;
+    Ok(samples(source, document)?)
+}
+
+fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
+    let Document { status, joints, path, interpolation, trajectory, joint_names, points, joint_trajectory } = document;
+    if let Some(points) = points {
+        return message(source, joint_names, points);
+    }
+    for inner in [joint_trajectory, trajectory].into_iter().flatten() {
+        if let Some(points) = inner.points {
+            return message(source, inner.joint_names, points);
+        }
+        if let (Some(time), Some(position)) = (inner.time, inner.position) {
+            let names = named(source, joints, "joints")?;
+            let mut samples = Samples { time: Some(time), what: "trajectory.position".into(), ..Samples::default() };
+            samples.joints = series(source, names, &position, "trajectory.position")?;
+            samples.add(source, inner.velocity, "trajectory.velocity", |joint| &mut joint.velocity)?;
+            samples.add(source, inner.acceleration, "trajectory.acceleration", |joint| &mut joint.acceleration)?;
+            samples.has_torques = inner.torque.is_some();
+            samples.joined = own_rule(interpolation.as_deref(), &mut samples.notes);
+            return Ok(samples);
+        }
+    }
+    if let Some(path) = path {
+        let names = named(source, joints, "joints")?;
+        let joints = series(source, names, &path, "path")?;
+        return Ok(Samples { joints, what: "path".into(), ..Samples::default() });
+    }
+    Err(match status {
+        Some(status) => source
+            .diagnostic(format!("holds no path: its status is \"{status}\""))
+            .help("verify a result that found one"),
+        None => source
+            .diagnostic("holds neither a path, nor a trajectory, nor the points of a JointTrajectory")
+            .help("write it with cplan --output, or as a ROS 2 JointTrajectory with joint_names and points"),
+    })
+}
+
+/// What the member `interpolation` of a result of cplan's makes of accelerations.
+fn own_rule(said: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolation> {
+    match said {
+        Some(INTERPOLATION) => Some(Interpolation::Quartic),
+        Some(SMOOTH_INTERPOLATION) => Some(Interpolation::Cubic),
+        Some(_) => {
+            notes.push("the file's `interpolation` is none that this version knows: not used".into());
+            None
+        }
+        None => None,
+    }
+}
+
+impl Samples {
+    /// Adds rows of velocities or accelerations, if there are any, to the joints' positions.
+    fn add(
+        &mut self,
+        source: &Source,
+        rows: Option<Vec<Vec<f64>>>,
+        what: &str,
+        place: fn(&mut Series) -> &mut Option<Vec<f64>>,
+    ) -> Result<(), Diagnostic> {
+        let Some(rows) = rows else { return Ok(()) };
+        let columns = transposed(source, &rows, self.joints.len(), what)?;
+        self.joints.iter_mut().zip(columns).for_each(|(joint, column)| *place(joint) = Some(column));
+        Ok(())
+    }
+}
+
+fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Vec<String>, Diagnostic> {
+    let names = names.filter(|n| !n.is_empty()).ok_or_else(|| {
+        source
+            .diagnostic(format!("\"{member}\" is missing: it is not said which value is which joint's"))
+            .help(format!("add \"{member}\" with the joints' names in the order of the values"))
+    })?;
+    match names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
+        Some((_, twice)) => {
+            Err(source.diagnostic(format!("\"{member}\" names joint \"{twice}\" twice")).help("keep one"))
+        }
+        None => Ok(names),
+    }
+}
+
+/// A ROS message.
+fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> Result<Samples, Diagnostic> {
+    let names = named(source, names, "joint_names")?;
+    let count = points.len();
+    let (mut time, mut positions) = (Vec::new(), Vec::new());
+    let (mut velocities, mut accelerations) = (Vec::new(), Vec::new());
+    for point in points {
+        time.extend(point.time_from_start.map(|stamp| stamp.seconds()));
+        positions.push(point.positions);
+        velocities.extend(Some(point.velocities).filter(|row| !row.is_empty()));
+        accelerations.extend(Some(point.accelerations).filter(|row| !row.is_empty()));
+    }
+    let found =
+        [(velocities.len(), "velocities"), (accelerations.len(), "accelerations"), (time.len(), "time_from_start")];
+    if let Some((found, what)) = found.into_iter().find(|(found, _)| *found != 0 && *found != count) {
+        return Err(source
+            .diagnostic(format!("{found} of {count} points have {what}"))
+            .help(format!("give all points their {what}, or none")));
+    }
+    let mut samples = Samples { what: "points".into(), joined: Some(Interpolation::Quintic), ..Samples::default() };
+    // The controller goes to the first point from wherever the arm is.
+    if let Some(first) = time.first().filter(|first| **first > 0.0) {
+        samples
+            .notes
+            .push(format!("the way to the first point, until {first} s, depends on where the arm is: not judged"));
+    }
+    samples.time = Some(time).filter(|time| !time.is_empty());
+    samples.joints = series(source, names, &positions, "positions of points")?;
+    let any = |rows: Vec<Vec<f64>>| Some(rows).filter(|rows| !rows.is_empty());
+    samples.add(source, any(velocities), "velocities of points", |joint| &mut joint.velocity)?;
+    samples.add(source, any(accelerations), "accelerations of points", |joint| &mut joint.acceleration)?;
+    Ok(samples)
+}
+
+/// Rows of positions as a series a joint.
+fn series(source: &Source, names: Vec<String>, rows: &[Vec<f64>], what: &str) -> Result<Vec<Series>, Diagnostic> {
+    let columns = transposed(source, rows, names.len(), what)?;
+    Ok(names.into_iter().zip(columns).map(|(name, position)| Series { name, position, ..Series::default() }).collect())
+}
+
+/// Rows as columns.
+fn transposed(source: &Source, rows: &[Vec<f64>], width: usize, what: &str) -> Result<Vec<Vec<f64>>, Diagnostic> {
+    if let Some(k) = rows.iter().position(|row| row.len() != width) {
+        let message = format!("{what}[{k}] has {} values, but {width} joints are named", rows[k].len());
+        return Err(source.diagnostic(message).help("give every sample one value for each joint"));
+    }
+    Ok((0..width).map(|joint| rows.iter().map(|row| row[joint]).collect()).collect())
+}

@@ -1,0 +1,251 @@
+//! Joint values as recorded topics of ROS 2, in an MCAP file.
+
+mod cdr;
+mod file;
+mod message;
+mod topics;
+
+use super::{Names, Samples, Series};
+use crate::error::{Diagnostic, InputError, quoted};
+use crate::source::Source;
+use cplan_core::space::Interpolation;
+use message::{Kind, Message, Row};
+use topics::Topic;
+
+/// Reads a recording: the motions of a topic, one after the other, between which the arm stands still, or states. The topic
+/// is the one that is `asked` for, or see [`topics::choose`].
+///
+/// # Errors
+/// Files that are no MCAP, topics of which none or several have the arm's joints, messages that are none, and motions that do not
+/// fit together.
+pub(super) fn read(source: &Source, bytes: &[u8], asked: Option<&str>, names: &Names) -> Result<Samples, InputError> {
+    let topics = topics::all(bytes).map_err(|error| topics::unreadable(source, &error))?;
+    let (topic, notes) = topics::choose(source, topics, asked, names.arm)?;
+    let mut samples = match topic.kind {
+        Some(Kind::Trajectory) => motions(source, topic, names)?,
+        _ => states(source, topic, names)?,
+    };
+    samples.notes.extend(notes);
+    Ok(samples)
+}
+
+/// The messages that have both of the arm's joints with their times, in the order of these; and the others.
+///
+/// The time of a message is its stamp, or when it was logged if some have no stamp.
+fn in_time(topic: &mut Topic, arm: [&str; 2]) -> (Vec<(i64, Message)>, Vec<Message>) {
+    let (messages, others): (Vec<Message>, Vec<Message>) = std::mem::take(&mut topic.messages)
+        .into_iter()
+        .partition(|message| arm.iter().all(|joint| message.names(joint)));
+    let has_stamps = messages.iter().all(|message| message.stamp != 0);
+    let time = |message: &Message| if has_stamps { message.stamp } else { message.logged };
+    let mut messages: Vec<(i64, Message)> = messages.into_iter().map(|message| (time(&message), message)).collect();
+    messages.sort_by_key(|(time, _)| *time);
+    (messages, others)
+}
+
+/// States, each a sample.
+fn states(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, Diagnostic> {
+    let (messages, others) = in_time(&mut topic, names.arm);
+    let mut table = Table::new(source, &topic.name, &messages);
+    let mut repeated = 0;
+    for (time, message) in messages {
+        let before = table.rows.len();
+        table.add(message, time)?;
+        if let [.., last, new] = &table.rows[..]
+            && (last.nanoseconds, &last.values) == (new.nanoseconds, &new.values)
+        {
+            table.rows.truncate(before);
+            repeated += 1;
+        }
+    }
+    let mut samples = table.samples(names, &others)?;
+    if repeated > 0 {
+        samples.notes.push(format!("{repeated} messages repeat the ones before them; taken once"));
+    }
+    Ok(Samples { what: format!("message on {}", topic.name).into(), ..samples })
+}
+
+/// Motions that follow each other, each beginning at the time of its message.
+fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, Diagnostic> {
+    let (messages, others) = in_time(&mut topic, names.arm);
+    let name = &topic.name;
+    let mut table = Table::new(source, name, &messages);
+    let (mut rests, mut count) = (Vec::new(), 0);
+    for (begin, message) in messages {
+        let from = table.rows.len();
+        table.add(message, begin)?;
+        let [end, first] = match table.rows.get(from.saturating_sub(1)..from + 1) {
+            Some([end, first]) => [end, first],
+            // The first motion, or one without points.
+            _ => {
+                count += usize::from(table.rows.len() > from);
+                continue;
+            }
+        };
+        count += 1;
+        if begin < end.nanoseconds {
+            let what =
+                format!("a motion on {name} begins at {begin} ns, before the last one ends at {}", end.nanoseconds);
+            let help =
+                "record one motion after the other, or verify the states that were recorded with them: --topic NAME";
+            return Err(source.diagnostic(what).help(help));
+        }
+        // Samples need distinct times: a nanosecond is the least that messages tell apart.
+        let earliest = end.nanoseconds + 1;
+        let differing = table.joints.iter().enumerate().find(|(k, _)| end.values[0][*k] != first.values[0][*k]);
+        if let Some((_, joint)) = differing {
+            if first.nanoseconds <= begin {
+                let what =
+                    format!("joint \"{joint}\" stands elsewhere when a motion begins than where the last one ended");
+                let help = "record all motions, or verify the states that were recorded with them: --topic NAME";
+                return Err(source.diagnostic(what).help(help));
+            }
+            // The controller leads the arm from where it stands to the first point.
+            let still = |k: usize| end.values[k].iter().map(|_| 0.0).collect();
+            let start = Row { nanoseconds: begin.max(earliest), values: [end.values[0].clone(), still(1), still(2)] };
+            table.rows.insert(from, start);
+        } else {
+            let first = &mut table.rows[from];
+            first.nanoseconds = first.nanoseconds.max(earliest);
+        }
+        rests.push(from - 1);
+    }
+    let mut samples = table.samples(names, &others)?;
+    if count > 1 {
+        samples.notes.push(format!("{count} motions, one after the other; between them the arm stands still"));
+    }
+    Ok(Samples { what: format!("point on {name}").into(), joined: Some(Interpolation::Quintic), rests, ..samples })
+}
+
+/// Rows of values of the same joints.
+struct Table<'a> {
+    source: &'a Source,
+    topic: &'a str,
+    /// The joints that all messages have.
+    joints: Vec<String>,
+    /// Joints that only some have.
+    others: Vec<String>,
+    /// Values in the order of `joints`.
+    rows: Vec<Row>,
+    /// What `others` were at any time.
+    aside: Vec<(String, Vec<f64>)>,
+}
+
+impl<'a> Table<'a> {
+    /// A table without rows for these messages.
+    fn new(source: &'a Source, topic: &'a str, messages: &[(i64, Message)]) -> Self {
+        let (mut joints, mut others): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+        if let Some((_, first)) = messages.first() {
+            joints = first.joints.to_vec();
+        }
+        let mut last = None;
+        for (_, message) in messages {
+            if last.replace(&message.joints).is_some_and(|last| *last == message.joints) {
+                continue;
+            }
+            others.extend(joints.extract_if(.., |joint| !message.names(joint)));
+            let is_new = |name: &&String| !joints.contains(name) && !others.contains(name);
+            others.extend(message.joints.iter().filter(is_new).cloned().collect::<Vec<_>>());
+        }
+        Self { source, topic, joints, others, rows: Vec::new(), aside: Vec::new() }
+    }
+
+    /// Adds the rows of a message of this time.
+    ///
+    /// # Errors
+    /// Rows without one value for each joint.
+    fn add(&mut self, message: Message, time: i64) -> Result<(), Diagnostic> {
+        let places = |names: &[String]| -> Vec<usize> {
+            names.iter().filter_map(|name| message.joints.iter().position(|joint| joint == name)).collect()
+        };
+        let kept = places(&self.joints);
+        let width = message.joints.len();
+        for row in message.rows {
+            let nanoseconds = row.nanoseconds.saturating_add(time);
+            if !row.values.iter().enumerate().all(|(k, values)| values.len() == width || k > 0 && values.is_empty()) {
+                let what = format!("a sample on {} at {nanoseconds} ns has not one value for each joint", self.topic);
+                return Err(self
+                    .source
+                    .diagnostic(what)
+                    .help("give each joint a position, and all or none a velocity"));
+            }
+            for name in &self.others {
+                if let Some(place) = message.joints.iter().position(|joint| joint == name) {
+                    aside(&mut self.aside, name, row.values[0][place]);
+                }
+            }
+            let of_kept = |values: &Vec<f64>| kept.iter().filter_map(|place| values.get(*place).copied()).collect();
+            self.rows.push(Row { nanoseconds, values: row.values.each_ref().map(of_kept) });
+        }
+        Ok(())
+    }
+
+    /// All rows as one series a joint. The clock begins with the first.
+    ///
+    /// # Errors
+    /// If only some rows have velocities or accelerations.
+    fn samples(mut self, names: &Names, others: &[Message]) -> Result<Samples, Diagnostic> {
+        let rows = std::mem::take(&mut self.rows);
+        let given = [1, 2].map(|k: usize| rows.first().is_some_and(|row| !row.values[k].is_empty()));
+        if let Some(row) = rows.iter().find(|row| [1, 2].iter().any(|&k| row.values[k].is_empty() == given[k - 1])) {
+            let what = format!(
+                "only some samples on {} have velocities or accelerations: not the one at {} ns",
+                self.topic, row.nanoseconds
+            );
+            return Err(self
+                .source
+                .diagnostic(what)
+                .help("give all samples velocities, or none, and accelerations likewise"));
+        }
+        for message in others {
+            for row in &message.rows {
+                let values = message.joints.iter().zip(&row.values[0]);
+                values
+                    .filter(|(name, _)| !self.joints.contains(name))
+                    .for_each(|(name, value)| aside(&mut self.aside, name, *value));
+            }
+        }
+        let mut notes = Vec::new();
+        if !others.is_empty() {
+            let all = others.len() + rows.len();
+            let joints = quoted(names.arm);
+            notes.push(format!(
+                "{} of {all} messages on {} do not name both of {joints}: not used",
+                others.len(),
+                self.topic
+            ));
+        }
+        let begin = rows.first().map_or(0, |row| row.nanoseconds);
+        let column = |k: usize, joint: usize| rows.iter().map(|row| row.values[k][joint]).collect::<Vec<f64>>();
+        // Broadcasters publish what a joint does not measure as NaN.
+        let measured = |k: usize, joint: usize| {
+            given[k - 1].then(|| column(k, joint)).filter(|values| !values.iter().all(|value| value.is_nan()))
+        };
+        let series = |(joint, name): (usize, &String)| Series {
+            name: name.clone(),
+            position: column(0, joint),
+            velocity: measured(1, joint),
+            acceleration: measured(2, joint),
+        };
+        Ok(Samples {
+            // Correctly rounded, so that as decimals they have no more than nine digits behind the point.
+            time: Some(rows.iter().map(|row| (row.nanoseconds - begin) as f64 / 1e9).collect()),
+            joints: self.joints.iter().enumerate().map(series).collect(),
+            aside: self
+                .aside
+                .into_iter()
+                .map(|(name, position)| Series { name, position, ..Series::default() })
+                .collect(),
+            notes,
+            ..Samples::default()
+        })
+    }
+}
+
+/// Adds what a joint was at some time.
+fn aside(all: &mut Vec<(String, Vec<f64>)>, name: &str, value: f64) {
+    match all.iter_mut().find(|(known, _)| known == name) {
+        Some((_, values)) => values.push(value),
+        None => all.push((name.to_owned(), vec![value])),
+    }
+}

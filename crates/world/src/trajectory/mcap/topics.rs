@@ -1,0 +1,162 @@
+//! The topics of a recording, and which of them is judged.
+
+use super::file::each_message;
+use super::message::{Kind, Message};
+use crate::error::{Diagnostic, quoted};
+use crate::source::Source;
+use mcap::{McapError, McapResult};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Types that show a motion and do not state it, as cplan's own recordings have them.
+const SHOWN: [&str; 3] =
+    ["tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray", "sensor_msgs/msg/PointCloud2"];
+
+/// What was published on one topic with one type.
+#[derive(Default)]
+pub(super) struct Topic {
+    pub name: String,
+    /// The type's name; empty if the file gives none.
+    schema: String,
+    pub kind: Option<Kind>,
+    /// Of a topic whose kind is known, in the order of the file. Without those that hold no positions.
+    pub messages: Vec<Message>,
+    /// When the first message was logged that is not of the type, nanoseconds.
+    broken: Option<u64>,
+}
+
+impl Topic {
+    /// Whether some message has positions of both of the arm's joints.
+    fn fits(&self, arm: [&str; 2]) -> bool {
+        self.messages.iter().any(|message| arm.iter().all(|joint| message.names(joint)))
+    }
+
+    /// Name, type and joints, for lists.
+    fn described(&self) -> String {
+        let schema = if self.schema.is_empty() { "no type" } else { &self.schema };
+        let mut joints: Vec<&String> = Vec::new();
+        for name in self.messages.iter().flat_map(|message| message.joints.iter()) {
+            if !joints.contains(&name) {
+                joints.push(name);
+            }
+        }
+        let joints = if joints.is_empty() { String::new() } else { format!(", joints {}", quoted(joints)) };
+        format!("{} ({schema}{joints})", self.name)
+    }
+}
+
+/// All topics of a file, by name and type.
+///
+/// # Errors
+/// Files that are no MCAP, or are damaged.
+pub(super) fn all(bytes: &[u8]) -> McapResult<Vec<Topic>> {
+    let mut topics: BTreeMap<(String, String), Topic> = BTreeMap::new();
+    each_message(bytes, |channel, logged, content| {
+        let schema = channel.schema.as_ref().map_or(String::new(), |schema| schema.name.clone());
+        let topic = topics.entry((channel.topic.clone(), schema.clone())).or_insert_with(|| Topic {
+            name: channel.topic.clone(),
+            kind: Kind::of(&schema),
+            schema,
+            ..Topic::default()
+        });
+        let Some(kind) = topic.kind else { return };
+        match i64::try_from(logged).ok().and_then(|logged| Message::read(kind, content, logged)) {
+            None => _ = topic.broken.get_or_insert(logged),
+            Some(message) if message.rows.iter().all(|row| row.values[0].is_empty()) => {}
+            Some(mut message) => {
+                // Names are the same in most messages: kept once.
+                if let Some(last) = topic.messages.last().filter(|last| last.joints == message.joints) {
+                    message.joints = Rc::clone(&last.joints);
+                }
+                topic.messages.push(message);
+            }
+        }
+    })?;
+    Ok(topics.into_values().collect())
+}
+
+/// Takes the topic that is judged, and returns notes about the others: the one that is asked for; else of the motions, and only
+/// without any of the states, the one that has both of the arm's joints.
+///
+/// # Errors
+/// If none has them or several have, or a message of the topic is broken: with all topics and their types.
+pub(super) fn choose(
+    source: &Source,
+    mut topics: Vec<Topic>,
+    asked: Option<&str>,
+    arm: [&str; 2],
+) -> Result<(Topic, Vec<String>), Diagnostic> {
+    let of_name = |topic: &Topic| asked.is_none_or(|asked| topic.name == asked);
+    let of_kind = |kind: Kind| -> Vec<usize> {
+        let is_candidate = |topic: &Topic| topic.kind == Some(kind) && of_name(topic) && topic.fits(arm);
+        (0..topics.len()).filter(|k| is_candidate(&topics[*k])).collect()
+    };
+    let candidates = [Kind::Trajectory, Kind::State].map(of_kind).into_iter().find(|found| !found.is_empty());
+    let list = |which: &[usize]| which.iter().map(|k| topics[*k].described()).collect::<Vec<_>>().join(", ");
+    let chosen = match candidates.as_deref() {
+        Some([only]) => *only,
+        Some(several) => {
+            let message = format!("holds the arm's joints on several topics: {}", list(several));
+            let help = format!("say which one is judged: --topic {}", topics[several[0]].name);
+            return Err(source.diagnostic(message).help(help));
+        }
+        None => {
+            let is_broken = |topic: &&Topic| of_name(topic) && topic.broken.is_some();
+            if let Some(topic) = topics.iter().find(is_broken) {
+                return Err(broken(source, topic));
+            }
+            let joints = quoted(arm);
+            let message = match asked {
+                Some(asked) if !topics.iter().any(of_name) => format!("has no topic {asked}"),
+                Some(asked) => format!("has no positions of {joints} on {asked}"),
+                None => format!("holds no positions of {joints}"),
+            };
+            let there = if topics.is_empty() { "nothing".into() } else { list(&Vec::from_iter(0..topics.len())) };
+            let help = "record a topic of type sensor_msgs/msg/JointState or trajectory_msgs/msg/JointTrajectory with both of \
+                        the arm's joints in each message";
+            return Err(source.diagnostic(format!("{message}; it holds {there}")).help(help));
+        }
+    };
+    let topic = topics.swap_remove(chosen);
+    if topic.broken.is_some() {
+        return Err(broken(source, &topic));
+    }
+    let (others, unused): (Vec<Topic>, Vec<Topic>) = topics.into_iter().partition(|other| other.kind.is_some());
+    let mut notes: Vec<String> = others.iter().map(|other| not_judged(other, &topic)).collect();
+    let mut unused: Vec<String> =
+        unused.into_iter().filter(|t| !SHOWN.contains(&t.schema.as_str())).map(|t| t.name).collect();
+    unused.dedup();
+    if !unused.is_empty() {
+        notes.push(format!("topics that are not used: {}", quoted(unused)));
+    }
+    Ok((topic, notes))
+}
+
+/// What to say of a topic with joint values that is not the one that is judged.
+fn not_judged(other: &Topic, judged: &Topic) -> String {
+    let why = match (judged.kind, other.kind) {
+        (Some(Kind::Trajectory), Some(Kind::State)) => "is what a controller plays",
+        _ => "is judged",
+    };
+    let name = other.name.rsplit('/').next().unwrap_or_default();
+    // States are a plural already.
+    let verb = if name.ends_with('s') { "are" } else { "is" };
+    format!("{} {verb} not judged: {} {why}", other.name, judged.name)
+}
+
+fn broken(source: &Source, topic: &Topic) -> Diagnostic {
+    let message =
+        format!("a message on {} at {} ns is no {} in CDR", topic.name, topic.broken.unwrap_or_default(), topic.schema);
+    source.diagnostic(message).help("the recording is damaged, or of another type")
+}
+
+/// What to say of a file that is no recording.
+pub(super) fn unreadable(source: &Source, error: &McapError) -> Diagnostic {
+    let help = match error {
+        McapError::UnsupportedCompression(_) => {
+            "record it uncompressed, or with zstd or lz4 (mcap compress -o NEW.mcap OLD.mcap --compression zstd)"
+        }
+        _ => "it is damaged, cut off, or no recording: record it anew, or repair it (mcap recover)",
+    };
+    source.diagnostic(format!("cannot be read as MCAP: {error}")).help(help)
+}

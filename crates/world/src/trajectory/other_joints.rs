@@ -1,0 +1,123 @@
+//! What a recording says of joints beside the arm's two.
+
+use super::{Names, Samples, Series, misplaced};
+use crate::error::Diagnostic;
+use crate::source::Source;
+use cplan_core::model::{HeldEffect, HeldJoint, HeldMotion, OutlineSource, Scene};
+use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
+
+/// By how much a held joint's recorded value may differ from the value that it is held at, radians or metres: more than
+/// a controller's jitter or six printed digits, less than what could matter to a collision.
+const STILL: f64 = 1e-4;
+
+/// Why no motion of a held joint can be judged in a scene, if so.
+pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
+    if scene.payload().is_some() {
+        return Some("something is carried, which would move with it");
+    }
+    let has_bar = scene.arm().links.iter().any(|link| link.source == OutlineSource::Bar);
+    has_bar.then_some("a bar stands in for a link")
+}
+
+impl Names<'_> {
+    /// The motions of joints that the world holds still; and notes about all that are none of the arm's two.
+    ///
+    /// # Errors
+    /// Joints that move so that it cannot be judged.
+    pub(super) fn moved(
+        &self,
+        source: &Source,
+        samples: &Samples,
+        recording: &Recording,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<HeldMotion>, Diagnostic> {
+        let mut moved: Vec<HeldMotion> = Vec::new();
+        let given = samples.joints.iter().map(|series| (series, true));
+        for (series, at_samples) in given.chain(samples.aside.iter().map(|series| (series, false))) {
+            let name = &series.name;
+            let Some(joint) = self.held.iter().find(|joint| joint.name == *name) else {
+                notes.push(format!("joint \"{name}\" is ignored: the arm does not depend on it"));
+                continue;
+            };
+            let moves = |value: &f64| value.is_nan() || (value - joint.value).abs() > STILL;
+            let Some(sample) = series.position.iter().position(moves) else {
+                notes.push(format!("joint \"{name}\" stands still at {}, as it should: ignored", joint.value));
+                continue;
+            };
+            if self.has_steps {
+                notes.push(format!(
+                    "joint \"{name}\" moves in the steps: judged as if it stayed at {}; its own motion is not judged",
+                    joint.value
+                ));
+                continue;
+            }
+            if let Some(why) = self.why_not(joint, at_samples, &moved) {
+                let value = series.position[sample];
+                let message = format!(
+                    "joint \"{name}\" is at {value}, but the workspace holds it at {}, and it {why}",
+                    joint.value
+                );
+                let help = format!(
+                    "a joint that stands still elsewhere: [robot] fixed = {{ {name} = {value} }} in the world file; a motion of \
+                     this one cannot be judged"
+                );
+                return Err(samples.diagnostic(source, sample, &message).help(help));
+            }
+            notes.push(described(joint, series));
+            let values = values(series, recording, samples).map_err(|error| misplaced(source, samples, &error))?;
+            moved.push(HeldMotion { joint: joint.clone(), values });
+        }
+        Ok(moved)
+    }
+
+    /// Why a motion of a joint cannot be judged, as a clause about it.
+    fn why_not(&self, joint: &HeldJoint, at_samples: bool, moved: &[HeldMotion]) -> Option<String> {
+        let turns = |joint: &HeldJoint| matches!(joint.effect, HeldEffect::Turns { .. });
+        let also_turns = |other: &&HeldMotion| {
+            turns(&other.joint) && other.joint.bodies.iter().any(|body| joint.bodies.contains(body))
+        };
+        match &joint.effect {
+            HeldEffect::Unjudged { why } => Some(why.clone()),
+            _ if !at_samples => Some("is given at other times than the arm's joints".into()),
+            HeldEffect::Turns { .. } => moved
+                .iter()
+                .find(also_turns)
+                .map(|other| format!("turns with joint \"{}\", which turns, too", other.joint.name)),
+            HeldEffect::Lifts { .. } => None,
+        }
+        .or_else(|| self.rigid.map(|why| format!("cannot move where {why}")))
+    }
+}
+
+/// What to say of a joint that moves.
+fn described(joint: &HeldJoint, series: &Series) -> String {
+    let least = series.position.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = series.position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let name = &joint.name;
+    match joint.effect {
+        HeldEffect::Turns { .. } => format!(
+            "joint \"{name}\" turns, from {least} to {most} rad: what it turns counts as the disc that it sweeps all round; its own \
+             limits are not judged"
+        ),
+        _ => format!(
+            "joint \"{name}\" moves, from {least} to {most} m: what it carries is judged at the heights that it has at each moment; \
+             its own limits are not judged"
+        ),
+    }
+}
+
+/// A joint's values at the samples of a recording, joined as those.
+fn values(series: &Series, recording: &Recording, samples: &Samples) -> Result<Recording, RecordingError> {
+    let single = |values: &Vec<f64>| values.iter().map(|value| Configuration::new(*value, 0.0)).collect::<Vec<_>>();
+    let velocity = series.velocity.as_ref().filter(|_| recording.velocities().is_some());
+    let rule = recording.interpolation();
+    let joins = matches!(rule, Interpolation::Quartic | Interpolation::Quintic);
+    let acceleration = series.acceleration.as_ref().filter(|_| joins && velocity.is_some());
+    let values =
+        Recording::new(single(&series.position), recording.times().map(<[f64]>::to_vec), velocity.map(single))?;
+    let values = match acceleration {
+        Some(acceleration) => values.accelerated(single(acceleration), rule)?,
+        None => values,
+    };
+    Ok(values.resting_after(&samples.rests))
+}

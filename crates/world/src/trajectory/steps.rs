@@ -1,0 +1,84 @@
+//! The steps in a result of a task.
+
+use super::Samples;
+use crate::error::{Diagnostic, InputError, without_place};
+use crate::source::Source;
+use cplan_core::model::{RecordedStep, RecordedTurn};
+use serde::Deserialize;
+
+/// Angles and seconds beyond this are a mistake, as they are in recordings; doubles near it still resolve a nanoradian.
+const LARGEST: f64 = 1e6;
+
+/// The members that are looked at; others may be there.
+#[derive(Deserialize)]
+struct Document {
+    steps: Option<Vec<StepMember>>,
+}
+
+/// A step: cplan's.
+#[derive(Deserialize)]
+struct StepMember {
+    step: usize,
+    cycle: usize,
+    first_sample: Option<usize>,
+    last_sample: Option<usize>,
+    turn: Option<TurnMember>,
+}
+
+#[derive(Deserialize)]
+struct TurnMember {
+    from: f64,
+    to: f64,
+    seconds: f64,
+}
+
+/// Reads the steps that a JSON file has beside its samples, if it has any.
+///
+/// # Errors
+/// Steps that are none: members that are missing or no numbers, samples that the file does not have, and steps beside
+/// samples without times and velocities.
+pub(super) fn json(source: &Source, samples: &Samples) -> Result<Option<Vec<RecordedStep>>, InputError> {
+    let document: Document = serde_json::from_str(&source.text).map_err(|error| {
+        let help = "steps are those of a task's result as cplan writes it: step, cycle, first_sample and last_sample";
+        source.diagnostic_at_position(error.line(), error.column(), without_place(&error.to_string())).help(help)
+    })?;
+    let Some(steps) = document.steps else { return Ok(None) };
+    let count = samples.joints.first().map_or(0, |joint| joint.position.len());
+    if samples.time.is_none() || samples.joints.iter().any(|joint| joint.velocity.is_none()) {
+        let message = "has steps, but no trajectory with time, position and velocity that they could belong to";
+        return Err(source.diagnostic(message).help("verify the result of a whole task as cplan writes it").into());
+    }
+    let read = |(index, member): (usize, &StepMember)| member.read(source, index, count);
+    Ok(Some(steps.iter().enumerate().map(read).collect::<Result<_, _>>()?))
+}
+
+impl StepMember {
+    fn read(&self, source: &Source, index: usize, count: usize) -> Result<RecordedStep, Diagnostic> {
+        let refuse =
+            |message: String, help: &str| Err(source.diagnostic(format!("steps[{index}]: {message}")).help(help));
+        let (Some(first), Some(last)) = (self.first_sample, self.last_sample) else {
+            return refuse(
+                "first_sample or last_sample is missing: it is not said which samples are the step's".into(),
+                "verify the result of a whole task as cplan writes it",
+            );
+        };
+        if first > last || last >= count {
+            let help = "the first and the last sample of the motion, counted from 0";
+            return refuse(format!("its samples are {first} to {last}, and the trajectory has {count}"), help);
+        }
+        let turn = match &self.turn {
+            None => None,
+            Some(TurnMember { from, to, seconds }) => {
+                let wrong = [("from", *from), ("to", *to), ("seconds", *seconds)];
+                if let Some((what, value)) =
+                    wrong.into_iter().find(|(_, value)| value.is_nan() || value.abs() > LARGEST)
+                {
+                    let help = "a turn of the wrist has two angles in radians, and takes seconds";
+                    return refuse(format!("the turn's {what} is {value}"), help);
+                }
+                Some(RecordedTurn { from: *from, to: *to, seconds: *seconds })
+            }
+        };
+        Ok(RecordedStep { number: self.step, cycle: self.cycle, samples: first..=last, turn })
+    }
+}

@@ -1,0 +1,106 @@
+//! The shapes of URDF links in their places: collision geometry, or visual geometry where a link has none.
+
+use super::bodies::Bodies;
+use super::mesh;
+use super::solid::Solid;
+use super::tree::isometry;
+use crate::error::Diagnostic;
+use cplan_core::model::Heights;
+use nalgebra::{Isometry3, Vector3};
+use std::ops::Range;
+use urdf_rs::Geometry;
+
+/// A shape in its place, the two joints at 0.
+pub(super) struct PlacedShape {
+    /// The URDF link.
+    pub link: usize,
+    /// Its number among the link's shapes of that kind that have a size.
+    pub number: usize,
+    /// Whether it is visual geometry.
+    pub is_visual: bool,
+    pub solid: Solid,
+    /// In the root frame.
+    pub pose: Isometry3<f64>,
+    pub heights: Heights,
+    /// Where the file has it.
+    pub at: Range<usize>,
+}
+
+/// The shapes of some URDF links.
+#[derive(Default)]
+pub(super) struct Gathered {
+    pub shapes: Vec<PlacedShape>,
+    /// Links with a shape without any size.
+    pub empty: Vec<String>,
+    /// Collision meshes that cannot be used.
+    pub unread: Vec<Diagnostic>,
+    /// Visual meshes that cannot be used, of links without collision geometry.
+    pub unseen: Vec<Diagnostic>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Collision,
+    Visual,
+}
+
+impl Bodies<'_> {
+    /// The shapes of these URDF links; each link's visual geometry if it has no collision geometry.
+    pub fn gather(&self, links: impl IntoIterator<Item = usize>) -> Gathered {
+        let mut gathered = Gathered::default();
+        for link in links {
+            let before = gathered.shapes.len() + gathered.unread.len();
+            self.gather_kind(link, Kind::Collision, &mut gathered);
+            if gathered.shapes.len() + gathered.unread.len() == before {
+                self.gather_kind(link, Kind::Visual, &mut gathered);
+            }
+        }
+        gathered.empty.sort();
+        gathered.empty.dedup();
+        gathered
+    }
+
+    fn gather_kind(&self, index: usize, kind: Kind, gathered: &mut Gathered) {
+        let (link, place) = (&self.document.robot.links[index], &self.document.links[index]);
+        let shapes: Vec<(&urdf_rs::Pose, &Geometry, &Range<usize>)> = match kind {
+            Kind::Collision => {
+                link.collision.iter().zip(&place.collision).map(|(c, at)| (&c.origin, &c.geometry, at)).collect()
+            }
+            Kind::Visual => link.visual.iter().zip(&place.visual).map(|(v, at)| (&v.origin, &v.geometry, at)).collect(),
+        };
+        let mut number = 0;
+        for (origin, geometry, at) in shapes {
+            match self.solid(geometry) {
+                Ok(solid) if solid.is_nothing() => gathered.empty.push(format!("\"{}\"", link.name)),
+                Ok(solid) => {
+                    let pose = self.poses[index] * isometry(origin);
+                    let (heights, is_visual) = (solid.heights(&pose, self.plane), kind == Kind::Visual);
+                    let at = at.clone();
+                    gathered.shapes.push(PlacedShape { link: index, number, is_visual, solid, pose, heights, at });
+                    number += 1;
+                }
+                Err(mesh::Unread { message, cure }) => {
+                    let message = format!("link \"{}\": {message}", link.name);
+                    let diagnostic = self.document.diagnostic_at(at, message).help(cure);
+                    match kind {
+                        Kind::Collision => gathered.unread.push(diagnostic),
+                        Kind::Visual => gathered.unseen.push(diagnostic),
+                    }
+                }
+            }
+        }
+    }
+
+    fn solid(&self, geometry: &Geometry) -> Result<Solid, mesh::Unread> {
+        Ok(match geometry {
+            Geometry::Box { size } => Solid::Box { half: Vector3::from(size.0) / 2.0 },
+            Geometry::Cylinder { radius, length } => Solid::Cylinder { radius: *radius, half: length / 2.0 },
+            Geometry::Capsule { radius, length } => Solid::Capsule { radius: *radius, half: length / 2.0 },
+            Geometry::Sphere { radius } => Solid::Sphere { radius: *radius },
+            Geometry::Mesh { filename, scale } => {
+                let scale = scale.map_or([1.0; 3], |s| s.0);
+                Solid::Mesh(mesh::read(filename, scale, &self.document.source)?)
+            }
+        })
+    }
+}

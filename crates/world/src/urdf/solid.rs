@@ -1,0 +1,227 @@
+//! Solids in space and their projections on a plane.
+
+use super::mesh::Mesh;
+use super::plane::project;
+use cplan_core::model::{Heights, Plane};
+use cplan_geometry::{Convex, Point, Vector, hull};
+use nalgebra::{Isometry3, Point3, Vector3};
+
+/// A collision or visual shape. Lengths in metres; cylinders and capsules along z, everything centred at the origin.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Solid {
+    Box {
+        half: Vector3<f64>,
+    },
+    Cylinder {
+        radius: f64,
+        half: f64,
+    },
+    /// `half` is half the length between the centres of the caps.
+    Capsule {
+        radius: f64,
+        half: f64,
+    },
+    Sphere {
+        radius: f64,
+    },
+    /// The convex hull of its points stands for a mesh, or for each layer of it; see [`Solid::layers`].
+    Mesh(Mesh),
+}
+
+/// Corners nearer than this to the one before are left out, metres. They come from the rounding of rotations; the
+/// outline shrinks by no more than this.
+const CORNER_ROUNDING: f64 = 1e-9;
+
+/// An oblique cylinder's outline exceeds its exact projection by at most this fraction of its radius.
+const EXCESS: f64 = 0.005;
+
+/// Sides of the polygon round an oblique cylinder's end: circumscribed, so `1 / cos(pi / n) - 1 <= EXCESS`.
+const ELLIPSE_SIDES: usize = 32;
+
+/// Steps along half of the ellipse within an oblique cylinder's end: its corners are where the sides of the polygon round it touch.
+const ELLIPSE_STEPS: usize = ELLIPSE_SIDES / 2;
+
+/// Layers of a mesh are thicker than this, metres: far above the rounding of heights.
+pub(super) const THINNEST: f64 = 1e-6;
+
+/// A cylinder whose axis is off the plane, or off its normal, by less than this share counts as lying or standing: rounding.
+const EXACT: f64 = 1e-13;
+
+impl Solid {
+    /// Whether the solid has no size at all.
+    pub fn is_nothing(&self) -> bool {
+        match self {
+            Solid::Box { half } => half.iter().all(|h| *h == 0.0),
+            Solid::Cylinder { radius, half } | Solid::Capsule { radius, half } => *radius == 0.0 && *half == 0.0,
+            Solid::Sphere { radius } => *radius == 0.0,
+            Solid::Mesh(mesh) => mesh.points.is_empty(),
+        }
+    }
+
+    /// The projection on the plane, in plane coordinates, of the solid at `pose` in the root frame.
+    ///
+    /// Exact for boxes, spheres, capsules, meshes (their convex hull) and cylinders that stand or lie; an oblique
+    /// cylinder gets an outline round the exact one, larger by at most 0.5 % of its radius; see [`Solid::inner`].
+    pub fn outline(&self, pose: &Isometry3<f64>, plane: &Plane) -> Convex {
+        let at = |p: &Point3<f64>| project(plane, &(pose * p).coords);
+        let center = at(&Point3::origin());
+        let along = project(plane, &(pose * Vector3::z())).coords;
+        match self {
+            Solid::Box { half } => {
+                let corner = |i: u8| {
+                    let sign = |bit: u8| if i & bit == 0 { -1.0 } else { 1.0 };
+                    at(&Point3::new(sign(1) * half.x, sign(2) * half.y, sign(4) * half.z))
+                };
+                polygon((0..8).map(corner).collect())
+            }
+            Solid::Mesh(mesh) => polygon(mesh.points.iter().map(at).collect()),
+            Solid::Sphere { radius } => Convex::trusted(vec![center], *radius),
+            Solid::Capsule { radius, half } => capsule(center - along * *half, center + along * *half, *radius),
+            Solid::Cylinder { radius, half } => {
+                let tilt = (pose * Vector3::z()).dot(&plane.normal);
+                cylinder(center, along, tilt, *radius, *half)
+            }
+        }
+    }
+
+    /// Outlines of the layers between consecutive `cuts`, which ascend, with their extents along the normal; of a solid that is no mesh, or that no
+    /// cut goes through, the whole.
+    ///
+    /// A layer's outline is the convex hull of that part of the mesh's surface whose heights are within the layer: of the vertices there, and of
+    /// the places where edges cross its two heights.
+    pub fn layers(&self, pose: &Isometry3<f64>, plane: &Plane, cuts: &[f64]) -> Vec<(Convex, Heights)> {
+        let heights = self.heights(pose, plane);
+        let is_within = |cut: &&f64| heights.lower + THINNEST < **cut && **cut + THINNEST < heights.upper;
+        let cuts: Vec<f64> = cuts.iter().filter(is_within).copied().collect();
+        let Solid::Mesh(Mesh { points, edges }) = self else { return vec![(self.outline(pose, plane), heights)] };
+        if cuts.is_empty() || edges.is_empty() {
+            return vec![(self.outline(pose, plane), heights)];
+        }
+        let placed: Vec<(Point, f64)> =
+            points.iter().map(|p| (pose * p).coords).map(|p| (project(plane, &p), p.dot(&plane.normal))).collect();
+        let ends = || std::iter::once(heights.lower).chain(cuts.iter().copied()).chain([heights.upper]);
+        let layer = |(lower, upper): (f64, f64)| {
+            let is_in = |height: f64| lower - CORNER_ROUNDING <= height && height <= upper + CORNER_ROUNDING;
+            let mut corners: Vec<Point> =
+                placed.iter().filter(|(_, height)| is_in(*height)).map(|(at, _)| *at).collect();
+            for edge in edges {
+                let [(from, low), (to, high)] = edge.map(|end| placed[end as usize]);
+                let crossed = [lower, upper].into_iter().filter(|cut| (low - cut) * (high - cut) < 0.0);
+                corners.extend(crossed.map(|cut| from + (to - from) * ((cut - low) / (high - low))));
+            }
+            (!corners.is_empty()).then(|| (polygon(corners), Heights { lower, upper }))
+        };
+        ends().zip(ends().skip(1)).filter_map(layer).collect()
+    }
+
+    /// A shape within the projection, where the outline is larger than that: of oblique cylinders. It is at most a hundredth of the radius
+    /// smaller than the outline.
+    pub fn inner(&self, pose: &Isometry3<f64>, plane: &Plane) -> Option<Convex> {
+        let Solid::Cylinder { radius, half } = self else { return None };
+        let center = project(plane, &(pose * Point3::origin()).coords);
+        let axis = pose * Vector3::z();
+        within_cylinder(center, project(plane, &axis).coords, axis.dot(&plane.normal).abs(), *radius, *half)
+    }
+
+    /// Extent along the plane's normal.
+    pub fn heights(&self, pose: &Isometry3<f64>, plane: &Plane) -> Heights {
+        let n = plane.normal;
+        let middle = pose.translation.vector.dot(&n);
+        let axis = |a: Vector3<f64>| (pose * a).dot(&n).abs();
+        let tilt = axis(Vector3::z()).min(1.0);
+        let reach = match self {
+            Solid::Box { half } => {
+                half.x * axis(Vector3::x()) + half.y * axis(Vector3::y()) + half.z * axis(Vector3::z())
+            }
+            Solid::Cylinder { radius, half } => half * tilt + radius * (1.0 - tilt * tilt).sqrt(),
+            Solid::Capsule { radius, half } => half * tilt + radius,
+            Solid::Sphere { radius } => *radius,
+            Solid::Mesh(mesh) => {
+                let heights = || mesh.points.iter().map(|p| (pose * p).coords.dot(&n));
+                return Heights {
+                    lower: heights().fold(f64::INFINITY, f64::min),
+                    upper: heights().fold(f64::NEG_INFINITY, f64::max),
+                };
+            }
+        };
+        Heights { lower: middle - reach, upper: middle + reach }
+    }
+}
+
+/// A capsule, or a disc if its ends coincide.
+pub(super) fn capsule(a: Point, b: Point, radius: f64) -> Convex {
+    let apart = (b - a).norm();
+    if apart <= CORNER_ROUNDING {
+        return Convex::trusted(vec![nalgebra::center(&a, &b)], radius + apart / 2.0);
+    }
+    Convex::trusted(vec![a, b], radius)
+}
+
+/// The convex hull without corners that are mere rounding.
+fn polygon(points: Vec<Point>) -> Convex {
+    let mut corners: Vec<Point> = Vec::new();
+    for corner in hull(&points) {
+        if corners.last().is_none_or(|kept| (corner - kept).norm() > CORNER_ROUNDING) {
+            corners.push(corner);
+        }
+    }
+    if corners.len() > 1 && (corners[0] - corners[corners.len() - 1]).norm() <= CORNER_ROUNDING {
+        corners.pop();
+    }
+    Convex::trusted(corners, 0.0)
+}
+
+/// Outline of a cylinder whose axis projects to `along` (its length the sine of the angle to the normal, `tilt` the
+/// cosine). The exact projection is the hull of two ellipses, the ends, with half-axes `radius` across and
+/// `radius * |tilt|` along.
+fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Convex {
+    if 1.0 - tilt.abs() <= EXCESS {
+        // Standing or nearly so: the ends are discs but for a factor of `tilt` in one direction.
+        return capsule(center - along * half, center + along * half, radius);
+    }
+    let direction = along.normalize();
+    let across = cplan_geometry::perpendicular(direction) * radius;
+    let bulge = direction * (radius * tilt.abs());
+    let end = along * half;
+    if tilt.abs() <= EXCESS {
+        // Lying or nearly so: a rectangle as long as the ellipses reach.
+        let end = end + bulge;
+        return polygon(vec![
+            center - end - across,
+            center + end - across,
+            center + end + across,
+            center - end + across,
+        ]);
+    }
+    let step = std::f64::consts::TAU / ELLIPSE_SIDES as f64;
+    let grown = 1.0 / (step / 2.0).cos();
+    let rim = (0..ELLIPSE_SIDES).flat_map(|i| {
+        // Half a step off: sides, not corners, at the ends of the axes, so that the width is exact.
+        let (sine, cosine) = ((i as f64 + 0.5) * step).sin_cos();
+        let offset = (bulge * cosine + across * sine) * grown;
+        [center - end + offset, center + end + offset]
+    });
+    polygon(rim.collect())
+}
+
+/// What an oblique cylinder covers for certain; none where [`cylinder`] is exact. At each end a disc where they are nearly discs,
+/// else a polygon whose corners are on the outer half of the ellipse.
+fn within_cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Option<Convex> {
+    if tilt <= EXACT || 1.0 - tilt <= EXACT {
+        return None;
+    }
+    let end = along * half;
+    if 1.0 - tilt <= EXCESS {
+        let is_disc = 2.0 * end.norm() <= CORNER_ROUNDING;
+        let core = if is_disc { vec![center] } else { vec![center - end, center + end] };
+        return Some(Convex::trusted(core, radius * tilt));
+    }
+    let direction = along.normalize();
+    let (across, bulge) = (cplan_geometry::perpendicular(direction) * radius, direction * (radius * tilt));
+    let rim = (0..=ELLIPSE_STEPS).flat_map(|i| {
+        let (sine, cosine) = (i as f64 * (std::f64::consts::PI / ELLIPSE_STEPS as f64)).sin_cos();
+        let outer = end + bulge * sine + across * cosine;
+        [center - outer, center + outer]
+    });
+    Some(polygon(rim.collect()))
+}

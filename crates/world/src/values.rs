@@ -1,0 +1,201 @@
+//! Joint values and points given on the command line.
+
+use super::LoadedScene;
+use super::error::{Diagnostic, InputError};
+use super::world::LARGEST;
+use cplan_core::model::{Joint, SceneError};
+use cplan_core::space::Configuration;
+use cplan_geometry::Point;
+use std::str::FromStr;
+
+/// What the command line says over the world file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Overrides {
+    /// The value of `--start`.
+    pub start: Option<JointValues>,
+    /// `--goal`; not together with `goal_tip`.
+    pub goal: Option<JointValues>,
+    /// `--goal-tip`, metres in plane coordinates.
+    pub goal_tip: Option<TipPoint>,
+    /// The value of `--clearance`, metres.
+    pub clearance: Option<f64>,
+}
+
+impl LoadedScene {
+    /// Keeps the distance of `--clearance`, metres, instead of the world's; none keeps the world's.
+    ///
+    /// # Errors
+    /// When it is negative or no finite number.
+    pub fn keeping(mut self, clearance: Option<f64>) -> Result<Self, InputError> {
+        if let Some(clearance) = clearance {
+            let refused = |diagnostic: SceneError| {
+                Diagnostic::new("--clearance", diagnostic.to_string()).help("metres: 0 or more, such as 0.02")
+            };
+            self.scene = self.scene.with_clearance(clearance).map_err(refused)?;
+        }
+        Ok(self)
+    }
+
+    /// Holds motions to the joints' efforts, whatever the world says.
+    ///
+    /// # Errors
+    /// When the robot does not say what that takes.
+    pub fn keeping_efforts(mut self) -> Result<Self, InputError> {
+        if self.scene.arm().dynamics.is_none() {
+            let why = self.robot.no_dynamics.as_deref().unwrap_or("the arm has no masses");
+            return Err(Diagnostic::new("--torque", why)
+                .help("`cplan inspect` tells what the robot's file has")
+                .into());
+        }
+        self.scene.arm_mut().keep_efforts();
+        // Efforts take the place of accelerations that nobody gives.
+        self.robot.assumed.acceleration.clear();
+        Ok(self)
+    }
+}
+
+/// Two joint values as written: `-0.9,0.4` or `10deg, 20deg`. Without a suffix radians or metres, as the joint has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointValues {
+    numbers: [f64; 2],
+    degrees: [bool; 2],
+}
+
+impl JointValues {
+    /// The values in radians and metres.
+    ///
+    /// # Errors
+    /// When a sliding joint's value has the suffix `deg`. `option` names the option in the message.
+    pub fn resolve(&self, joints: &[Joint; 2], option: &str) -> Result<Configuration, Diagnostic> {
+        let mut q = Configuration::zeros();
+        for i in 0..2 {
+            q[i] = match (self.degrees[i], joints[i].joint_type.is_revolute()) {
+                (false, _) => self.numbers[i],
+                (true, true) => self.numbers[i].to_radians(),
+                (true, false) => {
+                    let message = format!("joint \"{}\" slides: its value cannot be in degrees", joints[i].name);
+                    return Err(Diagnostic::new(option, message).help("write its value in metres, without \"deg\""));
+                }
+            };
+        }
+        Ok(q)
+    }
+}
+
+impl JointValues {
+    /// As the world file has them.
+    #[must_use]
+    pub fn in_toml(&self) -> String {
+        let value = |i: usize| match (self.numbers[i], self.degrees[i]) {
+            (degrees, true) => format!("\"{degrees}deg\""),
+            (number, false) => format!("{number:?}"),
+        };
+        format!("[{}, {}]", value(0), value(1))
+    }
+}
+
+impl From<Configuration> for JointValues {
+    /// In radians and metres.
+    fn from(q: Configuration) -> Self {
+        Self { numbers: q.into(), degrees: [false; 2] }
+    }
+}
+
+impl FromStr for JointValues {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut values = Self { numbers: [0.0; 2], degrees: [false; 2] };
+        for (i, item) in pair(text)?.into_iter().enumerate() {
+            let number = item.strip_suffix("deg").map(str::trim_end);
+            values.degrees[i] = number.is_some();
+            values.numbers[i] = finite(number.unwrap_or(item))?;
+        }
+        Ok(values)
+    }
+}
+
+/// A point of the plane as written: `0.35,0.5`, metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipPoint(pub Point);
+
+impl FromStr for TipPoint {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let [x, y] = pair(text)?;
+        Ok(Self(Point::new(finite(x)?, finite(y)?)))
+    }
+}
+
+fn pair(text: &str) -> Result<[&str; 2], String> {
+    let items: Vec<&str> = text.split(',').map(str::trim).collect();
+    <[&str; 2]>::try_from(items)
+        .map_err(|items| format!("expected two values separated by a comma, such as -0.9,0.4; found {}", items.len()))
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.abs() <= LARGEST => Ok(value),
+        Ok(value) if value.is_finite() => Err(format!("{value:e} is too large (at most {LARGEST:e})")),
+        Ok(_) => Err(format!("\"{text}\" is not a finite number")),
+        Err(_) => Err(format!("\"{text}\" is not a number")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_core::model::JointType;
+    use cplan_core::space::JointRange;
+    use cplan_geometry::Vector;
+
+    fn joints() -> [Joint; 2] {
+        let joint = |name: &str, motion| Joint {
+            name: name.into(),
+            joint_type: motion,
+            range: JointRange::Circle,
+            velocity: 1.0,
+            acceleration: 1.0,
+            jerk: None,
+        };
+        [
+            joint("turn", JointType::Revolute { sign: 1.0 }),
+            joint("slide", JointType::Prismatic { direction: Vector::x() }),
+        ]
+    }
+
+    #[test]
+    fn values_may_be_in_degrees_one_by_one() {
+        let q = " 90deg , -0.25 ".parse::<JointValues>().unwrap().resolve(&joints(), "--start").unwrap();
+        assert_eq!(q, Configuration::new(std::f64::consts::FRAC_PI_2, -0.25));
+        let q = "-0.9,4e-1".parse::<JointValues>().unwrap().resolve(&joints(), "--start").unwrap();
+        assert_eq!(q, Configuration::new(-0.9, 0.4));
+        assert_eq!("10 deg,1".parse::<JointValues>().unwrap().degrees, [true, false]);
+    }
+
+    #[test]
+    fn degrees_on_a_sliding_joint_are_refused() {
+        let error = "0,10deg".parse::<JointValues>().unwrap().resolve(&joints(), "--goal").unwrap_err().to_string();
+        assert!(error.starts_with("--goal: joint \"slide\" slides") && error.contains("metres"), "{error}");
+    }
+
+    #[test]
+    fn malformed_values_say_what_is_wrong() {
+        for (text, part) in [
+            ("1", "two values"),
+            ("1,2,3", "found 3"),
+            ("a,2", "\"a\" is not a number"),
+            ("1,nan", "finite"),
+            ("inf,1", "finite"),
+            ("1e300,0", "too large"),
+            ("deg,1", "not a number"),
+            ("", "found 1"),
+        ] {
+            let error = text.parse::<JointValues>().unwrap_err();
+            assert!(error.contains(part), "{text}: {error}");
+        }
+        assert!("1deg,2".parse::<TipPoint>().unwrap_err().contains("not a number"));
+        assert_eq!("0.35, 0.5".parse::<TipPoint>().unwrap(), TipPoint(Point::new(0.35, 0.5)));
+    }
+}

@@ -1,0 +1,140 @@
+//! The world file's `[map]`: a line map and a preference file, brought to metres.
+
+use super::error::InputError;
+use super::line_map::LineMap;
+use super::obstacle::MOST_PIECES;
+use super::preference_map::{PreferenceMap, PreferenceRectangle};
+use super::schema::{Positive, Two};
+use super::world::{LARGEST, Number, Numbers, Reader};
+use cplan_core::model::{Obstacle, Preference, Region, Shape};
+use cplan_geometry::{Convex, Point, SimplePolygon, Vector};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::ops::Range;
+use std::path::Path;
+use toml::Spanned;
+
+/// Walls from a line map as MobileSim draws them. Files are named relative to this one.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "map")]
+pub(super) struct MapTable {
+    /// The line map.
+    #[schemars(with = "String")]
+    file: Spanned<String>,
+    /// A preference file: its goal, unless the world has one, and rectangles for field planners.
+    #[schemars(with = "Option<String>")]
+    preferences: Option<Spanned<String>>,
+    /// Metres a unit, of both files; by default 0.001.
+    #[schemars(with = "Option<Positive>")]
+    scale: Option<Number>,
+    /// Added to all coordinates after scaling, m; by default [0, 0].
+    #[schemars(with = "Option<Two>")]
+    offset: Option<Numbers>,
+    /// Whether the bounds of the map are walls, too; by default true.
+    frame: Option<bool>,
+    /// Extent of the walls along the plane's normal, m; by default all heights.
+    #[schemars(with = "Option<Two>")]
+    height: Option<Numbers>,
+}
+
+/// What a map adds to a world, metres.
+#[derive(Default)]
+pub(super) struct MapContent {
+    pub obstacles: Vec<Obstacle>,
+    /// Centre of the goal rectangle, and what in the world file names it.
+    pub goal: Option<(Point, Range<usize>)>,
+    pub preferences: Vec<Preference>,
+}
+
+/// Maps are in millimetres unless the world says otherwise.
+const MILLIMETRE: f64 = 1e-3;
+
+/// Reads the files that the table names.
+pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, InputError> {
+    let scale = table.scale.as_ref().map(|s| scale(reader, s)).transpose()?.unwrap_or(MILLIMETRE);
+    let offset = table.offset.as_ref().map(|o| reader.two(o, "map offset")).transpose()?.unwrap_or_default();
+    let heights = reader.heights(table.height.as_ref(), "map")?;
+    let place = |p: Point| Point::from(p.coords * scale + Vector::from(offset));
+    let within = |bounds: [Point; 2], file: &Spanned<String>| {
+        let farthest = bounds.map(place).iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+        if farthest <= LARGEST {
+            return Ok(());
+        }
+        let message = format!("with {scale} m a unit the map reaches {farthest:e} m (at most {LARGEST:e})");
+        Err(reader.source.diagnostic_at(file.span(), message).help("set `scale` in [map], metres a unit of the file"))
+    };
+
+    let path = reader.beside(&table.file, "map")?;
+    let map = LineMap::read(&path)?;
+    within(map.bounds, &table.file)?;
+    if map.lines.len() > MOST_PIECES {
+        let message = format!("{} lines are too many (at most {MOST_PIECES})", map.lines.len());
+        return Err(reader.source.diagnostic_at(table.file.span(), message).help("thin the map out").into());
+    }
+    let name = stem(&path);
+    let mut obstacles = Vec::new();
+    let mut add = |name: String, points: Vec<Point>| {
+        let points: Vec<Point> = points.into_iter().map(place).collect();
+        let (shape, pieces) = match points[..] {
+            [center] => (Shape::Circle { center, radius: 0.0 }, vec![Convex::point(center)]),
+            // Ends that are apart in the file may coincide in metres: that is a point.
+            _ => {
+                let pieces = points.windows(2).map(|w| Convex::between(w[0], w[1])).collect();
+                (Shape::Polyline(points), pieces)
+            }
+        };
+        obstacles.push(Obstacle { name, shape, pieces, heights });
+    };
+    for chain in map.chains() {
+        let [first, last] = chain.lines.map(|line| line + 1);
+        let which = if first == last { format!("line {first}") } else { format!("lines {first} to {last}") };
+        add(format!("{name}, {which}"), chain.points);
+    }
+    if table.frame.unwrap_or(true) {
+        let [a, b] = map.bounds;
+        add(format!("{name}, frame"), vec![a, Point::new(b.x, a.y), b, Point::new(a.x, b.y), a]);
+    }
+
+    let mut content = MapContent { obstacles, ..MapContent::default() };
+    if let Some(file) = &table.preferences {
+        let path = reader.beside(file, "preferences")?;
+        let map = PreferenceMap::read(&path)?;
+        within(map.bounds, file)?;
+        let [a, b] = map.goal;
+        content.goal = Some((place(nalgebra::center(&a, &b)), file.span()));
+        let name = stem(&path);
+        for (i, PreferenceRectangle { corners: [a, b], epsilon }) in map.rectangles.into_iter().enumerate() {
+            let name = format!("{name}, rectangle {}", i + 1);
+            let corners = [a, Point::new(b.x, a.y), b, Point::new(a.x, b.y)].map(place);
+            let polygon = SimplePolygon::new(corners.to_vec()).map_err(|diagnostic| {
+                let message = format!("preference \"{name}\" is no rectangle with {scale} m a unit: {diagnostic}");
+                reader
+                    .source
+                    .diagnostic_at(file.span(), message)
+                    .help("set `scale` in [map], metres a unit of the file")
+            })?;
+            content.preferences.push(Preference { name, region: Region::Tip(polygon), epsilon, direction: None });
+        }
+    }
+    Ok(content)
+}
+
+/// The file's name, for those of what is in it.
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "map".to_owned(), |s| s.to_string_lossy().into_owned())
+}
+
+/// Metres a unit.
+fn scale(reader: &Reader, number: &Number) -> Result<f64, InputError> {
+    let scale = reader.finite(number, "map scale")?;
+    if scale > 0.0 {
+        return Ok(scale);
+    }
+    let message = format!("map scale must be positive, is {scale}");
+    Err(reader
+        .source
+        .diagnostic_at(number.span(), message)
+        .help("metres a unit of the file: 0.001 for millimetres")
+        .into())
+}
