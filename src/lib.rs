@@ -42,33 +42,27 @@
 //! input gives the same output, byte for byte, but for times taken, where they are asked for.
 #![forbid(unsafe_code)]
 
-pub mod explore;
-pub mod draw;
-pub mod report;
-pub mod output;
-#[cfg(feature = "study")]
-pub mod study;
-#[cfg(any(feature = "program", feature = "live"))]
-#[cfg_attr(
-    not(feature = "program"),
-    expect(unused_imports, reason = "the live page has a part of the command line's grammar")
-)]
-mod grammar;
-#[cfg(feature = "live")]
-pub mod live;
-#[cfg(feature = "serve")]
-mod serve;
 #[cfg(feature = "program")]
 pub mod cli;
+pub use cplan_compare as report;
 pub use cplan_core::{cspace, model, space};
 pub use cplan_engine as engine;
+pub use cplan_explore as explore;
 pub use cplan_geometry as geometry;
 pub use cplan_interrupt as interrupt;
+#[cfg(feature = "live")]
+pub use cplan_live as live;
 pub use cplan_motion as motion;
+#[cfg(feature = "program")]
+use cplan_options as grammar;
 #[cfg(feature = "program")]
 use cplan_parallel as parallel;
 pub use cplan_proofs as search;
+#[cfg(feature = "study")]
+pub use cplan_study as study;
 use cplan_text as text;
+pub use cplan_view as draw;
+pub use cplan_view::output;
 pub use cplan_world as input;
 pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
 pub use geometry::Point;

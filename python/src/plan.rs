@@ -1,10 +1,10 @@
 //! The answer to a problem.
 
-use cplan::PlanOutput as _;
 use crate::error::refused;
 use crate::geometry::array;
 use crate::problem::{Options, Problem, noted};
 use crate::signals::interruptible;
+use cplan::PlanOutput as _;
 use cplan::Status;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;

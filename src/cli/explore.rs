@@ -15,7 +15,7 @@ use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_wh
 use crate::output::{Line, contours, laid_out, title_of};
 use crate::space::{Configuration, Path as JointPath};
 use crate::text::{counted, short};
-use clap::{Args, ValueHint};
+use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `explore`.
@@ -39,8 +39,8 @@ pub struct ExploreArgs {
     /// Where to go next: to the goal, as far as the way is known (the default where there is a goal); to a place from which something new can
     /// be seen: one that shows all that the nearest does, and more (view, the default elsewhere), the nearest, the first along the wall to
     /// the right; or up the harmonic potential of all such places.
-    #[arg(long, value_parser = word::<Strategy>(), value_name = "NAME")]
-    pub strategy: Option<Strategy>,
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub strategy: Option<StrategyName>,
     /// What plans the optimistic paths, where strategy "goal" takes unknown space as free.
     #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
     pub planner: Method,
@@ -77,7 +77,27 @@ pub struct ExploreArgs {
     pub options: PlannerArgs,
 }
 
-crate::grammar::named!(Strategy: Goal "goal" "", View "view" "", Nearest "nearest" "", Harmonic "harmonic" "", Wall "wall" "");
+// The help of the option describes them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum StrategyName {
+    Goal,
+    View,
+    Nearest,
+    Harmonic,
+    Wall,
+}
+
+impl From<StrategyName> for Strategy {
+    fn from(name: StrategyName) -> Self {
+        match name {
+            StrategyName::Goal => Self::Goal,
+            StrategyName::View => Self::View,
+            StrategyName::Nearest => Self::Nearest,
+            StrategyName::Harmonic => Self::Harmonic,
+            StrategyName::Wall => Self::Wall,
+        }
+    }
+}
 
 /// Explores, and says what came of it.
 ///
@@ -158,7 +178,7 @@ impl ExploreArgs {
 
     fn settings(&self, has_goal: bool) -> Result<Settings, Failure> {
         let usual = Settings::default();
-        let strategy = self.strategy.unwrap_or(if has_goal { Strategy::Goal } else { Strategy::View });
+        let strategy = self.strategy.map_or(if has_goal { Strategy::Goal } else { Strategy::View }, Strategy::from);
         let planner = self.options.planner(self.planner).map_err(Failure::Usage)?;
         self.options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
         if let Some(error) = self.grid.error() {

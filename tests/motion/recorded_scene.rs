@@ -1,9 +1,9 @@
 //! What recordings show, decoded by the rule of the standard: frames are where the states say, by trigonometry; surfaces
 //! are closed, and hold the volume that they should.
 
-use cplan::PlanOutput as _;
 use crate::mcap::Decoder;
 use ::mcap::read::MessageStream;
+use cplan::PlanOutput as _;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Course, Heights, Mover, Stop};
 use cplan::motion::Format;

@@ -1,7 +1,7 @@
 //! The library's front door: what `plan` gives is what the program writes, byte for byte.
 
-use cplan::PlanOutput as _;
 use crate::cli::Place;
+use cplan::PlanOutput as _;
 use cplan::engine::{CellCounts, Method};
 use cplan::geometry::{Convex, SimplePolygon, penetration_depth, polygon_test};
 use cplan::{

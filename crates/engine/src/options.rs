@@ -23,7 +23,7 @@ pub enum NamedJoints {
 /// What is asked for beside the problem.
 ///
 /// ```
-/// use cplan::{Options, Planner};
+/// use cplan_engine::{Options, Planner};
 ///
 /// let options = Options { planner: Planner::First, ..Options::default() };
 /// assert_eq!(options.levels, Options::default().levels);

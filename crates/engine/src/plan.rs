@@ -50,7 +50,8 @@ pub enum Refutation<'a> {
 /// refuses a result that differs, but for the times that it took. So a plan that is read is as certified as one that was just made.
 ///
 /// ```
-/// use cplan::{Arm, Obstacle, Options, Plan, Problem, Workspace, plan};
+/// use cplan_core::model::{Arm, Obstacle, Workspace};
+/// use cplan_engine::{Options, Plan, Problem, plan};
 ///
 /// let post = Obstacle::circle("post", [1.6, 0.0], 0.1)?;
 /// let problem = Problem::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([post]), [1.0, 0.2], [-1.0, -0.2])?;

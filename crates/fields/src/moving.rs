@@ -74,7 +74,7 @@ pub enum Solver {
 /// one; with a loose rule, such as the literature's `1e-6`, values far from what has moved may be those of moments ago.
 ///
 /// ```
-/// use cplan::field::*;
+/// use cplan_fields::*;
 ///
 /// // A room of 20 x 30 cells, a robot that is to arrive from the left, and another one in its way.
 /// let mut field = MovingField::new([20, 30], vec![false; 600], [Boundary::High; 2], Difference::Upwind)?;

@@ -6,7 +6,7 @@
 //! depth) is a plain `f64`. Touching counts as contact, everywhere.
 //!
 //! ```
-//! use cplan::geometry::{Convex, Point, penetration_depth, shapes_meet};
+//! use cplan_geometry::{Convex, Point, penetration_depth, shapes_meet};
 //!
 //! let square = |x: f64| Convex::new([[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]].map(Point::from).to_vec(), 0.0);
 //! let (a, b) = (square(0.0)?, square(0.75)?);
@@ -14,7 +14,7 @@
 //! assert_eq!(a.minkowski_difference(&b).area(), 4.0);
 //! assert!(shapes_meet(&a, &b));
 //! assert_eq!(penetration_depth(&a, &b), 0.25);
-//! # Ok::<(), cplan::geometry::ConvexError>(())
+//! # Ok::<(), cplan_geometry::ConvexError>(())
 //! ```
 
 mod box_tree;

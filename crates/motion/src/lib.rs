@@ -21,10 +21,10 @@
 //! `a` and states `h` seconds apart.
 //!
 //! ```
-//! use cplan::check::certify;
-//! use cplan::model::{Arm, Scene, Workspace};
-//! use cplan::motion::Drive;
-//! use cplan::space::{Configuration, Path};
+//! use cplan_core::check::certify;
+//! use cplan_core::model::{Arm, Scene, Workspace};
+//! use cplan_motion::Drive;
+//! use cplan_core::space::{Configuration, Path};
 //!
 //! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([]))?;
 //! let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];

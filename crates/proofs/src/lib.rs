@@ -14,9 +14,9 @@
 //! the same search among obstacles grown by a hair.
 //!
 //! ```
-//! use cplan::model::{Arm, MotionProblem, Obstacle, Scene, Workspace};
-//! use cplan::search::{Connectivity, slab_connectivity};
-//! use cplan::space::Configuration;
+//! use cplan_core::model::{Arm, MotionProblem, Obstacle, Scene, Workspace};
+//! use cplan_proofs::{Connectivity, slab_connectivity};
+//! use cplan_core::space::Configuration;
 //!
 //! // Beyond the elbow nothing gets past two posts that leave less room between them than the arm is thick.
 //! let posts = [Obstacle::circle("left", [0.55, 0.35], 0.2)?, Obstacle::circle("right", [0.55, -0.35], 0.2)?];

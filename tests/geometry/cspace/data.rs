@@ -1,9 +1,9 @@
 //! Configuration spaces as data, against distances by parry2d: free is free, blocked is near, by what each says that it proves.
 
-use cplan::PlanOutput as _;
 use crate::common::dice;
 use crate::common::random::times;
 use crate::parry::core_distance;
+use cplan::PlanOutput as _;
 use cplan::cli::read_words;
 use cplan::cspace::Proves;
 use cplan::model::{Carrier, Part, Scene};

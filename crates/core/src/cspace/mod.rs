@@ -9,9 +9,9 @@
 //! case.
 //!
 //! ```
-//! use cplan::cspace::{Slice, c_obstacles};
-//! use cplan::model::{Arm, Contacts, Obstacle, Scene, Workspace};
-//! use cplan::space::Configuration;
+//! use cplan_core::cspace::{Slice, c_obstacles};
+//! use cplan_core::model::{Arm, Contacts, Obstacle, Scene, Workspace};
+//! use cplan_core::space::Configuration;
 //!
 //! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
 //! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;

@@ -81,7 +81,7 @@ impl Arm {
     /// Two bars of these lengths and this width with round ends, metres, on joints that turn without end.
     ///
     /// ```
-    /// let arm = cplan::Arm::rr([1.0, 0.8], 0.06).expect("an arm");
+    /// let arm = cplan_core::model::Arm::rr([1.0, 0.8], 0.06).expect("an arm");
     /// assert_eq!((arm.kind(), arm.reach()), ("RR", 1.83));
     /// ```
     ///

@@ -71,7 +71,7 @@ impl Link {
     /// A bar with round ends along x from the joint, metres; without a width it is a line.
     ///
     /// ```
-    /// use cplan::model::Link;
+    /// use cplan_core::model::Link;
     ///
     /// assert!(Link::bar("thin", 0.8, 0.0).is_ok());
     /// assert!(Link::bar("backwards", -0.8, 0.06).is_err() && Link::bar("hollow", 0.8, -0.06).is_err());

@@ -1,8 +1,8 @@
 //! The arm, the workspace, and the two together.
 //!
 //! ```
-//! use cplan::model::{Arm, Obstacle, Scene, Workspace};
-//! use cplan::space::Configuration;
+//! use cplan_core::model::{Arm, Obstacle, Scene, Workspace};
+//! use cplan_core::space::Configuration;
 //!
 //! let arm = Arm::rr([1.0, 0.8], 0.06)?;
 //! let workspace = Workspace::new([Obstacle::circle("post", [1.0, 0.5], 0.1)?]);

@@ -7,10 +7,10 @@
 //! preferences.
 //!
 //! ```
-//! use cplan::cspace::regions;
-//! use cplan::model::{Arm, Obstacle, Scene, Workspace};
-//! use cplan::planner::{Planner, Proposal, Query, Visibility};
-//! use cplan::space::Configuration;
+//! use cplan_core::cspace::regions;
+//! use cplan_core::model::{Arm, Obstacle, Scene, Workspace};
+//! use cplan_core::planner::{Planner, Proposal, Query, Visibility};
+//! use cplan_core::space::Configuration;
 //!
 //! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
 //! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;

@@ -5,7 +5,7 @@
 //! boxes that meet it are goals for certificates and proofs, and bounds are to the nearest of it.
 //!
 //! ```
-//! use cplan::space::{Configuration, JointRange, Topology};
+//! use cplan_core::space::{Configuration, JointRange, Topology};
 //!
 //! let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }] };
 //! let (from, to) = (Configuration::new(3.0, 0.0), Configuration::new(-3.0, 0.0));

@@ -1,10 +1,11 @@
 //! Why there is no motion, and what opens a way; and of a motion that there is, what shapes it.
 //!
 //! ```
-//! use cplan::engine::explain::{Question, explain};
-//! use cplan::model::{Arm, Joint, Obstacle, Outcome, Scene, Workspace};
-//! use cplan::space::{Configuration, GoalSet};
-//! use cplan::{Options, Status};
+//! use cplan_engine::explain::{Question, explain};
+//! use cplan_core::model::{Arm, Joint, Obstacle, Outcome, Scene, Workspace};
+//! use cplan_core::space::{Configuration, GoalSet};
+//! use cplan_core::model::Status;
+//! use cplan_engine::Options;
 //!
 //! // A post in the way of the first link, and one far away that does no harm.
 //! let posts = [Obstacle::circle("far", [5.0, 0.0], 0.1)?, Obstacle::circle("near", [0.4, 0.0], 0.1)?];

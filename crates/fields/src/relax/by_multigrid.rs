@@ -28,7 +28,7 @@ const ENOUGH: f64 = 0.5;
 /// Where the start fulfils the rule nothing is done.
 ///
 /// ```
-/// use cplan::field::*;
+/// use cplan_fields::*;
 ///
 /// // A row of cells: p'' + b p' = 0 between 0 and 1, by upwind differences, which have a closed form.
 /// let mut kinds = vec![Cell::Free; 40];

@@ -81,7 +81,7 @@ const LOOKED_AT: usize = 16;
 /// Relaxes from [`Domain::start`]. A sweep costs some nanoseconds a free cell.
 ///
 /// ```
-/// use cplan::field::*;
+/// use cplan_fields::*;
 ///
 /// let kinds = [Cell::Goal, Cell::Free, Cell::Free, Cell::Obstacle].to_vec();
 /// let domain = Domain::new([1, 4], kinds, [Boundary::Reflecting; 2], Levels::PUBLISHED);

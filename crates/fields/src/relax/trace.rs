@@ -54,7 +54,7 @@ const ROUNDING: f64 = 1e-13;
 /// that of an equation with preferences has two stages and no error. It costs about as much again as the relaxation itself.
 ///
 /// ```
-/// use cplan::field::*;
+/// use cplan_fields::*;
 ///
 /// // A square without obstacles: Jacobi's error falls by cos(pi / 9) a sweep.
 /// let square = Domain::new([8, 8], vec![Cell::Free; 64], [Boundary::High; 2], Levels::PROBABILITY);

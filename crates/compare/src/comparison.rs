@@ -1,0 +1,365 @@
+//! Several planners on one problem.
+
+use super::row::Row;
+use super::table::{Align, Column, Table, WIDTH, fixed, quoted};
+use cplan_core::model::Status;
+use cplan_core::planner::{PathKind, Size};
+use cplan_core::space::Configuration;
+use cplan_text::wrapped;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// The rows, and what they are about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Name of the problem.
+    pub problem: String,
+    /// Unit of the lengths: `rad`, `m`, or both for an arm with a joint of each kind.
+    pub length_unit: String,
+    /// Start and goal, where they are not the world's.
+    pub query: Option<[Configuration; 2]>,
+    /// No motion from start to goal is shorter: proven. Unit as the lengths; none where nothing is known.
+    pub bound: Option<f64>,
+    /// One a planner, in the order of the table.
+    pub rows: Vec<Row>,
+}
+
+impl Comparison {
+    /// The least length of all, if a path was found.
+    #[must_use]
+    pub fn best(&self) -> Option<f64> {
+        self.rows.iter().filter_map(|r| r.length).filter(|l| l.is_finite()).min_by(f64::total_cmp)
+    }
+
+    /// How many times as long as the shortest path this row's is; 1 for the best. A path of length zero (the goal is
+    /// the start) is as good as any other such path, and no other has a ratio to it.
+    #[must_use]
+    pub fn ratio(&self, row: &Row) -> Option<f64> {
+        quotient(row.length?, self.best()?)
+    }
+
+    /// How many times as long as the proven bound this row's path is: it is longer than the optimum by no more than that.
+    #[must_use]
+    pub fn over_optimum(&self, row: &Row) -> Option<f64> {
+        quotient(row.length?, self.bound?)
+    }
+
+    /// Whether one planner has a certified path and another a proof that there is none: one of the two is wrong.
+    #[must_use]
+    pub fn is_contradictory(&self) -> bool {
+        let has = |outcome| self.rows.iter().any(|row| row.outcome == outcome);
+        has(Status::Found) && has(Status::Infeasible)
+    }
+
+    /// What became of the problem, in words.
+    #[must_use]
+    pub fn outcome(&self) -> String {
+        let all = self.rows.len();
+        let [found, proved, unknown] =
+            Status::ALL.map(|outcome| self.rows.iter().filter(|row| row.outcome == outcome).count());
+        match (found, proved) {
+            (0, 0) => format!("{unknown} of {all} left it open"),
+            (0, _) => format!("{proved} of {all} proved that there is none"),
+            (_, 0) => format!("{found} of {all} found a certified path"),
+            _ => format!("{found} of {all} found a certified path, {proved} proved that there is none"),
+        }
+    }
+
+    /// The contradiction in words, if there is one.
+    #[must_use]
+    pub fn alarm(&self) -> Option<String> {
+        let named = |outcome| {
+            let names = self.rows.iter().filter(|row| row.outcome == outcome).map(|row| row.planner.as_str());
+            names.collect::<Vec<_>>().join(", ")
+        };
+        self.is_contradictory().then(|| {
+            format!(
+                "the planners contradict each other on {}: {} found a certified path, {} proved that there is none; one \
+                 of them is wrong, and that is a defect of cplan: please report it with the robot and the world",
+                self.problem,
+                named(Status::Found),
+                named(Status::Infeasible)
+            )
+        })
+    }
+
+    /// An aligned table for a terminal, of what matters most, in 80 columns; units in the header, `-` where there is nothing. Below
+    /// it the planners' notes, a line each. Ends in a newline.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let remarks = self.remarks().map(|line| wrapped(&line, WIDTH, 2) + "\n");
+        self.table().of_columns(&ESSENTIAL).to_text_within(WIDTH) + &remarks.collect::<String>()
+    }
+
+    /// The same with all there is, however wide.
+    #[must_use]
+    pub fn to_wide_text(&self) -> String {
+        self.table().to_text() + &self.remarks().map(|line| line + "\n").collect::<String>()
+    }
+
+    fn remarks(&self) -> impl Iterator<Item = String> {
+        self.rows.iter().flat_map(Row::remarks)
+    }
+
+    /// The same table in Markdown.
+    #[must_use]
+    pub fn to_markdown(&self) -> String {
+        self.table().to_markdown()
+    }
+
+    /// Comma-separated values (RFC 4180) in SI units with full precision; empty where there is nothing.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let rows = self.rows.iter().map(|row| self.csv_row(row) + "\n");
+        format!("{CSV_HEADER}\n{}", rows.collect::<String>())
+    }
+
+    /// A row's fields in the order of [`CSV_HEADER`].
+    pub(super) fn csv_row(&self, row: &Row) -> String {
+        let number = |v: Option<f64>| v.filter(|v| v.is_finite()).map_or_else(String::new, |v| v.to_string());
+        let counts = row.counts().map(|n| n.map_or_else(String::new, |n| n.to_string()));
+        let mut fields = vec![quoted(&row.planner), row.outcome.name().to_owned()];
+        fields.extend([row.length, self.ratio(row), row.clearance, row.duration].map(number));
+        fields.extend(counts);
+        fields.extend([row.build, row.query, row.certify].map(number));
+        fields.push(row.note.map_or_else(String::new, |note| quoted(&note.to_string())));
+        fields.extend([self.bound, self.over_optimum(row), row.prove, row.total].map(number));
+        fields.push(row.memory.map_or_else(String::new, |bytes| bytes.to_string()));
+        fields.push(row.reason.as_deref().map_or_else(String::new, quoted));
+        fields.join(",")
+    }
+
+    /// A JSON object in SI units; null where there is nothing.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let mut object = json!({
+            "problem": self.problem,
+            "length_unit": self.length_unit,
+            "lower_bound": self.bound,
+            "contradictory": self.is_contradictory(),
+            "planners": self.rows.iter().map(|row| self.json_row(row)).collect::<Vec<_>>(),
+        });
+        if let Some([start, goal]) = self.query {
+            object["start"] = json!([start[0], start[1]]);
+            object["goal"] = json!([goal[0], goal[1]]);
+        }
+        object
+    }
+
+    fn json_row(&self, row: &Row) -> Value {
+        let figures = |size: Size| size.figures().into_iter().collect::<BTreeMap<_, _>>();
+        json!({
+            "planner": row.planner,
+            "path_kind": row.path_kind.name(),
+            "outcome": row.outcome.name(),
+            "length": row.length,
+            "paths": row.other_path.map(|_| paths(row)),
+            "ratio": self.ratio(row),
+            "over_optimum": self.over_optimum(row),
+            "pieces": row.pieces,
+            "clearance": row.clearance,
+            "duration": row.duration,
+            "size": row.size.map(figures),
+            "time": {
+                "build": row.build,
+                "query": row.query,
+                "certify": row.certify,
+                "prove": row.prove,
+                "total": row.total,
+            },
+            "memory": row.memory,
+            "note": row.note.map(|note| note.to_string()),
+            "reason": row.reason,
+        })
+    }
+
+    pub(super) fn table(&self) -> Table {
+        let length = format!("length [{}]", self.length_unit);
+        let right = [length.as_str(), "ratio", "over optimum", "clearance [mm]", "motion [s]"];
+        let costs = ["build [ms]", "query [ms]", "certify [ms]", "total [ms]", "memory [MiB]"];
+        let mut columns = vec![Column::new("planner", Align::Left), Column::new("outcome", Align::Left)];
+        columns.extend(right.map(|name| Column::new(name, Align::Right)));
+        columns.push(Column::new("size", Align::Left));
+        columns.extend(costs.map(|name| Column::new(name, Align::Right)));
+        // Both paths of each planner, if there are planners with both.
+        let has_both = self.rows.iter().any(|row| row.other_path.is_some());
+        let kinds = if has_both { &PathKind::ALL[..] } else { &[] };
+        for kind in kinds {
+            columns.push(Column::new(&format!("{kind} [{}]", self.length_unit), Align::Right));
+            columns.push(Column::new(&format!("{kind} [mm]"), Align::Right));
+        }
+        let milliseconds = |v: Option<f64>| fixed(v.map(|v| v * 1e3), 3);
+        let cells = |row: &Row| {
+            let mut cells = vec![
+                Some(row.planner.clone()),
+                Some(row.outcome.to_string()),
+                fixed(row.length, 4),
+                fixed(self.ratio(row), 3),
+                fixed(self.over_optimum(row), 4),
+                fixed(row.clearance.map(|v| v * 1e3), 3),
+                fixed(row.duration, 3),
+                row.size.map(|size| size.to_string()),
+                milliseconds(row.build),
+                milliseconds(row.query),
+                milliseconds(row.certify),
+                milliseconds(row.total),
+                fixed(row.memory.map(|bytes| bytes as f64 / f64::from(1 << 20)), 2),
+            ];
+            for &kind in kinds {
+                let path = row.of_kind(kind);
+                cells.push(fixed(path.map(|path| path.0), 4));
+                cells.push(fixed(path.and_then(|path| path.1).map(|v| v * 1e3), 3));
+            }
+            cells
+        };
+        Table { columns, rows: self.rows.iter().map(cells).collect() }
+    }
+}
+
+/// Columns of the table that come first: planner, outcome, length and how near that is to the optimum, clearance, motion, time, memory.
+const ESSENTIAL: [usize; 8] = [0, 1, 2, 4, 5, 6, 11, 12];
+
+/// Length and clearance of both paths.
+fn paths(row: &Row) -> Value {
+    let figures =
+        |kind| row.of_kind(kind).map(|(length, clearance)| json!({ "length": length, "clearance": clearance }));
+    json!({ "own": figures(PathKind::Own), "taut": figures(PathKind::Taut) })
+}
+
+/// Names of the columns of [`Comparison::to_csv`].
+pub(super) const CSV_HEADER: &str = "planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,\
+                                     build_s,query_s,certify_s,note,lower_bound,over_optimum,prove_s,total_s,memory_bytes,reason";
+
+/// `a / b`, and 1 where both are the same; none where that is no number.
+fn quotient(a: f64, b: f64) -> Option<f64> {
+    if a == b { Some(1.0) } else { Some(a / b).filter(|r| r.is_finite()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Family;
+    use cplan_core::planner::Note;
+
+    fn example() -> Comparison {
+        let visibility = Row {
+            length: Some(4.0),
+            pieces: Some(12),
+            clearance: Some(0.0011),
+            duration: Some(3.25),
+            size: Some(Size::Graph { nodes: 512, edges: 2300 }),
+            build: Some(0.0021),
+            query: Some(0.000_412),
+            certify: Some(0.001),
+            total: Some(0.0036),
+            memory: Some(3 << 19),
+            ..Row::new("visibility", Family::Roadmap, Status::Found)
+        };
+        let harmonic = Row {
+            length: Some(5.0),
+            clearance: Some(0.0125),
+            duration: Some(4.0),
+            size: Some(Size::Grid { cells: 65_536, sweeps: 40 }),
+            build: Some(0.0),
+            query: Some(1.5),
+            note: Some(Note::Unconverged { sweeps: 40, change: 2.5e-4 }),
+            ..Row::new("harmonic", Family::Field, Status::Found)
+        };
+        let odd = Row {
+            query: Some(f64::NAN),
+            prove: Some(0.25),
+            reason: Some("too coarse, or \"so\"".to_owned()),
+            ..Row::new("a, \"b\" | c", Family::Field, Status::Unknown)
+        };
+        Comparison {
+            problem: "shelf".to_owned(),
+            length_unit: "rad".to_owned(),
+            query: None,
+            bound: Some(3.2),
+            rows: vec![visibility, harmonic, odd],
+        }
+    }
+
+    #[test]
+    fn text_is_aligned() {
+        insta::assert_snapshot!(example().to_wide_text(), @r#"
+    planner     outcome  length [rad]  ratio  over optimum  clearance [mm]  motion [s]  size                    build [ms]  query [ms]  certify [ms]  total [ms]  memory [MiB]
+    ----------  -------  ------------  -----  ------------  --------------  ----------  ----------------------  ----------  ----------  ------------  ----------  ------------
+    visibility  found          4.0000  1.000        1.2500           1.100       3.250  512 nodes, 2300 edges        2.100       0.412         1.000       3.600          1.50
+    harmonic    found          5.0000  1.250        1.5625          12.500       4.000  65536 cells, 40 sweeps       0.000    1500.000             -           -             -
+    a, "b" | c  unknown             -      -             -               -           -  -                                -           -             -           -             -
+    harmonic: not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4
+    a, "b" | c: unknown: too coarse, or "so"
+    "#);
+    }
+
+    #[test]
+    fn what_matters_most_fits_a_terminal() {
+        let text = example().to_text();
+        assert!(text.lines().all(|line| line.chars().count() <= WIDTH), "{text}");
+        assert!(text.contains("1.2500") && !text.contains("65536") && text.ends_with("or \"so\"\n"), "{text}");
+    }
+
+    #[test]
+    fn markdown_has_a_rule_with_alignment_and_escaped_bars() {
+        insta::assert_snapshot!(example().to_markdown(), @r#"
+    | planner     | outcome | length [rad] | ratio | over optimum | clearance [mm] | motion [s] | size                   | build [ms] | query [ms] | certify [ms] | total [ms] | memory [MiB] |
+    | ----------- | ------- | -----------: | ----: | -----------: | -------------: | ---------: | ---------------------- | ---------: | ---------: | -----------: | ---------: | -----------: |
+    | visibility  | found   |       4.0000 | 1.000 |       1.2500 |          1.100 |      3.250 | 512 nodes, 2300 edges  |      2.100 |      0.412 |        1.000 |      3.600 |         1.50 |
+    | harmonic    | found   |       5.0000 | 1.250 |       1.5625 |         12.500 |      4.000 | 65536 cells, 40 sweeps |      0.000 |   1500.000 |            - |          - |            - |
+    | a, "b" \| c | unknown |            - |     - |            - |              - |          - | -                      |          - |          - |            - |          - |            - |
+    "#);
+    }
+
+    #[test]
+    fn csv_is_quoted_and_has_empty_fields() {
+        insta::assert_snapshot!(example().to_csv(), @r#"
+    planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,build_s,query_s,certify_s,note,lower_bound,over_optimum,prove_s,total_s,memory_bytes,reason
+    visibility,found,4,1,0.0011,3.25,512,2300,,,,0.0021,0.000412,0.001,,3.2,1.25,,0.0036,1572864,
+    harmonic,found,5,1.25,0.0125,4,,,65536,40,,0,1.5,,"not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4",3.2,1.5625,,,,
+    "a, ""b"" | c",unknown,,,,,,,,,,,,,,3.2,,0.25,,,"too coarse, or ""so"""
+    "#);
+    }
+
+    #[test]
+    fn json_has_nulls() {
+        let json = example().to_json();
+        assert_eq!(json["planners"][0]["size"]["nodes"], 512);
+        assert_eq!(json["planners"][0]["memory"], 3 << 19);
+        assert_eq!(json["planners"][1]["ratio"], 1.25);
+        assert_eq!(json["planners"][1]["over_optimum"], 1.5625);
+        assert_eq!(json["planners"][1]["size"]["sweeps"], 40);
+        assert!(json["planners"][2]["length"].is_null() && json["planners"][2]["size"].is_null());
+        assert!(json["planners"][2]["time"]["query"].is_null(), "what is not a number is null");
+        assert!(json.get("start").is_none());
+    }
+
+    #[test]
+    fn the_best_has_ratio_one_even_if_it_stays_where_it_is() {
+        let mut all = example();
+        let ratios: Vec<Option<f64>> = all.rows.iter().map(|r| all.ratio(r)).collect();
+        assert_eq!(ratios, [Some(1.0), Some(1.25), None]);
+        all.rows[1].length = Some(0.0);
+        all.bound = Some(0.0);
+        let ratios: Vec<_> = all.rows.iter().map(|r| [all.ratio(r), all.over_optimum(r)]).collect();
+        assert_eq!(ratios, [[None; 2], [Some(1.0); 2], [None; 2]]);
+        all.rows.clear();
+        assert_eq!(all.best(), None);
+        assert_eq!(all.to_wide_text().lines().count(), 2);
+    }
+
+    #[test]
+    fn a_path_and_a_proof_are_a_contradiction() {
+        let mut all = example();
+        assert!(!all.is_contradictory() && all.alarm().is_none());
+        assert_eq!(all.outcome(), "2 of 3 found a certified path");
+        all.rows[2].outcome = Status::Infeasible;
+        assert_eq!(all.outcome(), "2 of 3 found a certified path, 1 proved that there is none");
+        let alarm = all.alarm().unwrap();
+        assert!(alarm.contains("on shelf: visibility, harmonic found") && alarm.contains("| c proved"), "{alarm}");
+        all.rows.remove(0);
+        all.rows.remove(0);
+        assert!(!all.is_contradictory(), "proofs alone agree");
+        assert_eq!(all.outcome(), "1 of 1 proved that there is none");
+    }
+}

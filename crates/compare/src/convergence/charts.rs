@@ -1,0 +1,119 @@
+//! The charts: one for each equation, one for the factor, one for the drift.
+
+use super::lines::{Line, LineChart, SIZE};
+use super::{Convergence, Course, FactorScan, Point, StrengthScan, files};
+use crate::page::number;
+use cplan_fields::{Factor, Order, Sample, Scheme};
+use cplan_text::markup;
+
+/// Charts side by side.
+const COLUMNS: usize = 2;
+/// Above the charts, for the title.
+const HEAD: f64 = 44.0;
+
+/// The PNG writer brings the first; viewers take what they have.
+const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
+
+impl Convergence {
+    /// All charts as one SVG document. The same figures make the same document, byte for byte.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        let charts = self.charts();
+        let [width, height] = [SIZE[0] * COLUMNS as f64, HEAD + SIZE[1] * charts.len().div_ceil(COLUMNS) as f64];
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n\
+             <rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n\
+             <g font-family=\"{FONTS}\" font-size=\"12\" fill=\"#22262b\">\n",
+            number(width),
+            number(height)
+        );
+        let [rows, columns] = self.cells;
+        let title = format!("{}: {rows} x {columns} cells, {} free", self.title, self.free);
+        svg += &format!("<text x=\"20\" y=\"28\" font-size=\"17\">{}</text>\n", markup(&title));
+        for (k, chart) in charts.iter().enumerate() {
+            svg += &chart.svg([SIZE[0] * (k % COLUMNS) as f64, HEAD + SIZE[1] * (k / COLUMNS) as f64]);
+        }
+        svg + "</g>\n</svg>\n"
+    }
+
+    fn charts(&self) -> Vec<LineChart> {
+        let of_equations = self.courses.chunk_by(|a, b| a.equation == b.equation).map(errors);
+        of_equations.chain([self.by_factor(), self.by_strength()]).collect()
+    }
+
+    fn by_factor(&self) -> LineChart {
+        let line = |(k, scan): (usize, &FactorScan)| {
+            let marked = [&scan.formula].into_iter().chain(&scan.by_rate);
+            let mut points: Vec<Point> = scan.points.iter().chain(marked).copied().collect();
+            points.sort_by(|a, b| a.at.total_cmp(&b.at));
+            Line { name: scan.equation.clone(), pen: [k, 0], points: converged(&points), dots: true }
+        };
+        LineChart {
+            title: format!("Sweeps of SOR ({}) by its factor", self.order),
+            axes: ["factor", "sweeps until it converges"],
+            lines: self.factors.iter().enumerate().map(line).collect(),
+            marks: vec![(Factor::Formula.value(self.cells), "formula")],
+        }
+    }
+
+    fn by_strength(&self) -> LineChart {
+        let line = |(k, scan): (usize, &StrengthScan)| Line {
+            name: files::oriented(scan.difference),
+            pen: [k, 0],
+            points: converged(&scan.points),
+            dots: true,
+        };
+        let [a, b] = self.direction;
+        LineChart {
+            title: format!("Sweeps of Gauss-Seidel ({}), drift along ({a:.2}, {b:.2})", self.order),
+            axes: ["epsilon (per cell)", "sweeps until it converges"],
+            lines: self.strengths.iter().enumerate().map(line).collect(),
+            // Central differences are monotone below.
+            marks: vec![(2.0 / a.abs().max(b.abs()), "monotone")],
+        }
+    }
+}
+
+/// The points of relaxations that converged.
+fn converged(points: &[Point]) -> Vec<[f64; 2]> {
+    points.iter().filter_map(|point| Some([point.at, point.converged()? as f64])).collect()
+}
+
+/// The relaxations of one equation: the error where it is known, else the sum of squared changes.
+fn errors(courses: &[Course]) -> LineChart {
+    let known = courses.iter().flat_map(|course| &course.trace.samples).any(|sample| sample.error.is_some());
+    let line = |course: &Course| {
+        let value = |sample: &Sample| if known { sample.error } else { Some(sample.squares) };
+        let points = course.trace.samples.iter().filter_map(|sample| Some([sample.sweep as f64, value(sample)?]));
+        let scheme = course.relaxation.scheme;
+        let name = match scheme {
+            Scheme::Successive { factor: Factor::Formula, order } => format!("sor, {order}"),
+            Scheme::Successive { order, .. } => format!("gauss-seidel, {order}"),
+            Scheme::Simultaneous { factor: 1.0 } => "jacobi".to_owned(),
+            Scheme::Simultaneous { factor } => format!("weighted-jacobi {factor}"),
+        };
+        Line { name, pen: pen(scheme), points: points.collect(), dots: false }
+    };
+    let equation = courses.first().map_or("", |course| &course.equation);
+    LineChart {
+        title: format!("{} after each sweep: {equation}", if known { "Error" } else { "Squared changes" }),
+        axes: ["sweeps", if known { "greatest error, over that at the start" } else { "sum of squared changes" }],
+        lines: courses.iter().map(line).collect(),
+        marks: Vec::new(),
+    }
+}
+
+/// Colours tell relaxations apart, dashes orders.
+fn pen(scheme: Scheme) -> [usize; 2] {
+    match scheme {
+        Scheme::Simultaneous { factor } => [0, usize::from(factor != 1.0)],
+        Scheme::Successive { factor, order } => {
+            let dashes = match order {
+                Order::Lines(_) => 0,
+                Order::Corners(_) => 1,
+                Order::RedBlack => 2,
+            };
+            [1 + usize::from(factor == Factor::Formula), dashes]
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! Text, CSV and JSON.
+
+use super::{Convergence, Course, FactorScan, Point, StrengthScan};
+use crate::table::{Align, Column, Table, fixed, quoted};
+use cplan_fields::{Difference, Ending, Factor, Measure, Relaxation, Sample, Scheme};
+use cplan_text::plain_line;
+use serde_json::{Value, json};
+
+/// The columns of the CSV file.
+const HEADER: &str =
+    "series,equation,relaxation,order,factor,epsilon,stage,sweep,squared_change,relative_change,error,ending";
+
+impl Convergence {
+    /// What there is to see, in 80 columns.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let [rows, columns] = self.cells;
+        let mut text = format!("{}\n", plain_line(&self.title));
+        text += &format!(
+            "{rows} x {columns} cells, {} free; until the {} of a sweep\nis below {:e}, {} sweeps at the most\n",
+            self.free,
+            measure_words(self.stopping.measure),
+            self.stopping.below,
+            self.stopping.max_sweeps
+        );
+        text += "\nrate: of the error a sweep, in the end; error: greatest, over that at the start\n";
+        text += &self.table().to_text();
+        text +=
+            &format!("\nsweeps of SOR ({}) by its factor: best of a scan, by the formula for an empty\n", self.order);
+        text += "rectangle, by Jacobi's measured rate\n";
+        text += &self.factor_table().to_text();
+        let [a, b] = self.direction;
+        text +=
+            &format!("\nsweeps of Gauss-Seidel ({}) by epsilon, drift along ({a:.3}, {b:.3}) in cells\n", self.order);
+        text += &self.strength_table().to_text();
+        text + &self.strengths.iter().map(|scan| lost(scan) + "\n").collect::<String>()
+    }
+
+    /// A row a relaxation.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let row = |course: &Course| {
+            let Course { equation, relaxation, trace } = course;
+            vec![
+                Some(equation.clone()),
+                Some(relaxation.to_string()),
+                Some(sweeps(trace.sweeps, trace.ending)),
+                fixed(trace.rate(), 5),
+                trace.error().map(|error| format!("{error:.1e}")),
+            ]
+        };
+        let columns = columns(&["equation", "relaxation", "sweeps", "rate", "error"], 2);
+        Table { columns, rows: self.courses.iter().map(row).collect() }
+    }
+
+    /// A row an equation: best factor, formula, Young's.
+    #[must_use]
+    pub fn factor_table(&self) -> Table {
+        let cells =
+            |point: Option<Point>| [point.map(|p| format!("{:.3}", p.at)), point.map(|p| sweeps(p.sweeps, p.ending))];
+        let row = |scan: &FactorScan| {
+            let points = [scan.best(), Some(scan.formula), scan.by_rate];
+            [Some(scan.equation.clone())].into_iter().chain(points.into_iter().flat_map(cells)).collect()
+        };
+        let columns = columns(&["equation", "best", "sweeps", "formula", "sweeps", "by rate", "sweeps"], 1);
+        Table { columns, rows: self.factors.iter().map(row).collect() }
+    }
+
+    /// A row for every fifth strength of the scan.
+    #[must_use]
+    pub fn strength_table(&self) -> Table {
+        let names: Vec<String> = self.strengths.iter().map(|scan| scan.difference.to_string()).collect();
+        let columns = columns(&[&["epsilon"], &names.iter().map(String::as_str).collect::<Vec<_>>()[..]].concat(), 0);
+        let count = self.strengths.first().map_or(0, |scan| scan.points.len());
+        let row = |k: usize| {
+            let epsilon = self.strengths.first().map(|scan| format!("{:.1}", scan.points[k].at));
+            let points = self.strengths.iter().map(|scan| scan.points[k]);
+            [epsilon].into_iter().chain(points.map(|p| Some(sweeps(p.sweeps, p.ending)))).collect()
+        };
+        Table { columns, rows: (0..count).step_by(5).map(row).collect() }
+    }
+
+    /// A line a sample, with full precision: after a sweep (`error`), of the scans over the factor (`factor`) and over the drift
+    /// (`epsilon`), where `sweep` is how many it took. What does not apply is empty; `ending` stands in the last line of a
+    /// relaxation.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let mut text = format!("{HEADER}\n");
+        for Course { equation, relaxation, trace } in &self.courses {
+            let head = format!("error,{},{}", quoted(equation), self.relaxation_cells(relaxation));
+            for Sample { stage, sweep, squares, relative, error } in &trace.samples {
+                let error = error.map_or_else(String::new, |error| format!("{error:e}"));
+                let ending = if *sweep == trace.sweeps { word(trace.ending) } else { "" };
+                text += &format!("{head},,{stage},{sweep},{squares:e},{relative:e},{error},{ending}\n");
+            }
+            // Values that are no numbers leave no samples: how it ended is said all the same.
+            if trace.samples.last().is_none_or(|sample| sample.sweep != trace.sweeps) {
+                text += &format!("{head},,,{},,,,{}\n", trace.sweeps, word(trace.ending));
+            }
+        }
+        for FactorScan { equation, points, formula, by_rate } in &self.factors {
+            for Point { at, sweeps, ending } in points.iter().chain([formula]).chain(by_rate) {
+                let head = format!("factor,{},sor,{},{at}", quoted(equation), self.order);
+                text += &format!("{head},,,{sweeps},,,,{}\n", word(*ending));
+            }
+        }
+        for StrengthScan { difference, points } in &self.strengths {
+            for Point { at, sweeps, ending } in points {
+                let head = format!("epsilon,{},gauss-seidel,{},1,{at}", quoted(&oriented(*difference)), self.order);
+                text += &format!("{head},,{sweeps},,,,{}\n", word(*ending));
+            }
+        }
+        text
+    }
+
+    /// All there is, as a JSON object; samples as lists of one length each, with null for what is not known or infinite.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let course = |Course { equation, relaxation, trace }: &Course| {
+            let list = |of: &dyn Fn(&Sample) -> Value| trace.samples.iter().map(of).collect::<Vec<_>>();
+            let (name, order, factor) = self.parts(relaxation);
+            json!({
+                "equation": equation,
+                "relaxation": name,
+                "order": order,
+                "factor": factor,
+                "sweeps": trace.sweeps,
+                "ending": word(trace.ending),
+                "rate": trace.rate(),
+                "samples": {
+                    "stage": list(&|s| s.stage.into()),
+                    "sweep": list(&|s| s.sweep.into()),
+                    "squared_change": list(&|s| s.squares.into()),
+                    "relative_change": list(&|s| s.relative.into()),
+                    "error": list(&|s| s.error.into()),
+                },
+            })
+        };
+        let factor = |scan: &FactorScan| {
+            json!({
+                "equation": scan.equation,
+                "best": scan.best().map(|p| point("factor", &p)),
+                "formula": point("factor", &scan.formula),
+                "by_rate": scan.by_rate.map(|p| point("factor", &p)),
+                "points": scan.points.iter().map(|p| point("factor", p)).collect::<Vec<_>>(),
+            })
+        };
+        let strength = |scan: &StrengthScan| {
+            json!({
+                "equation": oriented(scan.difference),
+                "points": scan.points.iter().map(|p| point("epsilon", p)).collect::<Vec<_>>(),
+            })
+        };
+        json!({
+            "title": self.title,
+            "cells": self.cells,
+            "free": self.free,
+            "measure": measure_word(self.stopping.measure),
+            "below": self.stopping.below,
+            "max_sweeps": self.stopping.max_sweeps,
+            "order": self.order.to_string(),
+            "direction": self.direction,
+            "relaxations": self.courses.iter().map(course).collect::<Vec<_>>(),
+            "factors": self.factors.iter().map(factor).collect::<Vec<_>>(),
+            "epsilons": self.strengths.iter().map(strength).collect::<Vec<_>>(),
+        })
+    }
+
+    /// Name, order and factor of a relaxation on this domain.
+    fn parts(&self, relaxation: &Relaxation) -> (&'static str, Option<String>, f64) {
+        let factor = relaxation.factor(self.cells);
+        match relaxation.scheme {
+            Scheme::Simultaneous { factor: 1.0 } => ("jacobi", None, factor),
+            Scheme::Simultaneous { .. } => ("weighted-jacobi", None, factor),
+            Scheme::Successive { factor: Factor::Given(1.0), order } => {
+                ("gauss-seidel", Some(order.to_string()), factor)
+            }
+            Scheme::Successive { order, .. } => ("sor", Some(order.to_string()), factor),
+        }
+    }
+
+    fn relaxation_cells(&self, relaxation: &Relaxation) -> String {
+        let (name, order, factor) = self.parts(relaxation);
+        format!("{name},{},{factor}", order.unwrap_or_default())
+    }
+}
+
+/// The name of the equation that the scans over epsilon are of.
+pub(super) fn oriented(difference: Difference) -> String {
+    format!("oriented, {}", if difference == Difference::Central { "central" } else { "upwind" })
+}
+
+fn point(name: &str, point: &Point) -> Value {
+    json!({ name: point.at, "sweeps": point.sweeps, "ending": word(point.ending) })
+}
+
+fn columns(names: &[&str], words: usize) -> Vec<Column> {
+    let align = |k: usize| if k < words { Align::Left } else { Align::Right };
+    names.iter().enumerate().map(|(k, name)| Column::new(name, align(k))).collect()
+}
+
+fn sweeps(count: usize, ending: Ending) -> String {
+    match ending {
+        Ending::Converged => count.to_string(),
+        Ending::Unconverged => format!("> {count}"),
+        Ending::Diverged => "diverges".to_owned(),
+    }
+}
+
+fn lost(scan: &StrengthScan) -> String {
+    match scan.lost_from() {
+        None => format!("{}: converge at the last epsilon tried", scan.difference),
+        Some(point) => {
+            let how = if point.ending == Ending::Diverged { "diverge" } else { "do not converge" };
+            format!("{}: {how} from epsilon {:.1} on", scan.difference, point.at)
+        }
+    }
+}
+
+fn word(ending: Ending) -> &'static str {
+    match ending {
+        Ending::Converged => "converged",
+        Ending::Unconverged => "unconverged",
+        Ending::Diverged => "diverged",
+    }
+}
+
+fn measure_word(measure: Measure) -> &'static str {
+    match measure {
+        Measure::SumOfChange => "sum",
+        Measure::SumOfSquares => "squares",
+        Measure::DifferenceOfSums => "sums",
+        Measure::GreatestChange => "greatest",
+        Measure::GreatestRelativeChange => "relative",
+    }
+}
+
+fn measure_words(measure: Measure) -> &'static str {
+    match measure {
+        Measure::SumOfChange => "sum of changes",
+        Measure::SumOfSquares => "sum of squared changes",
+        Measure::DifferenceOfSums => "difference of the sum of changes and that before",
+        Measure::GreatestChange => "greatest change",
+        Measure::GreatestRelativeChange => "greatest relative change",
+    }
+}

@@ -1,0 +1,184 @@
+//! Charts of lines, as parts of an SVG document.
+
+use crate::page::{Axis, number};
+use cplan_text::markup;
+
+/// Of the plot, pixels.
+const PLOT: [f64; 2] = [400.0, 250.0];
+/// Left of the plot, for the ticks and the title of the vertical axis.
+const LEFT: f64 = 74.0;
+/// Above the plot, for the title.
+const TOP: f64 = 34.0;
+/// Right of the plot, for the names of lines.
+const RIGHT: f64 = 186.0;
+/// Below the plot, for the ticks and the title of the axis.
+const BOTTOM: f64 = 52.0;
+/// Between two names of lines.
+const LINE: f64 = 19.0;
+
+/// What a chart takes, pixels.
+pub const SIZE: [f64; 2] = [LEFT + PLOT[0] + RIGHT, TOP + PLOT[1] + BOTTOM];
+
+/// Okabe and Ito's, as on the pages.
+const COLORS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#b04f88", "#a87400", "#2b90c9"];
+/// Lines of one colour differ in their dashes.
+const DASHES: [&str; 3] = ["", "7 3", "2 3"];
+
+/// Lines over a horizontal axis.
+pub struct LineChart {
+    pub title: String,
+    /// What the axes measure.
+    pub axes: [&'static str; 2],
+    pub lines: Vec<Line>,
+    /// Values of the horizontal axis with names.
+    pub marks: Vec<(f64, &'static str)>,
+}
+
+/// A line with its name.
+pub struct Line {
+    pub name: String,
+    /// Numbers of colour and dashes.
+    pub pen: [usize; 2],
+    pub points: Vec<[f64; 2]>,
+    /// Whether each point is a dot, too.
+    pub dots: bool,
+}
+
+impl LineChart {
+    /// The chart with its upper left corner there; nothing without points. Axes are logarithmic where values differ much, and
+    /// values that such an axis has no place for are left out.
+    pub fn svg(&self, [left, top]: [f64; 2]) -> String {
+        let of = |k: usize| self.lines.iter().flat_map(|line| &line.points).map(move |point| point[k]);
+        let marks = self.marks.iter().map(|mark| mark.0);
+        // A zero, to which an error may well come, has no place on a logarithmic axis.
+        let positive = of(1).filter(|&value| value > 0.0);
+        let (Some(x), Some(y)) = (Axis::over(of(0).chain(marks), None), Axis::over(positive, None)) else {
+            return String::new();
+        };
+        let [width, height] = PLOT;
+        let place = |point: &[f64; 2]| [LEFT + width * x.place(point[0]), TOP + height * (1.0 - y.place(point[1]))];
+        let mut svg = format!("<g transform=\"translate({} {})\">\n", number(left), number(top));
+        svg += &text([LEFT, 20.0], "start", " font-size=\"14\" font-weight=\"bold\"", &self.title);
+        let [right, bottom] = [LEFT + width, TOP + height];
+        for (value, written) in x.ticks() {
+            let at = place(&[value, 0.0])[0];
+            svg += &rule(&format!("M{} {}V{}", number(at), number(TOP), number(bottom)), "#e2e5e8");
+            svg += &text([at, bottom + 17.0], "middle", GREY, &written);
+        }
+        for (value, written) in y.ticks() {
+            let at = TOP + height * (1.0 - y.place(value));
+            svg += &rule(&format!("M{} {}H{}", number(LEFT), number(at), number(right)), "#e2e5e8");
+            svg += &text([LEFT - 7.0, at + 4.0], "end", GREY, &written);
+        }
+        svg += &rule(&format!("M{} {}V{}H{}", number(LEFT), number(TOP), number(bottom), number(right)), "#5f666e");
+        svg += &text([LEFT + width / 2.0, bottom + 38.0], "middle", "", self.axes[0]);
+        let middle = number(TOP + height / 2.0);
+        svg += &format!(
+            "<text x=\"16\" y=\"{middle}\" text-anchor=\"middle\" transform=\"rotate(-90 16 {middle})\">{}</text>\n",
+            markup(self.axes[1])
+        );
+        for (value, name) in &self.marks {
+            let at = place(&[*value, 0.0])[0];
+            let path = format!("M{} {}V{}", number(at), number(TOP), number(bottom));
+            svg += &format!("<path d=\"{path}\" stroke=\"#5f666e\" stroke-dasharray=\"3 3\"/>\n");
+            svg += &text([at - 3.0, TOP + 11.0], "end", GREY, name);
+        }
+        for (k, line) in self.lines.iter().enumerate() {
+            let shown = line.points.iter().filter(|point| point[1] > 0.0 || !y.is_logarithmic);
+            svg += &line.svg(&shown.map(place).collect::<Vec<_>>());
+            svg += &line.key([right + 12.0, TOP + 8.0 + LINE * k as f64]);
+        }
+        svg + "</g>\n"
+    }
+}
+
+/// Of ticks.
+const GREY: &str = " fill=\"#5f666e\" font-size=\"11\"";
+
+fn rule(path: &str, color: &str) -> String {
+    format!("<path fill=\"none\" d=\"{path}\" stroke=\"{color}\"/>\n")
+}
+
+fn text([x, y]: [f64; 2], anchor: &str, style: &str, content: &str) -> String {
+    format!(
+        "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\"{style}>{}</text>\n",
+        number(x),
+        number(y),
+        markup(content)
+    )
+}
+
+impl Line {
+    /// Through these places.
+    fn svg(&self, places: &[[f64; 2]]) -> String {
+        let mut path = String::new();
+        let mut last = String::new();
+        for [x, y] in places {
+            // A tenth of a pixel is enough, and what falls on the last place is nothing new.
+            let place = format!("{x:.1} {y:.1}");
+            if place != last {
+                path += &format!("{}{place}", if path.is_empty() { 'M' } else { 'L' });
+            }
+            last = place;
+        }
+        let dots = |[x, y]: &[f64; 2]| {
+            format!("<circle cx=\"{}\" cy=\"{}\" r=\"2.2\" fill=\"{}\"/>\n", number(*x), number(*y), self.color())
+        };
+        let dots: String = if self.dots { places.iter().map(dots).collect() } else { String::new() };
+        format!("<path d=\"{path}\" {}><title>{}</title></path>\n{dots}", self.stroke(), markup(&self.name))
+    }
+
+    /// A piece of it and its name.
+    fn key(&self, [x, y]: [f64; 2]) -> String {
+        let piece = format!("<path d=\"M{} {}h22\" {}/>\n", number(x), number(y - 4.0), self.stroke());
+        piece + &text([x + 28.0, y], "start", "", &self.name)
+    }
+
+    fn color(&self) -> &'static str {
+        COLORS[self.pen[0] % COLORS.len()]
+    }
+
+    fn stroke(&self) -> String {
+        let dash = DASHES[self.pen[1] % DASHES.len()];
+        let dash = if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dash}\"") };
+        format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{dash}", self.color())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chart(points: &[[f64; 2]]) -> String {
+        let line = Line { name: "<a>".into(), pen: [1, 1], points: points.to_vec(), dots: true };
+        let axes = ["x", "y"];
+        LineChart { title: "t".into(), axes, lines: vec![line], marks: vec![(1.0, "here")] }.svg([0.0, 0.0])
+    }
+
+    /// Centres of the dots.
+    fn dots(svg: &str) -> Vec<[f64; 2]> {
+        let document = roxmltree::Document::parse(svg).unwrap();
+        let dots = document.descendants().filter(|node| node.has_tag_name("circle"));
+        dots.map(|dot| ["cx", "cy"].map(|key| dot.attribute(key).unwrap().parse().unwrap())).collect()
+    }
+
+    #[test]
+    fn equal_factors_are_equally_far_apart_where_values_differ_much() {
+        let svg = chart(&[[1.0, 1.0], [10.0, 1e-3], [100.0, 1e-6]]);
+        let [a, b, c] = dots(&svg)[..] else { panic!("{svg}") };
+        for k in [0, 1] {
+            assert!((a[k] + c[k] - 2.0 * b[k]).abs() < 0.02, "{a:?} {b:?} {c:?}");
+        }
+        assert!(a[0] < c[0] && a[1] < c[1], "sweeps go to the right, small errors lie below");
+        assert!(svg.contains("&lt;a&gt;") && svg.contains("stroke-dasharray=\"7 3\"") && svg.contains(">here<"));
+    }
+
+    #[test]
+    fn what_has_no_place_is_left_out() {
+        // No error at all has no logarithm.
+        let svg = chart(&[[1.0, 1.0], [2.0, 1e-3], [3.0, 0.0]]);
+        assert_eq!(dots(&svg).len(), 2);
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        assert_eq!(chart(&[]), "");
+    }
+}

@@ -1,0 +1,123 @@
+//! The measuring.
+
+use super::{Convergence, Course, FactorScan, Point, StrengthScan};
+use cplan_fields::{
+    Cell, Difference, Direction, Domain, Ending, Equation, Factor, Lines, Order, RelaxError, Relaxation, Scan,
+    Stopping, eliminated, relax, trace,
+};
+
+/// What is to be measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup<'a> {
+    /// What the domain is of, for people.
+    pub title: String,
+    /// Where the equations are to be solved.
+    pub domain: &'a Domain,
+    /// Names and equations.
+    pub equations: Vec<(String, Equation)>,
+    /// The direction of the drift in the scans over its strength, in cells.
+    pub direction: Direction,
+    /// In which order cells go in the scans.
+    pub order: Order,
+    /// When relaxations end.
+    pub stopping: Stopping,
+}
+
+/// The factor of weighted Jacobi: the usual choice of smoothers in the plane.
+const WEIGHT: f64 = 0.8;
+
+/// The relaxations that are traced.
+fn relaxations() -> Vec<Relaxation> {
+    let orders = [Order::Lines(Scan::ROWS), Order::Corners(Lines::Rows), Order::RedBlack];
+    let at_once = [Relaxation::JACOBI, Relaxation::weighted_jacobi(WEIGHT)];
+    let gauss_seidel = orders.map(Relaxation::gauss_seidel);
+    let sor = orders.map(|order| Relaxation::sor(Factor::Formula, order));
+    at_once.into_iter().chain(gauss_seidel).chain(sor).collect()
+}
+
+/// Factors of the scan: by twentieths, and by hundredths near 2.
+fn factors() -> Vec<f64> {
+    (20..39).map(|k| f64::from(k) / 20.0).chain((95..100).map(|k| 1.0 + f64::from(k) / 100.0)).collect()
+}
+
+/// Strengths of the scan, by fifths.
+fn strengths() -> Vec<f64> {
+    (0..=30).map(|k| f64::from(k) / 5.0).collect()
+}
+
+/// Relaxes each equation by Jacobi, weighted Jacobi, Gauss-Seidel and SOR in each order and measures the error after each sweep;
+/// then scans the factor of SOR for each equation, and the strength of the drift by Gauss-Seidel with either discretisation.
+/// `progress` hears what is begun. It costs some hundred relaxations, and an elimination for each equation.
+///
+/// # Errors
+/// [`RelaxError::Refused`] where an equation does not fit the domain. That a relaxation diverges is a result.
+pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Convergence, RelaxError> {
+    let Setup { domain, direction, order, stopping, .. } = setup;
+    let mut courses = Vec::new();
+    let mut factor_scans = Vec::new();
+    for (name, equation) in &setup.equations {
+        progress(&format!("{name}: relaxations"));
+        let exact = eliminated(domain, equation);
+        let mut rate = None;
+        for relaxation in relaxations() {
+            let trace = trace(domain, equation, &relaxation, stopping, domain.start(), exact.as_deref())?;
+            if relaxation == Relaxation::JACOBI {
+                rate = trace.rate();
+            }
+            courses.push(Course { equation: name.clone(), relaxation, trace });
+        }
+        progress(&format!("{name}: factors of SOR"));
+        let at = |factor: f64| {
+            let relaxation = Relaxation::sor(Factor::Given(factor), *order);
+            point(factor, domain, equation, &relaxation, stopping)
+        };
+        factor_scans.push(FactorScan {
+            equation: name.clone(),
+            formula: at(Factor::Formula.value(domain.cells()))?,
+            by_rate: rate.filter(|_| equation.is_monotone()).and_then(best_factor).map(at).transpose()?,
+            points: factors().into_iter().map(at).collect::<Result<_, _>>()?,
+        });
+    }
+    let scan = |difference: Difference| {
+        let at = |epsilon: f64| {
+            let equation = Equation::Oriented { direction: *direction, epsilon, difference };
+            point(epsilon, domain, &equation, &Relaxation::gauss_seidel(*order), stopping)
+        };
+        let points = strengths().into_iter().map(at).collect::<Result<_, _>>()?;
+        Ok(StrengthScan { difference, points })
+    };
+    progress("strengths of the drift");
+    Ok(Convergence {
+        title: setup.title.clone(),
+        cells: domain.cells(),
+        free: domain.kinds().iter().filter(|&&kind| kind == Cell::Free).count(),
+        stopping: *stopping,
+        order: *order,
+        courses,
+        factors: factor_scans,
+        direction: direction.components(),
+        strengths: [Difference::Central, Difference::Upwind].into_iter().map(scan).collect::<Result<_, _>>()?,
+    })
+}
+
+/// Young's, of Jacobi's rate.
+fn best_factor(rate: f64) -> Option<f64> {
+    (rate < 1.0).then(|| 2.0 / (1.0 + (1.0 - rate * rate).sqrt()))
+}
+
+fn point(
+    at: f64,
+    domain: &Domain,
+    equation: &Equation,
+    relaxation: &Relaxation,
+    stopping: &Stopping,
+) -> Result<Point, RelaxError> {
+    Ok(match relax(domain, equation, relaxation, stopping) {
+        Ok(field) => {
+            let ending = if field.converged() { Ending::Converged } else { Ending::Unconverged };
+            Point { at, sweeps: field.sweeps(), ending }
+        }
+        Err(RelaxError::Diverged { sweeps, .. }) => Point { at, sweeps, ending: Ending::Diverged },
+        Err(refused) => return Err(refused),
+    })
+}

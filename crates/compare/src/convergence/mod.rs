@@ -1,0 +1,116 @@
+//! How relaxations converge: the error against sweeps for each equation, relaxation and order, sweeps against the factor of SOR,
+//! and against the strength of a drift.
+//!
+//! ```text
+//! Setup (a domain and equations on it) -> convergence -> Convergence -> table, CSV, JSON
+//!                                                                  \-> charts (SVG) -> page
+//! ```
+//!
+//! What is measured comes from [`cplan_fields::trace()`] and, of the scans, from [`cplan_fields::relax()`]; all outputs are pure
+//! functions of the [`Convergence`].
+
+mod charts;
+mod files;
+mod lines;
+mod measured;
+
+pub use measured::{Setup, convergence};
+
+use cplan_fields::{Difference, Ending, Order, Relaxation, Stopping, Trace};
+
+/// How relaxations converge on one domain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Convergence {
+    /// What the domain is of, for people.
+    pub title: String,
+    /// Rows and columns.
+    pub cells: [usize; 2],
+    /// Cells whose values are sought.
+    pub free: usize,
+    /// When relaxations end.
+    pub stopping: Stopping,
+    /// Of the scans' relaxations.
+    pub order: Order,
+    /// Relaxation by relaxation, by equation.
+    pub courses: Vec<Course>,
+    /// Sweeps against the factor of SOR, an equation each.
+    pub factors: Vec<FactorScan>,
+    /// The direction of the drift in the scans over its strength, in cells; a vector of length 1.
+    pub direction: [f64; 2],
+    /// Sweeps of Gauss-Seidel against the strength of the drift, a discretisation each.
+    pub strengths: Vec<StrengthScan>,
+}
+
+/// A relaxation of an equation, from its start to its end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Course {
+    /// The name of the equation.
+    pub equation: String,
+    /// What relaxes it.
+    pub relaxation: Relaxation,
+    /// How it went.
+    pub trace: Trace,
+}
+
+/// Sweeps against the factor of SOR.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FactorScan {
+    /// The name of the equation.
+    pub equation: String,
+    /// At `4 / (2 + sqrt(4 - c^2))`, the best factor for Laplace's equation in an empty rectangle of so many cells.
+    pub formula: Point,
+    /// At `2 / (1 + sqrt(1 - r^2))`, `r` the rate of Jacobi's relaxation that was measured on this very domain: the best factor of
+    /// an order that is consistent, as rows and red-black are, where all eigenvalues are real (Young 1954). None where `r` is not
+    /// known or not below 1, or the equation not monotone.
+    pub by_rate: Option<Point>,
+    /// Factors of the scan, rising.
+    pub points: Vec<Point>,
+}
+
+/// Sweeps against the strength of the drift, `epsilon` per cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrengthScan {
+    /// How the drift is discretised.
+    pub difference: Difference,
+    /// Strengths, rising.
+    pub points: Vec<Point>,
+}
+
+/// A relaxation with one value of what is varied.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// The factor, or the strength.
+    pub at: f64,
+    /// Sweeps until it ended.
+    pub sweeps: usize,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+impl Point {
+    /// Sweeps that it took to converge, if it did.
+    #[must_use]
+    pub fn converged(&self) -> Option<usize> {
+        (self.ending == Ending::Converged).then_some(self.sweeps)
+    }
+}
+
+impl FactorScan {
+    /// The point of the scan, marked ones included, with the fewest sweeps; of several the one with the least factor. None if none
+    /// converged.
+    #[must_use]
+    pub fn best(&self) -> Option<Point> {
+        let all = self.points.iter().chain([&self.formula]).chain(&self.by_rate).copied();
+        let converged = all.filter(|point| point.converged().is_some());
+        converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
+    }
+}
+
+impl StrengthScan {
+    /// The least strength from which on no relaxation of the scan converged; none if the last one did.
+    #[must_use]
+    pub fn lost_from(&self) -> Option<Point> {
+        let after = self.points.iter().rposition(|point| point.converged().is_some()).map_or(0, |last| last + 1);
+        self.points.get(after).copied()
+    }
+}

@@ -1,0 +1,147 @@
+//! Box plots, a line a planner.
+
+use super::axis::Axis;
+use super::markup::{margin, number, shortened};
+use crate::{Measure, Spread, Study};
+use cplan_text::{counted, markup};
+
+/// Width of a chart, pixels: about that of a phone, where charts are not made smaller then.
+const WIDTH: f64 = 460.0;
+/// Right of the plot.
+const RIGHT: f64 = 14.0;
+/// Height of a planner's line.
+const LINE: f64 = 30.0;
+/// Above the first line.
+const TOP: f64 = 6.0;
+/// Below the last one, for the axis.
+const BOTTOM: f64 = 26.0;
+/// Runs that are shown as dots, too; more make a grey surface.
+const DOTS: usize = 250;
+
+/// The chart of one measure; none where no run has a value.
+pub fn chart(study: &Study, measure: Measure) -> Option<String> {
+    let values: Vec<Vec<f64>> = (0..study.planners().len())
+        .map(|i| study.runs(i).filter_map(|(c, row)| measure.of(c, row)).map(|v| v * measure.scale()).collect())
+        .collect();
+    if values.iter().all(Vec::is_empty) {
+        return None;
+    }
+    // Nothing is shorter than the optimum.
+    let base = (measure == Measure::OverOptimum).then_some(1.0);
+    let axis = Axis::over(values.iter().flatten().copied(), base)?;
+    let height = TOP + LINE * values.len() as f64 + BOTTOM;
+    let left = margin(&study.planners());
+    let x = |value: f64| left + (WIDTH - left - RIGHT) * axis.place(value);
+    let floor = height - BOTTOM;
+    let mut svg = format!(
+        "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Box plots: {}\">\n",
+        number(WIDTH),
+        number(height),
+        markup(measure.heading())
+    );
+    for (value, text) in axis.ticks() {
+        let at = number(x(value));
+        svg += &format!("<path class=\"grid\" d=\"M{at} {}V{}\"/>", number(TOP), number(floor));
+        svg += &format!("<text class=\"tick\" x=\"{at}\" y=\"{}\">{text}</text>\n", number(floor + 17.0));
+    }
+    for (i, (name, values)) in study.planners().into_iter().zip(&values).enumerate() {
+        let middle = TOP + LINE * (i as f64 + 0.5);
+        svg += &format!(
+            "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
+            number(left - 10.0),
+            number(middle + 4.0),
+            markup(&shortened(name))
+        );
+        if let Some(spread) = Spread::of(values.iter().copied()) {
+            svg += &format!("<g class=\"p{}\"><title>{}</title>", i % super::COLORS, markup(&described(name, &spread)));
+            svg += &drawn(&spread, values, middle, &x);
+            svg += "</g>\n";
+        }
+    }
+    Some(svg + "</svg>\n")
+}
+
+/// Whiskers from the least to the greatest, the box between the quartiles, the median across it, and runs as dots. Of a
+/// single run, a dot.
+fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) -> String {
+    if let [only] = values {
+        return format!("<circle class=\"only\" cx=\"{}\" cy=\"{}\" r=\"4.5\"/>", number(x(*only)), number(middle));
+    }
+    let [min, low, median, high, max, _] = spread.numbers().map(x);
+    let [y, top, bottom] = [middle, middle - 4.0, middle + 4.0].map(number);
+    let width = number((high - low).max(1.0));
+    let [min, low, high, max] = [min, low, high, max].map(number);
+    let mut svg = format!("<path class=\"whisker\" d=\"M{min} {y}H{low}M{high} {y}H{max}");
+    svg += &format!("M{min} {top}V{bottom}M{max} {top}V{bottom}\"/>");
+    svg += &format!("<rect class=\"box\" x=\"{low}\" y=\"{}\" width=\"{width}\" height=\"16\"/>", number(middle - 8.0));
+    let stride = values.len().div_ceil(DOTS).max(1);
+    for (k, value) in values.iter().enumerate().step_by(stride) {
+        // Beside each other by a fixed pattern, so that equal values do not hide each other.
+        let y = number(middle + ((k * 7) % 11) as f64 - 5.0);
+        svg += &format!("<circle class=\"dot\" cx=\"{}\" cy=\"{y}\" r=\"1.6\"/>", number(x(*value)));
+    }
+    let [top, bottom] = [middle - 9.0, middle + 9.0].map(number);
+    svg + &format!("<path class=\"median\" d=\"M{} {top}V{bottom}\"/>", number(median))
+}
+
+/// What the chart shows, for who hovers over it or has it read out.
+fn described(name: &str, spread: &Spread) -> String {
+    let [min, low, median, high, max, _] = spread.numbers().map(|v| format!("{v:.4}"));
+    let runs = counted(spread.n, "run");
+    format!("{name}: {runs}, median {median}, quartiles {low} and {high}, least {min}, greatest {max}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Comparison, Family, Row};
+    use cplan_core::model::Status;
+
+    /// A study of one planner with these durations.
+    fn study(durations: &[f64]) -> Study {
+        let comparison = |duration: &f64| Comparison {
+            problem: "p".to_owned(),
+            length_unit: "rad".to_owned(),
+            query: None,
+            bound: None,
+            rows: vec![Row { duration: Some(*duration), ..Row::new("<planner>", Family::Field, Status::Found) }],
+        };
+        let comparisons = durations.iter().map(comparison).collect();
+        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new(), refused: Vec::new() }
+    }
+
+    fn attribute(svg: &str, class: &str, name: &str) -> String {
+        let document = roxmltree::Document::parse(svg).unwrap();
+        let node = document.descendants().find(|node| node.attribute("class") == Some(class)).unwrap();
+        node.attribute(name).unwrap().to_owned()
+    }
+
+    #[test]
+    fn boxes_stand_where_the_axis_has_their_values() {
+        let svg = chart(&study(&[2.0, 1.0, 5.0, 3.0, 4.0]), Measure::Duration).unwrap();
+        // From 0.84 to 5.16: the values and a twenty-fifth of their range on either side.
+        let left = margin(&["<planner>"]);
+        let x = |value: f64| left + (WIDTH - left - RIGHT) * (value - 0.84) / 4.32;
+        assert_eq!(attribute(&svg, "box", "x"), number(x(2.0)));
+        let width: f64 = attribute(&svg, "box", "width").parse().unwrap();
+        assert!((width - (x(4.0) - x(2.0))).abs() < 0.01);
+        assert!(attribute(&svg, "median", "d").starts_with(&format!("M{} ", number(x(3.0)))));
+        let whisker = attribute(&svg, "whisker", "d");
+        assert!(
+            whisker.starts_with(&format!("M{} ", number(x(1.0)))) && whisker.contains(&format!("H{}M", number(x(5.0))))
+        );
+        assert_eq!(svg.matches("class=\"dot\"").count(), 5);
+        assert!(svg.contains("&lt;planner&gt;: 5 runs, median 3.0000"));
+    }
+
+    #[test]
+    fn single_runs_are_dots_and_no_runs_no_chart() {
+        let svg = chart(&study(&[2.0]), Measure::Duration).unwrap();
+        assert!(svg.contains("class=\"only\"") && !svg.contains("class=\"box\""));
+        assert_eq!(chart(&study(&[2.0]), Measure::Clearance), None);
+        assert_eq!(chart(&study(&[]), Measure::Duration), None);
+        assert_eq!(chart(&study(&[2.0]), Measure::OverOptimum), None);
+        let many: Vec<f64> = (0..1000).map(f64::from).collect();
+        assert_eq!(chart(&study(&many), Measure::Duration).unwrap().matches("class=\"dot\"").count(), DOTS);
+    }
+}

@@ -1,0 +1,29 @@
+//! How relaxations converge, as a page: charts and tables.
+
+use super::markup::{image_source, table};
+use super::{foot, head, section};
+use crate::Convergence;
+
+impl Convergence {
+    /// The page, in a file that needs no other, no network and no script. The same figures make the same page, byte for byte.
+    #[must_use]
+    pub fn to_html(&self) -> String {
+        let [rows, columns] = self.cells;
+        let subtitle = format!("Relaxations on {rows} x {columns} cells, {} of which are free", self.free);
+        let charts = format!(
+            "<figure class=\"picture\" tabindex=\"0\"><img alt=\"Errors and sweeps\" src=\"{}\"/></figure>\n",
+            image_source(&self.to_svg())
+        );
+        head(&self.title, &subtitle)
+            + &section("Charts", &charts)
+            + &section("Relaxations", &table(&self.table()))
+            + &section("Sweeps of SOR by its factor", &table(&self.factor_table()))
+            + &section("Sweeps of Gauss-Seidel by epsilon", &table(&self.strength_table()))
+            + &foot(HOW)
+    }
+}
+
+const HOW: &str = "The error is the greatest of all cells against the solution by elimination, over the greatest before the first \
+                   sweep; the rate is what a sweep multiplies it by in the end. The formula is the best factor for Laplace's \
+                   equation in an empty rectangle; the factor by rate is Young's, of the rate of Jacobi's relaxation on this \
+                   very grid. What diverges or ends before it converges has no point in the charts.";

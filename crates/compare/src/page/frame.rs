@@ -1,0 +1,52 @@
+//! The frame of a chart with two axes.
+
+use super::axis::Axis;
+use super::markup::number;
+use cplan_text::markup;
+
+/// Size of a chart, pixels.
+const SIZE: [f64; 2] = [460.0, 380.0];
+/// Left of the plot, above it, right of it, below it.
+const MARGINS: [f64; 4] = [78.0, 10.0, 14.0, 46.0];
+
+/// A chart that has its axes, and is open for what it shows.
+pub struct Frame<F> {
+    /// What is written of it.
+    pub svg: String,
+    /// Where shares of both axes lie, pixels.
+    pub place: F,
+}
+
+/// A frame with ticks and titles along both axes.
+pub fn frame(axes: [Axis; 2], titles: [&str; 2], what: &str) -> Frame<impl Fn([f64; 2]) -> [f64; 2]> {
+    let [left, top, right, bottom] = MARGINS;
+    let [width, height] = [SIZE[0] - left - right, SIZE[1] - top - bottom];
+    let place = move |[x, y]: [f64; 2]| [left + width * x, top + height * (1.0 - y)];
+    let mut svg = format!(
+        "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{what}: {} against {}\">\n",
+        number(SIZE[0]),
+        number(SIZE[1]),
+        markup(titles[1]),
+        markup(titles[0])
+    );
+    let floor = top + height;
+    for (value, text) in axes[0].ticks() {
+        let at = number(place([axes[0].place(value), 0.0])[0]);
+        svg += &format!("<path class=\"grid\" d=\"M{at} {}V{}\"/>", number(top), number(floor));
+        svg += &format!("<text class=\"tick\" x=\"{at}\" y=\"{}\">{text}</text>\n", number(floor + 17.0));
+    }
+    for (value, text) in axes[1].ticks() {
+        let at = place([0.0, axes[1].place(value)])[1];
+        svg += &format!("<path class=\"grid\" d=\"M{} {}H{}\"/>", number(left), number(at), number(left + width));
+        svg += &format!("<text class=\"name\" x=\"{}\" y=\"{}\">{text}</text>\n", number(left - 8.0), number(at + 4.0));
+    }
+    let middle = number(left + width / 2.0);
+    svg +=
+        &format!("<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>\n", number(SIZE[1] - 8.0), markup(titles[0]));
+    let beside = number(top + height / 2.0);
+    svg += &format!(
+        "<text class=\"tick\" transform=\"translate(13 {beside}) rotate(-90)\">{}</text>\n",
+        markup(titles[1])
+    );
+    Frame { svg, place }
+}

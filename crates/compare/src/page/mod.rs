@@ -1,0 +1,197 @@
+//! A study as one page of HTML: charts, paths, tables and the summary in words, in a file that needs no other, no network
+//! and no script. Light and dark as the reader's system has it.
+
+mod axis;
+mod boxes;
+mod convergence;
+mod frame;
+mod markup;
+mod outcomes;
+mod overlay;
+
+pub use axis::Axis;
+pub use frame::{Frame, frame};
+pub use markup::{image_source, number, table};
+pub use overlay::{Overlay, Spot};
+
+use super::measure::Measure;
+use super::study::Study;
+use super::words::words;
+use cplan_text::{counted, markup};
+
+/// Colours of planners, after which they begin again: those of Okabe and Ito that pictures draw paths in.
+const COLORS: usize = 6;
+
+/// A drawing that the page holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// What it shows.
+    pub title: String,
+    /// As an SVG document.
+    pub svg: String,
+}
+
+/// What the page is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Page<'a> {
+    /// The figures that are shown.
+    pub study: &'a Study,
+    /// All paths, by planner and world.
+    pub overlays: &'a [Overlay],
+    /// Problem by problem, workspace and configuration space.
+    pub pictures: &'a [Picture],
+}
+
+impl Page<'_> {
+    /// The page. The same figures make the same page, byte for byte.
+    #[must_use]
+    pub fn html(&self) -> String {
+        let study = self.study;
+        let mut html = head(&study.title, &self.subtitle());
+        for alarm in study.alarms() {
+            html +=
+                &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", markup(&alarm));
+        }
+        if let [only] = &study.comparisons[..] {
+            html += &format!("<p class=\"verdict\">{}</p>\n", markup(&only.outcome()));
+        }
+        html += &section("Outcomes", &self.outcomes());
+        html += &self.charts();
+        html += &self.ways();
+        let sentences: String = words(study).iter().map(|w| paragraph(w)).collect();
+        html += &section("In words", &sentences);
+        html += &self.tables();
+        html + &foot(HOW)
+    }
+
+    fn subtitle(&self) -> String {
+        let planners = self.study.planners();
+        let problems = counted(self.study.comparisons.len(), "problem");
+        let refused = match self.study.refused.len() {
+            0 => String::new(),
+            n => format!(" ({n} more not run)"),
+        };
+        format!("{problems}{refused}, {} planners: {}", planners.len(), planners.join(", "))
+    }
+
+    fn outcomes(&self) -> String {
+        let mut html = outcomes::key();
+        if self.study.comparisons.len() > 1 {
+            html += &format!("<div class=\"card narrow\">{}</div>\n", outcomes::bars(self.study));
+        }
+        let matrix = outcomes::matrix(self.study);
+        if self.study.comparisons.len() > UNFOLDED {
+            html += &folded("Problem by problem", &matrix);
+        } else {
+            html += &matrix;
+        }
+        html
+    }
+
+    fn charts(&self) -> String {
+        let chart = |measure: Measure| {
+            let chart = boxes::chart(self.study, measure)?;
+            Some(format!(
+                "<figure class=\"card\"><figcaption>{}</figcaption>\n{chart}</figure>\n",
+                markup(measure.heading())
+            ))
+        };
+        let charts: String = Measure::ALL.into_iter().filter_map(chart).collect();
+        if charts.is_empty() {
+            return charts;
+        }
+        let note = "Box: the middle half of the runs; bar across it: the median; whiskers: the least and the greatest; each \
+                    dot is a run. Axes are logarithmic where values differ much.";
+        section("Distributions", &format!("<div class=\"charts\">\n{charts}</div>\n<p class=\"sub\">{note}</p>\n"))
+    }
+
+    fn ways(&self) -> String {
+        let overlay = |(id, overlay): (usize, &Overlay)| {
+            let note =
+                overlay.note.as_deref().map_or_else(String::new, |n| format!("<p class=\"sub\">{}</p>\n", markup(n)));
+            format!("<h3>{}</h3>\n{note}{}", markup(&overlay.title), overlay::panels(overlay, id))
+        };
+        let overlays: String = self.overlays.iter().enumerate().map(overlay).collect();
+        let picture = |picture: &Picture| {
+            let title = markup(&picture.title);
+            format!(
+                "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace and configuration space\" src=\"{}\"/></figure>\n",
+                image_source(&picture.svg)
+            )
+        };
+        let pictures = self.pictures.iter().enumerate().map(|(i, p)| {
+            // The first is open: a page of closed covers looks empty.
+            if i == 0 {
+                format!("<h3>{}</h3>\n{}", markup(&p.title), picture(p))
+            } else {
+                folded(&p.title, &picture(p))
+            }
+        });
+        let pictures: String = pictures.collect();
+        let all = overlays + &pictures;
+        if all.is_empty() { all } else { section("Paths and proofs", &all) }
+    }
+
+    fn tables(&self) -> String {
+        // Of a single problem there are no distributions.
+        let mut html = match &self.study.comparisons[..] {
+            [only] => table(&only.table()),
+            _ => self.study.tables().into_iter().map(|(heading, rows)| folded(&heading, &table(&rows))).collect(),
+        };
+        let notes: String = self.study.footnotes().map(|note| format!("<li>{}</li>\n", markup(&note))).collect();
+        if !notes.is_empty() {
+            html += &format!("<h3>Notes</h3>\n<ul class=\"notes\">\n{notes}</ul>\n");
+        }
+        section("Tables", &html)
+    }
+}
+
+/// What a page begins with.
+pub fn head(title: &str, subtitle: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <meta name=\"color-scheme\" content=\"light dark\"/>\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\"/>\n\
+         <title>{0}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
+        markup(title),
+        markup(subtitle)
+    )
+}
+
+/// What it ends with, after words on how its numbers came about, as HTML.
+pub fn foot(how: &str) -> String {
+    format!("<footer>{how}</footer>\n</main>\n</body>\n</html>\n")
+}
+
+/// More problems than this are folded away.
+const UNFOLDED: usize = 40;
+
+const STYLE: &str = include_str!("style.css");
+
+const HOW: &str = "Every run is a whole one, from the problem to a certificate or a proof. <em>Found</em>: the whole continuous \
+                   motion is certified free of collision. <em>Infeasible</em>: proven. Lengths are Euclidean in joint space; the \
+                   proven optimum is a lower bound that no motion is below. Clearance is the proven distance from obstacles \
+                   along the motion; its time keeps the joints' limits. Memory is what a run allocates at the same time, at the \
+                   most. Times and memory are of the machine that made this page; all other numbers are the same \
+                   everywhere, up to the rounding of its sine and cosine.";
+
+/// A paragraph whose first sentence, what the others bear out, stands out.
+fn paragraph(text: &str) -> String {
+    match text.split_once(". ") {
+        Some((claim, figures)) => format!("<p><strong>{}.</strong> {}</p>\n", markup(claim), markup(figures)),
+        None => format!("<p>{}</p>\n", markup(text)),
+    }
+}
+
+/// A section of a page, with its heading.
+#[must_use]
+pub fn section(heading: &str, content: &str) -> String {
+    format!("<section>\n<h2>{}</h2>\n{content}</section>\n", markup(heading))
+}
+
+/// A part of a page that is folded away until its heading is clicked.
+#[must_use]
+pub fn folded(heading: &str, content: &str) -> String {
+    format!("<details><summary>{}</summary>\n{content}</details>\n", markup(heading))
+}

@@ -1,0 +1,156 @@
+//! All paths of a planner on one configuration space.
+
+use super::markup::number;
+use cplan_text::{counted, markup};
+
+/// A point `(q1, q2)`.
+pub type Spot = [f64; 2];
+
+/// A configuration space, and the paths that each planner found in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Overlay {
+    /// Of the world.
+    pub title: String,
+    /// Names of the joints, with their units.
+    pub joints: [String; 2],
+    /// Lower and upper value of each joint.
+    pub window: [(f64, f64); 2],
+    /// Whether an axis is a circle, whose copies a turn apart are the same.
+    pub circles: [bool; 2],
+    /// Contours of what is blocked, unwrapped.
+    pub blocked: Vec<Vec<Spot>>,
+    /// Paths, unwrapped, by planner.
+    pub planners: Vec<(String, Vec<Vec<Spot>>)>,
+    /// What is shown of what, in words, if not all.
+    pub note: Option<String>,
+}
+
+/// Pixels of a panel's plot.
+const SIZE: f64 = 220.0;
+/// Left of it, and below it, for the names of the joints.
+const EDGE: f64 = 18.0;
+
+/// A panel a planner. `id` tells the blocked parts of this overlay from those of others in the page.
+pub fn panels(overlay: &Overlay, id: usize) -> String {
+    let mut html = String::from("<div class=\"panels\">\n");
+    for (i, (name, paths)) in overlay.planners.iter().enumerate() {
+        let whole = number(SIZE + EDGE);
+        html += &format!(
+            "<figure><figcaption>{} <small>{}</small></figcaption>\n",
+            markup(name),
+            counted(paths.len(), "path")
+        );
+        html += &format!(
+            "<svg class=\"chart\" viewBox=\"0 0 {whole} {whole}\" role=\"img\" aria-label=\"Paths of {}\">\n",
+            markup(name)
+        );
+        html += &format!("<svg x=\"{EDGE}\" y=\"0\" width=\"{SIZE}\" height=\"{SIZE}\">\n");
+        html += &format!("<rect class=\"free\" width=\"{SIZE}\" height=\"{SIZE}\"/>\n");
+        if i == 0 {
+            html += &format!(
+                "<path id=\"blocked{id}\" class=\"blocked\" d=\"{}\"/>\n",
+                lines(overlay, &overlay.blocked, true)
+            );
+        } else {
+            html += &format!("<use class=\"blocked\" href=\"#blocked{id}\"/>\n");
+        }
+        html +=
+            &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % super::COLORS, lines(overlay, paths, false));
+        let middle = number(EDGE + SIZE / 2.0);
+        html += &format!(
+            "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>",
+            number(SIZE + 14.0),
+            markup(&overlay.joints[0])
+        );
+        html += &format!(
+            "<text class=\"tick\" transform=\"translate(13 {}) rotate(-90)\">{}</text>\n</svg></figure>\n",
+            number(SIZE / 2.0),
+            markup(&overlay.joints[1])
+        );
+    }
+    html + "</div>\n"
+}
+
+/// The lines as one path's data; on circles with those copies that reach into the window.
+fn lines(overlay: &Overlay, lines: &[Vec<Spot>], closed: bool) -> String {
+    let mut data = String::new();
+    for line in lines {
+        let shifts = [0, 1].map(|k| shifts(overlay, line, k));
+        for first in &shifts[0] {
+            for second in &shifts[1] {
+                trace(overlay, line, [*first, *second], closed, &mut data);
+            }
+        }
+    }
+    data
+}
+
+/// By how much a line is to be moved along an axis to reach into the window; once, as it is, on an interval.
+fn shifts(overlay: &Overlay, line: &[Spot], axis: usize) -> Vec<f64> {
+    if !overlay.circles[axis] {
+        return vec![0.0];
+    }
+    let (lower, upper) = overlay.window[axis];
+    let turn = upper - lower;
+    let least = line.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
+    let greatest = line.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+    let from = ((lower - greatest) / turn).ceil() as i64;
+    let to = ((upper - least) / turn).floor() as i64;
+    (from..=to).map(|k| k as f64 * turn).collect()
+}
+
+fn trace(overlay: &Overlay, line: &[Spot], shift: Spot, closed: bool, data: &mut String) {
+    let pixel = |p: &Spot, axis: usize| {
+        let (lower, upper) = overlay.window[axis];
+        let share = (p[axis] + shift[axis] - lower) / (upper - lower);
+        // A tenth of a pixel is enough, and half the size.
+        format!("{:.1}", SIZE * if axis == 0 { share } else { 1.0 - share })
+    };
+    let mut last = None;
+    for p in line {
+        let place = (pixel(p, 0), pixel(p, 1));
+        if last.as_ref() == Some(&place) {
+            continue;
+        }
+        data.push_str(if last.is_none() { "M" } else { "L" });
+        data.push_str(&format!("{} {}", place.0, place.1));
+        last = Some(place);
+    }
+    if closed {
+        data.push('Z');
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn overlay(circles: [bool; 2]) -> Overlay {
+        Overlay {
+            title: "t".to_owned(),
+            joints: ["a".to_owned(), "b".to_owned()],
+            window: [(-1.0, 1.0), (0.0, 4.0)],
+            circles,
+            blocked: Vec::new(),
+            planners: Vec::new(),
+            note: None,
+        }
+    }
+
+    #[test]
+    fn lines_across_a_seam_come_in_again() {
+        let line = vec![[0.5, 1.0], [1.5, 1.0]];
+        assert_eq!(lines(&overlay([false; 2]), std::slice::from_ref(&line), false), "M165.0 165.0L275.0 165.0");
+        let twice = lines(&overlay([true, false]), &[line], false);
+        assert_eq!(twice, "M-55.0 165.0L55.0 165.0M165.0 165.0L275.0 165.0");
+        let around = lines(&overlay([true, true]), &[vec![[-3.0, 0.5], [3.0, 0.5]]], false);
+        // From -3 to 3 over a turn from -1 to 1: three copies cross it, two touch an end.
+        assert_eq!(around.matches('M').count(), 5, "{around}");
+    }
+
+    #[test]
+    fn what_falls_into_one_pixel_is_one_point() {
+        let dense: Vec<Spot> = (0..1000).map(|i| [f64::from(i) * 1e-7, 1.0]).collect();
+        assert_eq!(lines(&overlay([false; 2]), &[dense], true), "M110.0 165.0Z");
+    }
+}

@@ -1,0 +1,203 @@
+//! Text tables.
+
+use cplan_text::plain_line;
+
+/// Characters that the lines of tables keep to, unless they are asked for whole.
+pub const WIDTH: usize = 80;
+
+/// Side to which a column's cells are moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Align {
+    /// To the left side, for words.
+    Left,
+    /// To the right side, for numbers.
+    Right,
+}
+
+/// A column's header.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    name: String,
+    align: Align,
+}
+
+impl Column {
+    /// A column of this name.
+    pub fn new(name: &str, align: Align) -> Self {
+        Self { name: name.to_owned(), align }
+    }
+
+    /// What stands above it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// To which side its cells are moved.
+    #[must_use]
+    pub fn align(&self) -> Align {
+        self.align
+    }
+}
+
+/// Columns and rows of cells; a missing cell is shown as `-`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// The headers, one for each column.
+    pub columns: Vec<Column>,
+    /// As many cells as columns each.
+    pub rows: Vec<Vec<Option<String>>>,
+}
+
+impl Table {
+    /// Columns two spaces apart, a rule under the header, no trailing spaces.
+    pub fn to_text(&self) -> String {
+        let table = self.with_cells(|cell| plain_line(cell).into_owned());
+        table.text_under(&[table.header()])
+    }
+
+    /// The same in lines of so many characters: if need be with the last word of headers below the others, and in parts, one
+    /// below the other, each of which begins with the first column.
+    pub fn to_text_within(&self, width: usize) -> String {
+        let text = self.to_text();
+        if self.columns.len() < 2 || text.lines().all(|line| line.chars().count() <= width) {
+            return text;
+        }
+        let table = self.with_cells(|cell| plain_line(cell).into_owned());
+        let broken = |k: usize| {
+            let name = table.columns[k].name.as_str();
+            let is_widest = table.rows.iter().all(|row| shown(row)[k].chars().count() < name.chars().count());
+            name.rsplit_once(' ').filter(|_| is_widest).unwrap_or((name, ""))
+        };
+        let (upper, lower): (Vec<&str>, Vec<&str>) = (0..table.columns.len()).map(broken).unzip();
+        let widths = table.widths(&[upper.clone(), lower.clone()]);
+        let mut parts: Vec<Vec<usize>> = Vec::new();
+        for k in 1..widths.len() {
+            let fits = |part: &&mut Vec<usize>| {
+                let whole = part.iter().map(|&k| widths[k] + 2).sum::<usize>() + widths[k];
+                whole <= width
+            };
+            match parts.last_mut().filter(fits) {
+                Some(part) => part.push(k),
+                None => parts.push(vec![0, k]),
+            }
+        }
+        let part = |part: Vec<usize>| {
+            let heads = [&upper, &lower].map(|head| part.iter().map(|&k| head[k]).collect::<Vec<_>>());
+            let heads = if heads[1].iter().all(|head| head.is_empty()) { &heads[..1] } else { &heads[..] };
+            table.of_columns(&part).text_under(heads)
+        };
+        parts.into_iter().map(part).collect::<Vec<_>>().join("\n")
+    }
+
+    /// Some of its columns.
+    pub(super) fn of_columns(&self, columns: &[usize]) -> Self {
+        let row = |row: &Vec<Option<String>>| columns.iter().map(|&k| row[k].clone()).collect();
+        Self {
+            columns: columns.iter().map(|&k| self.columns[k].clone()).collect(),
+            rows: self.rows.iter().map(row).collect(),
+        }
+    }
+
+    fn text_under(&self, heads: &[Vec<&str>]) -> String {
+        let widths = self.widths(heads);
+        let line = |cells: Vec<String>| format!("{}\n", cells.join("  ").trim_end());
+        let mut text: String = heads.iter().map(|head| line(self.padded(head, &widths))).collect();
+        text += &line(widths.iter().map(|&w| "-".repeat(w)).collect());
+        for row in &self.rows {
+            text += &line(self.padded(&shown(row), &widths));
+        }
+        text
+    }
+
+    /// The same with other cells.
+    fn with_cells(&self, change: impl Fn(&str) -> String) -> Self {
+        let row = |row: &Vec<Option<String>>| row.iter().map(|cell| cell.as_deref().map(&change)).collect();
+        Self { columns: self.columns.clone(), rows: self.rows.iter().map(row).collect() }
+    }
+
+    /// A table of GitHub's Markdown, aligned in the source too.
+    pub fn to_markdown(&self) -> String {
+        let escaped = self.with_cells(|cell| plain_line(&cell.replace('|', "\\|").replace('<', "&lt;")).into_owned());
+        // A rule needs three characters.
+        let widths: Vec<usize> = escaped.widths(&[escaped.header()]).into_iter().map(|w| w.max(3)).collect();
+        let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+        let mut text = line(escaped.padded(&escaped.header(), &widths));
+        let rule = |(column, &width): (&Column, &usize)| match column.align {
+            Align::Left => "-".repeat(width),
+            Align::Right => "-".repeat(width - 1) + ":",
+        };
+        text += &line(escaped.columns.iter().zip(&widths).map(rule).collect());
+        for row in &escaped.rows {
+            text += &line(escaped.padded(&shown(row), &widths));
+        }
+        text
+    }
+
+    fn header(&self) -> Vec<&str> {
+        self.columns.iter().map(|c| c.name.as_str()).collect()
+    }
+
+    fn widths(&self, heads: &[Vec<&str>]) -> Vec<usize> {
+        let of = |k: usize| {
+            let cells = self.rows.iter().map(|row| shown(row)[k]).chain(heads.iter().map(|head| head[k]));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        (0..self.columns.len()).map(of).collect()
+    }
+
+    fn padded(&self, cells: &[&str], widths: &[usize]) -> Vec<String> {
+        let pad = |((cell, &width), column): ((&&str, &usize), &Column)| match column.align {
+            Align::Left => format!("{cell:<width$}"),
+            Align::Right => format!("{cell:>width$}"),
+        };
+        cells.iter().zip(widths).zip(&self.columns).map(pad).collect()
+    }
+}
+
+fn shown(row: &[Option<String>]) -> Vec<&str> {
+    row.iter().map(|cell| cell.as_deref().unwrap_or("-")).collect()
+}
+
+/// A number with so many decimals; none where it is not finite.
+pub(super) fn fixed(value: Option<f64>, decimals: usize) -> Option<String> {
+    value.filter(|v| v.is_finite()).map(|v| format!("{v:.decimals$}"))
+}
+
+/// A text field of a CSV file.
+pub fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(names: &[&str]) -> Table {
+        let columns = names.iter().enumerate();
+        let columns = columns.map(|(k, name)| Column::new(name, if k == 0 { Align::Left } else { Align::Right }));
+        let row = |name: &str| std::iter::once(name.to_owned()).chain(names[1..].iter().map(|_| "1.25".to_owned()));
+        let rows = ["a", "second"].map(|name| row(name).map(Some).collect());
+        Table { columns: columns.collect(), rows: rows.into() }
+    }
+
+    #[test]
+    fn what_fits_stays_and_what_does_not_is_folded() {
+        let table = table(&["planner", "length [rad]", "total [ms]"]);
+        assert_eq!(table.to_text_within(33), table.to_text());
+        let folded = "planner  length  total\n          [rad]   [ms]\n-------  ------  -----\na          1.25   1.25\nsecond     1.25   1.25\n";
+        assert_eq!(table.to_text_within(32), folded);
+        let parts = table.to_text_within(20);
+        assert_eq!(parts.lines().filter(|line| line.starts_with("planner")).count(), 2, "{parts}");
+        assert!(parts.lines().all(|line| line.chars().count() <= 20), "{parts}");
+    }
+
+    #[test]
+    fn wider_cells_than_there_is_room_for_are_shown_whole() {
+        let table = table(&["planner", "a value"]);
+        assert!(table.to_text_within(3).contains("second"));
+        let alone =
+            Table { columns: vec![Column::new("planner", Align::Left)], rows: vec![vec![Some("a planner".into())]] };
+        assert_eq!(alone.to_text_within(3), alone.to_text());
+    }
+}

@@ -1,0 +1,303 @@
+//! A study in words: only what its figures bear out.
+
+use super::measure::Measure;
+use super::row::Family;
+use super::sign::sign_test;
+use super::spread::Spread;
+use super::study::Study;
+use cplan_core::model::Status;
+use cplan_core::planner::PathKind;
+use cplan_text::{counted, percent};
+
+/// A side is said to be better if a fair coin would favour it as clearly as this seldom.
+const SIGNIFICANT: f64 = 0.05;
+
+/// Values that differ by no more than this share of them are as good as each other.
+const AS_GOOD: f64 = 1e-6;
+
+/// Fewer problems than this cannot bear out anything: even if one side wins all of five, p is 1/16.
+const ENOUGH: usize = 6;
+
+/// The measures that sides are compared by: what the better one does, with a place for "er" or "est", and whether
+/// more is better.
+const ASPECTS: [(Measure, [&str; 2], &str, bool); 5] = [
+    (
+        Measure::OverOptimum,
+        ["found the shorter paths", "found the shortest paths"],
+        "length over the proven optimum",
+        false,
+    ),
+    (
+        Measure::Clearance,
+        ["kept the greater clearance", "kept the greatest clearance"],
+        "clearance in millimetres",
+        true,
+    ),
+    (Measure::Duration, ["led to the faster motions", "led to the fastest motions"], "motion in seconds", false),
+    (Measure::Total, ["answered sooner", "answered soonest"], "time to the verdict in milliseconds", false),
+    (Measure::Memory, ["needed less memory", "needed the least memory"], "memory in MiB", false),
+];
+
+/// Planners that are taken together.
+struct Side {
+    name: String,
+    planners: Vec<usize>,
+}
+
+/// What the study says, a paragraph each: how many problems were settled, how near the proven optimum is, and family
+/// against family how long, how near to obstacles, how fast, how soon and how large. A planner speaks for its family by its
+/// usual path; what pulling one taut changes is said apart. Planners take the place of families where there is only one of
+/// those. A side is called better only where the sign test over all problems that all sides
+/// have a value for bears it out at 5 %.
+#[must_use]
+pub fn words(study: &Study) -> Vec<String> {
+    let mut words = vec![outcomes(study)];
+    words.extend(optimum(study));
+    words.extend(pulled_taut(study));
+    let sides = sides(study);
+    if sides.len() > 1 {
+        words.extend(
+            ASPECTS
+                .iter()
+                .filter_map(|(measure, better, what, more)| aspect(study, &sides, *measure, *better, what, *more)),
+        );
+    }
+    words
+}
+
+fn outcomes(study: &Study) -> String {
+    let [found, infeasible, open] = study.settled();
+    let all = counted(study.comparisons.len(), "problem");
+    let mut text = format!("{all}: {found} with a certified path, {infeasible} proven to have none, {open} open.");
+    let unknown: Vec<String> = study
+        .planners()
+        .iter()
+        .enumerate()
+        .filter_map(|(i, name)| Some((name, study.tally(i)[2])).filter(|(_, n)| *n > 0))
+        .map(|(name, n)| format!("{name} left {n} open"))
+        .collect();
+    if unknown.is_empty() {
+        text += " Every planner settled every one.";
+    } else {
+        text += &format!(" Of them, {}.", unknown.join(", "));
+    }
+    text
+}
+
+/// How tight the bound is, by the best path of all planners.
+fn optimum(study: &Study) -> Option<String> {
+    let excess = |c: &super::Comparison| Some(c.best()? / c.bound? - 1.0);
+    let spread = Spread::of(study.comparisons.iter().filter_map(excess))?;
+    Some(format!(
+        "The shortest path found is longer than the optimum by at most {} (median; {} at worst): proven, on {}.",
+        percent(spread.median),
+        percent(spread.max),
+        counted(spread.n, "problem")
+    ))
+}
+
+/// What becomes of each planner's own path when it is pulled taut, where both are there.
+fn pulled_taut(study: &Study) -> Option<String> {
+    let sentences = study.planners().into_iter().enumerate().filter_map(|(i, name)| {
+        let pairs =
+            || study.runs(i).filter_map(|(_, row)| Some((row.of_kind(PathKind::Own)?, row.of_kind(PathKind::Taut)?)));
+        let length = Spread::of(pairs().map(|(own, taut)| taut.0 / own.0).filter(|r| r.is_finite()))?;
+        let parts = pairs().filter_map(|(own, taut)| Some(taut.1? / own.1?)).filter(|r| r.is_finite());
+        let clearance = Spread::of(parts).map_or_else(String::new, |s| format!(", clearance {:.2}", s.median));
+        Some(format!("{name} length {:.2}{clearance} ({})", length.median, counted(length.n, "problem")))
+    });
+    let sentences: Vec<String> = sentences.collect();
+    let said = "Pulled taut, in parts of what a planner's own path has (median)";
+    (!sentences.is_empty()).then(|| format!("{said}: {}.", sentences.join("; ")))
+}
+
+fn sides(study: &Study) -> Vec<Side> {
+    let Some(first) = study.comparisons.first() else { return Vec::new() };
+    let of = |family| first.rows.iter().enumerate().filter(move |(_, row)| row.family == family).map(|(i, _)| i);
+    let mut sides: Vec<Side> = Family::ALL
+        .into_iter()
+        .map(|family| Side { name: family.name().to_owned(), planners: of(family).collect() })
+        .filter(|side| !side.planners.is_empty())
+        .collect();
+    if sides.len() < 2 {
+        let one = |(i, row): (usize, &super::Row)| Side { name: row.planner.clone(), planners: vec![i] };
+        sides = first.rows.iter().enumerate().map(one).collect();
+    }
+    sides
+}
+
+/// Side against side by one measure; none if there is no problem for which all have a value.
+fn aspect(
+    study: &Study,
+    sides: &[Side],
+    measure: Measure,
+    better: [&str; 2],
+    what: &str,
+    more: bool,
+) -> Option<String> {
+    let best =
+        |values: &mut dyn Iterator<Item = f64>| if more { values.reduce(f64::max) } else { values.reduce(f64::min) };
+    // One entry a problem: each side's best value. Problems that a side left open are nobody's win.
+    let values: Vec<Vec<f64>> = study
+        .comparisons
+        .iter()
+        .filter_map(|c| {
+            let of = |side: &Side| {
+                let rows = side.planners.iter().filter_map(|&i| c.rows.get(i));
+                let settled = rows.filter(|row| row.outcome != Status::Unknown);
+                best(&mut settled.filter_map(|row| measure.of(c, row)))
+            };
+            sides.iter().map(of).collect::<Option<Vec<f64>>>()
+        })
+        .collect();
+    let medians = (0..sides.len()).map(|i| Spread::of(values.iter().map(|v| v[i])).map(|s| s.median));
+    let medians: Vec<String> = sides
+        .iter()
+        .zip(medians.collect::<Option<Vec<f64>>>()?)
+        .map(|(side, median)| format!("{} {}", side.name, measure.shown(median)))
+        .collect();
+    let wins = |a: usize, b: usize| {
+        let wins = values.iter().filter(|v| {
+            let apart = if more { v[a] - v[b] } else { v[b] - v[a] };
+            apart > AS_GOOD * v[a].abs().max(v[b].abs())
+        });
+        wins.count()
+    };
+    let figures = format!(
+        "Median {what}: {}; {} that all settled, each side by its best planner there.",
+        medians.join(", "),
+        counted(values.len(), "problem")
+    );
+    if values.len() < ENOUGH {
+        return Some(figures);
+    }
+    let others = |i: usize| (0..sides.len()).filter(move |&k| k != i);
+    let beats = |i: usize, k: usize| wins(i, k) > wins(k, i) && sign_test(wins(i, k), wins(k, i)) < SIGNIFICANT;
+    let winner = (0..sides.len()).find(|&i| others(i).all(|k| beats(i, k)));
+    let word = better[usize::from(sides.len() > 2)];
+    let score = |i: usize, k: usize| {
+        let (won, lost) = (wins(i, k), wins(k, i));
+        let p = sign_test(won, lost);
+        let p = if p < 0.001 { format!("{p:.0e}") } else { format!("{p:.3}") };
+        format!("better than {} in {won}, worse in {lost} (p = {p})", sides[k].name)
+    };
+    let name = |i: usize| capitalised(&sides[i].name);
+    Some(match winner {
+        Some(i) => {
+            let scores: Vec<String> = others(i).map(|k| score(i, k)).collect();
+            format!("{} {word}. {figures} {}: {}.", name(i), name(i), scores.join("; "))
+        }
+        None => {
+            let pairs = (0..sides.len()).flat_map(|i| (i + 1..sides.len()).map(move |k| (i, k)));
+            let scores: Vec<String> = pairs.map(|(i, k)| format!("{}: {}.", name(i), score(i, k))).collect();
+            format!("These problems do not settle which side {word}. {figures} {}", scores.join(" "))
+        }
+    })
+}
+
+fn capitalised(text: &str) -> String {
+    let mut characters = text.chars();
+    characters.next().map_or_else(String::new, |first| first.to_uppercase().chain(characters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Comparison, OtherPath, Row};
+
+    /// A problem with a roadmap and a field: lengths over a bound of 1, and times.
+    fn problem(lengths: [Option<f64>; 2], totals: [f64; 2]) -> Comparison {
+        let row = |i: usize, name: &str, family| Row {
+            length: lengths[i],
+            total: Some(totals[i]),
+            ..Row::new(name, family, if lengths[i].is_some() { Status::Found } else { Status::Unknown })
+        };
+        Comparison {
+            problem: "p".to_owned(),
+            length_unit: "rad".to_owned(),
+            query: None,
+            bound: Some(1.0),
+            rows: vec![row(0, "visibility", Family::Roadmap), row(1, "wavefront", Family::Field)],
+        }
+    }
+
+    fn study(comparisons: Vec<Comparison>) -> Study {
+        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new(), refused: Vec::new() }
+    }
+
+    #[test]
+    fn clear_wins_are_claimed_with_their_figures() {
+        let mut all: Vec<Comparison> = (0..9).map(|_| problem([Some(1.01), Some(1.2)], [0.002, 0.001])).collect();
+        all.push(problem([Some(1.0), None], [0.002, 0.5]));
+        let words = words(&study(all));
+        assert_eq!(
+            words[0],
+            "10 problems: 10 with a certified path, 0 proven to have none, 0 open. Of them, wavefront left 1 open."
+        );
+        assert_eq!(
+            words[1],
+            "The shortest path found is longer than the optimum by at most 1.00 % (median; 1.00 % at worst): proven, on \
+             10 problems."
+        );
+        assert_eq!(
+            words[2],
+            "Roadmaps found the shorter paths. Median length over the proven optimum: roadmaps 1.0100, fields 1.2000; \
+             9 problems that all settled, each side by its best planner there. Roadmaps: better than fields in 9, \
+             worse in 0 (p = 0.004)."
+        );
+        assert!(words[3].starts_with("Fields answered sooner."), "{}", words[3]);
+        assert_eq!(words.len(), 4, "clearance, motion and memory are missing: nothing is said of them");
+    }
+
+    #[test]
+    fn what_chance_may_have_done_is_not_claimed() {
+        // Five wins and a draw: p = 1/16.
+        let mut six: Vec<Comparison> = (0..5).map(|_| problem([Some(1.0), Some(1.1)], [1.0, 1.0])).collect();
+        six.push(problem([Some(1.0), Some(1.0)], [1.0, 1.0]));
+        let said = words(&study(six.clone()));
+        let claim = "These problems do not settle which side found the shorter paths.";
+        assert!(said[2].starts_with(claim), "{}", said[2]);
+        assert!(said[2].contains("better than fields in 5, worse in 0 (p = 0.062)"), "{}", said[2]);
+        assert!(said[3].contains("in 0, worse in 0 (p = 1.000)"), "{}", said[3]);
+        six.pop();
+        let figures = "Median length over the proven optimum: roadmaps 1.0000, fields 1.1000; 5 problems that all \
+                       settled, each side by its best planner there.";
+        assert_eq!(words(&study(six))[2], figures, "too few problems: figures, and no claim");
+    }
+
+    #[test]
+    fn the_other_way_round_the_other_side_wins() {
+        let all: Vec<Comparison> = (0..9).map(|_| problem([Some(1.2), Some(1.01)], [1.0, 2.0])).collect();
+        let words = words(&study(all));
+        assert!(words[2].starts_with("Fields found the shorter paths."), "{}", words[2]);
+        assert!(words[3].starts_with("Roadmaps answered sooner."), "{}", words[3]);
+    }
+
+    #[test]
+    fn planners_of_one_family_are_compared_one_by_one() {
+        let mut all: Vec<Comparison> = (0..9).map(|_| problem([Some(1.1), Some(1.01)], [1.0, 2.0])).collect();
+        all.iter_mut().for_each(|c| c.rows[0].family = Family::Field);
+        assert!(words(&study(all))[2].starts_with("Wavefront found the shorter paths."));
+    }
+
+    #[test]
+    fn what_pulling_taut_changes_is_said() {
+        let mut all: Vec<Comparison> = (0..9).map(|_| problem([Some(1.0), Some(1.5)], [1.0, 2.0])).collect();
+        for row in all.iter_mut().map(|comparison| &mut comparison.rows[1]) {
+            (row.planner, row.path_kind, row.clearance) = ("harmonic".to_owned(), PathKind::Own, Some(0.04));
+            row.other_path = Some(OtherPath { length: 1.0, clearance: Some(0.01) });
+        }
+        let words = words(&study(all));
+        let pulled = "Pulled taut, in parts of what a planner's own path has (median): harmonic length 0.67, \
+                      clearance 0.25 (9 problems).";
+        assert_eq!(words[2], pulled);
+        assert!(words[3].starts_with("Roadmaps found the shorter paths.") && words[3].contains("fields 1.5000"));
+    }
+
+    #[test]
+    fn nothing_to_compare_is_no_panic() {
+        assert_eq!(words(&study(Vec::new())).len(), 1);
+        let alone = Comparison { rows: Vec::new(), ..problem([None; 2], [1.0; 2]) };
+        assert_eq!(words(&study(vec![alone])).len(), 1);
+    }
+}

@@ -1,0 +1,231 @@
+//! The explorer: decides, moves, looks, until it is done.
+
+use super::decision::Decision;
+use super::frontier::Frontier;
+use super::known::Known;
+use super::reach::places;
+use super::result::{Ending, Exploration, Leg, Reading};
+use super::settings::{ExploreError, Settings, Strategy};
+use super::survey::Survey;
+use cplan_core::check::{CertifiedPath, certify};
+use cplan_core::model::{MotionProblem, Scene, Sensor};
+use cplan_core::space::{Configuration, Draws, GoalSet, Path};
+use cplan_engine::{Options, Verdict, solve};
+use cplan_interrupt::Instant;
+use cplan_interrupt::checkpoint;
+use cplan_motion::Trajectory;
+use cplan_text::counted;
+
+/// The arm is at a goal if it is no farther from it than this: whole turns may have been added to it, and rounded.
+const AT_GOAL: f64 = 1e-9;
+
+/// Explores the world of `scene`, of which nothing is known but what the sensor sees, from `start`. `progress` hears of it now and then.
+///
+/// Deterministic: the same input gives the same exploration, but for the times that decisions took. A decision costs a
+/// shortest-path search over the grid of configurations, and certificates; with a goal, a plan.
+///
+/// # Errors
+/// A map of too many cells, one that is known already but not of this world, a strategy without its goal.
+pub fn explore(
+    scene: &Scene,
+    sensor: &Sensor,
+    start: Configuration,
+    goals: Option<&GoalSet>,
+    settings: &Settings,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Exploration, ExploreError> {
+    if settings.strategy == Strategy::Goal && goals.is_none() {
+        return Err(ExploreError::NoGoal);
+    }
+    let (arm, clearance) = (scene.arm(), scene.workspace().clearance);
+    let mut survey = Survey::new(scene, sensor.cell).ok_or(ExploreError::Map(sensor.cell))?;
+    if let Some(known) = &settings.known {
+        survey.recall(known).map_err(ExploreError::Known)?;
+    }
+    let margin = settings.surveyed.unwrap_or(2.0 * sensor.cell) + clearance;
+    let mut surroundings: Vec<usize> = (0..survey.map().cells.len()).filter(|&cell| !survey.is_unknown(cell)).collect();
+    surroundings.extend(survey.survey_about(arm, start, margin));
+    let known = Known::new(&survey, arm, settings.cells, clearance);
+    let frontier = Frontier::new(&survey, sensor, arm, &known.grid);
+    let free = (0..known.grid.blocked.len()).filter(|&cell| !known.grid.blocked[cell]).collect();
+    let mut explorer = Explorer {
+        sensor,
+        settings,
+        goals,
+        scene,
+        solid: survey.scene(arm, clearance, false),
+        survey,
+        known,
+        frontier,
+        errors: Draws::new(sensor.seed),
+        at: start,
+        length: 0.0,
+        fresh: Vec::new(),
+        readings: Vec::new(),
+        opened: vec![(0, free)],
+        legs: Vec::new(),
+        trajectory: None,
+        is_stalled: false,
+        is_back: false,
+    };
+    explorer.look();
+    let mut decisions = Vec::new();
+    let ending = loop {
+        checkpoint();
+        if explorer.is_at_goal() {
+            break Ending::Reached;
+        }
+        if decisions.len() == settings.decisions {
+            break Ending::Unknown(format!("not done after {}", counted(decisions.len(), "decision")));
+        }
+        let clock = Instant::now();
+        explorer.take_note();
+        let decision = explorer.decide();
+        decisions.push(clock.elapsed());
+        match decision {
+            Decision::Done(ending) => break ending,
+            Decision::Go(way, until) => {
+                if let Err(why) = explorer.go(&way, until) {
+                    break Ending::Unknown(why);
+                }
+            }
+        }
+        if decisions.len().is_multiple_of(50) {
+            let seen = 100.0 * explorer.survey.share_seen();
+            progress(&format!("{}: {seen:.0} % of the map seen", counted(decisions.len(), "decision")));
+        }
+    };
+    let known_length =
+        goals.filter(|_| ending == Ending::Reached).and_then(|goals| length_if_known(scene, start, goals, settings));
+    let Explorer { survey, readings, opened, legs, trajectory, length, .. } = explorer;
+    let (cells, strategy) = (settings.cells, settings.strategy);
+    Ok(Exploration {
+        strategy,
+        ending,
+        survey,
+        surroundings,
+        readings,
+        opened,
+        legs,
+        trajectory,
+        length,
+        known_length,
+        decisions,
+        cells,
+    })
+}
+
+/// Length of the shortest motion that is found in the world itself.
+fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet, settings: &Settings) -> Option<f64> {
+    let problem = MotionProblem::new(scene.clone(), start, goals.clone()).ok()?;
+    let options = Options { bounded: false, levels: settings.options.levels, ..Options::default() };
+    match solve(&problem, &options, &mut |_| ()).verdict {
+        Verdict::Found(path) => Some(path.path().length()),
+        Verdict::Infeasible(_) | Verdict::Unknown(_) => None,
+    }
+}
+
+/// Where the arm is, and what it knows.
+pub struct Explorer<'a> {
+    pub sensor: &'a Sensor,
+    pub settings: &'a Settings,
+    pub goals: Option<&'a GoalSet>,
+    /// What really is there. Decisions look at its arm and its clearance alone.
+    pub scene: &'a Scene,
+    pub survey: Survey,
+    /// The arm among all that is not known to be free.
+    pub solid: Scene,
+    pub known: Known,
+    pub frontier: Frontier,
+    pub at: Configuration,
+    /// Whether the last leg along an optimistic path showed nothing new: another one would not, either.
+    pub is_stalled: bool,
+    /// Whether the last leg was one back.
+    pub is_back: bool,
+    pub legs: Vec<Leg>,
+    errors: Draws,
+    length: f64,
+    /// Cells of the map that are new since the last decision.
+    fresh: Vec<usize>,
+    readings: Vec<Reading>,
+    opened: Vec<(usize, Vec<usize>)>,
+    trajectory: Option<Trajectory>,
+}
+
+impl Explorer<'_> {
+    /// Takes a reading where the arm is. Whether it shows anything new.
+    fn look(&mut self) -> bool {
+        let new = self.survey.look(self.sensor, self.scene.arm(), self.at, &mut self.errors);
+        let is_new = !new.is_empty();
+        if is_new {
+            self.frontier.forget_edges();
+        }
+        self.fresh.extend(&new);
+        self.readings.push(Reading { at: self.at, length: self.length, new });
+        is_new
+    }
+
+    /// Takes note of what was seen since the last decision.
+    fn take_note(&mut self) {
+        let fresh = std::mem::take(&mut self.fresh);
+        let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
+        self.opened.push((self.readings.len(), self.known.update(&self.survey, arm, &fresh)));
+        self.frontier.update(&self.survey, self.sensor);
+        self.frontier.ask_ahead(&self.survey, self.sensor, &self.known.grid);
+        if !fresh.is_empty() {
+            self.solid = self.survey.scene(arm, clearance, false);
+        }
+    }
+
+    /// Whether the arm is where it is to go.
+    fn is_at_goal(&self) -> bool {
+        let topology = self.scene.arm().topology();
+        let goals = self.goals.filter(|_| self.settings.strategy == Strategy::Goal);
+        goals.is_some_and(|goals| goals.contains(&topology, self.at, AT_GOAL))
+    }
+
+    /// Whether something new would be seen from a cell of the grid.
+    pub fn is_frontier(&mut self, cell: usize) -> bool {
+        self.frontier.contains(&self.survey, self.sensor, cell)
+    }
+
+    /// Moves along a path and looks on the way. Gone to for what can be seen from a cell, the arm stops as soon as that is nothing new.
+    ///
+    /// # Errors
+    /// A part of the path that cannot be certified, or not be timed: why, in words.
+    fn go(&mut self, way: &CertifiedPath, until: Option<usize>) -> Result<(), String> {
+        let before = self.readings.len();
+        let mut gone = vec![self.at];
+        let mut is_new = false;
+        for place in places(way.path(), self.sensor.step) {
+            self.length += (place - self.at).norm();
+            self.at = place;
+            gone.push(place);
+            is_new |= self.look();
+            let is_over = until.is_some_and(|cell| !self.is_frontier(cell));
+            if is_over || until.is_none() && is_new {
+                break;
+            }
+        }
+        if let Some(cell) = until.filter(|_| !is_new) {
+            self.frontier.give_up(cell);
+        }
+        self.is_stalled = until.is_none() && !is_new;
+        self.is_back &= !is_new && until.is_none();
+        if gone.len() == 1 {
+            return Ok(());
+        }
+        // Part of what is certified is free, too.
+        let clearance = self.solid.workspace().clearance;
+        let path =
+            certify(&self.solid, Path::new(gone), clearance).map_err(|rejection| format!("a leg: {rejection:?}"))?;
+        let timed =
+            self.settings.options.drive.along(&self.solid, &path, 1.0).map_err(|error| format!("a leg: {error}"))?;
+        match &mut self.trajectory {
+            Some(trajectory) => trajectory.then(0.0, &timed.trajectory),
+            None => self.trajectory = Some(timed.trajectory),
+        }
+        self.legs.push(Leg { curve: timed.curve, readings: before });
+        Ok(())
+    }
+}

@@ -1,0 +1,146 @@
+//! The configurations from which something new would be seen.
+
+use super::sight::Edges;
+use super::survey::Survey;
+use super::views::Stand;
+use cplan_core::cspace::Grid;
+use cplan_core::model::{Arm, Sensor};
+
+/// The frontier configurations of a grid: those at whose middles a reading would show something new.
+///
+/// What is known stays so: a configuration leaves the frontier for good, and ever fewer cells can be seen from it. So what was counted
+/// before is a bound, and all questions together cost little more than some looks from everywhere.
+#[derive(Debug)]
+pub struct Frontier {
+    configurations: Vec<Prospect>,
+    /// From where each looks.
+    stands: Vec<Stand>,
+    /// The unknown cells of the map beside free ones: what rays come to first is one of them.
+    ///
+    /// None while something new has been seen since they were looked for.
+    edges: Option<Edges>,
+    /// No more cells than these can be seen from anywhere.
+    most_of_all: u32,
+    /// When each cell of the map was counted last.
+    counted: Vec<u32>,
+    count: u32,
+    /// The configuration that is asked ahead next.
+    ahead: usize,
+    /// How many configurations were given up, though something seemed to be seen from them.
+    pub given_up: usize,
+}
+
+/// Configurations that are asked ahead at each decision: a fraction of a millisecond.
+const ASKED_AHEAD: usize = 256;
+
+/// What is known of a reading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Prospect {
+    /// A cell of the map that it comes to as long as nothing is known of that.
+    witness: Option<usize>,
+    /// It shows no more cells than these; 0 if nothing new, for ever.
+    most: u32,
+}
+
+impl Frontier {
+    /// Over the configurations of a grid, nothing known of them but how far the sensor sees.
+    #[must_use]
+    pub fn new(survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid) -> Self {
+        let cells = survey.map().cells.len();
+        // Cells that meet a disc lie within one that is broader by their diagonal.
+        let around = sensor.range / survey.map().resolution + std::f64::consts::SQRT_2;
+        let most = (std::f64::consts::PI * around.powi(2)).min(cells as f64).ceil() as u32;
+        let stands: Vec<Stand> =
+            (0..grid.blocked.len()).map(|cell| sensor.pose(arm, grid.center(cell).into())).collect();
+        Self {
+            configurations: vec![Prospect { witness: None, most }; stands.len()],
+            stands,
+            edges: None,
+            most_of_all: most,
+            counted: vec![0; cells],
+            count: 0,
+            ahead: 0,
+            given_up: 0,
+        }
+    }
+
+    /// Takes note of what the map knows now.
+    pub fn update(&mut self, survey: &Survey, sensor: &Sensor) {
+        self.edges = Some(Edges::new(survey, sensor.range));
+    }
+
+    /// Something new has been seen: there may be edges elsewhere.
+    pub fn forget_edges(&mut self) {
+        self.edges = None;
+    }
+
+    /// Whether a reading at the middle of a cell of the grid would show something new.
+    pub fn contains(&mut self, survey: &Survey, sensor: &Sensor, cell: usize) -> bool {
+        let prospect = &mut self.configurations[cell];
+        if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
+            // Rays that come to nothing new now never will.
+            prospect.witness = survey.promise(sensor, self.stands[cell], self.edges.as_ref());
+            if prospect.witness.is_none() {
+                prospect.most = 0;
+            }
+        }
+        prospect.most > 0
+    }
+
+    /// Asks some configurations whose answer is open, in turn, so that no decision has to ask them all: what shows nothing new never will.
+    pub fn ask_ahead(&mut self, survey: &Survey, sensor: &Sensor, grid: &Grid) {
+        let mut asked = 0;
+        for _ in 0..self.configurations.len() {
+            let cell = self.ahead;
+            self.ahead = (cell + 1) % self.configurations.len();
+            let Prospect { witness, most } = self.configurations[cell];
+            if !grid.blocked[cell] && most > 0 && !witness.is_some_and(|witness| survey.is_unknown(witness)) {
+                self.contains(survey, sensor, cell);
+                asked += 1;
+                if asked == ASKED_AHEAD {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// From where a reading at the middle of a cell of the grid looks.
+    #[must_use]
+    pub fn stand(&self, cell: usize) -> Stand {
+        self.stands[cell]
+    }
+
+    /// No more cells than these can be seen for the first time from a cell of the grid.
+    #[must_use]
+    pub fn most(&self, cell: usize) -> u32 {
+        self.configurations[cell].most
+    }
+
+    /// No more cells than these can be seen from anywhere.
+    #[must_use]
+    pub fn most_of_all(&self) -> u32 {
+        self.most_of_all
+    }
+
+    /// How many cells would be seen for the first time from a cell of the grid if nothing unknown were in the way.
+    pub fn gain(&mut self, survey: &Survey, sensor: &Sensor, cell: usize) -> u32 {
+        if self.configurations[cell].most > 0 {
+            self.count += 1;
+            let mut gain = 0;
+            for seen in survey.visible_unknown(sensor, self.stands[cell]) {
+                gain += u32::from(std::mem::replace(&mut self.counted[seen], self.count) != self.count);
+            }
+            self.configurations[cell].most = gain;
+        }
+        self.configurations[cell].most
+    }
+
+    /// Takes note that a reading was taken there and showed nothing: where distances are wrong by chance more may seem to be seen than
+    /// is, and the configuration is not asked again.
+    pub fn give_up(&mut self, cell: usize) {
+        if self.configurations[cell].most > 0 {
+            self.configurations[cell].most = 0;
+            self.given_up += 1;
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! An exploration as JSON.
+
+use super::result::{Ending, Exploration};
+use cplan_core::model::Sensor;
+use serde_json::{Value, json};
+
+impl Exploration {
+    /// All of it but the picture of the map: how it ended, what the map knows, every reading, every leg, the motion.
+    ///
+    /// `readings` are rows of both joints' values, the length of the way until then and the number of cells that were new; `decisions_ms`
+    /// stands there `timed` alone, so that the same input gives the same text.
+    #[must_use]
+    pub fn to_json(&self, joints: [&str; 2], sensor: &Sensor, timed: bool) -> Value {
+        let map = self.survey.map();
+        let [free, occupied, unknown] = self.survey.counts();
+        let origin = map.pose.translation.vector;
+        let rows = self.readings.iter().map(|r| json!([r.at[0], r.at[1], r.length, r.new.len()]));
+        let legs = self.legs.iter().map(|leg| {
+            let waypoints = leg.curve.curve().path().waypoints().iter().map(|q| [q[0], q[1]]).collect::<Vec<_>>();
+            let clearance = leg.curve.clearance();
+            json!({ "path": waypoints, "clearance": clearance.is_finite().then_some(clearance), "readings": leg.readings })
+        });
+        let mut value = json!({
+            "status": self.ending.name(),
+            "joints": joints,
+            "strategy": self.strategy,
+            "sensor": sensor,
+            "grid": self.cells,
+            "map": {
+                "origin": [origin.x, origin.y],
+                "cell": map.resolution,
+                "size": map.size,
+                "free": free,
+                "occupied": occupied,
+                "unknown": unknown,
+            },
+            "length": self.length,
+            "known_length": self.known_length,
+            "duration": self.trajectory.as_ref().map_or(0.0, cplan_motion::Trajectory::duration),
+            "decisions": self.decisions.len(),
+            "readings": rows.collect::<Vec<_>>(),
+            "legs": legs.collect::<Vec<_>>(),
+            "trajectory": self.trajectory,
+        });
+        match &self.ending {
+            Ending::Unreachable(why) | Ending::Unknown(why) => value["reason"] = json!(why),
+            Ending::Explored { configurations, given_up } => {
+                value["configurations"] = json!(configurations);
+                value["given_up"] = json!(given_up);
+            }
+            Ending::Reached => {}
+        }
+        if timed {
+            value["decisions_ms"] = self.decisions.iter().map(|d| 1e3 * d.as_secs_f64()).collect();
+        }
+        value
+    }
+}

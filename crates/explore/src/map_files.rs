@@ -1,0 +1,35 @@
+//! The map as ROS's map server reads it, and as `image` of a world's obstacle does.
+
+use super::survey::Survey;
+use cplan_world::Occupancy;
+
+/// Shades of free, unknown and occupied cells: with the thresholds of [`map_description`] each is read as what it was.
+const SHADES: [u8; 3] = [254, 205, 0];
+
+/// The description, YAML, of the picture in the file `picture` beside it.
+#[must_use]
+pub fn map_description(survey: &Survey, picture: &str) -> String {
+    let map = survey.map();
+    let origin = map.pose.translation.vector;
+    format!(
+        "image: {}\nresolution: {}\norigin: [{}, {}, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
+        // A string of JSON is one of YAML.
+        serde_json::Value::from(picture),
+        map.resolution,
+        origin.x,
+        origin.y
+    )
+}
+
+/// The picture, PGM (P5): a pixel a cell, from the top.
+#[must_use]
+pub fn map_picture(survey: &Survey) -> Vec<u8> {
+    let map = survey.map();
+    let mut bytes = format!("P5\n{} {}\n255\n", map.size[0], map.size[1]).into_bytes();
+    bytes.extend(map.cells.iter().map(|cell| match cell {
+        Occupancy::Free => SHADES[0],
+        Occupancy::Unknown => SHADES[1],
+        Occupancy::Occupied => SHADES[2],
+    }));
+    bytes
+}

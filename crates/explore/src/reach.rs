@@ -1,0 +1,182 @@
+//! Ways over a grid of configurations, and the paths that they become.
+
+use cplan_core::check::StraightMotions;
+use cplan_core::cspace::Grid;
+use cplan_core::model::Scene;
+use cplan_core::space::{Configuration, Path};
+use cplan_core::waves::{FreeCells, Neighborhood};
+use cplan_interrupt::checkpoint;
+use std::collections::{BTreeSet, VecDeque};
+
+/// Steps from a cell's middle to another's that are not free, though both ends are.
+pub type Closed = BTreeSet<[usize; 2]>;
+
+/// The cells that can be reached from a configuration, and the shortest ways there, from cell to cell.
+#[derive(Debug)]
+pub struct Reach {
+    /// Costs; infinite where no way leads.
+    costs: Vec<f64>,
+    before: Vec<u32>,
+    /// In the order of their costs.
+    pub cells: Vec<usize>,
+}
+
+/// What waits to be looked at, a queue for each length of a step and one for where all begins.
+///
+/// Costs come out in ascending order, and what is added to them is the same in a queue: so each is in order by itself, without a heap.
+#[derive(Debug, Default)]
+struct OpenQueues([VecDeque<(f64, usize)>; 4]);
+
+impl OpenQueues {
+    fn push(&mut self, queue: usize, cost: f64, cell: usize) {
+        self.0[queue].push_back((cost, cell));
+    }
+
+    fn pop(&mut self) -> Option<(f64, usize)> {
+        let first = |queue: &VecDeque<(f64, usize)>| queue.front().map_or(f64::INFINITY, |&(cost, _)| cost);
+        let next = self.0.iter_mut().min_by(|a, b| first(a).total_cmp(&first(b)));
+        next.and_then(VecDeque::pop_front)
+    }
+}
+
+/// No cell.
+const NONE: u32 = u32::MAX;
+
+impl Reach {
+    /// From the cells that `start` is joined to. Stops at the first cell, with the length of the way there, that `is_enough`.
+    pub fn new(
+        grid: &Grid,
+        closed: &Closed,
+        start: Configuration,
+        joined: &[usize],
+        mut is_enough: impl FnMut(usize, f64) -> bool,
+    ) -> Self {
+        let free = FreeCells::new(grid);
+        let count = grid.blocked.len();
+        let mut reach = Self { costs: vec![f64::INFINITY; count], before: vec![NONE; count], cells: Vec::new() };
+        let (sides, columns) = (grid.step(), grid.cells[1]);
+        let lengths = [sides[0], sides[1], sides[0].hypot(sides[1])];
+        let mut open = OpenQueues::default();
+        let mut begin: Vec<(f64, usize)> =
+            joined.iter().map(|&cell| (grid.topology.distance(start, grid.center(cell)), cell)).collect();
+        begin.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        for (cost, cell) in begin {
+            reach.costs[cell] = cost;
+            open.push(lengths.len(), cost, cell);
+        }
+        while let Some((cost, cell)) = open.pop() {
+            checkpoint();
+            if cost > reach.costs[cell] {
+                continue;
+            }
+            reach.cells.push(cell);
+            if is_enough(cell, cost) {
+                break;
+            }
+            for step in free.moves(cell, Neighborhood::Eight) {
+                let kind = if step.is_diagonal { 2 } else { usize::from(cell / columns == step.to / columns) };
+                let cost = cost + lengths[kind];
+                if cost < reach.costs[step.to] && !closed.contains(&[cell, step.to]) {
+                    reach.costs[step.to] = cost;
+                    reach.before[step.to] = cell as u32;
+                    open.push(kind, cost, step.to);
+                }
+            }
+        }
+        reach
+    }
+
+    /// The cells on the way to one, itself last.
+    pub fn way(&self, cell: usize) -> Vec<usize> {
+        let mut way = vec![cell];
+        while let Some(&last) = way.last().filter(|&&last| self.before[last] != NONE) {
+            way.push(self.before[last] as usize);
+        }
+        way.reverse();
+        way
+    }
+
+    /// The way to a cell; all that can be reached if there is none to go to.
+    pub fn way_to(self, cell: Option<usize>) -> Result<Vec<usize>, Self> {
+        cell.map(|cell| self.way(cell)).ok_or(self)
+    }
+}
+
+/// The configurations on a way from cell to cell, the start first, unwrapped.
+pub fn unwrapped(grid: &Grid, start: Configuration, way: &[usize]) -> Vec<Configuration> {
+    let mut at = vec![start];
+    for &cell in way {
+        at.push(grid.topology.lift(grid.center(cell), at[at.len() - 1]));
+    }
+    at.dedup();
+    at
+}
+
+/// The cells about a configuration whose middles it can go to straight, the nearest first.
+pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
+    let motions = straight_motions(scene);
+    let mut near = free_about(grid, q);
+    near.retain(|&cell| motions.is_free(q, grid.topology.lift(grid.center(cell), q)));
+    near
+}
+
+/// The free cells about a configuration, the nearest first.
+pub fn free_about(grid: &Grid, q: Configuration) -> Vec<usize> {
+    let middle = grid.locate(q);
+    let beside = std::iter::once(middle).chain(grid.neighbors(middle));
+    let mut near: Vec<usize> = beside.flat_map(|cell| std::iter::once(cell).chain(grid.neighbors(cell))).collect();
+    near.sort_unstable();
+    near.dedup();
+    near.retain(|&cell| !grid.blocked[cell]);
+    near.sort_by(|a, b| {
+        let far = |cell: usize| grid.topology.distance(q, grid.center(cell));
+        far(*a).total_cmp(&far(*b)).then(a.cmp(b))
+    });
+    near
+}
+
+/// Those that keep the scene's clearance.
+pub fn straight_motions(scene: &Scene) -> StraightMotions<'_> {
+    StraightMotions::new(scene, scene.workspace().clearance)
+}
+
+/// Leaves out waypoints: each time the farthest of the next `most` is gone to straight that doubling steps, then halves, find free. The
+/// number of the first step that is not free, if one is not.
+pub fn tightened(scene: &Scene, waypoints: &[Configuration], most: usize) -> Result<Path, usize> {
+    let motions = straight_motions(scene);
+    let mut kept = vec![waypoints[0]];
+    let mut at = 0;
+    while at + 1 < waypoints.len() {
+        let goes = |to: usize| motions.is_free(waypoints[at], waypoints[to]);
+        if !goes(at + 1) {
+            return Err(at);
+        }
+        let end = waypoints.len().min(at.saturating_add(most).saturating_add(1));
+        let (mut good, mut bad) = (at + 1, end);
+        let mut step = 2;
+        while good + 1 < bad {
+            let next = if bad == end { (at + step).min(bad - 1) } else { usize::midpoint(good, bad) };
+            if goes(next) {
+                good = next
+            } else {
+                bad = next
+            }
+            step *= 2;
+            if good == end - 1 {
+                break;
+            }
+        }
+        kept.push(waypoints[good]);
+        at = good;
+    }
+    Ok(Path::new(kept))
+}
+
+/// Configurations along a path, no farther apart than `step`, its corners among them; the start is not.
+pub fn places(path: &Path, step: f64) -> Vec<Configuration> {
+    let pieces = path.segments().flat_map(|(from, to)| {
+        let count = ((to - from).norm() / step).ceil().max(1.0) as usize;
+        (1..=count).map(move |k| if k == count { to } else { from + (to - from) * (k as f64 / count as f64) })
+    });
+    pieces.collect()
+}

@@ -1,0 +1,126 @@
+//! From where unknown cells of a map may be seen, cell by cell: from elsewhere no ray need be looked along.
+
+use super::survey::Survey;
+use super::views::Rows;
+use cplan_world::Occupancy;
+use std::f64::consts::SQRT_2;
+
+/// The unknown cells beside free ones, one of which a ray comes to first, and where rays to them may begin.
+#[derive(Debug)]
+pub struct Edges {
+    pub rows: Rows,
+    /// Whether a ray that begins in a cell may come to one of them, or the cell is unknown itself.
+    within_sight: Vec<bool>,
+}
+
+/// No way leads to an edge.
+const NONE: u32 = u32::MAX;
+
+impl Edges {
+    /// Those of what is known now, and where rays to them may begin that are no longer than `range`.
+    ///
+    /// A ray goes from cell to cell over their sides, over the same two of the four all along, through cells that are known to be free. So
+    /// where no such way leads to an edge, whichever two, no ray does. Linear in the number of cells.
+    #[must_use]
+    pub fn new(survey: &Survey, range: f64) -> Self {
+        let rows = survey.edges();
+        let known = &survey.map().cells;
+        let [width, height] = survey.map().size;
+        // Along each axis one more than whole cells in its share of the range; and one for rounding.
+        let most_sides = (range / survey.map().resolution * SQRT_2 + 3.0).min(f64::from(NONE - 1)) as u32;
+        let mut is_edge = vec![false; known.len()];
+        rows.iter().for_each(|(row, columns)| columns.iter().for_each(|column| is_edge[row * width + column] = true));
+        let mut within_sight: Vec<bool> = known.iter().map(|&cell| cell == Occupancy::Unknown).collect();
+        // Sides to the nearest edge from the cells of the row before, and then of this one.
+        let mut sides = vec![NONE; width];
+        for (is_down, is_right) in [(false, false), (false, true), (true, false), (true, true)] {
+            sides.fill(NONE);
+            for row in (0..height).map(|k| if is_down { height - 1 - k } else { k }) {
+                let mut beside = NONE;
+                for column in (0..width).map(|k| if is_right { width - 1 - k } else { k }) {
+                    let cell = row * width + column;
+                    beside = match known[cell] {
+                        Occupancy::Free => beside.min(sides[column]).saturating_add(1),
+                        _ if is_edge[cell] => 0,
+                        _ => NONE,
+                    };
+                    sides[column] = beside;
+                    within_sight[cell] |= beside <= most_sides;
+                }
+            }
+        }
+        Self { rows, within_sight }
+    }
+
+    /// Whether a ray that begins in a cell may come to something unknown.
+    #[must_use]
+    pub fn may_be_seen_from(&self, cell: usize) -> bool {
+        self.within_sight[cell]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_core::model::{Arm, Scene, Sensor, Workspace};
+    use cplan_core::space::Draws;
+    use cplan_geometry::Point;
+    use proptest::prelude::*;
+
+    /// A map about an arm, of cells as they are told by their column and row.
+    fn survey(label: impl Fn(usize, usize) -> Occupancy) -> (Survey, Sensor) {
+        let arm = Arm::rr([1.0, 0.5], 0.05).expect("a good arm");
+        let sensor = Sensor { cell: 0.1, range: 0.8, rays: 90, ..Sensor::usual(&arm) };
+        let scene = Scene::new(arm, Workspace::new([])).expect("a good scene");
+        let mut survey = Survey::new(&scene, sensor.cell).expect("few cells");
+        let width = survey.known.size[0];
+        for cell in 0..survey.known.cells.len() {
+            survey.known.cells[cell] = label(cell % width, cell / width);
+        }
+        (survey, sensor)
+    }
+
+    #[test]
+    fn what_is_behind_a_wall_or_out_of_range_is_not_within_sight() {
+        // From the left: free, a wall, free, unknown.
+        let (survey, sensor) = survey(|x, _| match x {
+            5 => Occupancy::Occupied,
+            x if x < 25 => Occupancy::Free,
+            _ => Occupancy::Unknown,
+        });
+        let edges = Edges::new(&survey, sensor.range);
+        let [width, height] = survey.known.size;
+        for (row, x) in (0..height).flat_map(|row| (0..width).map(move |x| (row, x))) {
+            // 8 cells along and 8 across at the most, were it no ray.
+            let expected = x >= 25 || x > 5 && 25 - x <= 14;
+            assert_eq!(edges.may_be_seen_from(row * width + x), expected, "{x} in row {row}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(cplan_cases::cases(96))]
+
+        /// By looking along all rays.
+        #[test]
+        fn what_all_rays_see_is_within_sight(seed: u64, unknown in 0.0..0.1, occupied in 0.0..0.4, cells in 1.0..9.0) {
+            let labels = std::cell::RefCell::new(Draws::new(seed));
+            let (survey, sensor) = survey(|_, _| match labels.borrow_mut().unit() {
+                share if share < unknown => Occupancy::Unknown,
+                share if share < unknown + occupied => Occupancy::Occupied,
+                _ => Occupancy::Free,
+            });
+            let mut draws = labels.into_inner();
+            let sensor = Sensor { range: cells * sensor.cell, ..sensor };
+            let edges = Edges::new(&survey, sensor.range);
+            for _ in 0..100 {
+                // Somewhere on the map, or a little beside it.
+                let at = Point::new(3.6 * draws.unit() - 1.8, 3.6 * draws.unit() - 1.8);
+                let stand = (at, 7.0 * draws.unit() - 3.5);
+                let found = survey.promise(&sensor, stand, Some(&edges));
+                let all = survey.shown_first(&sensor, stand);
+                prop_assert_eq!(found.is_some(), !all.is_empty(), "{:?} of {:?} at {:?}", found, all, stand);
+                prop_assert!(found.is_none_or(|found| all.contains(&found)));
+            }
+        }
+    }
+}

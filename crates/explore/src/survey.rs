@@ -1,0 +1,347 @@
+//! What is known of a world, cell by cell, and what really is there.
+
+use super::views::{AROUND_CELL, Crossing};
+use cplan_core::model::{Arm, Heights, JointType, Obstacle, Scene, Sensor, Shape, Workspace};
+use cplan_core::space::{Configuration, Draws};
+use cplan_geometry::{Convex, Point, Vector, shapes_meet};
+use cplan_world::{Occupancy, OccupancyMap};
+use nalgebra::{Isometry2, Vector2};
+
+/// Cells of the largest map.
+pub const MOST_CELLS: usize = 1 << 22;
+
+/// Margin of the map about what the arm can touch, in cells.
+const MARGIN: f64 = 2.0;
+
+/// A map that fills up with what a sensor sees. What was said of a cell once stays so.
+///
+/// The sensor's rays are as wide as the cells that they cross: one ends at the first cell that anything is in, and the cells
+/// before it are empty. So what is known to be free is free, whole cells of it; and what a reading would add to the map is known
+/// beforehand up to the first unknown cell of each ray.
+#[derive(Debug, Clone)]
+pub struct Survey {
+    pub(super) known: OccupancyMap,
+    /// What is between the lowest obstacle's floor and the highest one's top; what is above or below is free, as everybody knows.
+    heights: Heights,
+    /// From the lowest floor to the highest top of what is in a cell, if anything is: known as soon as the cell is.
+    truth: Vec<Option<Heights>>,
+}
+
+impl Survey {
+    /// Knows nothing yet of the obstacles of a scene. None if the map would have more than [`MOST_CELLS`].
+    #[must_use]
+    pub fn new(scene: &Scene, cell: f64) -> Option<Self> {
+        let obstacles = &scene.workspace().obstacles;
+        let heights = obstacles.iter().map(|obstacle| obstacle.heights).reduce(Heights::and);
+        let heights = heights.unwrap_or(Heights::ALL);
+        let [low, high] = extent(scene, heights);
+        let size = [0, 1].map(|k| ((high[k] - low[k]) / cell + 2.0 * MARGIN).ceil());
+        let count = size[0] * size[1];
+        if count.is_nan() || count > MOST_CELLS as f64 {
+            return None;
+        }
+        // The middle of the map is that of what the arm can touch.
+        let origin = [0, 1].map(|k| f64::midpoint(low[k], high[k]) - size[k] * cell / 2.0);
+        let size = size.map(|n| n as usize);
+        let known = OccupancyMap {
+            size,
+            resolution: cell,
+            pose: Isometry2::new(Vector2::from(origin), 0.0),
+            cells: vec![Occupancy::Unknown; size[0] * size[1]],
+            notes: Vec::new(),
+        };
+        let mut survey = Self { truth: vec![None; known.cells.len()], heights, known };
+        for obstacle in obstacles {
+            for cell in
+                obstacle.pieces.iter().flat_map(|piece| survey.touched(piece, 0.0, |_| true)).collect::<Vec<_>>()
+            {
+                let own = obstacle.heights;
+                survey.truth[cell] = Some(survey.truth[cell].map_or(own, |others| others.and(own)));
+            }
+        }
+        Some(survey)
+    }
+
+    /// Takes over what an earlier exploration knew.
+    ///
+    /// # Errors
+    /// A map of other cells, or of another world: what is wrong with it, in words.
+    pub fn recall(&mut self, map: &OccupancyMap) -> Result<(), String> {
+        let own = &self.known;
+        if (map.size, map.resolution, map.pose) != (own.size, own.resolution, own.pose) {
+            let [width, height] = own.size;
+            let at = self.origin();
+            return Err(format!(
+                "has other cells than the {width} x {height} of {} m from ({}, {}) that the arm and its sensor ask for",
+                own.resolution, at.x, at.y
+            ));
+        }
+        for (cell, &label) in map.cells.iter().enumerate() {
+            let is_wrong = match label {
+                Occupancy::Free => self.truth[cell].is_some(),
+                Occupancy::Occupied => self.truth[cell].is_none(),
+                Occupancy::Unknown => false,
+            };
+            if is_wrong {
+                let [width, height] = map.size;
+                let [x, y] = [cell % width, height - 1 - cell / width].map(|k| (k as f64 + 0.5) * map.resolution);
+                let at = map.pose * Point::new(x, y);
+                let (said, is) =
+                    if self.truth[cell].is_some() { ("free", "something") } else { ("occupied", "nothing") };
+                return Err(format!("says that it is {said} about ({:.4}, {:.4}), where there is {is}", at.x, at.y));
+            }
+        }
+        self.known.cells.clone_from(&map.cells);
+        Ok(())
+    }
+
+    /// What is known.
+    #[must_use]
+    pub fn map(&self) -> &OccupancyMap {
+        &self.known
+    }
+
+    /// How many cells are free, occupied and unknown.
+    #[must_use]
+    pub fn counts(&self) -> [usize; 3] {
+        let count = |label| self.known.cells.iter().filter(|&&cell| cell == label).count();
+        [count(Occupancy::Free), count(Occupancy::Occupied), count(Occupancy::Unknown)]
+    }
+
+    /// The share of the map's cells of which something is known.
+    #[must_use]
+    pub fn share_seen(&self) -> f64 {
+        let unknown = self.known.cells.iter().filter(|&&cell| cell == Occupancy::Unknown).count();
+        1.0 - unknown as f64 / self.known.cells.len() as f64
+    }
+
+    /// The corner of the map from which cells are counted.
+    pub(super) fn origin(&self) -> Vector {
+        self.known.pose.translation.vector
+    }
+
+    /// The number of a cell, by column from the left and row from below.
+    fn index(&self, x: usize, y: usize) -> usize {
+        (self.known.size[1] - 1 - y) * self.known.size[0] + x
+    }
+
+    /// The cells that a shape meets, grown by a margin, of those that are `asked` about.
+    ///
+    /// Row by row: beyond a side of the shape by more than a cell's radius are all cells before a column, or after one.
+    fn touched(&self, shape: &Convex, margin: f64, asked: impl Fn(usize) -> bool) -> impl Iterator<Item = usize> {
+        let cell = self.known.resolution;
+        let grown = Convex::trusted(shape.core().to_vec(), shape.radius() + margin);
+        let around = grown.radius() / cell + AROUND_CELL;
+        // In cells, from the middle of the first.
+        let core: Vec<Vector> =
+            shape.core().iter().map(|p| (p.coords - self.origin()) / cell - Vector::repeat(0.5)).collect();
+        let range = |k: usize| {
+            let local = core.iter().map(|p| p[k]);
+            let (least, most) = local.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+            let [from, to] = [(least - around).ceil(), (most + around).floor() + 1.0].map(|at| at.max(0.0) as usize);
+            from..to.min(self.known.size[k])
+        };
+        let [columns, rows] = [range(0), range(1)];
+        let sides = core.iter().zip(core.iter().cycle().skip(1)).map(|(&a, &b)| (a, b - a));
+        let sides: Vec<(f64, f64, f64)> =
+            sides.map(|(a, side)| (-side.y, side.x, side.perp(&a) - around * side.norm())).collect();
+        let cells = rows.flat_map(move |y| {
+            let (mut from, mut to) = (columns.start, columns.end);
+            for &(along, across, least) in &sides {
+                let least = least - across * y as f64;
+                if along > 0.0 {
+                    from = from.max((least / along).ceil().max(0.0) as usize);
+                } else if along < 0.0 {
+                    to = to.min(((least / along).floor() + 1.0).max(0.0) as usize);
+                } else if least > 0.0 {
+                    to = from;
+                }
+            }
+            (from..to.max(from)).map(move |x| (x, y))
+        });
+        cells
+            .map(|(x, y)| (self.index(x, y), x, y))
+            .filter(move |&(cell, x, y)| asked(cell) && shapes_meet(&self.square(x, y), &grown))
+            .map(|(cell, ..)| cell)
+    }
+
+    /// A cell as a shape, by column from the left and row from below.
+    fn square(&self, x: usize, y: usize) -> Convex {
+        let at =
+            |x: usize, y: usize| Point::from(self.origin() + Vector::new(x as f64, y as f64) * self.known.resolution);
+        Convex::trusted(vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)], 0.0)
+    }
+
+    /// The shapes of the arm at `q` that are as high as any obstacle, with their heights.
+    fn parts(&self, arm: &Arm, q: Configuration) -> impl Iterator<Item = (Convex, Heights)> {
+        let poses = arm.poses(q);
+        let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
+        let high = parts.filter(|(_, part)| part.heights.meet(self.heights));
+        high.map(move |(link, part)| (part.shape.at(&poses[link]), part.heights))
+    }
+
+    /// The cells that the arm meets at `q`, grown by a margin, whatever is in them; in ascending order.
+    fn under(&self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
+        let parts = self.parts(arm, q);
+        let mut cells: Vec<usize> =
+            parts.flat_map(|(part, _)| self.touched(&part, margin, |_| true).collect::<Vec<_>>()).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        cells
+    }
+
+    /// A cell that is not known to be free and that the arm meets at `q`, grown by a margin; none if all are known to be.
+    #[must_use]
+    pub fn obstruction(&self, arm: &Arm, q: Configuration, margin: f64) -> Option<usize> {
+        self.parts(arm, q).find_map(|(part, heights)| {
+            let is_solid = |cell: usize| self.solid(cell).is_some_and(|solid| solid.meet(heights));
+            self.touched(&part, margin, is_solid).next()
+        })
+    }
+
+    /// The heights at which a cell is not known to be free. What is unknown is as high as anything in the world; of what was seen it is
+    /// known how high it is.
+    fn solid(&self, cell: usize) -> Option<Heights> {
+        match self.known.cells[cell] {
+            Occupancy::Free => None,
+            Occupancy::Occupied => self.truth[cell],
+            Occupancy::Unknown => Some(self.heights),
+        }
+    }
+
+    /// The unknown cells that the arm meets at `q`, in ascending order.
+    #[must_use]
+    pub fn unknown_at(&self, arm: &Arm, q: Configuration) -> Vec<usize> {
+        let mut cells = self.under(arm, q, 0.0);
+        cells.retain(|&cell| self.is_unknown(cell));
+        cells
+    }
+
+    /// Whether nothing is known of a cell.
+    #[must_use]
+    pub fn is_unknown(&self, cell: usize) -> bool {
+        self.known.cells[cell] == Occupancy::Unknown
+    }
+
+    /// The cell of the map that a point lies in.
+    pub(super) fn cell_at(&self, point: Point) -> Option<usize> {
+        let local = (point.coords - self.origin()) / self.known.resolution;
+        let is_inside = (0..2).all(|k| 0.0 <= local[k] && local[k] < self.known.size[k] as f64);
+        is_inside.then(|| self.index(local.x as usize, local.y as usize))
+    }
+
+    /// Notes what a reading at `q` shows; the cells that are new, in the order in which they were seen.
+    ///
+    /// Of a distance that may be wrong only what holds whatever the error is noted: cells before all that the ray may have ended at are
+    /// free, and where that is a single one it is occupied.
+    pub fn look(&mut self, sensor: &Sensor, arm: &Arm, q: Configuration, errors: &mut Draws) -> Vec<usize> {
+        let (from, ahead) = sensor.pose(arm, q.into());
+        let mut new = Vec::new();
+        for angle in sensor.rays(ahead) {
+            let crossings: Vec<Crossing> = self.crossings(from, angle, sensor.range).collect();
+            let error = if sensor.noise > 0.0 { sensor.noise * (2.0 * errors.unit() - 1.0) } else { 0.0 };
+            let hit = crossings.iter().position(|crossing| self.truth[crossing.cell].is_some());
+            let told = hit.map(|hit| crossings[hit].enters + error);
+            // The first cell that the ray may have ended at, and whether no other is.
+            let (first, is_sole) = match (hit, told) {
+                (Some(hit), Some(told)) if sensor.noise > 0.0 => {
+                    let may_be = |crossing: &Crossing| (crossing.enters - told).abs() <= sensor.noise * (1.0 + 1e-9);
+                    let first = crossings.iter().position(may_be).unwrap_or(hit);
+                    (first, crossings[first + 1..].iter().all(|crossing| !may_be(crossing)))
+                }
+                (Some(hit), _) => (hit, true),
+                _ => (crossings.len(), false),
+            };
+            for (k, Crossing { cell, .. }) in crossings.into_iter().enumerate().take(first + usize::from(is_sole)) {
+                let label = if k < first { Occupancy::Free } else { Occupancy::Occupied };
+                if self.is_unknown(cell) {
+                    self.known.cells[cell] = label;
+                    new.push(cell);
+                }
+            }
+        }
+        new
+    }
+
+    /// Notes what is in the cells that the arm meets at `q`, and in those about them, as far as `margin`: whoever puts an arm somewhere
+    /// has looked where it stands.
+    pub fn survey_about(&mut self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
+        let mut new = self.under(arm, q, margin);
+        new.retain(|&cell| self.is_unknown(cell));
+        for &cell in &new {
+            self.known.cells[cell] = if self.truth[cell].is_some() { Occupancy::Occupied } else { Occupancy::Free };
+        }
+        new
+    }
+
+    /// The arm among all that is not known to be free; or, with `unknown_is_free`, among what is known to be there.
+    #[must_use]
+    pub fn scene(&self, arm: &Arm, clearance: f64, unknown_is_free: bool) -> Scene {
+        let seen = self.known.cells.iter().zip(&self.truth).filter(|(label, _)| **label == Occupancy::Occupied);
+        let mut layers: Vec<Heights> = Vec::new();
+        for heights in seen.filter_map(|(_, heights)| *heights) {
+            if !layers.contains(&heights) {
+                layers.push(heights);
+            }
+        }
+        let obstacle = |name: &str, heights: Heights, is_among: &dyn Fn(usize) -> bool| {
+            let pieces = self.known.rectangles_of(is_among, usize::MAX).unwrap_or_default();
+            Obstacle { name: name.into(), shape: Shape::Pieces, pieces, heights }
+        };
+        let is_seen = |cell: usize| self.known.cells[cell] == Occupancy::Occupied;
+        let unknown = obstacle("unknown", self.heights, &|cell| !unknown_is_free && self.is_unknown(cell));
+        let seen = layers
+            .iter()
+            .map(|&layer| obstacle("seen", layer, &|cell| is_seen(cell) && self.truth[cell] == Some(layer)));
+        let obstacles = std::iter::once(unknown).chain(seen).filter(|obstacle| !obstacle.pieces.is_empty()).collect();
+        let workspace =
+            Workspace { name: String::new(), obstacles, clearance, preferences: Vec::new(), movers: Vec::new() };
+        Scene::trusted(arm.clone(), workspace)
+    }
+}
+
+/// The corners of a rectangle that holds the base, and all that an arm can come nearer to than the clearance at some heights.
+fn extent(scene: &Scene, heights: Heights) -> [Point; 2] {
+    let (arm, clearance) = (scene.arm(), scene.workspace().clearance);
+    let discs = swept(arm, heights);
+    let side = |k: usize, sign: f64| {
+        let values = discs.iter().map(|(center, radius)| sign * center[k] + radius + clearance);
+        sign * values.fold(sign * arm.base[k], f64::max)
+    };
+    [-1.0, 1.0].map(|sign| Point::new(side(0, sign), side(1, sign)))
+}
+
+/// Discs, by their centres and radii, whose hull holds the tip and all that an arm can touch at some heights.
+fn swept(arm: &Arm, heights: Heights) -> Vec<(Point, f64)> {
+    let [first, second] = &arm.joints;
+    let (turns, ends) = match second.joint_type {
+        JointType::Revolute { .. } => (true, vec![0.0]),
+        JointType::Prismatic { .. } => (false, <[f64; 2]>::from(second.range.domain()).to_vec()),
+    };
+    if matches!(first.joint_type, JointType::Revolute { .. }) {
+        let slides = ends.iter().map(|q2| q2.abs()).fold(0.0, f64::max);
+        return vec![(arm.base, arm.reach() + slides)];
+    }
+    let mut discs = Vec::new();
+    for q1 in <[f64; 2]>::from(first.range.domain()) {
+        for &q2 in &ends {
+            let poses = arm.poses([q1, q2].into());
+            discs.push(if turns {
+                (arm.elbow_at(q1), arm.tip.coords.norm())
+            } else {
+                (arm.tip_at([q1, q2].into()), 0.0)
+            });
+            for (link, pose) in poses.iter().enumerate() {
+                for part in arm.links[link].parts.iter().filter(|part| part.heights.meet(heights)) {
+                    let (shape, elbow) = (part.shape.at(pose), arm.elbow_at(q1));
+                    if turns && link == 1 {
+                        discs.push((elbow, shape.reach_from(elbow)));
+                    } else {
+                        discs.extend(shape.core().iter().map(|p| (*p, shape.radius())));
+                    }
+                }
+            }
+        }
+    }
+    discs
+}

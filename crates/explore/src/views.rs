@@ -1,0 +1,204 @@
+//! What readings of a sensor would show of a map: the cells that rays cross.
+
+use super::sight::Edges;
+use super::survey::Survey;
+use cplan_core::model::Sensor;
+use cplan_geometry::{Point, Vector};
+use cplan_world::Occupancy;
+use std::collections::BTreeSet;
+use std::f64::consts::PI;
+
+/// Radius of a disc that holds a cell, in cells, with room for rounding.
+pub(super) const AROUND_CELL: f64 = 0.75;
+
+/// Room for rounding of distances, in cells.
+const SLACK: f64 = 1e-6;
+
+/// Where a sensor takes a reading, and the angle straight ahead of it: [`Sensor::pose`].
+pub type Stand = (Point, f64);
+
+/// Cells of a map by their rows, those that have any, from the top; of each the columns in ascending order.
+pub type Rows = Vec<(usize, Vec<usize>)>;
+
+/// Of so many rows those that have any columns.
+fn rows(height: usize, columns: impl Fn(usize) -> Vec<usize>) -> Rows {
+    (0..height).map(|row| (row, columns(row))).filter(|(_, columns)| !columns.is_empty()).collect()
+}
+
+/// A cell that a ray crosses.
+pub(super) struct Crossing {
+    pub cell: usize,
+    /// Distance at which the ray enters it, metres.
+    pub enters: f64,
+}
+
+impl Survey {
+    /// The cells that a ray crosses as far as the sensor sees, those whole that it leaves before that, in order.
+    ///
+    /// From side to side (Amanatides, Woo 1987).
+    pub(super) fn crossings(&self, from: Point, angle: f64, range: f64) -> impl Iterator<Item = Crossing> + use<> {
+        let cell = self.known.resolution;
+        let (size, local) = (self.known.size, (from.coords - self.origin()) / cell);
+        let ahead = [angle.cos(), angle.sin()];
+        let step = ahead.map(|d| if d > 0.0 { 1_i64 } else { -1 });
+        // Distance from one side across to the next.
+        let across = ahead.map(|d| cell / d.abs());
+        let mut at = [local.x, local.y].map(|v| v.floor() as i64);
+        let mut next = [0, 1].map(|k| {
+            let to_side = if step[k] > 0 { at[k] as f64 + 1.0 - local[k] } else { local[k] - at[k] as f64 };
+            if ahead[k] == 0.0 { f64::INFINITY } else { to_side * across[k] }
+        });
+        let mut enters = 0.0;
+        std::iter::from_fn(move || {
+            let inside = (0..2).all(|k| 0 <= at[k] && at[k] < size[k] as i64);
+            let k = usize::from(next[1] < next[0]);
+            let leaves = next[k];
+            if !inside || leaves > range {
+                return None;
+            }
+            let crossing = Crossing { cell: (size[1] - 1 - at[1] as usize) * size[0] + at[0] as usize, enters };
+            enters = leaves;
+            at[k] += step[k];
+            next[k] += across[k];
+            Some(crossing)
+        })
+    }
+
+    /// An unknown cell that a reading would come to; none if it would show nothing new. Rays come first to one of the
+    /// `edges`, where these are given: only those that may are looked along.
+    #[must_use]
+    pub fn promise(&self, sensor: &Sensor, stand: Stand, edges: Option<&Edges>) -> Option<usize> {
+        match edges {
+            Some(edges) if self.cell_at(stand.0).is_none_or(|cell| !edges.may_be_seen_from(cell)) => None,
+            Some(edges) => self.first_towards(sensor, stand, &edges.rows, |_| true),
+            None => self.first_unknown(sensor, stand).next(),
+        }
+    }
+
+    /// Whether a reading would come first to any of some unknown cells.
+    #[must_use]
+    pub fn shows_any(&self, sensor: &Sensor, stand: Stand, wanted: &Rows) -> bool {
+        let width = self.known.size[0];
+        let is_wanted = |cell: usize| {
+            let row = wanted.binary_search_by_key(&(cell / width), |(row, _)| *row);
+            row.is_ok_and(|row| wanted[row].1.binary_search(&(cell % width)).is_ok())
+        };
+        self.first_towards(sensor, stand, wanted, is_wanted).is_some()
+    }
+
+    /// The first unknown cell of a ray of a reading that `is_asked` for. Only rays that may cross one of some cells are looked along,
+    /// unless the sensor itself is where nothing is known.
+    fn first_towards(
+        &self,
+        sensor: &Sensor,
+        stand @ (from, ahead): Stand,
+        cells: &Rows,
+        is_asked: impl Fn(usize) -> bool,
+    ) -> Option<usize> {
+        if self.cell_at(from).is_some_and(|cell| self.is_unknown(cell)) {
+            return self.first_unknown(sensor, stand).find(|&cell| is_asked(cell));
+        }
+        let mut is_tried = vec![false; sensor.rays];
+        self.near(cells, from, sensor.range).find_map(|cell| {
+            let mut rays = self.rays_to(sensor, from, ahead, cell);
+            rays.find_map(|ray| {
+                let is_new = !std::mem::replace(&mut is_tried[ray], true);
+                let mut view = self.crossings(from, sensor.ray(ahead, ray), sensor.range).map(|crossing| crossing.cell);
+                let first = is_new.then(|| view.find(|&cell| self.known.cells[cell] != Occupancy::Free)).flatten();
+                first.filter(|&cell| self.is_unknown(cell) && is_asked(cell))
+            })
+        })
+    }
+
+    /// Some cells by their rows.
+    #[must_use]
+    pub fn by_rows(&self, cells: &BTreeSet<usize>) -> Rows {
+        let width = self.known.size[0];
+        rows(self.known.size[1], |y| cells.range(y * width..(y + 1) * width).map(|cell| cell % width).collect())
+    }
+
+    /// The numbers of those rays that may cross a cell.
+    fn rays_to(&self, sensor: &Sensor, from: Point, ahead: f64, cell: usize) -> impl Iterator<Item = usize> + use<> {
+        let [width, height] = self.known.size;
+        let middle = Vector::new((cell % width) as f64 + 0.5, (height - 1 - cell / width) as f64 + 0.5);
+        let way = middle - (from.coords - self.origin()) / self.known.resolution;
+        let sine = AROUND_CELL / way.norm();
+        sensor.rays_about(ahead, way.y.atan2(way.x), if sine < 1.0 { sine.asin() } else { PI })
+    }
+
+    /// Of each ray of a reading the first cell that is not known to be free, if it is unknown.
+    fn first_unknown(&self, sensor: &Sensor, stand: Stand) -> impl Iterator<Item = usize> {
+        self.views(sensor, stand).filter_map(|mut view| {
+            let first = view.find(|&cell| self.known.cells[cell] != Occupancy::Free);
+            first.filter(|&cell| self.is_unknown(cell))
+        })
+    }
+
+    /// The unknown cells that rays of a reading come to first, in ascending order.
+    #[must_use]
+    pub fn shown_first(&self, sensor: &Sensor, stand: Stand) -> Vec<usize> {
+        let mut cells: Vec<usize> = self.first_unknown(sensor, stand).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        cells
+    }
+
+    /// Whether the rays of a reading cross all of some cells before what is known to be there.
+    #[must_use]
+    pub fn shows_all(&self, sensor: &Sensor, (from, ahead): Stand, cells: &[usize]) -> bool {
+        cells.iter().all(|&wanted| {
+            self.rays_to(sensor, from, ahead, wanted).any(|ray| {
+                let view = self.crossings(from, sensor.ray(ahead, ray), sensor.range).map(|crossing| crossing.cell);
+                view.take_while(|&cell| self.known.cells[cell] != Occupancy::Occupied).any(|cell| cell == wanted)
+            })
+        })
+    }
+
+    /// The unknown cells that the rays of a reading cross before what is known to be there; some more than once.
+    pub fn visible_unknown(&self, sensor: &Sensor, stand: Stand) -> impl Iterator<Item = usize> {
+        let open = |&cell: &usize| self.known.cells[cell] != Occupancy::Occupied;
+        self.views(sensor, stand).flat_map(move |view| view.take_while(open)).filter(|&cell| self.is_unknown(cell))
+    }
+
+    /// The cells that each ray of a reading crosses.
+    fn views(
+        &self,
+        sensor: &Sensor,
+        (from, ahead): Stand,
+    ) -> impl Iterator<Item = impl Iterator<Item = usize> + use<>> {
+        let range = sensor.range;
+        sensor.rays(ahead).map(move |angle| self.crossings(from, angle, range).map(|crossing| crossing.cell))
+    }
+
+    /// The unknown cells that share a side with a free one.
+    pub(super) fn edges(&self) -> Rows {
+        let [width, height] = self.known.size;
+        let is = |x: usize, y: usize, label| self.known.cells[y * width + x] == label;
+        let is_edge = |x: usize, y: usize| {
+            let is_free = |x: usize, y: usize| x < width && y < height && is(x, y, Occupancy::Free);
+            is(x, y, Occupancy::Unknown)
+                && (is_free(x.wrapping_sub(1), y)
+                    || is_free(x + 1, y)
+                    || is_free(x, y.wrapping_sub(1))
+                    || is_free(x, y + 1))
+        };
+        rows(height, |y| (0..width).filter(|&x| is_edge(x, y)).collect())
+    }
+
+    /// Those of some cells that are within a range of a point, up to rounding.
+    fn near<'a>(&self, cells: &'a Rows, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
+        let local = (point.coords - self.origin()) / self.known.resolution;
+        let [width, height] = self.known.size;
+        let (x, y) = (local.x, height as f64 - local.y);
+        let range = range / self.known.resolution + SLACK;
+        let [above, below] =
+            [y - range - 1.0, y + range].map(|y| cells.partition_point(|(row, _)| (*row as f64) < y.ceil()));
+        cells[above..below].iter().flat_map(move |(row, columns)| {
+            let off = (*row as f64 - y).max(y - (*row + 1) as f64).max(0.0);
+            let half = (range.powi(2) - off.powi(2)).max(0.0).sqrt();
+            let first = columns.partition_point(|&column| (column as f64 + 1.0) < x - half);
+            let near = columns[first..].iter().take_while(move |&&column| column as f64 <= x + half);
+            near.map(move |column| row * width + column)
+        })
+    }
+}

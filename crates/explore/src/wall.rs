@@ -1,0 +1,110 @@
+//! Along the boundary of what is known to be free, as a wall follower goes.
+
+use super::reach::Closed;
+use cplan_core::cspace::Grid;
+
+/// A heading, in eighths of a turn from `+q1` towards `+q2`. Whoever follows a wall goes along the axes: by even ones.
+pub type Heading = usize;
+
+/// A place on the way along a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Place {
+    /// Of the grid.
+    pub cell: usize,
+    /// By which it was come to.
+    pub heading: Heading,
+}
+
+/// Whether a free cell is beside a wall: a blocked cell, or the end of the grid, at a side or a corner.
+pub fn is_beside_wall(grid: &Grid, cell: usize) -> bool {
+    (0..8).any(|heading| is_wall(grid, cell, heading))
+}
+
+/// The next place of a follower that keeps the wall to its right: the right-hand rule of mazes, by Moore's neighbours.
+///
+/// The wall is what is met first from behind on the right round to behind on the left; where there is none, or no way on, it ends.
+/// Headings repeat, so whoever goes on comes round again.
+pub fn next(grid: &Grid, closed: &Closed, at: Place) -> Option<Place> {
+    let Place { cell, heading } = at;
+    let wall = (0..8).map(|turn| (heading + 5 + turn) % 8).find(|&side| is_wall(grid, cell, side))?;
+    let ahead = (1..8).map(|turn| (wall + turn) % 8).filter(|side| side.is_multiple_of(2));
+    let open = |side| beside(grid, cell, side).filter(|to| !grid.blocked[*to] && !closed.contains(&[cell, *to]));
+    ahead.into_iter().find_map(|heading| open(heading).map(|cell| Place { cell, heading }))
+}
+
+fn is_wall(grid: &Grid, cell: usize, side: Heading) -> bool {
+    beside(grid, cell, side).is_none_or(|beside| grid.blocked[beside])
+}
+
+/// The cell at a side or a corner of another.
+fn beside(grid: &Grid, cell: usize, side: Heading) -> Option<usize> {
+    match side {
+        0 | 4 => grid.beside(cell, 0, side == 0),
+        2 | 6 => grid.beside(cell, 1, side == 2),
+        corner => beside(grid, beside(grid, cell, corner - 1)?, (corner + 1) % 8),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_core::cspace::Proves;
+    use cplan_core::space::{JointRange, Topology};
+
+    /// Of rows of `.` and `#`, the last of them that of the least `q2`.
+    fn drawn(rows: &[&str], ranges: [JointRange; 2]) -> Grid {
+        let (wide, high) = (rows[0].len(), rows.len());
+        let at = |i: usize, j: usize| rows[high - 1 - j].as_bytes()[i] == b'#';
+        let blocked = (0..wide * high).map(|cell| at(cell / high, cell % high)).collect();
+        Grid { topology: Topology { ranges }, proves: Proves::Sampled, cells: [wide, high], blocked }
+    }
+
+    fn limited() -> JointRange {
+        JointRange::Interval { lower: 0.0, upper: 1.0 }
+    }
+
+    /// Columns and rows of the places until one comes again.
+    fn followed(grid: &Grid, closed: &Closed, from: [usize; 2], heading: Heading) -> Vec<[usize; 2]> {
+        let high = grid.cells[1];
+        let mut at = Place { cell: from[0] * high + from[1], heading };
+        let mut seen = Vec::new();
+        while let Some(place) = next(grid, closed, at).filter(|place| !seen.contains(place)) {
+            seen.push(place);
+            at = place;
+        }
+        seen.into_iter().map(|Place { cell, .. }| [cell / high, cell % high]).collect()
+    }
+
+    #[test]
+    fn a_room_is_followed_leftwards_and_an_island_rightwards() {
+        let grid = drawn(&["....", ".#..", "....", "...."], [limited(); 2]);
+        let outer = [[1, 0], [2, 0], [3, 0], [3, 1], [3, 2], [3, 3], [2, 3], [1, 3], [0, 3], [0, 2], [0, 1], [0, 0]];
+        assert_eq!(followed(&grid, &Closed::new(), [0, 0], 0), outer);
+        let grid = drawn(&[".......", ".......", "...#...", ".......", "......."], [limited(); 2]);
+        let around = followed(&grid, &Closed::new(), [3, 1], 4);
+        assert_eq!(around, [[2, 1], [2, 2], [2, 3], [3, 3], [4, 3], [4, 2], [4, 1], [3, 1]]);
+    }
+
+    #[test]
+    fn a_dead_end_is_left_again_and_a_closed_step_is_none() {
+        let grid = drawn(&["...", "##."], [limited(); 2]);
+        let there_and_back = [[1, 1], [0, 1], [1, 1], [2, 1], [2, 0], [2, 1]];
+        assert_eq!(followed(&grid, &Closed::new(), [2, 1], 6), there_and_back);
+        // Steps between (1, 1) and (0, 1).
+        let closed = Closed::from([[3, 1], [1, 3]]);
+        assert!(!followed(&grid, &closed, [2, 1], 6).contains(&[0, 1]));
+    }
+
+    #[test]
+    fn on_a_circle_a_wall_is_followed_across_the_seam() {
+        let grid = drawn(&["....", "....", "####"], [JointRange::Circle, limited()]);
+        assert_eq!(followed(&grid, &Closed::new(), [2, 1], 0), [[3, 1], [0, 1], [1, 1], [2, 1]]);
+    }
+
+    #[test]
+    fn without_a_wall_there_is_nothing_to_follow() {
+        let grid = drawn(&["...", "...", "..."], [JointRange::Circle; 2]);
+        assert!(!is_beside_wall(&grid, 4));
+        assert_eq!(next(&grid, &Closed::new(), Place { cell: 4, heading: 0 }), None);
+    }
+}

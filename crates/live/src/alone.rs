@@ -1,0 +1,152 @@
+//! What answers a page that has the program within it: without server, threads, files, or a way to stop what runs.
+
+use super::{Desk, Files, Host, Message, Reply, Request, Spent};
+use cplan_interrupt::Interrupt;
+use serde::Deserialize;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// What such a page says.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
+enum Order {
+    /// The files to begin with; the page is told the world.
+    Open {
+        /// Number of the request.
+        id: u64,
+        files: Files,
+        /// Time that a plan may take.
+        seconds: f64,
+        /// What the page works on already, which then is told nothing.
+        held: Option<Held>,
+    },
+    /// Do what the page asks of any program.
+    Take {
+        request: Request,
+        #[serde(default)]
+        spent: Spent,
+    },
+}
+
+/// A text and its number.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Held {
+    base: u64,
+    text: String,
+}
+
+/// The program of one page.
+#[derive(Default)]
+pub struct Alone {
+    desk: Option<Desk>,
+}
+
+impl Alone {
+    /// Does what an order says, and tells what comes of it.
+    pub fn take(&mut self, order: &str, tell: &mut dyn FnMut(Message)) {
+        let failed = |error: String| Message::from(&Reply::Failed { id: 0, error });
+        match (serde_json::from_str(order), &mut self.desk) {
+            (Err(error), _) => tell(failed(format!("no order: {error}"))),
+            (Ok(Order::Take { request, spent }), Some(desk)) => desk.take(&request, &Interrupt::new(), spent, tell),
+            (Ok(Order::Take { .. }), None) => tell(failed("nothing is open".into())),
+            (Ok(Order::Open { id, files, seconds, held }), place) => {
+                let is_new = held.is_none();
+                match opened(files, seconds, held) {
+                    Ok(desk) => {
+                        if is_new {
+                            tell(Message::from(&desk.world(id, true)));
+                        }
+                        *place = Some(desk);
+                    }
+                    Err(error) => tell(Message::from(&Reply::Failed { id, error })),
+                }
+            }
+        }
+    }
+}
+
+/// A desk with a world of its own.
+///
+/// # Errors
+/// What is wrong with the files, in words.
+fn opened(files: Files, seconds: f64, held: Option<Held>) -> Result<Desk, String> {
+    let time = Duration::try_from_secs_f64(seconds).map_err(|error| format!("seconds: {error}"))?;
+    let host = Host::brought(files, time)?;
+    let mut desk = Desk::new(Arc::new(host));
+    held.map_or(Ok(()), |Held { base, text }| desk.hold(base, &text))?;
+    Ok(desk)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    const URDF: &str = include_str!("../../../robots/planar_2r.urdf");
+    const WORLD: &str = include_str!("../../../workspaces/shelf.toml");
+
+    /// What it tells, as JSON.
+    fn told(alone: &mut Alone, order: &Value) -> Vec<Value> {
+        let mut replies = Vec::new();
+        alone.take(&order.to_string(), &mut |message| match message {
+            Message::Text(text) => replies.push(serde_json::from_str(&text).unwrap()),
+            Message::Binary(bytes) => replies.push(json!({ "bytes": bytes.len() })),
+        });
+        replies
+    }
+
+    fn open(held: Value) -> Value {
+        let files = json!({ "urdf": URDF, "world": WORLD, "options": "shortest" });
+        json!({ "do": "open", "id": 1, "files": files, "seconds": 3600, "held": held })
+    }
+
+    fn plan(base: u64, spent: &str) -> Value {
+        let ask = json!({ "do": "plan", "id": 7, "base": base, "final": true, "state": null, "options": "shortest" });
+        json!({ "do": "take", "request": ask, "spent": spent })
+    }
+
+    #[test]
+    fn it_tells_the_world_and_plans_in_it() {
+        let mut alone = Alone::default();
+        let world = told(&mut alone, &open(Value::Null));
+        assert_eq!((world.len(), &world[0]["kind"], &world[0]["base"]), (1, &json!("world"), &json!(1)));
+        let replies = told(&mut alone, &plan(1, "nothing"));
+        let last = replies.last().unwrap();
+        assert_eq!(
+            (&last["verdict"], &last["done"], &last["certified"]),
+            (&json!("found"), &json!(true), &json!(true))
+        );
+    }
+
+    #[test]
+    fn it_goes_on_where_another_one_ended() {
+        let mut alone = Alone::default();
+        let other = WORLD.replace("name = \"", "name = \"other ");
+        assert!(told(&mut alone, &open(json!({ "base": 5, "text": other }))).is_empty());
+        let last = told(&mut alone, &plan(5, "nothing")).pop().unwrap();
+        assert!(last["toml"].as_str().unwrap().contains("other ") && last["verdict"] == "found");
+    }
+
+    #[test]
+    fn what_took_too_long_is_shown_without_a_plan_or_not_at_all() {
+        let mut alone = Alone::default();
+        told(&mut alone, &open(Value::Null));
+        let shown = told(&mut alone, &plan(1, "plan")).pop().unwrap();
+        assert_eq!((&shown["verdict"], shown["view"].is_object()), (&json!("unknown"), true));
+        assert!(shown["reason"].as_str().unwrap().contains("not decided within"));
+        let late = told(&mut alone, &plan(1, "all")).pop().unwrap();
+        assert_eq!((&late["verdict"], &late["view"], &late["done"]), (&json!("unknown"), &Value::Null, &json!(true)));
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_said_so() {
+        let mut alone = Alone::default();
+        let error = |replies: Vec<Value>| replies[0]["error"].as_str().unwrap().to_owned();
+        assert_eq!(error(told(&mut alone, &plan(1, "nothing"))), "nothing is open");
+        assert!(error(told(&mut alone, &json!({ "do": "sing" }))).starts_with("no order: "));
+        let mut wrong = open(Value::Null);
+        wrong["files"]["world"] = json!("image = \"den.yaml\"");
+        assert!(error(told(&mut alone, &wrong)).contains("world.toml"));
+    }
+}

@@ -1,0 +1,127 @@
+//! A start or goal that cannot be taken, for a page: where it is, what is in the way, and in words that need no file.
+
+use super::protocol::{About, AnswerReply, BlockedReply, HitReply};
+use cplan_core::model::{Goal, Obstruction, Scene, inverse};
+use cplan_core::space::{Configuration, Segment};
+use cplan_world::{Diagnostic, DiagnosticKind, InputError, LoadedScene};
+
+/// More configurations are not drawn: they would hide each other.
+const MOST_SHOWN: usize = 4;
+
+/// Depths below this, metres, are called touching.
+const SHALLOW: f64 = 1e-9;
+
+/// The answer to a world of which something cannot be used.
+pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) -> AnswerReply {
+    let [start, goal] = loaded.given();
+    let kinds = error.diagnostics().iter().map(|diagnostic| diagnostic.kind);
+    let (about, what, place) = match kinds.into_iter().find(|kind| *kind != DiagnosticKind::Input) {
+        Some(DiagnosticKind::Start) => (About::Start, "start", start),
+        Some(DiagnosticKind::Goal) => (About::Goal, "goal", goal),
+        _ => (About::World, "world", None),
+    };
+    let scene = &loaded.scene;
+    let blocked: Vec<_> = place.map_or_else(Vec::new, |place| configurations(scene, place, near).collect());
+    let is_hit = !blocked.is_empty() && blocked.iter().all(|(_, hits)| !hits.is_empty());
+    let error = if is_hit { in_the_way(scene, what, &blocked) } else { without_places(error) };
+    let reply = |(q, hits): &(Configuration, Vec<Obstruction>)| BlockedReply {
+        at: (*q).into(),
+        hits: hits.iter().map(reply).collect(),
+    };
+    let blocked = blocked.iter().take(MOST_SHOWN).map(reply).collect();
+    AnswerReply { error: Some(error), about: Some(about), blocked, ..AnswerReply::default() }
+}
+
+/// The answer to a text that cannot be read, though the page has written it.
+pub fn unread(error: &InputError) -> AnswerReply {
+    AnswerReply { error: Some(without_places(error)), about: Some(About::World), ..AnswerReply::default() }
+}
+
+/// The configurations that a place stands for, each with what is in its way: deepest first.
+fn configurations(
+    scene: &Scene,
+    place: Goal,
+    near: Configuration,
+) -> impl Iterator<Item = (Configuration, Vec<Obstruction>)> {
+    let found = match place {
+        Goal::Joints(q) => vec![q],
+        Goal::Tip(tip) => {
+            let solved = inverse(scene.arm(), tip, near);
+            let within: Vec<_> = solved.solutions(scene.arm()).iter().map(|piece: &Segment| piece.ends()[0]).collect();
+            if within.is_empty() { solved.branches } else { within }
+        }
+    };
+    found.into_iter().map(|q| {
+        let mut hits = scene.obstructions(q);
+        hits.sort_by(|a, b| a.contact.separation.distance.total_cmp(&b.contact.separation.distance));
+        (q, hits)
+    })
+}
+
+fn reply(obstruction: &Obstruction) -> HitReply {
+    let contact = &obstruction.contact;
+    let distance = contact.separation.distance;
+    HitReply {
+        link: contact.pair.link.min(1),
+        obstacle: contact.pair.obstacle,
+        // Exact predicates may know of a contact that the distance does not show.
+        distance: if obstruction.touches { distance.min(0.0) } else { distance },
+    }
+}
+
+/// What is in the way, in words.
+fn in_the_way(scene: &Scene, what: &str, blocked: &[(Configuration, Vec<Obstruction>)]) -> String {
+    let one = |hits: &[Obstruction]| hits.iter().map(|hit| in_words(scene, hit)).collect::<Vec<_>>().join("; ");
+    let touches = blocked.iter().all(|(_, hits)| hits.iter().any(|hit| hit.touches));
+    let help = if touches { "Move" } else { "Ask for less clearance, or move" };
+    let help = format!("{help} the {what} or the obstacle.");
+    match blocked {
+        [(_, hits)] => format!("The {what} is blocked: {}. {help}", one(hits)),
+        _ => {
+            let each: Vec<String> =
+                blocked.iter().zip(1..).map(|((_, hits), k)| format!("configuration {k}: {}", one(hits))).collect();
+            format!("The {what} is blocked, whichever way the arm bends. {}. {help}", each.join(". "))
+        }
+    }
+}
+
+fn in_words(scene: &Scene, hit: &Obstruction) -> String {
+    let (part, distance) = (scene.describe_part(hit.contact.pair), hit.contact.separation.distance);
+    let obstacle = scene.obstacle_name(hit.contact.pair);
+    if !hit.touches {
+        let wanted = millimetres(scene.workspace().clearance);
+        return format!(
+            "{part} is {} from \"{obstacle}\", nearer than the clearance of {wanted}",
+            millimetres(distance)
+        );
+    }
+    match -distance {
+        depth if depth < SHALLOW => format!("{part} touches \"{obstacle}\""),
+        depth => format!("{part} is {} deep in \"{obstacle}\"", millimetres(depth)),
+    }
+}
+
+/// A length with three digits.
+fn millimetres(metres: f64) -> String {
+    let length = metres * 1e3;
+    let digits = if length >= 100.0 {
+        0
+    } else if length >= 10.0 {
+        1
+    } else {
+        2
+    };
+    if length < 0.01 { format!("{length:.1e} mm") } else { format!("{length:.digits$} mm") }
+}
+
+/// The diagnostics without file, line and column: the page has written the text, and its user has not seen it.
+fn without_places(error: &InputError) -> String {
+    let sentence = |diagnostic: &Diagnostic| {
+        let mut letters = diagnostic.message.chars();
+        let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
+        format!("{first}{}", letters.as_str())
+    };
+    let mut sentences: Vec<String> = error.diagnostics().iter().map(sentence).collect();
+    sentences.dedup();
+    sentences.join("\n")
+}

@@ -1,0 +1,102 @@
+//! Contours of C-obstacles, kept from one answer to the next: of all obstacles one or two have changed.
+
+use cplan_core::cspace::CObstacle;
+use cplan_core::model::{Arm, Heights, Obstacle, Scene, Workspace};
+use cplan_geometry::Convex;
+use cplan_view::output;
+use std::cell::RefCell;
+
+/// What a page's worker remembers. The contours of an obstacle depend on nothing but the arm, the clearance and its pieces.
+#[derive(Default)]
+pub struct Contours {
+    known: RefCell<Known>,
+}
+
+#[derive(Default)]
+struct Known {
+    /// What all of them depend on.
+    of: Option<(Arm, f64)>,
+    /// In the order of the last scene's obstacles.
+    entries: Vec<Entry>,
+    /// Those of the arm's self obstacles, each with its number among them.
+    own: Vec<CObstacle>,
+}
+
+#[derive(Clone)]
+struct Entry {
+    pieces: Vec<Convex>,
+    heights: Heights,
+    /// Of this obstacle, whatever its number.
+    contours: Vec<CObstacle>,
+}
+
+impl Entry {
+    fn is_of(&self, obstacle: &Obstacle) -> bool {
+        self.heights == obstacle.heights && self.pieces == obstacle.pieces
+    }
+}
+
+impl Contours {
+    /// The contours for pictures of a scene without payload, obstacle by obstacle. Time is taken by the obstacles that the
+    /// last scene did not have.
+    pub fn of(&self, scene: &Scene) -> Vec<CObstacle> {
+        let obstacles = &scene.workspace().obstacles;
+        let of = Some((scene.arm().clone(), scene.workspace().clearance));
+        let found = {
+            let mut known = self.known.borrow_mut();
+            if known.of != of {
+                *known = Known { of, entries: Vec::new(), own: own(scene) };
+            }
+            known.found(obstacles)
+        };
+        let missing: Vec<usize> = (0..obstacles.len()).filter(|&k| found[k].is_none()).collect();
+        // Nothing is borrowed while it works, which may be stopped at any time.
+        let mut made = traced(scene, &missing).into_iter();
+        let entries: Vec<Entry> = found.into_iter().filter_map(|entry| entry.or_else(|| made.next())).collect();
+        let numbered = |(number, entry): (usize, &Entry)| {
+            let numbered = |contour: &CObstacle| CObstacle { obstacle: number, ..contour.clone() };
+            entry.contours.iter().map(numbered).collect::<Vec<_>>()
+        };
+        let mut contours: Vec<CObstacle> = entries.iter().enumerate().flat_map(numbered).collect();
+        let mut known = self.known.borrow_mut();
+        known.entries = entries;
+        let first = scene.self_obstacles().start;
+        contours.extend(known.own.iter().map(|own| CObstacle { obstacle: first + own.obstacle, ..own.clone() }));
+        contours
+    }
+}
+
+impl Known {
+    /// What is known of each obstacle. Those that come and go shift the others by a place or two.
+    fn found(&self, obstacles: &[Obstacle]) -> Vec<Option<Entry>> {
+        let mut next = 0;
+        let mut one = |obstacle: &Obstacle| {
+            let there = self.entries.iter().skip(next).position(|entry| entry.is_of(obstacle))? + next;
+            next = there + 1;
+            Some(self.entries[there].clone())
+        };
+        obstacles.iter().map(&mut one).collect()
+    }
+}
+
+/// The contours of the arm's self obstacles.
+fn own(scene: &Scene) -> Vec<CObstacle> {
+    if scene.arm().self_obstacles.is_empty() {
+        return Vec::new();
+    }
+    let workspace = Workspace { obstacles: Vec::new(), movers: Vec::new(), ..scene.workspace().clone() };
+    output::contours(&Scene::trusted(scene.arm().clone(), workspace))
+}
+
+/// The contours of some obstacles, one entry for each.
+fn traced(scene: &Scene, wanted: &[usize]) -> Vec<Entry> {
+    let obstacles: Vec<Obstacle> = wanted.iter().map(|&k| scene.workspace().obstacles[k].clone()).collect();
+    let entry = |o: &Obstacle| Entry { pieces: o.pieces.clone(), heights: o.heights, contours: Vec::new() };
+    let mut entries: Vec<Entry> = obstacles.iter().map(entry).collect();
+    let workspace = Workspace { obstacles, preferences: Vec::new(), ..scene.workspace().clone() };
+    let arm = Arm { self_obstacles: Vec::new(), ..scene.arm().clone() };
+    for contour in output::contours(&Scene::trusted(arm, workspace)) {
+        entries[contour.obstacle].contours.push(contour);
+    }
+    entries
+}

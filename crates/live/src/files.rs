@@ -1,0 +1,22 @@
+//! Results and pictures as files, for a page to save.
+
+use super::options::Options;
+use cplan_engine::{Problem, plan};
+use cplan_view::output::FileFormat;
+use cplan_view::output::PlanOutput as _;
+use cplan_world::{LoadedScene, Overrides};
+use std::path::Path;
+
+/// The file's content.
+///
+/// # Errors
+/// In words: a format that is none of ours, bad input, a result without what the format is for.
+pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<Vec<u8>, String> {
+    let in_words = |error: &dyn ToString| error.to_string();
+    let format = FileFormat::from_path(Path::new(&format!("plan.{format}"))).map_err(|error| in_words(&error))?;
+    let options = options.within(&loaded.scene)?;
+    let problem = Problem::of_scene(loaded, &Overrides::default()).map_err(|error| in_words(&error))?;
+    let plan = plan(&problem, options).map_err(|error| in_words(&error))?;
+    let bytes = plan.bytes(format).map_err(|error| in_words(&error))?;
+    bytes.ok_or_else(|| "there is no trajectory to put into it".to_owned())
+}

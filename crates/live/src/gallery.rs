@@ -1,0 +1,225 @@
+//! Worlds and puzzles that a page has to open.
+
+use super::Files;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// A world to open.
+#[derive(Debug, Serialize)]
+struct Choice {
+    /// What the address says.
+    name: &'static str,
+    title: &'static str,
+    /// One of [`ROBOTS`].
+    robot: &'static str,
+    world: &'static str,
+    puzzle: Option<Puzzle>,
+}
+
+/// What is to be reached in a world; the page judges it by the program's answer.
+#[derive(Debug, Serialize)]
+struct Puzzle {
+    text: &'static str,
+    verdict: &'static str,
+    free: Free,
+    /// No path may be shorter: proven.
+    length: Option<f64>,
+    /// The clearance asked for has to be this or more, metres.
+    clearance: Option<f64>,
+}
+
+/// What may be changed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Free {
+    /// Where the obstacles are.
+    Obstacles,
+    /// The clearance.
+    Clearance,
+}
+
+const ROBOTS: [(&str, &str); 7] = [
+    ("gantry", include_str!("../../../robots/gantry.urdf")),
+    ("planar_2r", include_str!("../../../robots/planar_2r.urdf")),
+    ("planar_2r_continuous", include_str!("../../../robots/planar_2r_continuous.urdf")),
+    ("polar", include_str!("../../../robots/polar.urdf")),
+    ("rail_arm", include_str!("../../../robots/rail_arm.urdf")),
+    ("scara", include_str!("../../../robots/scara.urdf")),
+    ("l_forearm", include_str!("../../../robots/l_forearm.urdf")),
+];
+
+const CHOICES: [Choice; 14] = [
+    world("shelf", "a shelf", "planar_2r", include_str!("../../../workspaces/shelf.toml")),
+    world("workbench", "a workbench", "planar_2r", include_str!("../../../workspaces/workbench.toml")),
+    world("crowd", "a crowd of discs", "planar_2r", include_str!("../../../workspaces/crowd.toml")),
+    world("cell", "a SCARA cell", "scara", include_str!("../../../workspaces/scara_cell.toml")),
+    world("maze", "a maze for a gantry", "gantry", include_str!("../../../workspaces/gantry_maze.toml")),
+    world("hook", "a bent forearm", "l_forearm", include_str!("../../../workspaces/l_hook.toml")),
+    world("gate", "a gate for a ram", "polar", include_str!("../../../workspaces/polar_gate.toml")),
+    world("no_path", "no path", "planar_2r_continuous", include_str!("../../../workspaces/no_path.toml")),
+    puzzle(
+        "close",
+        "1: close the gap",
+        "rail_arm",
+        include_str!("puzzles/slot.toml"),
+        Puzzle { text: "Close the gap until it proves impossible: move the walls.", ..Puzzle::of("infeasible") },
+    ),
+    puzzle(
+        "round",
+        "2: the long way round",
+        "planar_2r_continuous",
+        include_str!("puzzles/round.toml"),
+        Puzzle {
+            text: "Bar the short way, and leave the long one: the shortest path is to be proven longer than 5.5.",
+            length: Some(5.5),
+            ..Puzzle::of("found")
+        },
+    ),
+    puzzle(
+        "both",
+        "3: both ways round",
+        "planar_2r_continuous",
+        include_str!("../../../workspaces/torus_open.toml"),
+        Puzzle {
+            text: "Both joints turn without end: close both ways round with the two posts.",
+            ..Puzzle::of("infeasible")
+        },
+    ),
+    puzzle(
+        "ring",
+        "4: break the ring",
+        "gantry",
+        include_str!("../../../workspaces/annulus_closed.toml"),
+        Puzzle { text: "The head is shut in, as proven: let it out.", ..Puzzle::of("found") },
+    ),
+    puzzle(
+        "pole",
+        "5: round the pole",
+        "planar_2r",
+        include_str!("../../../workspaces/limits_closed.toml"),
+        Puzzle {
+            text: "The elbow's limits keep the arm from passing the pole: put the pole where the arm gets round it.",
+            ..Puzzle::of("found")
+        },
+    ),
+    puzzle(
+        "berth",
+        "6: a wide berth",
+        "planar_2r",
+        include_str!("../../../workspaces/narrow_slot.toml"),
+        Puzzle {
+            text: "Nothing moves: find the largest clearance that leaves a way, to a tenth of a millimetre.",
+            free: Free::Clearance,
+            clearance: Some(CLEAREST),
+            ..Puzzle::of("found")
+        },
+    ),
+];
+
+/// Just below the largest clearance that leaves a way through the narrow slot, metres.
+const CLEAREST: f64 = 0.0341;
+
+const fn world(name: &'static str, title: &'static str, robot: &'static str, world: &'static str) -> Choice {
+    Choice { name, title, robot, world, puzzle: None }
+}
+
+const fn puzzle(
+    name: &'static str,
+    title: &'static str,
+    robot: &'static str,
+    world: &'static str,
+    puzzle: Puzzle,
+) -> Choice {
+    Choice { name, title, robot, world, puzzle: Some(puzzle) }
+}
+
+impl Puzzle {
+    const fn of(verdict: &'static str) -> Self {
+        Self { text: "", verdict, free: Free::Obstacles, length: None, clearance: None }
+    }
+}
+
+/// All of it, for the page.
+#[derive(Debug, Serialize)]
+pub struct Gallery {
+    /// What a page begins with that has the program within it, and the time that a plan may take there, seconds.
+    alone: Option<(Files, f64)>,
+    robots: BTreeMap<&'static str, &'static str>,
+    choices: [Choice; 14],
+}
+
+impl Gallery {
+    /// That of a page with the program within it, or of one that a server serves.
+    pub fn new(alone: Option<(Files, Duration)>) -> Self {
+        let alone = alone.map(|(files, time)| (files, time.as_secs_f64()));
+        Self { alone, robots: BTreeMap::from(ROBOTS), choices: CHOICES }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_engine::{MotionPlan, Options, Plan, Problem, plan};
+    use cplan_world::{Overrides, Source, scene_from};
+    use std::collections::BTreeSet;
+
+    /// A way to solve each puzzle: what is found in the world, and what is put there.
+    const SOLUTIONS: [(&str, &[[&str; 2]]); 6] = [
+        ("close", &[["[0.02, -0.9], [0.02, -0.12], [0.0, -0.12]", "[0.02, -0.75], [0.02, 0.03], [0.0, 0.03]"]]),
+        ("round", &[["[0.7, -1.5]", "[0.7, 0.0]"]]),
+        ("both", &[["[-1.25, 0.1]", "[-1.02, 0.1]"]]),
+        (
+            "ring",
+            &[
+                ["[[1.3234, 0.6161], [1.4157, 0.5778]", "[[1.8234, 0.6161], [1.9157, 0.5778]"],
+                ["[1.4157, 0.9222], [1.3234, 0.8839]]", "[1.9157, 0.9222], [1.8234, 0.8839]]"],
+            ],
+        ),
+        ("pole", &[["[0.0, 1.4]", "[0.0, 1.6]"]]),
+        ("berth", &[["[start]", "clearance = 0.0341\n[start]"]]),
+    ];
+
+    fn planned(choice: &Choice, world: &str) -> Plan {
+        let robot = BTreeMap::from(ROBOTS)[choice.robot];
+        let scene = scene_from(Source::in_memory("arm.urdf", robot), Source::in_memory(choice.name, world)).unwrap();
+        plan(&Problem::of_scene(scene, &Overrides::default()).unwrap(), &Options::default()).unwrap()
+    }
+
+    /// As the page judges it.
+    fn is_solved(puzzle: &Puzzle, plan: &Plan) -> bool {
+        let Some(MotionPlan { problem, answer, .. }) = plan.motion() else { return false };
+        let bound = answer.bound.map_or(0.0, |bound| bound.lower);
+        let clearance = problem.scene().workspace().clearance;
+        plan.status().name() == puzzle.verdict
+            && puzzle.length.is_none_or(|length| bound >= length)
+            && puzzle.clearance.is_none_or(|least| clearance >= least)
+    }
+
+    #[test]
+    fn every_world_opens_and_every_puzzle_is_unsolved_until_it_is_solved() {
+        let names: BTreeSet<&str> = CHOICES.iter().map(|choice| choice.name).collect();
+        assert_eq!(names.len(), CHOICES.len());
+        let mut solutions = BTreeMap::from(SOLUTIONS);
+        for choice in &CHOICES {
+            let first = planned(choice, choice.world);
+            let Some(puzzle) = &choice.puzzle else { continue };
+            assert!(!is_solved(puzzle, &first), "{} is solved from the beginning", choice.name);
+            let put = |world: String, [from, to]: &[&str; 2]| {
+                assert!(world.contains(from), "{}: {from}", choice.name);
+                world.replace(from, to)
+            };
+            let changes = solutions.remove(choice.name).expect("a solution");
+            let world = changes.iter().fold(choice.world.to_owned(), put);
+            assert!(is_solved(puzzle, &planned(choice, &world)), "{} is not solved", choice.name);
+        }
+        assert!(solutions.is_empty(), "{solutions:?}");
+    }
+
+    #[test]
+    fn the_largest_clearance_leaves_a_way_and_a_tenth_of_a_millimetre_more_does_not() {
+        let choice = CHOICES.iter().find(|choice| choice.name == "berth").unwrap();
+        let wider = choice.world.replace("[start]", "clearance = 0.0342\n[start]");
+        assert_eq!(planned(choice, &wider).status().name(), "infeasible");
+    }
+}

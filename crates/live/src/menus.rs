@@ -1,0 +1,159 @@
+//! The page's menus: which options the planners have, and what each can be.
+//!
+//! Names, values and defaults are those of the command line's grammar. What is not chosen is not sent, so that the page's
+//! defaults cannot be others than the program's.
+
+use super::options::Options;
+use super::protocol::{OptionReply, PlannerReply};
+use clap::{Arg, Command};
+use cplan_core::planner::GridSearch;
+use cplan_core::waves::Neighborhood;
+use cplan_engine::{FIRST_CELLS, GridSpace, Method, Planner};
+use cplan_options::Named;
+use cplan_roadmaps::Prm;
+
+/// An option with a menu of its own. All others can be typed.
+struct Choice {
+    name: &'static str,
+    label: &'static str,
+    /// Values of an option that takes any number, to choose from, with what they are called; all that the grammar lists
+    /// otherwise.
+    numbers: &'static [(&'static str, &'static str)],
+    /// What holds where the option is not given, if the grammar does not say.
+    standard: fn(Method) -> Option<String>,
+    /// Whether the option is of use to the planner, which may take it and do nothing with it.
+    is_for: fn(Method) -> bool,
+}
+
+const CHOICES: [Choice; 8] = [
+    Choice {
+        name: "gap",
+        label: "proven within",
+        numbers: &[("0.01", "1 %"), ("0.001", "0.1 %"), ("0.0001", "0.01 %")],
+        standard: |_| Some("as it comes".into()),
+        is_for: |_| true,
+    },
+    Choice { name: "metric", label: "short means", numbers: &[], standard: |_| None, is_for: |_| true },
+    Choice {
+        name: "cells",
+        label: "cells",
+        numbers: &[("64", "64"), ("128", "128"), ("256", "256"), ("512", "512"), ("1024", "1024")],
+        standard: cells,
+        is_for: |planner| matches!(planner, Method::Wavefront | Method::Harmonic),
+    },
+    Choice {
+        name: "path",
+        label: "path",
+        numbers: &[],
+        standard: |planner| Some(planner.path_kind().to_string()),
+        is_for: Method::has_own_path,
+    },
+    Choice {
+        name: "search",
+        label: "search",
+        numbers: &[],
+        standard: |planner| word(if planner.has_roadmap() { GridSearch::AStar } else { GridSearch::default() }),
+        is_for: |_| true,
+    },
+    Choice {
+        name: "samples",
+        label: "samples",
+        numbers: &[("100", "100"), ("500", "500"), ("2000", "2000"), ("10000", "10000")],
+        standard: |_| Some(Prm::default().samples.to_string()),
+        is_for: |_| true,
+    },
+    Choice {
+        name: "neighbors",
+        label: "neighbours",
+        numbers: &[],
+        standard: |_| Some(if Neighborhood::default() == Neighborhood::Eight { "8" } else { "4" }.into()),
+        is_for: |_| true,
+    },
+    Choice {
+        name: "space",
+        label: "cells by",
+        numbers: &[],
+        standard: |_| word(GridSpace::default()),
+        is_for: |_| true,
+    },
+];
+
+/// Cells of fields are square in joint space unless their number is given.
+fn cells(planner: Method) -> Option<String> {
+    match Planner::named(planner) {
+        Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => Some(cells.to_string()),
+        Planner::Harmonic { cells: None, .. } => Some(format!("{FIRST_CELLS}, square")),
+        _ => None,
+    }
+}
+
+fn word(value: impl Named) -> Option<String> {
+    Some(value.word().to_owned())
+}
+
+/// Every planner with its menus.
+pub fn planners() -> Vec<PlannerReply> {
+    let grammar = Options::grammar();
+    let menus = |planner: Method| CHOICES.iter().filter_map(|choice| menu(&grammar, planner, choice)).collect();
+    Method::ALL.into_iter().map(|planner| PlannerReply { name: planner.name(), options: menus(planner) }).collect()
+}
+
+/// The menu of an option: the values that the planner takes. None if it takes none.
+fn menu(grammar: &Command, planner: Method, choice: &Choice) -> Option<OptionReply> {
+    let argument = grammar.get_arguments().find(|argument| argument.get_long() == Some(choice.name))?;
+    let name = format!("--{}", choice.name);
+    let standard = (choice.standard)(planner).or_else(|| default_of(argument)).unwrap_or_default();
+    let listed = argument.get_possible_values().into_iter().map(|value| [value.get_name().to_owned(), String::new()]);
+    let numbers = choice.numbers.iter().map(|&(value, text)| [value.to_owned(), text.to_owned()]);
+    let all: Vec<[String; 2]> = if choice.numbers.is_empty() { listed.collect() } else { numbers.collect() };
+    let takes = |value: &str| Options::parse(&format!("{planner} {name} {value}")).is_ok();
+    let values: Vec<[String; 2]> = all
+        .into_iter()
+        .filter(|[value, _]| *value != standard && takes(value))
+        .map(|[value, text]| if text.is_empty() { [value.clone(), value] } else { [value, text] })
+        .collect();
+    ((choice.is_for)(planner) && !values.is_empty()).then_some(OptionReply {
+        name,
+        label: choice.label,
+        standard,
+        values,
+    })
+}
+
+fn default_of(argument: &Arg) -> Option<String> {
+    Some(argument.get_default_values().first()?.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_planner_has_the_options_that_it_takes() {
+        let of = |name: &str| {
+            let planner = planners().into_iter().find(|planner| planner.name == name).unwrap();
+            planner.options.into_iter().map(|option| (option.name, option.standard)).collect::<Vec<_>>()
+        };
+        let pairs = |list: &[(&str, &str)]| list.iter().map(|&(a, b)| (a.into(), b.into())).collect::<Vec<_>>();
+        let optimum = pairs(&[("--gap", "as it comes"), ("--metric", "euclidean")]);
+        let roadmap = [("--path", "taut"), ("--search", "astar")];
+        let visibility = [optimum.clone(), pairs(&roadmap[1..])].concat();
+        assert_eq!((of("shortest"), of("visibility"), of("first")), (optimum, visibility, Vec::new()));
+        assert_eq!([of("trapezoid"), of("triangles")], [pairs(&roadmap), pairs(&roadmap)]);
+        let diagram = pairs(&[("--path", "own"), ("--search", "astar")]);
+        assert_eq!(of("voronoi"), diagram);
+        assert_eq!(of("prm"), pairs(&[&roadmap[..], &[("--samples", "500")]].concat()));
+        let search = [("--search", "wave"), ("--neighbors", "4"), ("--space", "rows")];
+        assert_eq!(of("wavefront"), pairs(&[&[("--cells", "256"), ("--path", "taut")][..], &search[..]].concat()));
+        assert_eq!(of("harmonic"), pairs(&[("--cells", "256, square"), ("--path", "own"), ("--space", "rows")]));
+        assert_eq!(of("subdivision"), pairs(&[("--path", "taut")]));
+    }
+
+    #[test]
+    fn what_holds_without_an_option_is_no_value_beside_it() {
+        for option in planners().into_iter().flat_map(|planner| planner.options) {
+            assert!(!option.values.is_empty(), "{}", option.name);
+            assert!(option.values.iter().all(|[value, _]| *value != option.standard), "{}", option.name);
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Planner and options of the page, in the grammar of the command line.
+
+use clap::{Command, CommandFactory, Parser};
+use cplan_core::model::Scene;
+use cplan_engine::Method;
+use cplan_options::{MotionArgs, PlannerArgs};
+
+/// The finest trajectory that a page asks for, seconds: it is drawn, and sent to a browser.
+const SHORTEST_PERIOD: f64 = 1e-3;
+
+/// A planner and what is asked of it.
+#[derive(Debug)]
+pub struct Options {
+    options: cplan_engine::Options,
+}
+
+#[derive(Debug, Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+struct Grammar {
+    planner: Method,
+    #[command(flatten)]
+    motion: MotionArgs,
+    #[command(flatten)]
+    options: PlannerArgs,
+}
+
+impl Options {
+    /// The grammar, for menus.
+    pub fn grammar() -> Command {
+        Grammar::command()
+    }
+
+    /// Reads `PLANNER OPTIONS`.
+    ///
+    /// # Errors
+    /// What is wrong with it, in one line.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let grammar = Grammar::try_parse_from(text.split_whitespace()).map_err(|error| {
+            let text = error.to_string();
+            // Up to the usage, which is that of a command line.
+            let lines: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+            let line = lines.join(" ");
+            line.strip_prefix("error: ").unwrap_or(&line).to_owned()
+        })?;
+        if grammar.motion.period < SHORTEST_PERIOD {
+            return Err(format!("--period: the live page takes at least {SHORTEST_PERIOD} s"));
+        }
+        let planner = grammar.options.planner(grammar.planner)?;
+        grammar.options.missing().map_or(Ok(()), Err)?;
+        let options = cplan_engine::Options {
+            planner,
+            levels: grammar.options.levels(),
+            drive: grammar.motion.drive(),
+            jerk: grammar.motion.jerk(),
+            ..cplan_engine::Options::default()
+        };
+        Ok(Self { options })
+    }
+
+    /// For planning in a scene.
+    ///
+    /// # Errors
+    /// A field that follows preferences of the world, which has none.
+    pub fn within(&self, scene: &Scene) -> Result<&cplan_engine::Options, String> {
+        self.options.planner.lack(&scene.workspace().preferences).map_or(Ok(&self.options), Err)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_engine::Planner;
+
+    #[test]
+    fn options_are_those_of_the_command_line() {
+        let options = Options::parse("visibility --gap 0.01 --margin 1e-4").unwrap();
+        let expected = Planner::named(Method::Visibility).with_gap(0.01).with_margin(1e-4);
+        assert_eq!(options.options.planner, expected);
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_in_a_line() {
+        for (text, part) in [
+            ("", "<PLANNER>"),
+            ("fastest", "[possible values: shortest"),
+            ("harmonic --gap 0.1", "--gap needs --planner shortest or visibility"),
+            ("visibility --search wave", "--search wave labels the cells of a grid"),
+            ("first --backward", "--backward needs --planner visibility"),
+            ("trapezoid --seed 2", "--seed needs --planner prm"),
+            ("visibility --search dfs --gap 0.1", "--gap needs a search for the shortest path"),
+            ("visibility --path own", "--path own is not for visibility"),
+            ("visibility --output plan.json", "unexpected argument"),
+            ("visibility --help", "unexpected argument"),
+            ("visibility --period 1e-6", "at least 0.001 s"),
+            ("wavefront --cells 100000", "100000"),
+        ] {
+            let error = Options::parse(text).unwrap_err();
+            assert!(error.contains(part) && !error.contains('\n'), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Plans as answers to a page.
+
+use super::contours::Contours;
+use super::protocol::{AnswerReply, Figures};
+use cplan_core::cspace::CObstacle;
+use cplan_core::model::{Scene, Status};
+use cplan_core::space::{Configuration, Segment};
+use cplan_engine::{MotionPlan, Options, Problem, Verdict, plan};
+use cplan_view::output;
+use cplan_view::output::{replayed, view_with};
+use cplan_view::{Picture, View};
+use serde_json::value::RawValue;
+
+/// A scene with its configuration space, and no path: why not, in a word or two.
+pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, contours: &Contours) -> AnswerReply {
+    let contours = contours.of(scene);
+    let (start, goals) = ends;
+    let picture = Picture { status: status.into(), ..picture(scene, start, goals, &contours) };
+    AnswerReply { view: drawn(&View::of_picture(&picture)), ..AnswerReply::default() }
+}
+
+/// What can be shown while something moves: a path, certified, but neither its bound nor its motion.
+///
+/// # Errors
+/// A trajectory that cannot be made as asked, in words.
+pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
+    let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
+    let report = plan.report();
+    let Some(MotionPlan { problem, answer, .. }) = plan.motion() else {
+        return Err("steps are not planned while something moves".into());
+    };
+    let contours = contours.of(problem.scene());
+    let mut picture = Picture {
+        trace: Some(&answer.run.trace),
+        proof: answer.verdict.proof(),
+        status: output::status(&answer.verdict).into(),
+        ending: Some(plan.status()),
+        ..picture(problem.scene(), problem.start(), problem.goals().pieces(), &contours)
+    };
+    let mut figures = Figures { clearance: report.clearance, ..Figures::of_size(answer.run.size) };
+    if let Verdict::Found(path) = &answer.verdict {
+        figures.length = Some(options.planner.metric(problem.scene().arm()).length(path.path()));
+        picture.paths.push((answer.method.to_string(), path.path()));
+    }
+    let view = drawn(&View::of_picture(&picture));
+    Ok(AnswerReply { reason: report.reason.clone(), figures, view, ..judged(plan.status()) })
+}
+
+fn picture<'a>(
+    scene: &'a Scene,
+    start: Configuration,
+    goals: &'a [Segment],
+    c_obstacles: &'a [CObstacle],
+) -> Picture<'a> {
+    let title = vec![output::title_of(scene), arm_of(scene)];
+    Picture { title, goals, c_obstacles, ..Picture::new(scene, start) }
+}
+
+/// What is planned for, in a line; so that a page keeps its lines while something moves.
+fn arm_of(scene: &Scene) -> String {
+    let [first, second] = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
+    format!("{} arm, joints {first} and {second}", scene.arm().kind())
+}
+
+/// The verdict in the page's words.
+fn judged(status: Status) -> AnswerReply {
+    AnswerReply { verdict: Some(status.name()), certified: status == Status::Found, ..AnswerReply::default() }
+}
+
+fn drawn(view: &View) -> Option<Box<RawValue>> {
+    RawValue::from_string(view.json()).ok()
+}
+
+/// All that can be known of a problem; how the planner came to it, if somebody wants to know.
+///
+/// # Errors
+/// A trajectory that cannot be made as asked, in words.
+pub fn in_full(problem: &Problem, options: &Options, contours: &Contours, think: bool) -> Result<AnswerReply, String> {
+    let plan = plan(problem, options).map_err(|error| error.to_string())?;
+    let report = plan.report();
+    let view = view_with(&plan, |scene| contours.of(scene));
+    let view = if think { replayed(&plan, view) } else { view };
+    let figures = if let Some(MotionPlan { answer, .. }) = plan.motion() {
+        Figures {
+            length: answer.bound.map(|bound| bound.upper).or(report.length),
+            lower_bound: answer.bound.map(|bound| bound.lower),
+            ..Figures::of_size(answer.run.size)
+        }
+    } else {
+        let motions = report.task.as_ref().map_or(0, |task| task.motions);
+        Figures::of_size(format!("{motions} motions planned"))
+    };
+    let figures =
+        Figures { clearance: report.clearance, closest: report.closest.clone(), duration: report.duration, ..figures };
+    let reason = report.reason.clone();
+    Ok(AnswerReply { reason, figures, view: drawn(&view), ..judged(plan.status()) })
+}

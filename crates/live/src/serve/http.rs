@@ -1,0 +1,157 @@
+//! The server: one page, its parts, and its WebSocket; nothing else, and to nobody who was led here by another page.
+
+use super::{Server, socket};
+use axum::Router;
+use axum::extract::{Request, State, WebSocketUpgrade};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
+use axum::middleware::{self, Next};
+use axum::response::{Html, IntoResponse, Response};
+use axum::routing::get;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::service::TowerToHyperService;
+use std::net::{IpAddr, SocketAddr};
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::net::TcpListener;
+use tokio::sync::Semaphore;
+
+/// Connections at a time. A browser opens some six.
+const MOST_CONNECTIONS: usize = 32;
+
+/// Time that a client has to send the head of a request.
+const HEAD_TIME: Duration = Duration::from_secs(10);
+
+/// Time that a connection lives, but for WebSockets, which have times of their own. A browser opens another one. Without it
+/// clients that ask and never read would keep all others out.
+const LIFE: Duration = Duration::from_secs(10);
+
+/// Bytes of the head of a request.
+const LARGEST_HEAD: usize = 16 << 10;
+
+/// Headers of every response. The page is one file, the same for every world (what it shows comes by the WebSocket, and is
+/// never taken for HTML), so its own scripts and styles may stand in it; nothing comes from anywhere else.
+const HEADERS: [(HeaderName, &str); 6] = [
+    (
+        header::CONTENT_SECURITY_POLICY,
+        "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src blob: data:; \
+         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    ),
+    (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+    (header::REFERRER_POLICY, "no-referrer"),
+    (header::CACHE_CONTROL, "no-store"),
+    (HeaderName::from_static("cross-origin-opener-policy"), "same-origin"),
+    (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+];
+
+/// Serves until the process ends.
+pub async fn serve(listener: TcpListener, server: Arc<Server>) {
+    let page = Arc::<str>::from(crate::page());
+    let router = Router::new()
+        .route("/", get(async move || Html(page.to_string())))
+        .route("/live", get(upgrade))
+        .layer(middleware::from_fn_with_state(Arc::clone(&server), guarded))
+        .with_state(server);
+    let room = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    loop {
+        // A permit is never refused: the semaphore is never closed.
+        let Ok(permit) = Arc::clone(&room).acquire_owned().await else { return };
+        let stream = match listener.accept().await {
+            Ok((stream, _)) => stream,
+            Err(_) => {
+                // Too many open files, or a client that is gone already.
+                tokio::time::sleep(Duration::from_millis(50)).await;
+                continue;
+            }
+        };
+        // Small messages to and fro: nothing is gained by waiting for more.
+        let _ = stream.set_nodelay(true);
+        let service = TowerToHyperService::new(router.clone());
+        tokio::spawn(async move {
+            let mut http = hyper::server::conn::http1::Builder::new();
+            http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIME).max_buf_size(LARGEST_HEAD);
+            // What a client does wrong is its own affair.
+            let _ =
+                tokio::time::timeout(LIFE, http.serve_connection(TokioIo::new(stream), service).with_upgrades()).await;
+            drop(permit);
+        });
+    }
+}
+
+/// Refuses what no page of ours asks for, and puts [`HEADERS`] on everything.
+async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
+    let mut response = match refusal(&server, request.headers()) {
+        Some((status, why)) => (status, why).into_response(),
+        None => next.run(request).await,
+    };
+    for (name, value) in HEADERS {
+        response.headers_mut().insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+/// Why a request is refused, if it is.
+fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static str)> {
+    let named = headers.get(header::HOST).and_then(|value| value.to_str().ok());
+    if !named.is_some_and(|named| is_ours(named, server.address)) {
+        return Some((StatusCode::MISDIRECTED_REQUEST, "this server goes by its address alone\n"));
+    }
+    // Only WebSockets and requests of other pages have one.
+    if let Some(origin) = headers.get(header::ORIGIN)
+        && origin.to_str().ok().and_then(|origin| origin.strip_prefix("http://")) != named
+    {
+        return Some((StatusCode::FORBIDDEN, "this server answers its own page alone\n"));
+    }
+    let has_body = headers.get(header::CONTENT_LENGTH).is_some_and(|length| length != "0")
+        || headers.contains_key(header::TRANSFER_ENCODING);
+    has_body.then_some((StatusCode::PAYLOAD_TOO_LARGE, "no request to this server has a body\n"))
+}
+
+/// Whether a Host header names this server by an address, or `localhost`. A name that a stranger's DNS server resolves to
+/// this machine (DNS rebinding) is none of ours.
+fn is_ours(named: &str, here: SocketAddr) -> bool {
+    let (name, port) = match named.rsplit_once(':') {
+        Some((name, port)) if !port.ends_with(']') => (name, port.parse().ok()),
+        _ => (named, Some(80)),
+    };
+    let bare = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')).unwrap_or(name);
+    let address = bare.parse::<IpAddr>().ok();
+    let known = match address {
+        Some(address) => !here.ip().is_loopback() || address.is_loopback(),
+        None => name.eq_ignore_ascii_case("localhost"),
+    };
+    known && port == Some(here.port())
+}
+
+/// The WebSocket. Browsers always say where they come from, so who does not is none of ours.
+async fn upgrade(State(server): State<Arc<Server>>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
+    if !headers.contains_key(header::ORIGIN) {
+        return (StatusCode::FORBIDDEN, "this server answers its own page alone\n").into_response();
+    }
+    let Ok(permit) = Arc::clone(&server.sessions).try_acquire_owned() else {
+        return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open\n").into_response();
+    };
+    upgrade
+        .max_message_size(socket::LARGEST_MESSAGE)
+        .max_frame_size(socket::LARGEST_MESSAGE)
+        .on_upgrade(move |socket| socket::session(socket, Arc::clone(&server.host), permit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_addresses_name_the_server() {
+        let local: SocketAddr = "127.0.0.1:7878".parse().unwrap();
+        for name in ["127.0.0.1:7878", "localhost:7878", "LOCALHOST:7878", "[::1]:7878"] {
+            assert!(is_ours(name, local), "{name}");
+        }
+        for name in
+            ["evil.example:7878", "127.0.0.1", "127.0.0.1:80", "192.168.0.7:7878", "localhost.evil.example:7878", ""]
+        {
+            assert!(!is_ours(name, local), "{name}");
+        }
+        let open: SocketAddr = "0.0.0.0:80".parse().unwrap();
+        assert!(is_ours("192.168.0.7", open) && is_ours("[fe80::1]", open) && !is_ours("evil.example", open));
+    }
+}

@@ -1,0 +1,140 @@
+//! What a page has asked and its worker has not done yet: the latest counts.
+
+use crate::Request;
+use cplan_interrupt::Interrupt;
+use std::collections::VecDeque;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+/// Requests that may wait at a time; of plans only the latest waits.
+const MOST_WAITING: usize = 8;
+
+/// Between the connection that puts requests in and the worker that takes them out.
+#[derive(Default)]
+pub struct Mailbox {
+    inside: Mutex<Inside>,
+    bell: Condvar,
+}
+
+#[derive(Default)]
+struct Inside {
+    waiting: VecDeque<Request>,
+    /// Of the request that is being worked on.
+    running: Option<Interrupt>,
+    closed: bool,
+}
+
+impl Mailbox {
+    fn inside(&self) -> MutexGuard<'_, Inside> {
+        // A panic while it is held leaves nothing half done.
+        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Puts a request in: plans that wait are dropped for a newer one, and what is being worked on is stopped. Whether there
+    /// was room.
+    pub fn post(&self, request: Request) -> bool {
+        let mut inside = self.inside();
+        if matches!(request, Request::Plan(_)) {
+            inside.waiting.retain(|waiting| !matches!(waiting, Request::Plan(_)));
+        }
+        if inside.waiting.len() >= MOST_WAITING {
+            return false;
+        }
+        inside.waiting.push_back(request);
+        if let Some(running) = &inside.running {
+            running.set();
+        }
+        self.bell.notify_one();
+        true
+    }
+
+    /// Waits for the next request, and says how it will be stopped; none once the box is closed.
+    pub fn take(&self) -> Option<(Request, Interrupt)> {
+        let mut inside = self.inside();
+        inside.running = None;
+        loop {
+            if inside.closed {
+                return None;
+            }
+            if let Some(request) = inside.waiting.pop_front() {
+                let interrupt = Interrupt::new();
+                // What waits behind it is newer.
+                if !inside.waiting.is_empty() {
+                    interrupt.set();
+                }
+                inside.running = Some(interrupt.clone());
+                return Some((request, interrupt));
+            }
+            inside = self.bell.wait(inside).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Ends it: what is being worked on is stopped, what waits is forgotten.
+    pub fn close(&self) {
+        let mut inside = self.inside();
+        inside.closed = true;
+        if let Some(running) = &inside.running {
+            running.set();
+        }
+        self.bell.notify_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Ask;
+
+    fn ask(id: u64) -> Ask {
+        Ask { id, base: 1, is_final: false, state: None, options: "visibility".into(), think: false }
+    }
+
+    fn load(id: u64) -> Request {
+        Request::Load { id, text: String::new(), options: "visibility".into() }
+    }
+
+    #[test]
+    fn of_plans_that_wait_the_latest_counts() {
+        let mailbox = Mailbox::default();
+        for id in 1..=100 {
+            assert!(mailbox.post(Request::Plan(ask(id))));
+        }
+        let (request, interrupt) = mailbox.take().unwrap();
+        assert_eq!((request.id(), interrupt.why()), (100, None));
+    }
+
+    #[test]
+    fn a_newer_request_stops_the_one_that_runs() {
+        let mailbox = Mailbox::default();
+        mailbox.post(Request::Plan(ask(1)));
+        let (_, running) = mailbox.take().unwrap();
+        assert!(running.why().is_none());
+        mailbox.post(Request::Plan(ask(2)));
+        assert!(running.why().is_some());
+        assert!(mailbox.take().unwrap().1.why().is_none());
+    }
+
+    #[test]
+    fn nothing_but_plans_is_dropped_and_room_is_limited() {
+        let mailbox = Mailbox::default();
+        mailbox.post(Request::Plan(ask(1)));
+        mailbox.post(load(2));
+        mailbox.post(Request::Plan(ask(3)));
+        let (request, interrupt) = mailbox.take().unwrap();
+        assert_eq!(request, load(2));
+        assert!(interrupt.why().is_some(), "its plan will not be seen");
+        assert_eq!(mailbox.take().unwrap().0.id(), 3);
+        assert!((0..8).all(|id| mailbox.post(load(id))));
+        assert!(!mailbox.post(load(9)));
+    }
+
+    #[test]
+    fn closing_stops_and_ends() {
+        let mailbox = Mailbox::default();
+        mailbox.post(Request::Plan(ask(1)));
+        let (_, running) = mailbox.take().unwrap();
+        mailbox.post(load(2));
+        mailbox.close();
+        assert!(running.why().is_some());
+        assert!(mailbox.take().is_none());
+    }
+}

@@ -1,0 +1,130 @@
+//! One open page: its WebSocket, and the worker that plans for it.
+
+use super::mailbox::Mailbox;
+use crate::{Desk, Host, Reply, Request, Spent};
+use axum::body::Bytes;
+use axum::extract::ws::{Message, Utf8Bytes, WebSocket};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+use tokio::sync::{OwnedSemaphorePermit, mpsc};
+use tokio::time::{Instant, MissedTickBehavior, interval, timeout};
+
+/// Bytes of the largest message that a page may send: a world of a megabyte.
+pub const LARGEST_MESSAGE: usize = 1 << 20;
+
+/// Messages to the page that may wait before the worker does.
+const WAITING: usize = 4;
+
+/// Time that the page has to take a message.
+const SEND_TIME: Duration = Duration::from_secs(20);
+
+/// How often a page is asked whether it is still there.
+const PING: Duration = Duration::from_secs(20);
+
+/// A page that has said nothing for so long is gone.
+const SILENCE: Duration = Duration::from_secs(70);
+
+/// Stack of a worker: as much as the main thread has.
+const STACK: usize = 8 << 20;
+
+/// Serves one page until it is closed. The permit is its place among those that may be open.
+pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaphorePermit) {
+    let mailbox = Arc::new(Mailbox::default());
+    let (send, mut replies) = mpsc::channel(WAITING);
+    let worker = {
+        let mailbox = Arc::clone(&mailbox);
+        thread::Builder::new().name("planner".into()).stack_size(STACK).spawn(move || {
+            work(&mailbox, host, &send);
+            // The next page may come when the work is over, not when the connection is.
+            drop(permit);
+        })
+    };
+    if worker.is_err() {
+        return;
+    }
+    let mut ping = interval(PING);
+    ping.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    let mut heard = Instant::now();
+    loop {
+        tokio::select! {
+            message = socket.recv() => {
+                heard = Instant::now();
+                let request = match message {
+                    Some(Ok(Message::Text(text))) => serde_json::from_str::<Request>(&text),
+                    Some(Ok(Message::Ping(_) | Message::Pong(_))) => continue,
+                    _ => break,
+                };
+                let wrong = match request {
+                    Ok(request) => (!mailbox.post(request)).then(|| "too many requests wait".to_owned()),
+                    Err(error) => Some(format!("no request: {error}")),
+                };
+                if let Some(error) = wrong && !tell(&mut socket, failed(0, error)).await {
+                    break;
+                }
+            }
+            reply = replies.recv() => {
+                let Some(message) = reply else { break };
+                if !tell(&mut socket, message).await {
+                    break;
+                }
+            }
+            _ = ping.tick() => {
+                if heard.elapsed() > SILENCE || !tell(&mut socket, Message::Ping(Bytes::new())).await {
+                    break;
+                }
+            }
+        }
+    }
+    mailbox.close();
+}
+
+/// Whether the page took it.
+async fn tell(socket: &mut WebSocket, message: Message) -> bool {
+    matches!(timeout(SEND_TIME, socket.send(message)).await, Ok(Ok(())))
+}
+
+/// A message as the socket carries it.
+fn carried(message: crate::Message) -> Message {
+    match message {
+        crate::Message::Text(text) => Message::Text(Utf8Bytes::from(text)),
+        crate::Message::Binary(bytes) => Message::Binary(bytes.into()),
+    }
+}
+
+fn failed(id: u64, error: String) -> Message {
+    carried(crate::Message::from(&Reply::Failed { id, error }))
+}
+
+/// Does what the page asks, one thing after the other, until its mailbox is closed.
+fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
+    // A page that is gone closes the mailbox, too.
+    let tell = |message: Message| drop(send.blocking_send(message));
+    let mut desk = Desk::new(host);
+    while let Some((request, interrupt)) = mailbox.take() {
+        let work = || desk.take(&request, &interrupt, Spent::Nothing, &mut |message| tell(carried(message)));
+        if let Some(message) = guarded(request.id(), work) {
+            tell(message);
+        }
+    }
+}
+
+/// What to tell the page if the work panics. A desk changes nothing before all that can fail is done, so that it goes on
+/// with what it had.
+fn guarded(id: u64, work: impl FnOnce()) -> Option<Message> {
+    let error = || "the planner failed on this world: that is an error of cplan's, and the page goes on".to_owned();
+    catch_unwind(AssertUnwindSafe(work)).is_err().then(|| failed(id, error()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_told_and_ends_nothing() {
+        let told = guarded(7, || std::panic::resume_unwind(Box::new("as a panic does")));
+        assert!(matches!(told, Some(Message::Text(text)) if text.starts_with(r#"{"kind":"failed","id":7,"#)));
+        assert!(guarded(8, || ()).is_none());
+    }
+}

@@ -1,0 +1,308 @@
+//! Words for fields.
+
+use super::names::word;
+use super::number::{finite, positive};
+use clap::{Args, ValueEnum};
+use cplan_core::planner::PathKind;
+use cplan_engine::Method;
+use cplan_fields::{
+    Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
+};
+use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
+
+/// Equations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FieldName {
+    /// Laplace's equation.
+    Harmonic,
+    /// A drift in one direction everywhere: --epsilon, --direction.
+    Oriented,
+    /// The drift of each [[preference]] region of the world within it.
+    Local,
+    /// The epsilon of each [[preference]] region, along the slope of the harmonic field.
+    Bvp,
+    /// The same along the field's own slope.
+    Bvp2,
+    /// Attraction by the goal, repulsion by the nearest obstacle or by all; may end in a local minimum, and says so.
+    Khatib,
+}
+
+/// Relaxations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum RelaxationName {
+    /// All cells at once.
+    Jacobi,
+    /// All cells at once, by a --factor of less than 1.
+    WeightedJacobi,
+    /// One cell after the other.
+    GaussSeidel,
+    /// One cell after the other, by a --factor of more than 1 or the one of the formula.
+    Sor,
+}
+
+/// Orders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum OrderName {
+    /// Line by line, joint 2 fastest.
+    Rows,
+    /// Line by line, joint 1 fastest.
+    Columns,
+    /// Line by line from the four corners in turn.
+    Corners,
+    /// Like the squares of a chessboard.
+    RedBlack,
+}
+
+impl From<OrderName> for Order {
+    fn from(name: OrderName) -> Self {
+        match name {
+            OrderName::Rows => Self::Lines(Scan::ROWS),
+            OrderName::Columns => Self::Lines(Scan { lines: Lines::Columns, ..Scan::ROWS }),
+            OrderName::Corners => Self::Corners(Lines::Rows),
+            OrderName::RedBlack => Self::RedBlack,
+        }
+    }
+}
+
+/// The field of the harmonic planner.
+#[derive(Debug, Clone, Default, PartialEq, Args)]
+#[command(next_help_heading = "Fields (planner harmonic)")]
+pub struct FieldArgs {
+    /// Equation of the field, such as --field oriented --epsilon 0.5 --direction 0,-1.
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub field: Option<FieldName>,
+    /// Strength of the drift, per grid cell: everywhere (oriented), or outside the world's [[preference]] regions (bvp,
+    /// bvp2; default 0).
+    #[arg(long, value_name = "E", value_parser = finite, allow_hyphen_values = true)]
+    pub epsilon: Option<f64>,
+    /// Direction of the drift in joint space, such as 0,-1: of oriented, or of local for regions without one.
+    #[arg(long, value_name = "v1,v2", value_parser = direction, allow_hyphen_values = true)]
+    pub direction: Option<Direction>,
+    /// How slopes are discretised (oriented, local, bvp) [default: central].
+    #[arg(long, value_parser = word::<Difference>(), value_name = "NAME")]
+    pub difference: Option<Difference>,
+    /// How the equation is relaxed, such as --relaxation sor --order corners [default, if the field is not the plain
+    /// harmonic one: gauss-seidel].
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub relaxation: Option<RelaxationName>,
+    /// In which order cells go (gauss-seidel, sor) [default: corners, on a GPU red-black].
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub order: Option<OrderName>,
+    /// How far cells go (weighted-jacobi, sor) [default of sor: the best one for Laplace's equation in an empty
+    /// rectangle].
+    #[arg(long, value_name = "W", value_parser = positive, allow_hyphen_values = true)]
+    pub factor: Option<f64>,
+    /// What lies beyond joint limits [default: high].
+    #[arg(long, value_parser = word::<Limits>(), value_name = "NAME")]
+    pub limits: Option<Limits>,
+    /// Relax until no value changes by more than this part of itself in a sweep [default: 1e-6].
+    #[arg(long, value_name = "SHARE", value_parser = positive, allow_hyphen_values = true)]
+    pub tolerance: Option<f64>,
+    /// At most so many sweeps [default: 10000].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_sweeps: Option<u32>,
+    /// What the field is relaxed on [default: cpu].
+    #[arg(long, value_parser = word::<Device>(), value_name = "DEVICE")]
+    pub on: Option<Device>,
+    /// Pull of the goal (khatib): constant:C, or linear:K for K times the distance [default: linear:1].
+    #[arg(long, value_name = "LAW", value_parser = attraction)]
+    pub attraction: Option<Attraction>,
+    /// Push at a distance p (khatib). Of the nearest obstacle: ranged:K,P0 for the potential K/2 (1/p - 1/P0)^2 within P0,
+    /// or inverse-square:Q for the force Q/p^2; of all obstacle cells together: sum:Q for the force Q/p^2 of each, p in
+    /// cells [default: ranged:0.01,0.5].
+    #[arg(long, value_name = "LAW", value_parser = repulsion)]
+    pub repulsion: Option<Repulsion>,
+    /// Let each component of pull and push go through tanh (khatib).
+    #[arg(long)]
+    pub saturated: bool,
+}
+
+/// Sweeps before the answer is what there is.
+const MAX_SWEEPS: u32 = 10_000;
+/// Relative change: leaves directions of ascent as they are, but for cells where two are practically equal.
+const TOLERANCE: f64 = 1e-6;
+
+impl FieldArgs {
+    /// The planner that follows the field; none where nothing but the default is asked for.
+    ///
+    /// # Errors
+    /// Options that contradict each other or the planner, in words.
+    pub fn planner(&self, method: Method) -> Result<Option<FieldPlanner>, String> {
+        let given = self.given();
+        let Some(first) = given.first() else { return Ok(None) };
+        if method != Method::Harmonic {
+            return Err(format!("{first} needs --planner harmonic: {method} follows no such field"));
+        }
+        let name = self.field.unwrap_or(FieldName::Harmonic);
+        for option in &given {
+            if let Some(fields) = needed_field(option)
+                && !fields.contains(&name)
+            {
+                return Err(format!("{option} is for --field {}", listed(fields)));
+            }
+        }
+        let is_plain = |option: &&str| *option == "--field" || (*option == "--on" && self.device().is_cpu());
+        if given.iter().all(is_plain) && name == FieldName::Harmonic {
+            return Ok(None);
+        }
+        let field = match name {
+            FieldName::Khatib => FieldChoice::Khatib(Khatib {
+                attraction: self.attraction.unwrap_or(Attraction::Linear(1.0)),
+                repulsion: self.repulsion.unwrap_or(Repulsion::Ranged { gain: 0.01, range: 0.5 }),
+                saturated: self.saturated,
+            }),
+            name => FieldChoice::Relaxed {
+                equation: self.equation(name)?,
+                relaxation: self.relaxation()?,
+                tolerance: self.tolerance.unwrap_or(TOLERANCE),
+                max_sweeps: self.max_sweeps.unwrap_or(MAX_SWEEPS) as usize,
+                on: self.device(),
+            },
+        };
+        let limits = self.limits.unwrap_or_default();
+        Ok(Some(FieldPlanner { field, limits, path: PathKind::Own }))
+    }
+
+    /// What the field is relaxed on.
+    fn device(&self) -> Device {
+        self.on.map_or(Device::Cpu, Device::from)
+    }
+
+    /// Why what it is relaxed on cannot be had, if it cannot, with the cure.
+    pub fn missing(&self) -> Option<String> {
+        self.device().adapter().err().map(|reason| format!("--on gpu: {reason}"))
+    }
+
+    /// The options that were given, in the order of the help.
+    fn given(&self) -> Vec<&'static str> {
+        let options = [
+            ("--field", self.field.is_some()),
+            ("--epsilon", self.epsilon.is_some()),
+            ("--direction", self.direction.is_some()),
+            ("--difference", self.difference.is_some()),
+            ("--relaxation", self.relaxation.is_some()),
+            ("--order", self.order.is_some()),
+            ("--factor", self.factor.is_some()),
+            ("--limits", self.limits.is_some()),
+            ("--tolerance", self.tolerance.is_some()),
+            ("--max-sweeps", self.max_sweeps.is_some()),
+            ("--on", self.on.is_some()),
+            ("--attraction", self.attraction.is_some()),
+            ("--repulsion", self.repulsion.is_some()),
+            ("--saturated", self.saturated),
+        ];
+        options.into_iter().filter(|option| option.1).map(|option| option.0).collect()
+    }
+
+    fn equation(&self, name: FieldName) -> Result<EquationChoice, String> {
+        let difference = self.difference.unwrap_or_default();
+        let elsewhere = self.epsilon.unwrap_or(0.0);
+        Ok(match name {
+            FieldName::Local => EquationChoice::LocallyOriented { direction: self.direction, difference },
+            FieldName::Bvp => EquationChoice::Preference { elsewhere, difference },
+            FieldName::Bvp2 => EquationChoice::AlteredPreference { elsewhere },
+            FieldName::Oriented => match (self.direction, self.epsilon) {
+                (Some(direction), Some(epsilon)) => EquationChoice::Oriented { direction, epsilon, difference },
+                _ => return Err("--field oriented needs --epsilon and --direction, such as 0.5 and 0,-1".into()),
+            },
+            FieldName::Harmonic | FieldName::Khatib => EquationChoice::Harmonic,
+        })
+    }
+
+    fn relaxation(&self) -> Result<Relaxation, String> {
+        let name = self.relaxation.unwrap_or(RelaxationName::GaussSeidel);
+        let usual = if self.device().is_cpu() { OrderName::Corners } else { OrderName::RedBlack };
+        let order = self.order.unwrap_or(usual);
+        if !self.device().is_cpu() && order != OrderName::RedBlack {
+            return Err("--on gpu takes cells red-black: other orders are for --on cpu".into());
+        }
+        let order = order.into();
+        let jacobi = matches!(name, RelaxationName::Jacobi | RelaxationName::WeightedJacobi);
+        if jacobi && self.order.is_some() {
+            return Err("--order is for --relaxation gauss-seidel and sor: with Jacobi's all cells go at once".into());
+        }
+        match (name, self.factor) {
+            (RelaxationName::Jacobi, None) => Ok(Relaxation::JACOBI),
+            (RelaxationName::Jacobi, Some(_)) => Err("--factor is for --relaxation weighted-jacobi and sor".into()),
+            (RelaxationName::WeightedJacobi, Some(factor)) => Ok(Relaxation::weighted_jacobi(factor)),
+            (RelaxationName::WeightedJacobi, None) => {
+                Err("--relaxation weighted-jacobi needs --factor, such as 0.8".into())
+            }
+            (RelaxationName::GaussSeidel, None) => Ok(Relaxation::gauss_seidel(order)),
+            (RelaxationName::GaussSeidel, Some(_)) => {
+                Err("--factor is for --relaxation weighted-jacobi and sor: Gauss-Seidel is sor with 1".into())
+            }
+            (RelaxationName::Sor, Some(factor)) => Ok(Relaxation::sor(Factor::Given(factor), order)),
+            (RelaxationName::Sor, None) => Ok(Relaxation::sor(Factor::Formula, order)),
+        }
+    }
+}
+
+/// The fields that an option is for, if not for all.
+fn needed_field(option: &str) -> Option<&'static [FieldName]> {
+    use FieldName::{Bvp, Bvp2, Harmonic, Khatib, Local, Oriented};
+    match option {
+        "--epsilon" => Some(&[Oriented, Bvp, Bvp2]),
+        "--direction" => Some(&[Oriented, Local]),
+        "--difference" => Some(&[Oriented, Local, Bvp]),
+        "--relaxation" | "--order" | "--factor" | "--tolerance" | "--max-sweeps" | "--on" => {
+            Some(&[Harmonic, Oriented, Local, Bvp, Bvp2])
+        }
+        "--attraction" | "--repulsion" | "--saturated" => Some(&[Khatib]),
+        _ => None,
+    }
+}
+
+/// `oriented, bvp or bvp2`.
+fn listed(fields: &[FieldName]) -> String {
+    let names: Vec<_> =
+        fields.iter().filter_map(ValueEnum::to_possible_value).map(|v| v.get_name().to_owned()).collect();
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
+
+/// Numbers that commas separate.
+fn numbers(text: &str) -> Vec<f64> {
+    text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect()
+}
+
+/// A direction in joint space.
+///
+/// # Errors
+/// Not two numbers, or both 0.
+pub fn direction(text: &str) -> Result<Direction, String> {
+    let vector = match numbers(text)[..] {
+        [a, b] => Direction::of([a, b]),
+        _ => None,
+    };
+    vector.ok_or_else(|| "must be two numbers that are not both 0, such as 0,-1".into())
+}
+
+/// A law's name and its constants, all positive.
+fn law(text: &str) -> Option<(&str, Vec<f64>)> {
+    let (name, constants) = text.split_once(':')?;
+    let constants = numbers(constants);
+    constants.iter().all(|c| c.is_finite() && *c > 0.0).then_some((name, constants))
+}
+
+fn attraction(text: &str) -> Result<Attraction, String> {
+    match law(text).as_ref().map(|(name, constants)| (*name, &constants[..])) {
+        Some(("constant", [c])) => Ok(Attraction::Constant(*c)),
+        Some(("linear", [k])) => Ok(Attraction::Linear(*k)),
+        _ => Err("must be constant:C or linear:K with a positive number, such as linear:1".into()),
+    }
+}
+
+fn repulsion(text: &str) -> Result<Repulsion, String> {
+    match law(text).as_ref().map(|(name, constants)| (*name, &constants[..])) {
+        Some(("ranged", [gain, range])) => Ok(Repulsion::Ranged { gain: *gain, range: *range }),
+        Some(("inverse-square", [charge])) => Ok(Repulsion::InverseSquare(*charge)),
+        Some(("sum", [charge])) => Ok(Repulsion::Sum(*charge)),
+        _ => {
+            Err("must be ranged:K,P0, inverse-square:Q or sum:Q with positive numbers, such as ranged:0.01,0.5".into())
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! What planners and motions can be told, in words: one grammar for the command line, `compare --with` and the live page.
+
+mod field;
+mod motion;
+mod names;
+mod number;
+mod planner;
+mod roadmap;
+
+pub use field::{OrderName, direction};
+pub use motion::MotionArgs;
+pub use names::{Named, word};
+pub use number::{finite, number_in, positive};
+pub use planner::{EffortArgs, PlannerArgs, PlannerWords};

@@ -1,0 +1,176 @@
+//! Planners, paths, searches and what else has names, so that help and shells can list them.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use cplan_core::planner::{GridSearch, PathKind};
+use cplan_engine::{GridSpace, Method, NamedJoints};
+use cplan_fields::{Device, Difference, Limits, Measure};
+use cplan_motion::Objective;
+use std::ffi::OsStr;
+use std::marker::PhantomData;
+
+/// A type whose values have words on the command line.
+pub trait Named: Copy + Send + Sync + 'static {
+    /// All values, in the order of the help.
+    const VALUES: &'static [Self];
+
+    /// Returns its word.
+    fn word(self) -> &'static str;
+
+    /// Returns what the help says about it; may be empty.
+    fn help(self) -> &'static str;
+}
+
+/// Parses one of the words of `T`; help and shells list them.
+#[derive(Debug)]
+pub struct WordParser<T>(PhantomData<T>);
+
+impl<T> Clone for WordParser<T> {
+    fn clone(&self) -> Self {
+        Self(PhantomData)
+    }
+}
+
+/// Returns the parser of the words of `T`.
+pub fn word<T: Named>() -> WordParser<T> {
+    WordParser(PhantomData)
+}
+
+impl<T: Named> TypedValueParser for WordParser<T> {
+    type Value = T;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Self::Value, clap::Error> {
+        let known = PossibleValuesParser::new(T::VALUES.iter().copied().map(possible));
+        let word = known.parse_ref(command, argument, value)?;
+        Ok(T::VALUES.iter().copied().find(|value| value.word() == word).expect("the word is one of its values"))
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(T::VALUES.iter().copied().map(possible)))
+    }
+}
+
+fn possible<T: Named>(value: T) -> PossibleValue {
+    let possible = PossibleValue::new(value.word());
+    if value.help().is_empty() { possible } else { possible.help(value.help()) }
+}
+
+impl Named for Method {
+    const VALUES: &'static [Self] = &Method::ALL;
+
+    fn word(self) -> &'static str {
+        self.name()
+    }
+
+    fn help(self) -> &'static str {
+        match self {
+            Method::Shortest => {
+                "The shortest path, from exact slices, with a proven bound on the optimum; or a proof that there is none"
+            }
+            Method::First => {
+                "The first certified path that is found, or a proof that there is none: the quickest answer"
+            }
+            Method::Visibility => "Visibility graph: the shortest path, with a proven bound on the optimum",
+            Method::Trapezoid => "Trapezoidal decomposition: a channel of cells, and the funnel path through it",
+            Method::Triangles => "Triangles of free space: a channel of them, and the funnel path through it",
+            Method::Voronoi => {
+                "Voronoi diagram: the way whose least distance from obstacles, in joint space, is the greatest"
+            }
+            Method::Prm => "Probabilistic roadmap: random configurations, each joined to the nearest that it sees",
+            Method::Wavefront => "Manhattan wavefront on a grid",
+            Method::Harmonic => "Harmonic potential on a grid",
+            Method::Subdivision => "Subdivision into boxes: a path with room around it, or a proof that there is none",
+        }
+    }
+}
+
+impl Named for PathKind {
+    const VALUES: &'static [Self] = &PathKind::ALL;
+
+    fn word(self) -> &'static str {
+        self.name()
+    }
+
+    fn help(self) -> &'static str {
+        match self {
+            PathKind::Own => "As the planner's method has it",
+            PathKind::Taut => "Pulled taut: shorter, nearer to obstacles",
+        }
+    }
+}
+
+impl Named for GridSearch {
+    const VALUES: &'static [Self] = &GridSearch::ALL;
+
+    fn word(self) -> &'static str {
+        self.name()
+    }
+
+    fn help(self) -> &'static str {
+        match self {
+            GridSearch::Wave => "Of grids: labels all cells from the goal: fewest moves",
+            GridSearch::BreadthFirst => "Breadth first, until the other end is met: fewest moves or edges",
+            GridSearch::DepthFirst => "Depth first, until the other end is met: some path",
+            GridSearch::Dijkstra => {
+                "Least cost first: lengths, or on grids moves, where a diagonal one counts for 1.414"
+            }
+            GridSearch::AStar => "The same cost, led by the distance to the other end",
+            GridSearch::Greedy => "Nearest to the other end first: some path, found soon",
+        }
+    }
+}
+
+impl Named for GridSpace {
+    const VALUES: &'static [Self] = &GridSpace::ALL;
+
+    fn word(self) -> &'static str {
+        self.name()
+    }
+
+    fn help(self) -> &'static str {
+        match self {
+            GridSpace::Rows => "By exact slices: cells that are wholly free first, then cells whose centres are",
+            GridSpace::Sampled => "By parry2d's collision checks at the cells' centres",
+        }
+    }
+}
+
+/// Names of the variants of types that have no others, and help that may be empty.
+macro_rules! named {
+    ($of:ty: $($variant:ident $name:literal $help:literal),+) => {
+        impl Named for $of {
+            const VALUES: &'static [Self] = &[$(Self::$variant),+];
+
+            fn word(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name),+
+                }
+            }
+
+            fn help(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $help),+
+                }
+            }
+        }
+    };
+}
+
+named!(Difference: Central "central" "Monotone for an epsilon of less than 2 only", Upwind "upwind" "Monotone for every epsilon");
+
+named!(Device: Cpu "cpu" "In double precision",
+    Gpu "gpu" "In single precision, cells red-black or all at once; needs a program with the feature gpu");
+
+named!(Limits: High "high" "Obstacles", Reflecting "reflecting" "Mirrors: they neither attract nor repel");
+
+named!(Measure: GreatestRelativeChange "relative" "Greatest change as a part of the value", GreatestChange "greatest" "Greatest change",
+    SumOfChange "sum" "Sum of changes", SumOfSquares "squares" "Sum of squared changes",
+    DifferenceOfSums "sums" "Difference between the sum of changes and that of the sweep before");
+
+named!(NamedJoints: All "all" "Every movable joint of the robot", Planned "planned" "The two that are planned for");
+
+named!(Objective: Length "length" "The length of the path", Time "time" "The time of the motion");

@@ -1,0 +1,248 @@
+//! A planner and its options.
+
+use super::field::FieldArgs;
+use super::names::word;
+use super::number::number_in;
+use super::roadmap::RoadmapArgs;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, ValueEnum};
+use cplan_core::planner::{GridSearch, PathKind};
+use cplan_core::waves::Neighborhood;
+use cplan_engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
+use cplan_fields::FieldPlanner;
+use std::ops::RangeInclusive;
+
+/// How hard to try, for any planner.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Resolution")]
+pub struct EffortArgs {
+    /// First number of grid cells along each axis, from 8 to 2048, or two such as 128x512, for the joints in turn; doubled up to
+    /// 2048 where needed [default: 256; of fields as many, but square in joint space, where a radian is as long as a metre].
+    #[arg(long, value_name = "N|AxB", allow_hyphen_values = true)]
+    pub cells: Option<CellCounts>,
+    /// First margin of the polygons, as a share of the arm's reach; quartered where needed [default: 0.001].
+    #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
+    pub margin: Option<f64>,
+    /// Attempts, each finer than the one before [default: 6].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(whole(&LEVELS)))]
+    pub levels: Option<u8>,
+}
+
+impl EffortArgs {
+    /// A planner with what of these options is its.
+    pub fn put_into(&self, planner: Planner) -> Planner {
+        let planner = self.margin.map_or(planner, |share| planner.with_margin(share));
+        self.cells.map_or(planner, |counts| planner.with_cell_counts(counts))
+    }
+
+    /// Attempts.
+    pub fn levels(&self) -> usize {
+        self.levels.map_or(Options::default().levels, usize::from)
+    }
+}
+
+/// What makes a path short.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MetricName {
+    /// Square root of the sum of squares, radians and metres as they come.
+    Euclidean,
+    /// The same with the joints' values multiplied by --weights.
+    Weighted,
+    /// Seconds at the joints' top speeds.
+    Time,
+}
+
+/// What to optimise, and how well.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Shortest paths (planners shortest and visibility)")]
+pub struct OptimumArgs {
+    /// What makes a path short.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = MetricName::Euclidean)]
+    pub metric: MetricName,
+    /// Weights of the joints, such as 1,0.5, for --metric weighted.
+    #[arg(long, value_name = "w1,w2", value_parser = weights, required_if_eq("metric", "weighted"), allow_hyphen_values = true)]
+    pub weights: Option<Weights>,
+    /// Refine until the path is proven to be longer than the optimum by no more than this share of it, such as 0.001; a larger
+    /// one leaves room in which motions are faster [default of shortest: 0.0001].
+    #[arg(long, value_name = "SHARE", value_parser = gap, allow_hyphen_values = true)]
+    pub gap: Option<f64>,
+}
+
+/// Two positive numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weights(pub [f64; 2]);
+
+/// Which path, and how a grid is searched.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Paths and grids")]
+pub struct PathArgs {
+    /// Which path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of a
+    /// decomposition's doors and cells, the arcs of the Voronoi diagram), or that one pulled taut within the planner's cells
+    /// [default: own for harmonic and voronoi, taut for the others].
+    #[arg(long, value_parser = word::<PathKind>(), value_name = "KIND")]
+    pub path: Option<PathKind>,
+    /// How the grid is searched, from the goal (planner wavefront), or the roadmap, from the start unless it is --backward
+    /// (planners visibility, trapezoid, triangles, voronoi, prm), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the others]
+    #[arg(long, value_parser = word::<GridSearch>(), value_name = "NAME")]
+    pub search: Option<GridSearch>,
+    /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
+    /// (planner wavefront). wave and bfs count moves; dijkstra and astar take a diagonal one for 1.414. [default: 4]
+    #[arg(long, value_name = "N", value_parser = neighbors())]
+    pub neighbors: Option<Neighborhood>,
+    /// How the grid's cells are decided (planners wavefront, harmonic): by exact slices, or by sampled collision checks, which
+    /// prove nothing. Paths are certified either way. [default: rows]
+    #[arg(long, value_parser = word::<GridSpace>(), value_name = "NAME")]
+    pub space: Option<GridSpace>,
+}
+
+/// All options of planners.
+#[derive(Debug, Clone, Args)]
+pub struct PlannerArgs {
+    /// How hard to try.
+    #[command(flatten)]
+    pub effort: EffortArgs,
+    /// What to optimise.
+    #[command(flatten)]
+    pub optimum: OptimumArgs,
+    /// Which path, and how a grid is searched.
+    #[command(flatten)]
+    pub path: PathArgs,
+    /// How a roadmap is made and searched.
+    #[command(flatten)]
+    pub roadmap: RoadmapArgs,
+    /// Which field, and how it is relaxed.
+    #[command(flatten)]
+    pub field: FieldArgs,
+}
+
+/// `PLANNER OPTIONS`, as `compare --with` has it.
+#[derive(Debug, Clone, Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+pub struct PlannerWords {
+    /// Which planner.
+    #[arg(value_parser = word::<Method>())]
+    pub planner: Method,
+    /// Its options.
+    #[command(flatten)]
+    pub options: PlannerArgs,
+}
+
+impl PlannerArgs {
+    /// Attempts.
+    pub fn levels(&self) -> usize {
+        self.effort.levels()
+    }
+
+    /// The planner of that name with these options.
+    ///
+    /// # Errors
+    /// Options that it does not have or that contradict each other, in words.
+    pub fn planner(&self, method: Method) -> Result<Planner, String> {
+        let field = self.field.planner(method)?;
+        self.optimum.check(method)?;
+        self.path.check(method)?;
+        let search = self.roadmap.search(method, self.path.search)?;
+        if self.optimum.gap.is_some() && !search.order.is_optimal() {
+            return Err(format!(
+                "--gap needs a search for the shortest path: --search {} takes any",
+                search.order.name()
+            ));
+        }
+        Ok(self.put_into(Planner::named(method).with_search(search), field))
+    }
+
+    fn put_into(&self, planner: Planner, chosen: Option<FieldPlanner>) -> Planner {
+        let mut planner = self.effort.put_into(planner).with_criterion(self.optimum.criterion());
+        match &mut planner {
+            Planner::Wavefront { search, neighborhood, .. } => {
+                *search = self.path.search.unwrap_or(*search);
+                *neighborhood = self.path.neighbors.unwrap_or(*neighborhood);
+            }
+            Planner::Harmonic { field, .. } => *field = chosen,
+            _ => {}
+        }
+        let planner = self.roadmap.put_into(planner);
+        let planner = self.optimum.gap.map_or(planner, |share| planner.with_gap(share));
+        let planner = self.path.space.map_or(planner, |space| planner.with_space(space));
+        self.path.path.map_or(planner, |kind| planner.with_path(kind))
+    }
+
+    /// Why what the field is relaxed on cannot be had, if it cannot, with the cure.
+    pub fn missing(&self) -> Option<String> {
+        self.field.missing()
+    }
+}
+
+impl OptimumArgs {
+    fn criterion(&self) -> Criterion {
+        match (self.metric, self.weights) {
+            (MetricName::Weighted, Some(Weights(weights))) => Criterion::Weighted(weights),
+            (MetricName::Time, _) => Criterion::Time,
+            _ => Criterion::Euclidean,
+        }
+    }
+
+    /// Refuses what the planner cannot do.
+    fn check(&self, planner: Method) -> Result<(), String> {
+        if self.weights.is_some() && self.metric != MetricName::Weighted {
+            return Err("--weights are for --metric weighted".into());
+        }
+        let asked = if self.gap.is_some() { "--gap" } else { "--metric" };
+        let optimises = self.gap.is_some() || self.metric != MetricName::Euclidean;
+        if optimises && !planner.optimises() {
+            return Err(format!(
+                "{asked} needs --planner shortest or visibility: {planner} does not look for the shortest path"
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl PathArgs {
+    /// Refuses what the planner cannot do.
+    fn check(&self, planner: Method) -> Result<(), String> {
+        if self.search.is_some() && planner != Method::Wavefront && !planner.has_roadmap() {
+            return Err(format!(
+                "--search needs --planner wavefront, visibility, trapezoid, triangles, voronoi or prm: {planner} searches neither a \
+                 grid from cell to cell nor a roadmap"
+            ));
+        }
+        if self.neighbors.is_some() && planner != Method::Wavefront {
+            return Err(format!("--neighbors needs --planner wavefront: {planner} searches no grid from cell to cell"));
+        }
+        if self.space.is_some() && !matches!(planner, Method::Wavefront | Method::Harmonic) {
+            return Err(format!("--space needs --planner wavefront or harmonic: {planner} has no grid"));
+        }
+        if self.path == Some(PathKind::Own) && !planner.has_own_path() {
+            return Err(format!("--path own is not for {planner}: its path is taut as it is"));
+        }
+        Ok(())
+    }
+}
+
+fn neighbors() -> impl TypedValueParser<Value = Neighborhood> {
+    PossibleValuesParser::new(["4", "8"])
+        .map(|count| if count == "4" { Neighborhood::Four } else { Neighborhood::Eight })
+}
+
+fn weights(text: &str) -> Result<Weights, String> {
+    let values: Vec<f64> = text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect();
+    match values[..] {
+        [a, b] if [a, b].iter().all(|w| w.is_finite() && *w > 0.0) => Ok(Weights([a, b])),
+        _ => Err("must be two positive numbers, such as 1,0.5".into()),
+    }
+}
+
+fn gap(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0, such as 0.001")
+}
+
+fn margin(text: &str) -> Result<f64, String> {
+    let range = format!("of more than 0 and at most {MOST_MARGIN} (of the arm's reach)");
+    number_in(text, |x| x > 0.0 && x <= MOST_MARGIN, &range)
+}
+
+/// A range for the parser of whole numbers.
+pub(super) fn whole(range: &RangeInclusive<usize>) -> RangeInclusive<i64> {
+    *range.start() as i64..=*range.end() as i64
+}

@@ -1,0 +1,378 @@
+//! Reading a study file.
+
+use super::Study;
+use super::address::{Step, entry_in, is_angle};
+use super::measure::{Condition, Measure, Objective};
+use super::parameter::{Design, Parameter, Values};
+use super::schema::{ParameterTable, StudyFile, Text};
+use super::template::{Place, Setting, Template, place};
+use cplan_engine::Options;
+use cplan_world::{Diagnostic, InputError, Overrides, Quantity, RobotFile, Source, in_toml_words, scene_from};
+use std::ops::Range;
+use std::path::Path;
+use toml::Spanned;
+
+/// Layouts of a study at the most.
+const MOST_LAYOUTS: usize = 20_000_000;
+
+/// How words such as `--planner=first` are read; they are those of the main job.
+pub type ReadOptions<'a> = &'a dyn Fn(&[String]) -> Result<(Options, Overrides), String>;
+
+/// How a file that a study names is had.
+type Open<'a> = &'a dyn Fn(Named, Option<&str>) -> Result<Source, InputError>;
+
+/// Knows the file for messages.
+struct Reader<'a> {
+    source: &'a Source,
+}
+
+/// Reads a study and the two files that it names.
+///
+/// # Errors
+/// Everything that is wrong with them, with line, column and cure.
+pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, InputError> {
+    let study = Source::read(path)?;
+    let beside = |which: Named, name: Option<&str>| {
+        let missing = || {
+            let (key, example) = which.words();
+            study
+                .diagnostic(format!("the study names no {key}"))
+                .help(format!("write {key} = \"{example}\" at its beginning"))
+        };
+        let path = path.with_file_name(name.ok_or_else(missing)?);
+        match which {
+            Named::Robot => RobotFile::from(path).read(),
+            Named::World => Source::read(&path),
+        }
+    };
+    read(&study, read_options, &beside)
+}
+
+/// A file that a study names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Named {
+    Robot,
+    World,
+}
+
+impl Named {
+    /// The key that names it, and an example.
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Robot => ("robot", "arm.urdf"),
+            Self::World => ("world", "world.toml"),
+        }
+    }
+}
+
+/// Reads a study from its text, and what it names through `open`.
+pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Result<Study, InputError> {
+    let reader = Reader { source };
+    let file: StudyFile = toml::from_str(source.text()).map_err(|error| {
+        let message = in_toml_words(error.message());
+        let diagnostic = match error.span() {
+            Some(span) => source.diagnostic_at(span, message),
+            None => source.diagnostic(message),
+        };
+        diagnostic.help("`cplan help study` shows a study; `cplan schema study` is what editors check by")
+    })?;
+    let urdf = reader.named(Named::Robot, file.robot.as_ref(), open)?;
+    let world = reader.named(Named::World, file.world.as_ref(), open)?;
+    let (options, overrides) = match &file.options {
+        None => (Options::default(), Overrides::default()),
+        Some(words) => read_options(words.get_ref()).map_err(|why| reader.options(words, &why))?,
+    };
+    let parameters = file.parameter.iter().map(|table| reader.parameter(table.get_ref(), table.span()));
+    let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
+    reader.distinct(&file.parameter)?;
+    let drawn = parameters.iter().position(|parameter| matches!(parameter.values, Values::Drawn { .. }));
+    let draws = reader.draws(&file, drawn)?;
+    let design =
+        Design::new(&parameters, draws, file.seed.unwrap_or(0)).filter(|design| design.count() <= MOST_LAYOUTS);
+    let design = design.ok_or_else(|| {
+        let message = format!("the values make more than {MOST_LAYOUTS} layouts");
+        source.diagnostic(message).help("list fewer values, or draw some of them")
+    })?;
+    let [world, urdf] = reader.templates(&file.parameter, world, urdf)?;
+    let base = scene_from(urdf.source().clone(), world.source().clone())?;
+    if let (Some(why), Some(words)) = (options.error(base.has_steps()), &file.options) {
+        return Err(reader.wrong(words.span(), format!("options: {why}"), "leave the option out").into());
+    }
+    let measures = match &file.measure {
+        None => Measure::ALL.to_vec(),
+        Some(names) => names.iter().map(|name| reader.word(name, Measure::named)).collect::<Result<_, _>>()?,
+    };
+    let conditions: Vec<Condition> =
+        file.conditions.iter().map(|text| reader.word(text, Condition::parse)).collect::<Result<_, _>>()?;
+    let objective = file.objective.as_ref().map(|text| reader.word(text, Objective::parse)).transpose()?;
+    let first = || {
+        [Measure::Duration, Measure::Length].into_iter().find(|m| measures.contains(m)).or(measures.first().copied())
+    };
+    let objective =
+        objective.or_else(|| first().map(|measure| Objective { measure, most: measure == Measure::Clearance }));
+    let wanted =
+        conditions.iter().map(|condition| condition.measure).chain(objective.map(|objective| objective.measure));
+    let mut all: Vec<Measure> = Vec::new();
+    measures.into_iter().for_each(|measure| {
+        if !all.contains(&measure) {
+            all.push(measure);
+        }
+    });
+    wanted.for_each(|measure| {
+        if !all.contains(&measure) {
+            all.push(measure)
+        }
+    });
+    let bounds = [Measure::OverBound, Measure::LowerBound];
+    let asked = file.conditions.iter().zip(conditions.iter().map(|condition| condition.measure));
+    let asked = asked.chain(file.objective.iter().zip(objective.map(|objective| objective.measure)));
+    for (text, measure) in asked {
+        if base.has_steps() && bounds.contains(&measure) {
+            let message = format!("a world with steps has no {}", measure.name());
+            return Err(reader.wrong(text.span(), message, "its duration is what is bounded: use that").into());
+        }
+    }
+    let searched =
+        file.search.as_ref().map(|table| reader.search(&table.layouts, &parameters, objective)).transpose()?;
+    let stem = source.stem().unwrap_or_else(|| "study".to_owned());
+    Ok(Study {
+        name: file.name.unwrap_or(stem),
+        parameters,
+        measures: all,
+        conditions,
+        objective,
+        searched: searched.unwrap_or(0),
+        seed: file.seed.unwrap_or(0),
+        source: source.clone(),
+        design,
+        world,
+        urdf,
+        base,
+        options,
+        words: file.options.map(Spanned::into_inner).unwrap_or_default(),
+        may_overlap: file.overlap,
+        overrides,
+    })
+}
+
+impl Reader<'_> {
+    fn wrong(&self, at: Range<usize>, message: impl Into<String>, help: &str) -> Diagnostic {
+        self.source.diagnostic_at(at, message).help(help)
+    }
+
+    /// What is wrong with the options, on a line.
+    fn options(&self, words: &Spanned<Vec<String>>, why: &str) -> Diagnostic {
+        let said: Vec<&str> = why.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+        let help = "options say how to plan (`cplan --help`); files are named to `cplan study` itself";
+        self.wrong(words.span(), format!("options: {}", said.join("; ")), help)
+    }
+
+    /// A file that the study names.
+    fn named(&self, which: Named, name: Option<&Text>, open: Open) -> Result<Source, InputError> {
+        let named = name.map(|name| name.get_ref().as_str());
+        open(which, named).map_err(|error| match (name, error.diagnostics()) {
+            (Some(name), [only]) => {
+                let message = format!("{}: {}", name.get_ref(), only.message);
+                self.wrong(name.span(), message, "paths are relative to the study").into()
+            }
+            _ => error,
+        })
+    }
+
+    /// What a word stands for.
+    fn word<T>(&self, text: &Text, read: fn(&str) -> Result<T, String>) -> Result<T, Diagnostic> {
+        let help = "conditions are as in \"clearance >= 0.01\", objectives as in \"least duration\"";
+        read(text.get_ref()).map_err(|why| self.wrong(text.span(), why, help))
+    }
+
+    fn parameter(&self, table: &ParameterTable, at: Range<usize>) -> Result<Parameter, Diagnostic> {
+        let name = table.name.get_ref().clone();
+        let what = format!("parameter \"{name}\"");
+        if name.trim().is_empty() || name.contains(['\n', '\r']) {
+            return Err(self.wrong(table.name.span(), "a parameter needs a name on one line", "name = \"base x\""));
+        }
+        if table.sets.get_ref().all().is_empty() {
+            return Err(self.wrong(table.sets.span(), format!("{what} sets nothing"), "sets = \"world.clearance\""));
+        }
+        if let Some(at) = table.degrees() {
+            let sets = table.sets.get_ref();
+            if let Some((address, ..)) = sets.all().into_iter().find(|(address, ..)| !is_angle(address)) {
+                let message = format!("{what}: {address} is no angle, so its values cannot be in degrees");
+                return Err(self.wrong(at, message, "write numbers, as in 0.1"));
+            }
+        }
+        let finite = |value: &Spanned<Quantity>| match value.get_ref().value {
+            value if value.is_finite() => Ok(value),
+            other => Err(self.wrong(value.span(), format!("{what}: {other} is not finite"), "write a number")),
+        };
+        let ends = match (&table.from, &table.to) {
+            (Some(from), Some(to)) => Some((finite(from)?, finite(to)?)),
+            (None, None) => None,
+            _ => return Err(self.wrong(at, format!("{what} has one of `from` and `to`"), "give it both")),
+        };
+        if let (Some((from, to)), Some(given)) = (ends, &table.from)
+            && !(to - from).is_finite()
+        {
+            return Err(self.wrong(
+                given.span(),
+                format!("{what}: from {from} to {to} is too far"),
+                "write a smaller range",
+            ));
+        }
+        if let (Some((from, to)), Some(given)) = (ends, &table.from)
+            && from > to
+        {
+            return Err(self.wrong(
+                given.span(),
+                format!("{what}: {from} is more than {to}"),
+                "write the lesser value as `from`",
+            ));
+        }
+        let values = match (&table.values, ends, &table.steps, &table.draw) {
+            (Some(values), None, None, None) => {
+                let given: Vec<f64> = values.get_ref().iter().map(|value| value.value).collect();
+                if given.is_empty() || given.iter().any(|value| !value.is_finite()) {
+                    return Err(self.wrong(
+                        values.span(),
+                        format!("{what} needs values, all finite"),
+                        "values = [0.1, 0.2]",
+                    ));
+                }
+                Values::Listed(given)
+            }
+            (None, Some((from, to)), Some(steps), None) => match *steps.get_ref() {
+                n @ 1..=1_000_000 if n > 1 || from == to => Values::Stepped { from, to, count: n as usize },
+                n => {
+                    let message = format!("{what}: {n} values from {from} to {to}");
+                    return Err(self.wrong(steps.span(), message, "give it 2 values or more, at most a million"));
+                }
+            },
+            (None, Some((from, to)), None, Some(draw)) => match draw.get_ref().as_str() {
+                "uniform" | "latin" if from == to => {
+                    let message = format!("{what}: from {from} to {to} there is nothing to draw");
+                    return Err(self.wrong(
+                        draw.span(),
+                        message,
+                        &format!("write values = [{from}], or a wider range"),
+                    ));
+                }
+                word @ ("uniform" | "latin") => Values::Drawn { from, to, latin: word == "latin" },
+                other => {
+                    let message = format!("{what}: values are drawn \"uniform\" or \"latin\", not \"{other}\"");
+                    return Err(self.wrong(draw.span(), message, "write draw = \"latin\""));
+                }
+            },
+            _ => {
+                let help = "values = [...]; or from, to and steps; or from, to and draw = \"uniform\" or \"latin\"";
+                return Err(self.wrong(at, format!("it is not clear which values {what} takes"), help));
+            }
+        };
+        let unit = table.unit.clone().or_else(|| table.degrees().map(|_| "rad".into()));
+        Ok(Parameter { name, unit, values })
+    }
+
+    /// Refuses two parameters of one name, and names of other columns.
+    fn distinct(&self, tables: &[Spanned<ParameterTable>]) -> Result<(), Diagnostic> {
+        let names = || tables.iter().map(|table| &table.get_ref().name);
+        for (number, name) in names().enumerate() {
+            let taken = ["layout", "outcome", "reason", "fits"].contains(&name.get_ref().as_str())
+                || Measure::named(name.get_ref()).is_ok();
+            if taken || names().take(number).any(|other| other.get_ref() == name.get_ref()) {
+                let message = format!("there is another column \"{}\"", name.get_ref());
+                return Err(self.wrong(name.span(), message, "give each parameter a name of its own"));
+            }
+        }
+        match tables {
+            [] => Err(self
+                .source
+                .diagnostic("a study without parameters has nothing to study")
+                .help("add a [[parameter]]")),
+            _ => Ok(()),
+        }
+    }
+
+    fn draws(&self, file: &StudyFile, drawn: Option<usize>) -> Result<usize, Diagnostic> {
+        match (&file.draws, drawn) {
+            (None, None) => Ok(1),
+            (Some(draws), Some(_)) => match *draws.get_ref() {
+                n @ 1.. if n <= MOST_LAYOUTS as u64 => Ok(n as usize),
+                n => Err(self.wrong(draws.span(), format!("{n} draws"), "give it 1 to 20 million")),
+            },
+            (Some(draws), None) => Err(self.wrong(
+                draws.span(),
+                "no parameter is drawn",
+                "remove `draws`, or give a parameter draw = \"latin\"",
+            )),
+            (None, Some(number)) => {
+                let name = &file.parameter[number].get_ref().name;
+                let message = format!("parameter \"{}\" is drawn: how often?", name.get_ref());
+                Err(self.wrong(name.span(), message, "write draws = 1000 above the first [[parameter]]"))
+            }
+        }
+    }
+
+    /// World and robot with the places that the parameters set.
+    fn templates(
+        &self,
+        tables: &[Spanned<ParameterTable>],
+        world: Source,
+        urdf: Source,
+    ) -> Result<[Template; 2], Diagnostic> {
+        let mut settings = [Vec::new(), Vec::new()];
+        let mut owners = [Vec::new(), Vec::new()];
+        for (parameter, table) in tables.iter().enumerate() {
+            for (number, (address, factor, offset)) in table.get_ref().sets.get_ref().all().into_iter().enumerate() {
+                let at = || self.target(tables, parameter, number);
+                let (file, steps) = place(address).map_err(|why| {
+                    self.wrong(at(), why, "as in \"world.robot.at[0]\" or \"urdf.joint.elbow.origin.xyz[0]\"")
+                })?;
+                if !(factor.is_finite() && offset.is_finite()) {
+                    return Err(self.wrong(at(), "factor and offset must be finite", "write numbers"));
+                }
+                settings[file as usize].push((steps, Setting { parameter, factor, offset }));
+                owners[file as usize].push((parameter, number, address));
+            }
+        }
+        let template = |source: Source, file: Place| {
+            let name = source.name();
+            let text = source.text().to_owned();
+            Template::new(source, file, &settings[file as usize]).map_err(|(which, why)| {
+                let (parameter, number, address) = owners[file as usize][which];
+                let message = format!("{address}: {why} (in {name})");
+                let near = file.nearest(&text, address);
+                let help = match near {
+                    Some(near) if near == *address => "leave it out here, or in the other \"sets\"".into(),
+                    Some(near) => format!("{near} is a number there"),
+                    None => "name a number that the file has".into(),
+                };
+                self.wrong(self.target(tables, parameter, number), message, &help)
+            })
+        };
+        Ok([template(world, Place::World)?, template(urdf, Place::Urdf)?])
+    }
+
+    /// Where one of the addresses that a parameter sets stands.
+    fn target(&self, tables: &[Spanned<ParameterTable>], parameter: usize, number: usize) -> Range<usize> {
+        let sets = &tables[parameter].get_ref().sets;
+        let entry =
+            [Step::Name("parameter".into()), Step::Number(parameter), Step::Name("sets".into()), Step::Number(number)];
+        entry_in(self.source.text(), &entry).unwrap_or(sets.span())
+    }
+
+    fn search(
+        &self,
+        layouts: &Spanned<u64>,
+        parameters: &[Parameter],
+        objective: Option<Objective>,
+    ) -> Result<usize, Diagnostic> {
+        let has_room = parameters.iter().any(|parameter| parameter.values.range()[0] < parameter.values.range()[1]);
+        match *layouts.get_ref() {
+            _ if objective.is_none() => {
+                Err(self.wrong(layouts.span(), "a search needs an objective", "objective = \"least duration\""))
+            }
+            _ if !has_room => Err(self.wrong(layouts.span(), "no parameter has more than one value", "widen a range")),
+            n @ 1.. if n <= MOST_LAYOUTS as u64 => Ok(n as usize),
+            n => Err(self.wrong(layouts.span(), format!("{n} layouts"), "give it 1 to 20 million")),
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! What is measured of each layout, and what is asked of it.
+
+use cplan_core::model::Outcome;
+use cplan_engine::{Answer, Report};
+use std::fmt;
+
+/// A number that a plan has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// Length of the path in joint space; of a task that of all its motions.
+    Length,
+    /// Its length over the proven bound.
+    OverBound,
+    /// No path is shorter than this: proven.
+    LowerBound,
+    /// Proven distance from obstacles along the whole motion, metres.
+    Clearance,
+    /// Time of the motion, or of a whole cycle of a task, seconds.
+    Duration,
+}
+
+impl Measure {
+    /// All of them, in the order of the columns.
+    pub const ALL: [Self; 5] = [Self::Length, Self::OverBound, Self::LowerBound, Self::Clearance, Self::Duration];
+
+    /// Its name, a column of the table.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Length => "length",
+            Self::OverBound => "over_bound",
+            Self::LowerBound => "lower_bound",
+            Self::Clearance => "clearance",
+            Self::Duration => "duration",
+        }
+    }
+
+    /// The unit, where all arms have the same.
+    #[must_use]
+    pub fn unit(self) -> Option<&'static str> {
+        match self {
+            Self::Clearance => Some("m"),
+            Self::Duration => Some("s"),
+            Self::Length | Self::OverBound | Self::LowerBound => None,
+        }
+    }
+
+    /// The measure of this name.
+    ///
+    /// # Errors
+    /// When there is none, in words.
+    pub fn named(name: &str) -> Result<Self, String> {
+        let names = || Self::ALL.map(Self::name).join(", ");
+        let found = Self::ALL.into_iter().find(|measure| measure.name() == name);
+        found.ok_or_else(|| format!("\"{name}\" is not measured; there is {}", names()))
+    }
+
+    /// What a result has of it.
+    pub(super) fn of(self, report: &Report) -> Option<f64> {
+        let bound = || report.optimum.as_ref().map(|optimum| optimum.lower_bound);
+        match self {
+            Self::Length => report.length,
+            // In the metric that was asked for, which may not be that of lengths.
+            Self::OverBound => report.optimum.as_ref().and_then(|optimum| over(optimum.length, optimum.lower_bound)),
+            Self::LowerBound => bound(),
+            Self::Clearance => report.clearance,
+            Self::Duration => report.duration,
+        }
+    }
+}
+
+impl Measure {
+    /// Whether the path alone has it, without a motion along it.
+    pub(super) fn is_of_the_path(self) -> bool {
+        matches!(self, Self::Length | Self::OverBound | Self::LowerBound)
+    }
+
+    /// What an answer has of it.
+    pub(super) fn of_path(self, answer: &Answer) -> Option<f64> {
+        let length = || match &answer.verdict {
+            Outcome::Found(certified) => Some(certified.path().length()),
+            _ => None,
+        };
+        let bound = || answer.bound.as_ref().map(|bound| bound.lower);
+        match self {
+            Self::Length => length(),
+            Self::OverBound => answer.bound.as_ref().and_then(|bound| over(bound.upper, bound.lower)),
+            Self::LowerBound => bound(),
+            Self::Clearance | Self::Duration => None,
+        }
+    }
+}
+
+fn over(length: f64, bound: f64) -> Option<f64> {
+    Some(length / bound).filter(|ratio| ratio.is_finite())
+}
+
+/// What a layout must meet, beside having a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Condition {
+    /// What is compared.
+    pub measure: Measure,
+    /// Whether it must be at least the bound, or at most.
+    pub at_least: bool,
+    /// What it is compared with.
+    pub bound: f64,
+}
+
+impl Condition {
+    /// Reads `clearance >= 0.01`.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let parts = [(">=", true), ("<=", false)].into_iter();
+        let split = parts.filter_map(|(sign, at_least)| Some((text.split_once(sign)?, at_least))).next();
+        let ((measure, bound), at_least) = split.ok_or_else(|| format!("\"{text}\" is no condition"))?;
+        let bound: f64 = bound.trim().parse().map_err(|_| format!("\"{}\" is no number", bound.trim()))?;
+        if !bound.is_finite() {
+            return Err(format!("{bound} is not finite"));
+        }
+        Ok(Self { measure: Measure::named(measure.trim())?, at_least, bound })
+    }
+
+    /// Whether a value meets it; what has no value does not, but where nothing can be hit every clearance is kept.
+    pub(super) fn holds(&self, value: Option<f64>) -> bool {
+        let unbounded = (self.measure == Measure::Clearance).then_some(f64::INFINITY);
+        value.or(unbounded).is_some_and(|value| if self.at_least { value >= self.bound } else { value <= self.bound })
+    }
+}
+
+impl fmt::Display for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {} {}", self.measure.name(), if self.at_least { ">=" } else { "<=" }, self.bound)
+    }
+}
+
+/// By what layouts are better or worse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Objective {
+    /// What counts.
+    pub measure: Measure,
+    /// Whether more of it is better.
+    pub most: bool,
+}
+
+impl Objective {
+    /// Reads `least duration` or `most clearance`.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let mut words = text.split_whitespace();
+        let most = match words.next() {
+            Some("least") => false,
+            Some("most") => true,
+            _ => return Err(format!("\"{text}\" is no objective")),
+        };
+        match (words.next(), words.next()) {
+            (Some(measure), None) => Ok(Self { measure: Measure::named(measure)?, most }),
+            _ => Err(format!("\"{text}\" is no objective")),
+        }
+    }
+
+    /// A value of the objective as a cost: less is better. The cost of a cost is the value.
+    pub(super) fn cost(&self, value: f64) -> f64 {
+        if self.most { -value } else { value }
+    }
+}
+
+impl fmt::Display for Objective {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", if self.most { "most" } else { "least" }, self.measure.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conditions_and_objectives_are_words() {
+        let condition = Condition::parse("clearance >= 0.01").unwrap();
+        assert_eq!(condition.to_string(), "clearance >= 0.01");
+        assert_eq!([Some(0.01), Some(0.009), None].map(|value| condition.holds(value)), [true, false, true]);
+        assert!(!Condition::parse("length <= 9").unwrap().holds(None));
+        assert!(Condition::parse("duration <= 2").unwrap().holds(Some(2.0)));
+        assert_eq!(Condition::parse("duration < 2"), Err("\"duration < 2\" is no condition".into()));
+        assert!(Condition::parse("speed <= 2").unwrap_err().starts_with("\"speed\" is not measured; there is length"));
+        assert_eq!(Objective::parse("most clearance").unwrap().to_string(), "most clearance");
+        assert!(Objective::parse("duration").is_err() && Objective::parse("least").is_err());
+    }
+}

@@ -1,0 +1,115 @@
+//! Obstacles that stand in each other, as no two things can.
+
+use cplan_core::model::{Obstacle, Workspace};
+use cplan_geometry::{Bounds, BoxTree, Convex, separation};
+
+/// Depths up to this, metres, are touching: what numbers in files and moving shapes round.
+const TOUCHING: f64 = 1e-9;
+
+/// Two obstacles of a layout of which one stands in the other, though they do not in the files as they stand. Only pairs are looked at of
+/// which one is not as it is there.
+pub(super) fn overlap(files: &Workspace, layout: &Workspace) -> Option<String> {
+    let [before, now] = [&files.obstacles, &layout.obstacles];
+    let differs = |k: usize| before.get(k) != Some(&now[k]);
+    let moved: Vec<usize> = (0..now.len()).filter(|&k| differs(k)).collect();
+    // A study may move nothing but the robot.
+    let around: Vec<Bounds> = if moved.is_empty() { Vec::new() } else { now.iter().map(bounds).collect() };
+    for (done, &moved_one) in moved.iter().enumerate() {
+        for other in (0..now.len()).filter(|k| !moved[..=done].contains(k)) {
+            let files = before.get(moved_one).zip(before.get(other));
+            let is_new = || files.is_none_or(|(a, b)| !are_in_each_other(a, b));
+            if meet(&around[moved_one], &around[other]) && are_in_each_other(&now[moved_one], &now[other]) && is_new() {
+                return Some(format!("\"{}\" stands in \"{}\"", now[moved_one].name, now[other].name));
+            }
+        }
+    }
+    None
+}
+
+/// Whether two obstacles share more than their boundaries, at some height, and neither rests on the other.
+fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
+    if !(a.heights.object_surely_meets(b.heights) && b.heights.object_surely_meets(a.heights)) {
+        return false;
+    }
+    // Maps have many pieces.
+    let tree = BoxTree::new(b.pieces.iter().map(Convex::bounds).collect());
+    let mut near = Vec::new();
+    a.pieces.iter().any(|piece| {
+        near.clear();
+        tree.meeting(&piece.bounds(), &mut near);
+        near.iter().any(|&k| separation(piece, &b.pieces[k as usize]).distance < -TOUCHING)
+    })
+}
+
+/// The box round all pieces of an obstacle.
+fn bounds(obstacle: &Obstacle) -> Bounds {
+    let none = [[f64::INFINITY; 2].into(), [f64::NEG_INFINITY; 2].into()];
+    let boxes = obstacle.pieces.iter().map(Convex::bounds);
+    boxes.fold(none, |[lower, upper]: Bounds, [low, high]| [lower.inf(&low), upper.sup(&high)])
+}
+
+fn meet(a: &Bounds, b: &Bounds) -> bool {
+    (0..2).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_core::model::Heights;
+    use cplan_core::space::Draws;
+
+    fn square(name: &str, at: [f64; 2]) -> Obstacle {
+        let corners = [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]];
+        Obstacle::polygon(name, corners.map(|[x, y]| [at[0] + x, at[1] + y])).unwrap()
+    }
+
+    /// Squares of side 1 overlap where their middles are nearer than that along both axes, discs by the distance of their centres.
+    #[test]
+    fn what_overlaps_is_what_middles_say() {
+        let mut numbers = Draws::nth(5, 0);
+        let files = Workspace::new([square("a", [9.0, 0.0]), square("b", [0.0, 0.0])]);
+        let round = |name: &str, at: [f64; 2]| Obstacle::circle(name, at, 0.5).unwrap();
+        let discs = Workspace::new([round("a", [9.0, 0.0]), round("b", [0.0, 0.0])]);
+        let mut overlapping = [0; 2];
+        for k in 0..400 {
+            // Some of them touch, or are a hair apart.
+            let [x, y] = [0, 1].map(|_| match k % 3 {
+                0 => (numbers.unit() * 5.0).floor() * 0.5 - 1.0,
+                _ => numbers.unit() * 3.0 - 1.5,
+            });
+            let said = overlap(&files, &Workspace::new([square("a", [x, y]), square("b", [0.0, 0.0])]));
+            assert_eq!(said.is_some(), x.abs() < 1.0 && y.abs() < 1.0, "{x} {y}");
+            let disc = overlap(&discs, &Workspace::new([round("a", [x, y]), round("b", [0.0, 0.0])]));
+            assert_eq!(disc.is_some(), x.hypot(y) < 1.0, "{x} {y}");
+            overlapping[0] += usize::from(said.is_some());
+            overlapping[1] += usize::from(disc.is_some());
+        }
+        assert!(overlapping.iter().all(|&n| n > 50 && n < 350), "{overlapping:?}");
+    }
+
+    #[test]
+    fn only_what_the_files_do_not_have_counts() {
+        let [a, b, c] = [square("a", [0.0, 0.0]), square("b", [0.5, 0.0]), square("c", [5.0, 0.0])];
+        let files = Workspace::new([a.clone(), b.clone(), c.clone()]);
+        assert_eq!(overlap(&files, &files), None);
+        // The first two stand in each other from the beginning.
+        let moved = Workspace::new([square("a", [0.1, 0.0]), b.clone(), c.clone()]);
+        assert_eq!(overlap(&files, &moved), None);
+        let into = Workspace::new([a.clone(), b.clone(), square("c", [1.2, 0.0])]);
+        assert_eq!(overlap(&files, &into).as_deref(), Some("\"c\" stands in \"b\""));
+        let touching = Workspace::new([a.clone(), b.clone(), square("c", [1.5, 0.0])]);
+        assert_eq!(overlap(&files, &touching), None);
+        // Above it there is room.
+        let mut above = into.clone();
+        above.obstacles[2].heights = Heights { lower: 1.0, upper: 2.0 };
+        (0..2).for_each(|k| above.obstacles[k].heights = Heights { lower: 0.0, upper: 1.0 });
+        assert_eq!(overlap(&files, &above), None);
+        above.obstacles[2].heights.lower = 0.9;
+        assert_eq!(overlap(&files, &above).as_deref(), Some("\"b\" stands in \"c\""));
+        // A wall has no inside, and goes through nothing all the same.
+        let wall = |y: f64| Obstacle::polyline("wall", [[-2.0, y], [2.0, y]]).unwrap();
+        let files = Workspace::new([wall(3.0), a.clone()]);
+        assert_eq!(overlap(&files, &Workspace::new([wall(0.5), a.clone()])), None);
+        assert!(overlap(&files, &Workspace::new([wall(0.4), a])).is_some());
+    }
+}

@@ -1,0 +1,338 @@
+//! A study as one page of HTML: heat maps, the front of two measures, the best and the worst layouts, why others fail.
+
+use super::Study;
+use super::measure::{Measure, Objective};
+use super::parameter::{Parameter, Values};
+use super::row::{Ending, Row};
+use super::summary::{Summary, shown};
+use cplan_compare::page::{Axis, Frame, folded, foot, frame, head, image_source, number, section, table};
+use cplan_compare::{Align, Column, Picture, Table};
+use cplan_text::{counted, markup};
+
+/// Parameters of which each pair has a map.
+const MAPPED: usize = 4;
+/// Cells of a map along an axis of values that are drawn, or of more than [`LISTED`].
+const CELLS: usize = 24;
+/// Listed values that have cells of their own.
+const LISTED: usize = 48;
+/// Points of a chart at the most.
+const POINTS: usize = 4000;
+
+impl Study {
+    /// The page of these rows, with pictures of some layouts. The same rows make the same page, byte for byte.
+    #[must_use]
+    pub fn html(&self, rows: &[Row], pictures: &[Picture]) -> String {
+        let summary = Summary::new(self, rows);
+        let names: Vec<String> = self.parameters.iter().map(Parameter::titled).collect();
+        let subtitle = format!("{} over {}", counted(rows.len(), "layout"), names.join("; "));
+        let mut html = head(&self.name, &subtitle);
+        html += &section("Outcomes", &self.outcomes(&summary));
+        html += &self.maps(&summary, rows);
+        html += &self.fronts(&summary, rows);
+        if summary.best().is_some() {
+            let edges: String =
+                summary.edges().iter().map(|edge| format!("<p class=\"sub\">{}</p>\n", markup(edge))).collect();
+            html += &section("Best layouts", &(table(&summary.best_table()) + &edges));
+        }
+        html += &pictured(pictures);
+        html + &foot(HOW)
+    }
+
+    fn outcomes(&self, summary: &Summary) -> String {
+        let lines: Vec<&str> = HEADINGS.to_vec();
+        let columns = lines
+            .into_iter()
+            .zip([Align::Left, Align::Right, Align::Left])
+            .map(|(name, align)| Column::new(name, align));
+        let tally = Ending::ALL.into_iter().zip(summary.tally()).filter(|(_, count)| *count > 0);
+        let mut rows: Vec<Vec<Option<String>>> =
+            tally.map(|(ending, count)| vec![Some(ending.name().into()), Some(count.to_string()), None]).collect();
+        for (ending, reason, count) in summary.reasons().into_iter().take(REASONS) {
+            rows.push(vec![Some(format!("\u{2026} {}", ending.name())), Some(count.to_string()), Some(reason)]);
+        }
+        // Causes are sentences, which are wrapped.
+        table(&Table { columns: columns.collect(), rows }).replacen("<table", "<table class=\"words\"", 1)
+    }
+
+    /// A map of each pair of parameters: where there is a motion, and what the objective is at best.
+    fn maps(&self, summary: &Summary, rows: &[Row]) -> String {
+        let mapped = self.parameters.len().min(MAPPED);
+        let pairs = (0..mapped).flat_map(|a| (a + 1..mapped).map(move |b| [a, b]));
+        let maps: String = pairs.map(|pair| self.map(summary, rows, pair)).collect();
+        if maps.is_empty() {
+            return maps;
+        }
+        let what = self.objective.map_or_else(String::new, |objective| {
+            format!("The colour is the {objective} of the layouts in a cell that fit; ")
+        });
+        let key = |(color, text): (&str, &str)| {
+            format!(
+                "<li><svg viewBox=\"0 0 12 12\"><rect width=\"12\" height=\"12\" fill=\"{color}\"/></svg> {text}</li>\n"
+            )
+        };
+        let keys: String = LEGEND.into_iter().map(key).collect();
+        let note = format!(
+            "<p class=\"sub\">{what}the cross is the best of all.</p>\n<ul class=\"key signs\">\n{keys}</ul>\n"
+        );
+        section("Maps", &format!("{note}<div class=\"charts\">\n{maps}</div>\n"))
+    }
+
+    fn map(&self, summary: &Summary, rows: &[Row], [a, b]: [usize; 2]) -> String {
+        let bins = [a, b].map(|k| Bins::of(&self.parameters[k]));
+        let mut cells = vec![Cell::default(); bins[0].count * bins[1].count];
+        for row in rows {
+            let [i, j] = [(a, &bins[0]), (b, &bins[1])].map(|(k, bins)| bins.place(row.values[k]));
+            cells[j * bins[0].count + i].add(row.ending, self.cost(row));
+        }
+        let costs = || cells.iter().filter_map(|cell| cell.cost);
+        let [least, greatest] = [costs().fold(f64::INFINITY, f64::min), costs().fold(f64::NEG_INFINITY, f64::max)];
+        let axes = [&bins[0], &bins[1]].map(|bins| Axis::between(bins.from, bins.to));
+        let titles = [a, b].map(|k| self.parameters[k].titled());
+        let Frame { mut svg, place } = frame(axes, titles.each_ref().map(String::as_str), "Map");
+        let corner = |i: f64, j: f64| place([i / bins[0].count as f64, j / bins[1].count as f64]);
+        for (number_of, cell) in cells.iter().enumerate() {
+            let (i, j) = ((number_of % bins[0].count) as f64, (number_of / bins[0].count) as f64);
+            let ([left, bottom], [right, top]) = (corner(i, j), corner(i + 1.0, j + 1.0));
+            let Some((color, text)) = cell.look(least, greatest) else { continue };
+            svg += &format!(
+                "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{color}\"><title>{}</title></rect>\n",
+                number(left),
+                number(top),
+                number(right - left),
+                number(bottom - top),
+                markup(&text)
+            );
+        }
+        if let Some(best) = summary.best() {
+            let [x, y] = place([(a, axes[0]), (b, axes[1])].map(|(k, axis)| axis.place(best.values[k]))).map(number);
+            let cross = format!("M{x} {y}m-6 -6l12 12m0 -12l-12 12");
+            svg += &format!(
+                "<g class=\"best\"><title>best: layout {}</title><path class=\"halo\" d=\"{cross}\"/><path d=\"{cross}\"/></g>\n",
+                best.layout
+            );
+        }
+        let title = format!("{} by {}", titles[1], titles[0]);
+        let scale = self.objective.map_or_else(String::new, |objective| scale(objective, least, greatest));
+        figure(&title, &(svg + "</svg>\n" + &scale))
+    }
+
+    /// The objective against each other measure, with the layouts that no other beats in both.
+    fn fronts(&self, summary: &Summary, rows: &[Row]) -> String {
+        let Some(objective) = self.objective else { return String::new() };
+        let others = self.measures.iter().filter(|measure| **measure != objective.measure);
+        let of = |row: &Row, measure: Measure| self.column(measure).and_then(|column| row.measured[column]);
+        let titled = |measure: Measure| {
+            measure.unit().map_or_else(|| measure.name().to_owned(), |unit| format!("{}, {unit}", measure.name()))
+        };
+        let mut charts = String::new();
+        // Where the dots of earlier charts are: of two with the same ones the second says nothing.
+        let mut drawn: Vec<Vec<[f64; 2]>> = Vec::new();
+        for other in others {
+            let pair = [objective.measure, *other];
+            let point = |row: &Row| Some([of(row, pair[0])?, of(row, pair[1])?]);
+            let points: Vec<[f64; 2]> = rows.iter().filter(|row| row.fits).filter_map(point).collect();
+            let axis = |k: usize| Axis::over(points.iter().map(|point| point[k]), None);
+            let (Some(first), Some(second)) = (axis(0), axis(1)) else { continue };
+            let axes = [first, second];
+            let places = |point: [f64; 2]| [axes[0].place(point[0]), axes[1].place(point[1])];
+            let dots: Vec<[f64; 2]> = points.iter().map(|point| places(*point)).collect();
+            if drawn.iter().any(|earlier| are_alike(earlier, &dots)) {
+                continue;
+            }
+            let titles = pair.map(titled);
+            let Frame { mut svg, place } = frame(axes, titles.each_ref().map(String::as_str), "Chart");
+            let dot = |at: [f64; 2], radius: &str| {
+                let [x, y] = place(at).map(number);
+                format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>")
+            };
+            let stride = dots.len().div_ceil(POINTS).max(1);
+            svg += "<g class=\"p0 dot\">";
+            dots.iter().step_by(stride).for_each(|at| svg += &dot(*at, "1.5"));
+            svg += "</g>\n<g class=\"p1 only\">";
+            for (row, point) in summary.pareto(pair).into_iter().filter_map(|row| Some((row, point(row)?))) {
+                let text = format!("layout {}: {}", row.layout, point.map(shown).join(", "));
+                svg += &format!("<g><title>{}</title>{}</g>", markup(&text), dot(places(point), "4"));
+            }
+            charts += &figure(&format!("{} against {}", titles[1], titles[0]), &(svg + "</g></svg>\n"));
+            drawn.push(dots);
+        }
+        if charts.is_empty() {
+            return charts;
+        }
+        let note = "<p class=\"sub\">Each dot is a layout that fits; large ones: none is better in both.</p>\n";
+        section("Trade-offs", &format!("{note}<div class=\"charts\">\n{charts}</div>\n"))
+    }
+}
+
+/// Cells whose layouts are all proven to have no motion.
+const BARRED: &str = "#c25100";
+/// Cells in which some have a motion, but none meets the conditions.
+const UNFIT: &str = "#f2b8cf";
+/// Cells in which none has one, for whatever reason.
+const NOTHING: &str = "#9aa1a9";
+
+/// What the colours of a map mean beside those of the objective.
+const LEGEND: [(&str, &str); 3] = [
+    (UNFIT, "a motion, but not one that meets the conditions"),
+    (BARRED, "a proof that there is no motion, in all of them"),
+    (NOTHING, "nothing to plan, or unknown"),
+];
+
+/// How near dots of two charts lie that look the same, as a share of the chart.
+const ALIKE: f64 = 0.01;
+
+fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    let near = |(a, b): (&[f64; 2], &[f64; 2])| (0..2).all(|k| (a[k] - b[k]).abs() <= ALIKE);
+    a.len() == b.len() && a.iter().zip(b).all(near)
+}
+
+/// Left end and width of a scale of colours, pixels: those of the map above it.
+const SCALE: [f64; 2] = [78.0, 368.0];
+/// Colours that it has.
+const SHADES: usize = 64;
+
+/// What the colours from the least cost to the greatest are of the objective; none where there is nothing between.
+fn scale(objective: Objective, least: f64, greatest: f64) -> String {
+    if greatest <= least || !(greatest - least).is_finite() {
+        return String::new();
+    }
+    let [left, width] = SCALE;
+    let shade_width = width / SHADES as f64;
+    let values = [least, greatest].map(|cost| objective.cost(cost));
+    let axis = Axis::between(values[0].min(values[1]), values[0].max(values[1]));
+    let mut svg =
+        String::from("<svg class=\"chart\" viewBox=\"0 0 460 52\" role=\"img\" aria-label=\"Scale of colours\">\n");
+    for k in 0..SHADES {
+        svg += &format!(
+            "<rect x=\"{}\" y=\"2\" width=\"{}\" height=\"12\" fill=\"{}\"/>",
+            number(left + shade_width * k as f64),
+            // Without seams.
+            number(shade_width + 0.3),
+            shade((k as f64 + 0.5) / SHADES as f64)
+        );
+    }
+    for (value, text) in axis.ticks() {
+        // The best is on the left, be it the least or the greatest.
+        let share = if objective.most { 1.0 - axis.place(value) } else { axis.place(value) };
+        svg += &format!("<text class=\"tick\" x=\"{}\" y=\"29\">{text}</text>\n", number(left + width * share));
+    }
+    let unit = objective.measure.unit().map_or_else(String::new, |unit| format!(", {unit}"));
+    svg + &format!(
+        "<text class=\"tick\" x=\"{}\" y=\"46\">{}{unit}</text>\n</svg>\n",
+        number(left + width / 2.0),
+        objective.measure.name()
+    )
+}
+
+const HEADINGS: [&str; 3] = ["outcome", "layouts", "why"];
+
+/// Reasons that are listed.
+const REASONS: usize = 12;
+
+const HOW: &str = "Every layout was planned in as by itself. <em>Found</em>: the whole continuous motion is certified free of collision. \
+                   <em>Infeasible</em>: proven. <em>Refused</em>: there is nothing to plan, because start or goal is not free or out of \
+                   reach, or a value makes no sense. Numbers in reasons are left out, so that layouts that fail alike count together.";
+
+fn figure(title: &str, svg: &str) -> String {
+    format!("<figure class=\"card\"><figcaption>{}</figcaption>\n{svg}</figure>\n", markup(title))
+}
+
+/// Pictures of layouts, the first of them open.
+fn pictured(pictures: &[Picture]) -> String {
+    let picture = |(number, Picture { title, svg }): (usize, &Picture)| {
+        let title = markup(title);
+        let source = image_source(svg);
+        let shown = format!(
+            "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace and configuration space\" src=\"{source}\"/></figure>\n"
+        );
+        if number == 0 { format!("<h3>{title}</h3>\n{shown}") } else { folded(&title, &shown) }
+    };
+    let all: String = pictures.iter().enumerate().map(picture).collect();
+    if all.is_empty() { all } else { section("Pictures", &all) }
+}
+
+/// Cells along an axis.
+struct Bins {
+    from: f64,
+    to: f64,
+    count: usize,
+}
+
+impl Bins {
+    fn of(parameter: &Parameter) -> Self {
+        let [from, to] = parameter.values.range();
+        match &parameter.values {
+            // Each value in the middle of its cell.
+            Values::Stepped { count, .. } if *count <= LISTED && to > from => {
+                let half = (to - from) / (count - 1) as f64 / 2.0;
+                Self { from: from - half, to: to + half, count: *count }
+            }
+            _ if to > from => Self { from, to, count: CELLS },
+            _ => Self { from: from - 0.5, to: to + 0.5, count: 1 },
+        }
+    }
+
+    fn place(&self, value: f64) -> usize {
+        let share = (value - self.from) / (self.to - self.from);
+        ((share * self.count as f64).max(0.0) as usize).min(self.count - 1)
+    }
+}
+
+/// What became of the layouts in a cell.
+#[derive(Debug, Clone, Copy, Default)]
+struct Cell {
+    layouts: usize,
+    infeasible: usize,
+    refused: usize,
+    found: usize,
+    fitting: usize,
+    cost: Option<f64>,
+}
+
+impl Cell {
+    fn add(&mut self, ending: Ending, cost: f64) {
+        self.layouts += 1;
+        self.infeasible += usize::from(ending == Ending::Infeasible);
+        self.refused += usize::from(ending == Ending::Refused);
+        self.found += usize::from(ending == Ending::Found);
+        if cost.is_finite() {
+            self.fitting += 1;
+            self.cost = Some(self.cost.map_or(cost, |best| best.min(cost)));
+        }
+    }
+
+    /// Its colour, and what it says; none of a cell without layouts.
+    fn look(&self, least: f64, greatest: f64) -> Option<(String, String)> {
+        if self.layouts == 0 {
+            return None;
+        }
+        let best = self.cost.map_or_else(String::new, |cost| format!(", best {}", shown(cost.abs())));
+        let text = format!(
+            "{}: {} with a motion, {} fit, {} infeasible, {} refused{best}",
+            counted(self.layouts, "layout"),
+            self.found,
+            self.fitting,
+            self.infeasible,
+            self.refused
+        );
+        let color = match self.cost {
+            Some(cost) if greatest > least => shade((cost - least) / (greatest - least)),
+            Some(_) => shade(0.0),
+            None if self.found > 0 => UNFIT.to_owned(),
+            None if self.infeasible == self.layouts => BARRED.to_owned(),
+            None => NOTHING.to_owned(),
+        };
+        Some((color, text))
+    }
+}
+
+/// Dark blue at 0, yellow at 1, ever lighter between: for eyes of all kinds, and in grey.
+fn shade(share: f64) -> String {
+    const STOPS: [[f64; 3]; 5] =
+        [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];
+    let at = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
+    let first = (at as usize).min(STOPS.len() - 2);
+    let mixed = |k: usize| STOPS[first][k] + (STOPS[first + 1][k] - STOPS[first][k]) * (at - first as f64);
+    let [r, g, b] = [0, 1, 2].map(|k| mixed(k).round() as u8);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}

@@ -1,0 +1,159 @@
+//! What a study file may say: its tables, and their schema.
+
+use cplan_world::{AngleOrLength, Quantity, toml_schema};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+use std::ops::Range;
+use toml::Spanned;
+
+/// A text, and where it stands.
+pub(super) type Text = Spanned<String>;
+
+/// A study of many layouts for cplan: a robot in a world, numbers of both that differ, and what is measured. Lengths are in metres, angles in
+/// radians, times in seconds.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "cplan study")]
+pub(super) struct StudyFile {
+    /// Title of tables and pages; by default the file's name.
+    pub name: Option<String>,
+    /// The robot's URDF, relative to this file. It may be missing where the robot is given otherwise, as in Python.
+    #[schemars(with = "Option<String>")]
+    pub robot: Option<Text>,
+    /// The world file, relative to this file. It may be missing where the world is given otherwise.
+    #[schemars(with = "Option<String>")]
+    pub world: Option<Text>,
+    /// Options of the main job, such as ["--planner=first", "--clearance=0.01"].
+    #[schemars(with = "Option<Vec<String>>")]
+    pub options: Option<Spanned<Vec<String>>>,
+    /// Draws for each combination of the values that are listed; needed where a parameter is drawn.
+    #[schemars(with = "Option<u64>")]
+    pub draws: Option<Spanned<u64>>,
+    /// What the draws follow from; by default 0.
+    pub seed: Option<u64>,
+    /// What is measured: length, over_bound, lower_bound, clearance, duration; by default all of them.
+    #[schemars(with = "Option<Vec<String>>")]
+    pub measure: Option<Vec<Text>>,
+    /// Whether obstacles may stand in each other that do not in the world file; by default such a layout is refused.
+    #[serde(default)]
+    pub overlap: bool,
+    /// What a layout must meet, such as ["clearance >= 0.01", "duration <= 3"].
+    #[serde(default)]
+    #[schemars(with = "Vec<String>")]
+    pub conditions: Vec<Text>,
+    /// By what layouts are better: "least duration", "most clearance"; by default the first that is measured, duration before length.
+    #[schemars(with = "Option<String>")]
+    pub objective: Option<Text>,
+    pub search: Option<SearchTable>,
+    /// What differs from layout to layout.
+    #[serde(default)]
+    #[schemars(with = "Vec<ParameterTable>")]
+    pub parameter: Vec<Spanned<ParameterTable>>,
+}
+
+/// A search for a better layout than those listed and drawn, within the ranges of the parameters.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SearchTable {
+    /// Layouts that it may try.
+    #[schemars(with = "u64")]
+    pub layouts: Spanned<u64>,
+}
+
+/// A number of world or robot that differs: listed, in equal steps, or drawn.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ParameterTable {
+    /// Its name, a column of the table.
+    #[schemars(with = "String")]
+    pub name: Text,
+    /// The unit of its values, for tables and pictures.
+    pub unit: Option<String>,
+    /// What it sets: an address such as "world.robot.at[0]" or "urdf.joint.elbow.origin.xyz[0]", or several.
+    #[schemars(with = "Targets")]
+    pub sets: Spanned<Targets>,
+    /// Its values; angles may be written as "30deg".
+    #[schemars(with = "Option<Vec<AngleOrLength>>")]
+    pub values: Option<Spanned<Vec<Quantity>>>,
+    /// Its least value.
+    #[schemars(with = "Option<AngleOrLength>")]
+    pub from: Option<Spanned<Quantity>>,
+    /// Its greatest value.
+    #[schemars(with = "Option<AngleOrLength>")]
+    pub to: Option<Spanned<Quantity>>,
+    /// The number of its values from the least to the greatest, in equal steps.
+    #[schemars(with = "Option<u64>")]
+    pub steps: Option<Spanned<u64>>,
+    /// In place of steps: "uniform" (independent draws) or "latin" (one in each of as many equal stretches as there are draws).
+    #[schemars(with = "Option<String>")]
+    pub draw: Option<Text>,
+}
+
+/// What a parameter sets.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(super) enum Targets {
+    /// An address.
+    One(String),
+    /// Several, each the address of a number.
+    Many(Vec<Target>),
+}
+
+/// A number that follows from a parameter.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(super) enum Target {
+    /// The number at this address is the parameter's value.
+    Address(String),
+    /// It is `factor` times the value, plus `offset`.
+    Scaled(Scaled),
+}
+
+/// A number that is some multiple of a parameter, plus something.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Scaled {
+    /// The address.
+    pub address: String,
+    /// By default 1.
+    pub factor: Option<f64>,
+    /// By default 0.
+    pub offset: Option<f64>,
+}
+
+impl ParameterTable {
+    /// Whether a value is written in degrees, and the place of the first that is.
+    pub fn degrees(&self) -> Option<Range<usize>> {
+        let listed = self.values.iter().filter(|values| values.get_ref().iter().any(|value| value.in_degrees));
+        let ends = [&self.from, &self.to].into_iter().flatten().filter(|end| end.get_ref().in_degrees);
+        listed.map(Spanned::span).chain(ends.map(Spanned::span)).next()
+    }
+}
+
+impl Targets {
+    /// Each with its factor and offset.
+    pub fn all(&self) -> Vec<(&str, f64, f64)> {
+        match self {
+            Self::One(address) => vec![(address.as_str(), 1.0, 0.0)],
+            Self::Many(targets) => targets.iter().map(Target::setting).collect(),
+        }
+    }
+}
+
+impl Target {
+    fn setting(&self) -> (&str, f64, f64) {
+        match self {
+            Self::Address(address) => (address.as_str(), 1.0, 0.0),
+            Self::Scaled(Scaled { address, factor, offset }) => {
+                (address.as_str(), factor.unwrap_or(1.0), offset.unwrap_or(0.0))
+            }
+        }
+    }
+}
+
+/// The JSON schema of study files, for editors.
+#[must_use]
+pub fn study_schema() -> Value {
+    toml_schema::<StudyFile>()
+}

@@ -1,0 +1,338 @@
+//! What a study shows: how many layouts have a motion, why others have none, and which are best.
+
+use super::Study;
+use super::measure::Measure;
+use super::parameter::{Parameter, Values};
+use super::row::{Ending, Row};
+use cplan_compare::{Align, Column, Table, WIDTH};
+use cplan_text::counted;
+use serde_json::{Value, json};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+/// Reasons that are listed.
+const REASONS: usize = 6;
+
+/// What share of a range is its end.
+const EDGE: f64 = 0.05;
+
+/// In front of the lines of tables.
+const INDENT: &str = "  ";
+
+/// Layouts that are listed as the best, and as the worst.
+const BEST: usize = 5;
+
+/// Figures of all rows.
+#[derive(Debug, Clone)]
+pub struct Summary<'a> {
+    study: &'a Study,
+    rows: &'a [Row],
+    /// Rows of the study itself; those behind were found by the search.
+    designed: usize,
+    /// Layouts that count, the best first.
+    ranked: Vec<usize>,
+}
+
+impl<'a> Summary<'a> {
+    /// Of these rows, the first ones of which are those of the study's layouts.
+    #[must_use]
+    pub fn new(study: &'a Study, rows: &'a [Row]) -> Self {
+        let mut ranked: Vec<usize> = (0..rows.len()).filter(|&i| study.cost(&rows[i]).is_finite()).collect();
+        ranked.sort_by(|&a, &b| study.cost(&rows[a]).total_cmp(&study.cost(&rows[b])).then(a.cmp(&b)));
+        Self { study, rows, designed: study.count().min(rows.len()), ranked }
+    }
+
+    /// Rows that ended in each way, in the order of [`Ending::ALL`].
+    #[must_use]
+    pub fn tally(&self) -> [usize; 4] {
+        tally(self.rows)
+    }
+
+    /// The same of the search alone.
+    #[must_use]
+    pub fn searched(&self) -> [usize; 4] {
+        tally(&self.rows[self.designed..])
+    }
+
+    /// The best layout that counts.
+    #[must_use]
+    pub fn best(&self) -> Option<&'a Row> {
+        self.ranked.first().map(|&i| &self.rows[i])
+    }
+
+    /// The worst layout that counts.
+    #[must_use]
+    pub fn worst(&self) -> Option<&'a Row> {
+        self.ranked.last().map(|&i| &self.rows[i])
+    }
+
+    /// The best layout among those of the study itself.
+    #[must_use]
+    pub fn best_designed(&self) -> Option<&'a Row> {
+        self.ranked.iter().find(|&&i| i < self.designed).map(|&i| &self.rows[i])
+    }
+
+    /// Why layouts have no motion: the first cause of each without its numbers, and how many layouts have it, the most frequent first.
+    #[must_use]
+    pub fn reasons(&self) -> Vec<(Ending, String, usize)> {
+        let mut counts: BTreeMap<(Ending, String), usize> = BTreeMap::new();
+        for row in self.rows {
+            if let Some(reason) = &row.reason {
+                *counts.entry((row.ending, cause(reason))).or_default() += 1;
+            }
+        }
+        let mut reasons: Vec<_> = counts.into_iter().map(|((ending, reason), count)| (ending, reason, count)).collect();
+        reasons.sort_by_key(|(.., count)| Reverse(*count));
+        reasons
+    }
+
+    /// The layouts among which none is better in both of two measures, the best in the first one first. Neither is better where it costs no
+    /// more: less is better but for clearances.
+    #[must_use]
+    pub fn pareto(&self, measures: [Measure; 2]) -> Vec<&'a Row> {
+        let cost = |row: &Row, k: usize| {
+            let value = row.measured[self.study.column(measures[k])?]?;
+            Some(if measures[k] == Measure::Clearance { -value } else { value })
+        };
+        let mut costs: Vec<([f64; 2], &Row)> = self
+            .rows
+            .iter()
+            .filter(|row| row.fits)
+            .filter_map(|row| Some(([cost(row, 0)?, cost(row, 1)?], row)))
+            .collect();
+        costs.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        let mut least = f64::INFINITY;
+        let is_front = |(cost, _): &([f64; 2], &'a Row)| {
+            let is_less = cost[1] < least;
+            least = least.min(cost[1]);
+            is_less
+        };
+        costs.into_iter().filter(is_front).map(|(_, row)| row).collect()
+    }
+
+    /// Where the best layout lies at an end of a range, beyond which a better one may be: a line each.
+    #[must_use]
+    pub fn edges(&self) -> Vec<String> {
+        let Some(best) = self.best() else { return Vec::new() };
+        let edge = |(parameter, value): (&Parameter, &f64)| {
+            let [from, to] = match parameter.values {
+                Values::Listed(_) => return None,
+                Values::Stepped { from, to, .. } | Values::Drawn { from, to, .. } if from < to => [from, to],
+                _ => return None,
+            };
+            let near = EDGE * (to - from);
+            let which = match *value {
+                value if to - value <= near => format!("of at most {to}"),
+                value if value - from <= near => format!("of at least {from}"),
+                _ => return None,
+            };
+            // The digits of tables, without zeros.
+            let value = shown(*value).parse().unwrap_or(*value);
+            Some(format!("{} = {value} {which}: a wider range may do better", parameter.name))
+        };
+        self.study.parameters.iter().zip(&best.values).filter_map(edge).collect()
+    }
+
+    /// For a terminal: tables as wide as they are, or in 80 columns. Ends in a newline.
+    #[must_use]
+    pub fn to_text(&self, wide: bool) -> String {
+        let study = self.study;
+        let [rows, parameters] = [counted(self.rows.len(), "layout"), counted(study.parameters.len(), "parameter")];
+        let mut text = format!("{}: {rows}, {parameters}\n", study.name);
+        for (ending, count) in Ending::ALL.into_iter().zip(self.tally()).filter(|(_, count)| *count > 0) {
+            text += &format!("  {:<11} {count:>8}  {:5.1} %\n", ending.name(), share(count, self.rows.len()));
+        }
+        if !study.conditions.is_empty() {
+            let fitting = self.rows.iter().filter(|row| row.fits).count();
+            let conditions: Vec<String> = study.conditions.iter().map(ToString::to_string).collect();
+            text += &format!(
+                "  {:<11} {fitting:>8}  {:5.1} %  ({})\n",
+                "fit",
+                share(fitting, self.rows.len()),
+                conditions.join(", ")
+            );
+        }
+        if self.rows.len() > self.designed {
+            let [found, infeasible, ..] = self.searched();
+            let tried = counted(self.rows.len() - self.designed, "layout");
+            text += &format!("  the search tried {tried}: {found} with a motion, {infeasible} proven to have none\n");
+        }
+        if study.searched > 0 && self.rows.len() == study.count() {
+            text += "  the search found no layout to try that has no row yet\n";
+        }
+        let reasons = self.reasons();
+        if !reasons.is_empty() {
+            text += "why there is no motion:\n";
+            for (ending, reason, count) in reasons.iter().take(REASONS) {
+                text += &format!("  {count:>8}  {}: {reason}\n", ending.name());
+            }
+            let others: usize = reasons.iter().skip(REASONS).map(|(.., count)| count).sum();
+            if others > 0 {
+                let kinds = counted(reasons.len() - REASONS, "other cause");
+                text += &format!("  {others:>8}  for {kinds}: the table has each\n");
+            }
+        }
+        if let (Some(objective), Some(_)) = (study.objective, self.best()) {
+            let table = |table: Table| if wide { table.to_text() } else { table.to_text_within(WIDTH - INDENT.len()) };
+            let best = table(self.table(self.ranked.iter().take(BEST)));
+            text += &format!("best ({objective}):\n{}", indented(&best));
+            self.edges().iter().for_each(|edge| text += &format!("  {edge}\n"));
+            if self.ranked.len() > BEST {
+                let worst = table(self.table(self.ranked.iter().rev().take(1)));
+                text += &format!("worst:\n{}", indented(&worst));
+            }
+        }
+        text
+    }
+
+    /// A JSON object.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let counts = |tally: [usize; 4]| -> Value {
+            Ending::ALL.into_iter().zip(tally).map(|(ending, count)| (ending.name().to_owned(), json!(count))).collect()
+        };
+        let reasons: Vec<Value> = self
+            .reasons()
+            .into_iter()
+            .map(|(ending, reason, count)| json!({ "outcome": ending.name(), "reason": reason, "layouts": count }))
+            .collect();
+        json!({
+            "name": self.study.name,
+            "layouts": self.rows.len(),
+            "outcomes": counts(self.tally()),
+            "fit": self.rows.iter().filter(|row| row.fits).count(),
+            "search": (self.rows.len() > self.designed).then(|| counts(self.searched())),
+            "reasons": reasons,
+            "objective": self.study.objective.map(|objective| objective.to_string()),
+            "best": self.best().map(|row| self.object(row)),
+            "worst": self.worst().map(|row| self.object(row)),
+            "edges": self.edges(),
+            "options": self.study.options(),
+        })
+    }
+
+    fn object(&self, row: &Row) -> Value {
+        let study = self.study;
+        let values = study.parameters.iter().zip(&row.values).map(|(p, value)| (p.name.clone(), json!(value)));
+        let measured = study.measures.iter().zip(&row.measured).map(|(m, value)| (m.name().to_owned(), json!(value)));
+        json!({ "layout": row.layout, "parameters": Value::from_iter(values), "measured": Value::from_iter(measured) })
+    }
+
+    /// The best rows, as many as are listed.
+    pub(super) fn best_table(&self) -> Table {
+        self.table(self.ranked.iter().take(2 * BEST))
+    }
+
+    fn table<'b>(&self, rows: impl Iterator<Item = &'b usize>) -> Table {
+        let study = self.study;
+        // What the best are best by comes first.
+        let mut measures: Vec<usize> = (0..study.measures.len()).collect();
+        measures.sort_by_key(|&k| study.objective.is_none_or(|objective| objective.measure != study.measures[k]));
+        let mut columns = vec![Column::new("layout", Align::Right)];
+        columns.extend(study.parameters.iter().map(|parameter| Column::new(&parameter.titled(), Align::Right)));
+        let titled = |m: &Measure| m.unit().map_or_else(|| m.name().to_owned(), |unit| format!("{}, {unit}", m.name()));
+        columns.extend(measures.iter().map(|&k| Column::new(&titled(&study.measures[k]), Align::Right)));
+        let cells = |&i: &usize| {
+            let row = &self.rows[i];
+            let values = row.values.iter().map(|value| Some(shown(*value)));
+            let measured = measures.iter().map(|&k| row.measured[k].map(shown));
+            std::iter::once(Some(row.layout.to_string())).chain(values).chain(measured).collect()
+        };
+        Table { columns, rows: rows.map(cells).collect() }
+    }
+}
+
+fn tally(rows: &[Row]) -> [usize; 4] {
+    Ending::ALL.map(|ending| rows.iter().filter(|row| row.ending == ending).count())
+}
+
+fn share(part: usize, all: usize) -> f64 {
+    100.0 * part as f64 / all.max(1) as f64
+}
+
+/// Five significant digits, which tell layouts apart; the tables have all of them.
+pub(super) fn shown(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let digits = 4 - value.abs().log10().floor() as i32;
+    if (0..=9).contains(&digits) { format!("{value:.*}", digits as usize) } else { format!("{value:.4e}") }
+}
+
+fn indented(text: &str) -> String {
+    text.lines().map(|line| format!("{INDENT}{line}").trim_end().to_owned() + "\n").collect()
+}
+
+/// A reason with `#` in place of each number, so that layouts that fail alike are counted together. Numbers in names stay.
+fn without_numbers(reason: &str) -> String {
+    let word = |word: &str| {
+        let bare = word.trim_matches(|c: char| "()[],;:.%".contains(c));
+        if bare.parse::<f64>().is_ok() { word.replacen(bare, "#", 1) } else { word.to_owned() }
+    };
+    reason.split(' ').map(word).collect::<Vec<_>>().join(" ")
+}
+
+/// The first cause in a reason, in short: without numbers, values of joints, and what else is wrong.
+fn cause(reason: &str) -> String {
+    let text = without_numbers(reason);
+    let (mut cause, mut depth, mut is_quoted) = (String::new(), 0, false);
+    let mut rest = text.as_str();
+    while let Some(c) = rest.chars().next() {
+        let ends = [", ", "; ", ". "].iter().any(|end| rest.starts_with(end));
+        match c {
+            '"' => is_quoted = !is_quoted,
+            _ if is_quoted => {}
+            '(' if depth == 0 && values_end(rest).is_some() => {
+                rest = &rest[values_end(rest).unwrap_or(1)..];
+                let kept = cause.trim_end().len();
+                cause.truncate(kept);
+                continue;
+            }
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ if ends && depth == 0 => break,
+            _ => {}
+        }
+        cause.push(c);
+        rest = &rest[c.len_utf8()..];
+    }
+    cause
+}
+
+/// Where the values of joints end that a text begins with: `(shoulder # rad, elbow # rad)`.
+fn values_end(text: &str) -> Option<usize> {
+    let end = text.find(')')? + 1;
+    let inside = &text[..end];
+    (inside.contains('#') && inside.contains(char::is_alphabetic)).then_some(end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reasons_are_told_by_their_first_cause() {
+        let hits = "the start (shoulder -0.9 rad, elbow 0.4 rad) is not free: link \"forearm\" hits obstacle \"crate, 2\", 0.0130 m deep; \
+                    link \"upper arm\" hits obstacle \"b\", 0.2 m deep";
+        assert_eq!(cause(hits), "the start is not free: link \"forearm\" hits obstacle \"crate, 2\"");
+        let far = "step 3: (0.3, 0.1) m is out of reach of the tip \"flange\", whatever the joint limits: it is 2 m from joint \"a\"";
+        assert_eq!(cause(far), "step #: (#, #) m is out of reach of the tip \"flange\"");
+        assert_eq!(cause("\"a (1)\" stands in \"b\""), "\"a (1)\" stands in \"b\"");
+    }
+
+    #[test]
+    fn reasons_differ_in_words_alone() {
+        let reasons = ["link \"arm 2\" is 0.012 m deep in \"post 3\" (1.5, -2e-3).", "proven: 17 boxes of it"];
+        let without = reasons.map(without_numbers);
+        assert_eq!(without[1], "proven: # boxes of it");
+        assert_eq!(without[0], "link \"arm 2\" is # m deep in \"post 3\" (#, #).");
+    }
+
+    #[test]
+    fn numbers_have_five_digits() {
+        assert_eq!(
+            [0.0, 1.0, -12.345678, 123456.7, 1.5e-9].map(shown),
+            ["0", "1.0000", "-12.346", "1.2346e5", "1.5000e-9"]
+        );
+    }
+}

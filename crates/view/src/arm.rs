@@ -1,0 +1,52 @@
+//! The arm in one configuration, with what it carries.
+
+use super::axes::Frame;
+use super::color::{self, ACCENT, BARRED, GREY, INK, PALE, Rgb, WHITE};
+use super::figure::{Item, Step, Style};
+use super::shapes::union;
+use super::view::PayloadView;
+use cplan_core::model::Arm;
+use cplan_core::space::Configuration;
+
+/// How a pose is drawn.
+pub struct Look {
+    fill: Rgb,
+    line: Rgb,
+    width: f64,
+    opacity: f64,
+    joints: bool,
+}
+
+/// Where the motion begins.
+pub const START: Look = Look { fill: WHITE, line: INK, width: 1.4, opacity: 0.9, joints: true };
+/// Where it ends.
+pub const GOAL: Look = Look { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true };
+/// Where it would end, but cannot.
+pub const UNREACHED: Look = Look { fill: WHITE, line: BARRED, width: 1.2, opacity: 0.6, joints: false };
+/// Where it is.
+pub const NOW: Look = Look { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true };
+/// On the way.
+pub const GHOST: Look = Look { fill: color::GHOST, line: GREY, width: 0.8, opacity: 0.7, joints: false };
+
+/// The arm at `q`: its own outline, and above it what it carries in the colour of the object.
+#[must_use]
+pub fn items(frame: &Frame, arm: &Arm, payload: Option<&PayloadView>, q: Configuration, look: &Look) -> Vec<Item> {
+    let body = Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity);
+    let links = arm.links.iter().zip(arm.poses(q));
+    let mut items: Vec<Item> =
+        links.map(|(link, pose)| union(frame, link.parts.iter().map(|part| part.shape.at(&pose)), body)).collect();
+    if let Some(PayloadView { color, pieces, grip, .. }) = payload {
+        let pose = grip.pose(arm, q);
+        let style = Style::line(color.darker(0.25), 2.0 * look.width).filled(color.lighter(0.25));
+        items.push(union(frame, pieces.iter().map(|piece| piece.0.at(&pose)), style.faded(look.opacity)));
+    }
+    if look.joints {
+        let [base, elbow, tip] = [arm.base, arm.elbow_at(q[0]), arm.tip_at(q)].map(|p| frame.at(p.x, p.y));
+        let axis = Style::line(look.line, 1.0).faded(0.7);
+        items.push(Item::Outline(vec![Step::Move(base), Step::Line(elbow), Step::Line(tip)], axis));
+        items.push(Item::Disc(base, 5.0, Style::fill(INK)));
+        items.push(Item::Disc(elbow, 3.5, Style::fill(INK)));
+        items.push(Item::Disc(tip, 3.0, Style::line(INK, 1.4).filled(WHITE)));
+    }
+    items
+}

@@ -1,0 +1,117 @@
+//! A frame in joint space.
+
+use super::axes::{Frame, Unit};
+use super::copies::Window;
+use super::figure::{Item, Rect, Spot, Step, Style, chain};
+use super::view::{Chain, ContourView};
+use cplan_core::model::{Arm, Joint};
+use cplan_core::space::{Configuration, Topology};
+use cplan_geometry::cross;
+
+/// Ratio of the ranges of two joints of one kind up to which both are drawn to one scale.
+const ONE_SCALE: f64 = 2.2;
+
+/// The whole joint space of an arm in a frame of the page.
+#[derive(Debug, Clone, Copy)]
+pub struct Chart {
+    /// Where it is.
+    pub frame: Frame,
+    /// What the axes measure.
+    pub units: [Unit; 2],
+    /// How each joint's values go round, if they do.
+    pub topology: Topology,
+    /// Where paths repeat: across seams.
+    pub paths: Window,
+    /// Where obstacles repeat.
+    pub obstacles: Window,
+}
+
+impl Chart {
+    /// The chart in this part of the page.
+    #[must_use]
+    pub fn new(arm: &Arm, area: Rect) -> Self {
+        let topology = arm.topology();
+        let ranges = topology.ranges.map(|axis| axis.domain());
+        let units = units(arm);
+        let frame = Frame::fitted(area, ranges[0], ranges[1], one_scale(arm).is_some());
+        let paths = Window { ranges, repeats: topology.ranges.map(|axis| axis.is_circle()) };
+        // A turning link meets an obstacle again after each turn, limits or not.
+        let obstacles = Window { ranges, repeats: units.map(|u| u == Unit::Degrees) };
+        Self { frame, units, topology, paths, obstacles }
+    }
+
+    /// Sides where the space continues on the opposite side.
+    #[must_use]
+    pub fn seams(&self) -> [bool; 2] {
+        self.paths.repeats
+    }
+
+    /// Where a configuration is.
+    #[must_use]
+    pub fn place(&self, q: Configuration) -> Spot {
+        let q = self.topology.wrap(q);
+        self.frame.at(q[0], q[1])
+    }
+
+    /// A path, cut at the seams.
+    #[must_use]
+    pub fn outline(&self, path: &[Configuration]) -> Vec<Step> {
+        let pieces = self.paths.pieces(path);
+        pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| self.frame.at(q[0], q[1])), false)).collect()
+    }
+
+    /// A closed outline with its copies, where it repeats as paths do.
+    #[must_use]
+    pub fn polygon(&self, Chain(corners): &Chain) -> Vec<Step> {
+        self.copies(corners, &self.paths)
+    }
+
+    fn copies(&self, corners: &[Configuration], window: &Window) -> Vec<Step> {
+        let copy = |s: Configuration| chain(corners.iter().map(move |q| self.frame.at(q[0] + s[0], q[1] + s[1])), true);
+        window.shifts(corners).into_iter().flat_map(copy).collect()
+    }
+
+    /// Contours with their copies as one outline; in a style whose pen lies below they look like their union.
+    #[must_use]
+    pub fn c_obstacle<'a>(&self, contours: impl Iterator<Item = &'a ContourView>, style: Style) -> Item {
+        let mut steps = Vec::new();
+        for Chain(contour) in contours.map(|c| &c.contour) {
+            let twice: f64 = (0..contour.len()).map(|i| cross(contour[i], contour[(i + 1) % contour.len()])).sum();
+            let mut ordered = contour.clone();
+            // The non-zero rule unites contours of one orientation only.
+            if twice < 0.0 {
+                ordered.reverse();
+            }
+            steps.extend(self.copies(&ordered, &self.obstacles));
+        }
+        Item::Outline(steps, style)
+    }
+}
+
+/// What the axes measure.
+fn units(arm: &Arm) -> [Unit; 2] {
+    [0, 1].map(|k| if arm.joints[k].joint_type.is_revolute() { Unit::Degrees } else { Unit::Meters })
+}
+
+/// The ratio of height to width of the whole joint space if both axes are drawn to one scale.
+#[must_use]
+pub fn one_scale(arm: &Arm) -> Option<f64> {
+    let [width, height] = arm.topology().ranges.map(|axis| axis.extent());
+    let [first, second] = units(arm);
+    (first == second && width <= ONE_SCALE * height && height <= ONE_SCALE * width).then(|| height / width)
+}
+
+/// Titles of the axes.
+#[must_use]
+pub fn titles(arm: &Arm) -> [String; 2] {
+    [0, 1].map(|k| title(&arm.joints[k]))
+}
+
+fn title(joint: &Joint) -> String {
+    let name = super::figure::shortened(&joint.name, 14.0, 260.0);
+    match (joint.joint_type.is_revolute(), joint.range.is_circle()) {
+        (true, true) => format!("{name}, wraps around"),
+        (true, false) => name,
+        (false, _) => format!("{name} (m)"),
+    }
+}

@@ -1,0 +1,214 @@
+//! Colours that colour-blind readers can tell apart.
+
+/// A colour, sRGB.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rgb(pub u8, pub u8, pub u8);
+
+impl Rgb {
+    /// Mixes in `part` (0 to 1) of another colour.
+    #[must_use]
+    pub fn mixed(self, other: Rgb, part: f64) -> Rgb {
+        let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * part).round() as u8;
+        Rgb(mix(self.0, other.0), mix(self.1, other.1), mix(self.2, other.2))
+    }
+
+    /// The same colour, this part of the way to white.
+    #[must_use]
+    pub fn lighter(self, part: f64) -> Rgb {
+        self.mixed(WHITE, part)
+    }
+
+    /// The same colour, this part of the way to black.
+    #[must_use]
+    pub fn darker(self, part: f64) -> Rgb {
+        self.mixed(Rgb(0, 0, 0), part)
+    }
+}
+
+impl std::fmt::Display for Rgb {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
+    }
+}
+
+/// The colour of the paper.
+pub const WHITE: Rgb = Rgb(255, 255, 255);
+/// Text, path and arm.
+pub const INK: Rgb = Rgb(0x22, 0x26, 0x2b);
+/// For text that is less important.
+pub const GREY: Rgb = Rgb(0x5c, 0x63, 0x6b);
+/// What is there for orientation: the reach, ticks.
+pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
+/// What bars the way, and what is out of reach.
+pub const BARRED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
+/// Proofs: of no obstacle, and of no path.
+pub const PROOF: Rgb = Rgb(0xd9, 0x5f, 0x02);
+/// What moves.
+pub const ACCENT: Rgb = Rgb(0x00, 0x72, 0xb2);
+/// For lines of the grid behind a chart.
+pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
+/// The arm on its way.
+pub const GHOST: Rgb = Rgb(0xd8, 0xdc, 0xe1);
+/// Edges of roadmaps, sides of cells.
+pub const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
+/// Cells that the way leads through.
+pub const CHANNEL: Rgb = Rgb(0xf6, 0xe3, 0xa1);
+/// Boxes of free configurations.
+pub const FREE: Rgb = Rgb(0xd3, 0xee, 0xda);
+/// Boxes of which nothing is known: grey, which no obstacle is.
+pub const MIXED: Rgb = Rgb(0xae, 0xb3, 0xbb);
+/// Links of the robot that stand still.
+pub const ROBOT: Rgb = Rgb(0x8a, 0x90, 0x98);
+/// Regions that fields avoid.
+pub const AVOIDED: Rgb = Rgb(0xc4, 0x6a, 0x1d);
+/// Regions that fields prefer.
+pub const PREFERRED: Rgb = Rgb(0x2b, 0x7a, 0x78);
+
+/// The colours that mean something, by the names that the style of pages has for them.
+pub const TINTS: [(&str, Rgb); 15] = [
+    ("ink", INK),
+    ("paper", WHITE),
+    ("grey", GREY),
+    ("pale", PALE),
+    ("faint", FAINT),
+    ("ghost", GHOST),
+    ("accent", ACCENT),
+    ("barred", BARRED),
+    ("proof", PROOF),
+    ("edge", EDGE),
+    ("channel", CHANNEL),
+    ("free", FREE),
+    ("mixed", MIXED),
+    ("avoided", AVOIDED),
+    ("preferred", PREFERRED),
+];
+
+/// The name of a colour that means something, or the colour.
+#[must_use]
+pub fn tint(color: Rgb) -> String {
+    let named = TINTS.iter().find(|(_, tint)| *tint == color);
+    named.map_or_else(|| color.to_string(), |(name, _)| (*name).to_owned())
+}
+
+/// Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), neighbours in the list far apart.
+const MUTED: [Rgb; 9] = [
+    Rgb(0x88, 0xcc, 0xee),
+    Rgb(0xcc, 0x66, 0x77),
+    Rgb(0xdd, 0xcc, 0x77),
+    Rgb(0x44, 0xaa, 0x99),
+    Rgb(0x33, 0x22, 0x88),
+    Rgb(0xaa, 0x44, 0x99),
+    Rgb(0x99, 0x99, 0x33),
+    Rgb(0x88, 0x22, 0x55),
+    Rgb(0x11, 0x77, 0x33),
+];
+
+/// The colour of obstacle `index`. Nine hues; further rounds through them alternate between paler and deeper, so that
+/// 63 obstacles differ before the list begins again.
+#[must_use]
+pub fn obstacle(index: usize) -> Rgb {
+    let hue = MUTED[index % MUTED.len()];
+    match index / MUTED.len() % 7 {
+        0 => hue,
+        1 => hue.lighter(0.4),
+        2 => hue.darker(0.3),
+        3 => hue.lighter(0.2),
+        4 => hue.darker(0.15),
+        5 => hue.lighter(0.55),
+        _ => hue.darker(0.45),
+    }
+}
+
+/// Colour and dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008). The dashes
+/// keep paths apart that lie on top of each other; further rounds through the colours have other dashes, so that 36 paths differ.
+#[must_use]
+pub fn path(index: usize) -> (Rgb, &'static [f64]) {
+    const COLORS: [Rgb; 6] = [
+        Rgb(0x00, 0x72, 0xb2),
+        Rgb(0xd5, 0x5e, 0x00),
+        Rgb(0x00, 0x9e, 0x73),
+        Rgb(0xb0, 0x4f, 0x88),
+        Rgb(0xc7, 0x8a, 0x00),
+        Rgb(0x2b, 0x90, 0xc9),
+    ];
+    const DASHES: [&[f64]; 6] = [&[], &[9.0, 4.0], &[3.0, 3.0], &[10.0, 3.0, 2.0, 3.0], &[5.0, 5.0], &[14.0, 4.0]];
+    (COLORS[index % COLORS.len()], DASHES[(index + index / COLORS.len()) % DASHES.len()])
+}
+
+/// A perceptually uniform scale for `value` from 0 (light) to 1 (dark): seaborn's "mako" without its darkest third,
+/// reversed, so that a dark path stays legible on it.
+#[must_use]
+pub fn scale(value: f64) -> Rgb {
+    const STOPS: [Rgb; 8] = [
+        Rgb(0xde, 0xf5, 0xe5),
+        Rgb(0xa8, 0xe1, 0xbc),
+        Rgb(0x60, 0xce, 0xac),
+        Rgb(0x3e, 0xb4, 0xad),
+        Rgb(0x34, 0x98, 0xa9),
+        Rgb(0x35, 0x7b, 0xa3),
+        Rgb(0x3b, 0x5d, 0x9a),
+        Rgb(0x41, 0x3f, 0x80),
+    ];
+    let at = value.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
+    let below = (at as usize).min(STOPS.len() - 2);
+    STOPS[below].mixed(STOPS[below + 1], at - below as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance (WCAG), to measure with something else than the mixing code.
+    fn luminance(c: Rgb) -> f64 {
+        let linear = |v: u8| {
+            let v = f64::from(v) / 255.0;
+            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * linear(c.0) + 0.7152 * linear(c.1) + 0.0722 * linear(c.2)
+    }
+
+    #[test]
+    fn the_paths_of_many_planners_differ() {
+        let pens: std::collections::BTreeSet<String> = (0..36).map(|index| format!("{:?}", path(index))).collect();
+        assert_eq!(pens.len(), 36);
+    }
+
+    #[test]
+    fn sixty_obstacles_have_sixty_colours() {
+        let all: Vec<Rgb> = (0..60).map(obstacle).collect();
+        for (i, a) in all.iter().enumerate() {
+            for b in &all[i + 1..] {
+                assert_ne!(a, b);
+            }
+        }
+        assert_eq!(obstacle(63), obstacle(0));
+    }
+
+    #[test]
+    fn the_scale_darkens_steadily() {
+        let all: Vec<f64> = (0..=100).map(|i| luminance(scale(f64::from(i) / 100.0))).collect();
+        assert!(all.windows(2).all(|w| w[1] < w[0]));
+        assert_eq!(scale(-1.0), scale(0.0));
+        assert_eq!(scale(2.0), Rgb(0x41, 0x3f, 0x80));
+    }
+
+    #[test]
+    fn surfaces_and_ghosts_can_be_told_apart_where_a_projector_is_weak() {
+        let contrast = |a: Rgb, b: Rgb| {
+            let [a, b] = [a, b].map(|color| luminance(color) + 0.05);
+            a.max(b) / a.min(b)
+        };
+        assert!(contrast(FREE, MIXED) >= 1.6, "{}", contrast(FREE, MIXED));
+        assert!(contrast(MIXED, WHITE) >= 1.6);
+        // The outline of a ghost.
+        assert!(contrast(GREY.lighter(0.3), WHITE) >= 3.0);
+    }
+
+    #[test]
+    fn mixing_ends_at_its_arguments() {
+        let a = Rgb(10, 200, 30);
+        assert_eq!(a.mixed(WHITE, 0.0), a);
+        assert_eq!(a.mixed(WHITE, 1.0), WHITE);
+        assert_eq!(a.to_string(), "#0ac81e");
+    }
+}

@@ -1,0 +1,61 @@
+//! Coordinate frames of links, drawn by their axes.
+
+use super::axes::Frame;
+use super::color::{self, INK, WHITE};
+use super::figure::{Anchor, Item, Spot, Step, Style, label};
+use super::view::FrameView;
+use cplan_geometry::{Vector, perpendicular};
+
+/// Length of an axis that lies in the plane, pixels.
+const LENGTH: f64 = 52.0;
+/// Axes with a shorter shadow in the plane, as a share of their length, are drawn as if they stood on it.
+const STANDING: f64 = 0.1;
+const LETTERS: [&str; 3] = ["x", "y", "z"];
+
+/// Axes, letters and names.
+#[must_use]
+pub fn items(panel: &Frame, frames: &[FrameView]) -> Vec<Item> {
+    frames.iter().flat_map(|frame| one(panel, frame)).collect()
+}
+
+fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
+    let at = panel.at(frame.at[0], frame.at[1]);
+    let mut items = Vec::new();
+    for (k, &[u, v, w]) in frame.axes.iter().enumerate() {
+        let (color, _) = color::path(k);
+        // The page's y goes down.
+        let shadow = Vector::new(u, -v);
+        let text = |at: Spot| label(at, LETTERS[k], 14.0, Anchor::Middle, color);
+        if shadow.norm() < STANDING {
+            items.extend(standing(at, w > 0.0, Style::line(color, 1.8)));
+            items.push(text([at[0] - 15.0, at[1] + 5.0]));
+            continue;
+        }
+        let pen = Style::line(color, 2.4);
+        let tip = moved(at, shadow * LENGTH);
+        let back = shadow.normalize() * -9.0;
+        let barb = |side: f64| moved(tip, back + perpendicular(back) * (0.45 * side));
+        items.push(Item::Outline(vec![Step::Move(at), Step::Line(tip)], pen));
+        items.push(Item::Outline(vec![Step::Move(barb(1.0)), Step::Line(tip), Step::Line(barb(-1.0))], pen));
+        items.push(text(moved(tip, shadow.normalize() * 12.0 + Vector::new(0.0, 5.0))));
+    }
+    items.push(label([at[0] + 9.0, at[1] + 21.0], &frame.name, 13.0, Anchor::Start, INK));
+    items
+}
+
+/// An arrow seen from its point (a dot) or from its feathers (a cross), in a circle.
+fn standing(at: Spot, towards: bool, pen: Style) -> Vec<Item> {
+    const RADIUS: f64 = 7.0;
+    let ring = Item::Disc(at, RADIUS, pen.filled(WHITE));
+    if towards {
+        return vec![ring, Item::Disc(at, 2.2, Style::fill(INK))];
+    }
+    let r = RADIUS * std::f64::consts::FRAC_1_SQRT_2;
+    let stroke =
+        |y: f64| Item::Outline(vec![Step::Move([at[0] - r, at[1] - y]), Step::Line([at[0] + r, at[1] + y])], pen);
+    vec![ring, stroke(r), stroke(-r)]
+}
+
+fn moved(at: Spot, by: Vector) -> Spot {
+    [at[0] + by.x, at[1] + by.y]
+}

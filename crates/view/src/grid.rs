@@ -1,0 +1,93 @@
+//! The configuration spaces, side by side.
+
+use super::chart::{self, Chart};
+use super::color::{GREY, INK};
+use super::cspace;
+use super::figure::{Anchor, Item, Rect, label, shortened};
+use super::view::{PanelView, View};
+use cplan_core::model::Arm;
+
+/// Between columns, for the values at their ends, and between rows, for the titles; pixels.
+const GAP: [f64; 2] = [40.0, 36.0];
+/// Greatest height of two panels one below the other, pixels.
+const STACKED: f64 = 640.0;
+/// Ratio of height to width of a panel whose axes have different scales.
+const PROPORTION: f64 = 0.8;
+
+/// Where the panels are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Number of panels.
+    count: usize,
+    columns: usize,
+    /// Width and height of a panel, pixels.
+    size: [f64; 2],
+    width: f64,
+}
+
+impl Grid {
+    /// As many columns as keep the panels legible in this width.
+    #[must_use]
+    pub fn new(count: usize, arm: &Arm, width: f64) -> Self {
+        let proportion = chart::one_scale(arm).unwrap_or(PROPORTION).clamp(0.5, 1.2);
+        let room = |columns: usize| (width - GAP[0] * (columns - 1) as f64) / columns as f64;
+        // Two low ones are wider one below the other.
+        let below = ((STACKED - GAP[1]) / 2.0 / proportion).min(room(1));
+        let (columns, side) = match count {
+            0..=1 => (1, room(1).min(530.0)),
+            2 if below > room(2) => (1, below),
+            2..=6 => (2, room(2)),
+            _ => (3, room(3)),
+        };
+        Self { count, columns, size: [side, side * proportion], width }
+    }
+
+    /// Of the panels, from the upper side of the first to the lower side of the last, pixels.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        let rows = self.count.div_ceil(self.columns) as f64;
+        rows * (self.size[1] + GAP[1]) - GAP[1]
+    }
+
+    fn area(&self, index: usize, [left, top]: [f64; 2]) -> Rect {
+        let [width, height] = self.size;
+        let (column, row) = ((index % self.columns) as f64, (index / self.columns) as f64);
+        let used = self.columns as f64 * (width + GAP[0]) - GAP[0];
+        let x = left + (self.width - used) / 2.0 + column * (width + GAP[0]);
+        Rect { x, y: top + row * (height + GAP[1]), width, height }
+    }
+
+    /// Draws the panels; values stand at the left and at the lowest of each column, titles of the axes once.
+    #[must_use]
+    pub fn items(&self, view: &View, panels: &[&PanelView], left_out: usize, corner: [f64; 2]) -> Vec<Item> {
+        let arm = &view.arm;
+        let mut items = Vec::new();
+        let charts: Vec<Chart> = (0..panels.len()).map(|index| Chart::new(arm, self.area(index, corner))).collect();
+        for (index, (panel, chart)) in panels.iter().zip(&charts).enumerate() {
+            items.extend(cspace::items(view, panel, chart));
+            items.push(title(&panel.title, chart.frame.rect));
+            let values = [index + self.columns >= panels.len(), index % self.columns == 0];
+            items.extend(chart.frame.tick_marks(chart.units, values));
+        }
+        let (Some(first), Some(last)) = (charts.first(), charts.last()) else { return items };
+        let columns = &charts[..self.columns.min(charts.len())];
+        let right = columns.last().map_or(first.frame.rect.right(), |chart| chart.frame.rect.right());
+        let Rect { x, y, .. } = first.frame.rect;
+        let around = Rect { x, y, width: right - x, height: last.frame.rect.bottom() - y };
+        items.extend(first.frame.titles(around, first.units, chart::titles(arm)));
+        if left_out > 0 {
+            let text = format!("{left_out} further configuration spaces are not shown");
+            let at = [around.x + around.width / 2.0, around.bottom() + 60.0];
+            items.push(label(at, text, 13.0, Anchor::Middle, GREY));
+        }
+        items
+    }
+}
+
+/// Above a frame.
+fn title(text: &str, frame: Rect) -> Item {
+    const SIZE: f64 = 14.0;
+    // Somewhat wider than the frame: less than half of what lies between neighbours on each side.
+    let text = shortened(text, SIZE, frame.width + 24.0);
+    label([frame.x + frame.width / 2.0, frame.y - 9.0], text, SIZE, Anchor::Middle, INK)
+}

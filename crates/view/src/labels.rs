@@ -1,0 +1,164 @@
+//! Names on what they belong to or, where that is smaller, beside it; none over another.
+
+use super::axes::Frame;
+use super::color::{INK, WHITE};
+use super::figure::{Anchor, Item, Rect, Spot, Style, label, rectangle, shortened, text_width};
+use super::tags::overlap;
+use super::view::around;
+use cplan_core::model::Shape;
+use cplan_geometry::Convex;
+
+const SIZE: f64 = 12.0;
+/// Widest name, pixels.
+const WIDEST: f64 = 160.0;
+/// Height of a name's box, and its distance from what it stands beside, pixels.
+const LINE: f64 = 15.0;
+const GAP: f64 = 4.0;
+/// What of a wall its name belongs to, pixels.
+const WALL: f64 = 10.0;
+/// Part of what is named that its name may cover.
+const COVERED: f64 = 0.5;
+
+/// Where a name may stand: on what it belongs to, then above, below, beside and at the corners of it.
+const SIDES: [Spot; 9] =
+    [[0.0, 0.0], [0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+
+/// A name, and what it belongs to.
+pub type Named = (String, Rect);
+
+/// The names within `page`, as far as there is room: what comes first chooses first.
+#[must_use]
+pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
+    let mut taken: Vec<Rect> = Vec::new();
+    let mut items = Vec::new();
+    for (name, of) in names {
+        let name = shortened(name, SIZE, WIDEST);
+        let size = size(&name);
+        let middle = [of.x + of.width / 2.0, of.y + of.height / 2.0];
+        let fits = size[0] <= of.width && size[1] <= of.height;
+        let boxes = SIDES.into_iter().skip(usize::from(!fits)).map(|side: Spot| {
+            let away = [0, 1].map(|k| side[k] * (size[k] / 2.0 + GAP + [of.width, of.height][k] / 2.0));
+            about([middle[0] + away[0], middle[1] + away[1]], size)
+        });
+        let is_free = |b: &Rect| is_free(b, &taken, page);
+        // Of what is large a part may be hidden rather than all of what is small.
+        let share = |b: &Rect, other: &Rect| overlap(b, other) / (other.width * other.height).max(LINE * LINE);
+        let hidden = |b: &Rect| {
+            let others = names.iter().map(|(_, place)| place).filter(|place| *place != of);
+            others.map(|place| share(b, place)).sum::<f64>()
+        };
+        let Some(best) = boxes.filter(is_free).min_by(|a, b| hidden(a).total_cmp(&hidden(b))) else { continue };
+        items.extend(text(name, best));
+        taken.push(best);
+    }
+    items
+}
+
+/// Names about spots, each with the area of what it names, square pixels; those that would cover that, another, or one of the
+/// `markers`, are left out.
+#[must_use]
+pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (String, Spot, f64)>) -> Vec<Item> {
+    let mut taken = markers;
+    let mut items = Vec::new();
+    for (name, at, area) in names {
+        let name = shortened(&name, SIZE, WIDEST);
+        let size = size(&name);
+        let place = pushed(about(at, size), page);
+        if size[0] * size[1] <= COVERED * area && is_free(&place, &taken, page) {
+            items.extend(text(name, place));
+            taken.push(place);
+        }
+    }
+    items
+}
+
+/// What the name of a shape belongs to: all of it, or the middle of a wall's longest stretch.
+pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = &'a Convex>) -> Rect {
+    if let Shape::Polyline(points) = shape {
+        let longest = points.windows(2).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));
+        if let Some([a, b]) = longest {
+            return about(frame.at((a.x + b.x) / 2.0, (a.y + b.y) / 2.0), [WALL; 2]);
+        }
+    }
+    let [x, y] = around(pieces);
+    let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
+    Rect { x: left, y: top, width: right - left, height: bottom - top }
+}
+
+/// A rectangle of this size about a spot.
+pub fn about([x, y]: Spot, [width, height]: [f64; 2]) -> Rect {
+    Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
+}
+
+/// Room for the name of what ends at a spot and comes from another: beyond it.
+pub fn beyond(name: &str, tip: Spot, from: Spot) -> Rect {
+    let away = [tip[0] - from[0], tip[1] - from[1]];
+    let length = away[0].hypot(away[1]).max(f64::MIN_POSITIVE);
+    let size = size(name);
+    about([0, 1].map(|k| tip[k] + away[k] / length * (size[k] / 2.0 + 2.0 * GAP)), size)
+}
+
+/// The same box, within the page.
+fn pushed(place: Rect, page: &Rect) -> Rect {
+    let x = place.x.min(page.right() - place.width).max(page.x);
+    let y = place.y.min(page.bottom() - place.height).max(page.y);
+    Rect { x, y, ..place }
+}
+
+fn size(name: &str) -> [f64; 2] {
+    [text_width(name, SIZE) + 6.0, LINE]
+}
+
+fn is_free(place: &Rect, taken: &[Rect], page: &Rect) -> bool {
+    taken.iter().all(|other| overlap(place, other) == 0.0) && overlap(place, page) > 0.999 * place.width * place.height
+}
+
+fn text(name: String, place: Rect) -> [Item; 2] {
+    let at = [place.x + place.width / 2.0, place.bottom() - 3.5];
+    let paper = Item::Outline(rectangle(place), Style::fill(WHITE).faded(0.7));
+    [paper, label(at, name, SIZE, Anchor::Middle, INK)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PAGE: Rect = Rect { x: 0.0, y: 0.0, width: 300.0, height: 300.0 };
+
+    fn texts(items: &[Item]) -> Vec<String> {
+        let text = |item: &'_ Item| if let Item::Text(label) = item { Some(label.text.clone()) } else { None };
+        items.iter().filter_map(text).collect()
+    }
+
+    #[test]
+    fn names_that_cover_what_they_name_or_each_other_are_left_out() {
+        let names = [
+            ("wide".to_owned(), [100.0, 100.0], 5000.0),
+            ("over it".to_owned(), [110.0, 104.0], 5000.0),
+            ("small".to_owned(), [200.0, 200.0], 300.0),
+            ("pushed".to_owned(), [299.0, 20.0], 5000.0),
+            ("marked".to_owned(), [50.0, 250.0], 5000.0),
+        ];
+        let marker = about([60.0, 252.0], [14.0; 2]);
+        assert_eq!(texts(&inside(&PAGE, vec![marker], names)), ["wide", "pushed"]);
+    }
+
+    #[test]
+    fn the_name_of_an_arm_lies_beyond_its_tip() {
+        for from in [[100.0, 150.0], [150.0, 250.0], [190.0, 100.0]] {
+            let place = beyond("start", [150.0, 150.0], from);
+            let middle = [place.x + place.width / 2.0, place.y + place.height / 2.0];
+            let toward = (middle[0] - 150.0) * (150.0 - from[0]) + (middle[1] - 150.0) * (150.0 - from[1]);
+            assert!(toward > 0.0 && overlap(&place, &about([150.0, 150.0], [1.0, 1.0])) == 0.0, "{place:?}");
+        }
+    }
+
+    #[test]
+    fn a_name_stands_beside_what_is_smaller() {
+        let place = about([150.0, 150.0], [10.0, 10.0]);
+        let items = items(&PAGE, &[("bottle".to_owned(), place)]);
+        let Some(Item::Outline(steps, _)) = items.first() else { panic!("no paper") };
+        let paper = about([150.0, 150.0 - 5.0 - GAP - LINE / 2.0], size("bottle"));
+        assert_eq!(*steps, rectangle(paper));
+    }
+}

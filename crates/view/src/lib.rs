@@ -1,0 +1,115 @@
+//! Pictures and pages: pure functions of results, by way of one description of what there is to see.
+//!
+//! ```text
+//! Picture (one motion), TaskPicture -> View -> Figure -> SVG -> PNG
+//!                                     |    \-> one a moment -> GIF
+//!                                     \-> JSON -> HTML
+//! ```
+//!
+//! Two panels side by side: left the workspace in metres with the arm at the start, at the goal and on its way, and the
+//! trace of its tip; right the configuration space in degrees or metres, with the C-obstacles in the colours of their
+//! obstacles and their names in them, the path and what the planner saw; proofs are hatched, as nothing else is. The
+//! picture of a task has a configuration space for each payload state. What is drawn, from where and in which colour stands
+//! in the [`View`]; the figure is where that is on the page, and knows no file format. The same view is the same file, byte
+//! for byte.
+
+pub mod output;
+mod animation;
+mod arm;
+mod axes;
+mod boxes;
+mod chart;
+pub mod color;
+mod copies;
+mod cspace;
+mod exploration;
+mod figure;
+mod frames;
+#[cfg(feature = "png")]
+mod gif_writer;
+mod grid;
+mod labels;
+mod legend;
+mod obstacles;
+mod page;
+#[cfg(feature = "png")]
+mod png_writer;
+mod preferences;
+mod reach;
+mod shapes;
+mod steps;
+mod stuck;
+mod svg_writer;
+mod tags;
+mod trace;
+mod view;
+mod workspace;
+
+pub use exploration::exploration_page;
+pub use obstacles::{extent, obstacles, still_page};
+pub use stuck::Stuck;
+pub use view::{AxesFrame, Moments, Picture, TaskPicture, View, drawing, page, shell};
+
+/// Why there is no picture.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DrawError {
+    /// The size is no size.
+    #[error("a picture at {0} pixels a unit would be empty, or more than 16384 pixels wide")]
+    Scale(f64),
+    /// The SVG document could not be read back.
+    #[error("cannot rasterise the picture: {0}")]
+    Svg(String),
+    /// The pixels could not be compressed.
+    #[error("cannot write the picture as PNG: {0}")]
+    Png(String),
+    /// The pictures could not be put together.
+    #[error("cannot write the picture as GIF: {0}")]
+    Gif(String),
+}
+
+/// The view as an SVG document, 1400 pixels wide; 720 high, but for tasks that need more.
+#[must_use]
+pub fn svg(view: &View) -> String {
+    svg_writer::write(&page::compose(view))
+}
+
+/// The view in motion, as SVG documents and how long each is to be seen, in hundredths of a second: how the planner came to its answer,
+/// where the view knows it, then what the arm does. The last one is [`svg()`].
+pub fn moving(view: &View) -> impl Iterator<Item = (String, u16)> {
+    let moments = animation::moments(view).into_iter();
+    moments.map(|moment| (svg_writer::write(&animation::figure(view, moment)), moment.delay))
+}
+
+/// An SVG document as a PNG file, of its size times `scale`.
+///
+/// # Errors
+/// [`DrawError::Scale`] if the scale is not a positive number of a sensible size.
+#[cfg(feature = "png")]
+pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
+    png_writer::write(svg, scale)
+}
+
+/// The view in motion, as an animated GIF of this width: how the planner came to its answer, where the view knows it, and what the arm
+/// does. `progress` hears how many of how many pictures are done.
+///
+/// # Errors
+/// [`DrawError::Scale`] if the width is none of a picture.
+#[cfg(feature = "png")]
+pub fn gif(view: &View, width: f64, progress: &mut dyn FnMut(usize, usize)) -> Result<Vec<u8>, DrawError> {
+    let moments = animation::moments(view);
+    let figures = moments.iter().map(|&moment| (animation::figure(view, moment), moment.delay));
+    let mut done = 0;
+    gif_writer::write(figures, width, &mut || {
+        done += 1;
+        progress(done, moments.len());
+    })
+}
+
+/// An SVG document as a GIF of a single picture of this width.
+///
+/// # Errors
+/// As [`gif()`].
+#[cfg(feature = "png")]
+pub fn still_gif(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
+    gif_writer::still(svg, width)
+}

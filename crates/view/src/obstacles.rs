@@ -1,0 +1,76 @@
+//! Obstacles alone, before there is an arm.
+
+use super::axes::{Frame, Range, Unit};
+use super::color;
+use super::figure::Item;
+use super::legend::{Key, Sign};
+use super::view::{Grain, ObstacleView, around};
+use super::{labels, page, shapes, svg_writer};
+use cplan_core::model::Obstacle;
+use cplan_text::markup;
+
+/// Share of the extent that is left free on each side.
+const MARGIN: f64 = 0.04;
+
+/// Obstacles as an SVG document, the largest drawn first, each named where there is room. Those of a group, as `groups` says for each,
+/// share a colour. The first line is the title.
+#[must_use]
+pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> String {
+    let mut known: Vec<&str> = Vec::new();
+    let mut colors = Vec::with_capacity(obstacles.len());
+    for group in groups {
+        colors.push(known.iter().position(|name| name == group).unwrap_or_else(|| {
+            known.push(group);
+            known.len() - 1
+        }));
+    }
+    let sides = extent(obstacles);
+    let lengths = sides.map(|(low, high)| high - low);
+    let size = lengths.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+    let [x, y] = sides.map(|(low, high)| (low - MARGIN * size, high + MARGIN * size));
+    let mut order: Vec<usize> = (0..obstacles.len()).collect();
+    let areas: Vec<f64> =
+        obstacles.iter().map(|obstacle| obstacle.pieces.iter().map(|piece| piece.area()).sum()).collect();
+    order.sort_by(|&i, &j| areas[j].total_cmp(&areas[i]));
+    let keys = known.iter().enumerate().map(|(i, name)| (Sign::Swatch(color::obstacle(i)), (*name).to_owned()));
+    let keys: Vec<Key> = keys.take(MOST_KEYS).collect();
+    svg_writer::write(&page::alone(title, keys, (y.1 - y.0) / (x.1 - x.0), |area| {
+        let frame = Frame::filling(area, x, y);
+        let view = |&i: &usize| ObstacleView::new(&obstacles[i], colors[i], Grain::within(size));
+        let mut items = frame.grid([Unit::Meters; 2]);
+        items.extend(order.iter().map(|i| shapes::solid(&frame, &view(i))));
+        items.extend(names(&frame, obstacles));
+        let mut items = vec![Item::Clip(frame.rect, items)];
+        items.extend(frame.border([Unit::Meters; 2], ["x (m)", "y (m)"].map(str::to_owned), [false; 2]));
+        items
+    }))
+}
+
+/// More colours than this are not explained.
+const MOST_KEYS: usize = 32;
+/// More obstacles than this are not named: nobody could tell whose the names are.
+const MOST_NAMES: usize = 200;
+/// Names on their obstacles or beside them.
+fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
+    if obstacles.len() > MOST_NAMES {
+        return Vec::new();
+    }
+    let named = |o: &Obstacle| (o.name.clone(), labels::place(frame, &o.shape, &o.pieces));
+    labels::items(&frame.rect, &obstacles.iter().map(named).collect::<Vec<_>>())
+}
+
+/// Least and greatest coordinates of obstacles.
+#[must_use]
+pub fn extent(obstacles: &[Obstacle]) -> [Range; 2] {
+    around(obstacles.iter().flat_map(|obstacle| &obstacle.pieces))
+}
+
+/// A page that shows an SVG document.
+#[must_use]
+pub fn still_page(title: &str, svg: &str) -> String {
+    let title = markup(title);
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{title}</title>\n</head>\n\
+         <body>\n{svg}\n</body>\n</html>\n"
+    )
+}

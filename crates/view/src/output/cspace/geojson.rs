@@ -1,0 +1,79 @@
+//! Configuration spaces as GeoJSON (RFC 7946), whose longitudes and latitudes are joint values here.
+
+use super::{CSpace, CSpaces, Values};
+use cplan_motion::line_a_field;
+use serde_json::{Value, json};
+
+/// A `FeatureCollection`. Of each feature `kind` says what it is, and `space` the number of its configuration space. Grids
+/// have no place in it.
+pub fn text(spaces: &CSpaces) -> String {
+    let CSpaces { name, planner, status, axes, spaces } = spaces;
+    let features: Vec<Value> = spaces.iter().enumerate().flat_map(|(number, space)| features(number, space)).collect();
+    line_a_field(&json!({
+        "type": "FeatureCollection",
+        "name": name, "planner": planner, "status": status, "axes": axes,
+        "features": features,
+    }))
+}
+
+fn features(number: usize, space: &CSpace) -> Vec<Value> {
+    let feature = |kind: &str, geometry: Value, more: Value| {
+        let mut properties = json!({ "kind": kind, "space": number });
+        if let (Some(properties), Value::Object(more)) = (properties.as_object_mut(), more) {
+            properties.extend(more);
+        }
+        json!({ "type": "Feature", "properties": properties, "geometry": geometry })
+    };
+    let none = || json!({});
+    let obstacle = |region: &super::ObstacleRegion| {
+        let more = json!({ "name": region.obstacle, "proves": space.proves });
+        feature("c_obstacle", geometry("MultiPolygon", &region.polygons), more)
+    };
+    let mut features: Vec<Value> = space.c_obstacles.iter().map(obstacle).collect();
+    if let Some(free) = &space.free {
+        features.push(feature("free", geometry("MultiPolygon", &free.polygons), json!({ "proves": free.proves })));
+    }
+    if let Some(cells) = &space.cells {
+        let place = |cell: usize| cells.channel.iter().position(|&passed| passed == cell);
+        features.extend(cells.corners.iter().enumerate().map(|(cell, corners)| {
+            let ring: Vec<Values> = corners.iter().chain(corners.first()).copied().collect();
+            feature("cell", geometry("Polygon", [ring]), json!({ "channel": place(cell) }))
+        }));
+    }
+    if let Some(boxes) = &space.boxes {
+        let kinds = [("free_box", &boxes.free), ("stuck_box", &boxes.stuck), ("mixed_box", &boxes.mixed)];
+        features.extend(kinds.map(|(kind, boxes)| feature(kind, rectangles(boxes), none())));
+    }
+    if let Some(roadmap) = &space.roadmap {
+        let ends = roadmap.edges.iter().map(|edge| edge.map(|vertex| roadmap.vertices[vertex]));
+        let lines = geometry("MultiLineString", ends.collect::<Vec<_>>());
+        features.push(feature("roadmap", lines, json!({ "whole": roadmap.whole })));
+    }
+    let lists = [
+        ("rows", geometry("MultiLineString", &space.rows), space.rows.is_empty()),
+        ("expanded", geometry("MultiPoint", &space.expanded), space.expanded.is_empty()),
+        ("proof", rectangles(&space.proof), space.proof.is_empty()),
+    ];
+    features.extend(lists.into_iter().filter(|list| !list.2).map(|(kind, shape, _)| feature(kind, shape, none())));
+    features.extend(
+        space
+            .paths
+            .iter()
+            .map(|path| feature("path", geometry("LineString", &path.outline), json!({ "name": path.name }))),
+    );
+    features.push(feature("start", geometry("Point", space.start), none()));
+    features.extend(space.goals.iter().map(|goal| match goal {
+        [from, to] if from == to => feature("goal", geometry("Point", from), none()),
+        ends => feature("goal", geometry("LineString", ends), none()),
+    }));
+    features
+}
+
+fn geometry(kind: &str, coordinates: impl serde::Serialize) -> Value {
+    json!({ "type": kind, "coordinates": coordinates })
+}
+
+fn rectangles(boxes: &[[Values; 2]]) -> Value {
+    let ring = |&[[a, b], [c, d]]: &[Values; 2]| [[[a, b], [c, b], [c, d], [a, d], [a, b]]];
+    geometry("MultiPolygon", boxes.iter().map(ring).collect::<Vec<_>>())
+}

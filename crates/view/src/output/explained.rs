@@ -1,0 +1,231 @@
+//! An explanation for people: in words, and as a picture.
+
+use super::picture::{contours, title_of};
+use super::summary::{Line, configuration, goal_lines, laid_out};
+use crate::{Picture, Stuck, View};
+use cplan_core::model::{Outcome, Scene};
+use cplan_engine::Verdict;
+use cplan_engine::explain::{
+    Among, BlockedEnd, BlockingSet, Bottleneck, Change, Closed, Cure, Element, End, Explanation, OutOfReach, Shaped,
+    TIME_LIMIT, Target,
+};
+use cplan_text::{at_least, at_most, fixed, listed, nonzero, percent, short};
+
+/// How many times as long an explanation that was stopped is advised to take.
+const MORE_TIME: f64 = 12.0;
+
+/// The verdict first, then why.
+#[must_use]
+pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
+    let scene = explanation.question.scene();
+    let mut lines = vec![("result", verdict(explanation))];
+    lines.extend(facts(explanation));
+    lines.extend(stopped(explanation).map(|words| ("stopped", words)));
+    lines.push(("start", configuration(scene.arm(), explanation.question.start())));
+    match explanation.question.target() {
+        Target::Goals(goals) => lines.extend(goal_lines(scene.arm(), goals)),
+        Target::Tip(tip) => lines.push(("goal", format!("tip at ({}, {}) m", tip.x, tip.y))),
+    }
+    lines.extend(notes.iter().map(|note| ("note", note.clone())));
+    format!("{}\n{}", title_of(scene), laid_out(&lines))
+}
+
+/// What pictures and pages of it show.
+#[must_use]
+pub fn view(explanation: &Explanation) -> View {
+    let question = &explanation.question;
+    let goals = question.ends();
+    let (path, proof) = match &explanation.outcome {
+        Outcome::Found(Shaped { answer, .. }) => {
+            let path = if let Verdict::Found(path) = &answer.verdict { Some(path.path()) } else { None };
+            (path, None)
+        }
+        Outcome::Infeasible(Closed { proof, .. }) => (None, proof.as_ref()),
+        Outcome::Unknown(_) => (None, None),
+    };
+    let picture = Picture {
+        title: vec![title_of(question.scene()), verdict(explanation)],
+        status: explanation.status().name().into(),
+        ending: Some(explanation.status()),
+        facts: facts(explanation).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
+        goals: &goals,
+        paths: path.into_iter().map(|path| ("shortest".to_owned(), path)).collect(),
+        proof,
+        c_obstacles: &contours(question.scene()),
+        ..Picture::new(question.scene(), question.start())
+    };
+    let view = View::of_picture(&picture);
+    if let Outcome::Infeasible(closed) = &explanation.outcome {
+        let blockers = closed.sets.iter().flat_map(BlockingSet::elements).filter_map(Element::obstacle).collect();
+        let at = closed.bottleneck.as_ref().map(|bottleneck| (bottleneck.at, bottleneck.point));
+        return view.with_stuck(Stuck { blockers, at });
+    }
+    view
+}
+
+/// The answer in a sentence.
+fn verdict(explanation: &Explanation) -> String {
+    let scene = explanation.question.scene();
+    match &explanation.outcome {
+        Outcome::Unknown(reason) => format!("unknown: {reason}"),
+        Outcome::Found(shaped) => match shaped.savings.len() {
+            0 if explanation.is_stopped => "there is a motion; what makes the shortest one longer is not known".into(),
+            0 => "there is a motion, and nothing alone makes the shortest one longer".into(),
+            n => format!("there is a motion; {} the shortest one longer", counted_makes(n)),
+        },
+        Outcome::Infeasible(closed) => match closed.sets.first().filter(|set| !set.blockers.is_empty()) {
+            Some(set) => format!("there is no motion: proven; blocked by {}", set.describe(scene)),
+            None if closed.out_of_reach.is_some() => "there is no motion: the goal is out of reach".into(),
+            None => "there is no motion, and nothing that could be left out opens a way".into(),
+        },
+    }
+}
+
+/// That the time was up before all was looked at, and how to have more of it.
+fn stopped(explanation: &Explanation) -> Option<String> {
+    let limit = explanation.question.time_limit().filter(|_| explanation.is_stopped)?.as_secs_f64();
+    let more = short((MORE_TIME * limit).max(TIME_LIMIT.as_secs_f64()));
+    Some(format!("after {limit} s, before all was looked at; --time {more} takes longer"))
+}
+
+fn counted_makes(n: usize) -> String {
+    if n == 1 { "one thing makes".into() } else { format!("{n} things each make") }
+}
+
+/// What there is to say, by name.
+fn facts(explanation: &Explanation) -> Vec<Line> {
+    let scene = explanation.question.scene();
+    match &explanation.outcome {
+        Outcome::Found(shaped) => found(scene, shaped),
+        Outcome::Infeasible(closed) => infeasible(scene, closed),
+        Outcome::Unknown(_) => Vec::new(),
+    }
+}
+
+fn found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Vec<Line> {
+    let mut lines = Vec::new();
+    if let Some(bound) = answer.bound {
+        let gap = percent(bound.gap());
+        lines.push(("shortest", format!("length {:.4}; at most {gap} longer than the optimum, proven", bound.upper)));
+    }
+    for saving in savings {
+        let (what, length) = (saving.element.describe(scene), saving.length);
+        let (least, most) = (at_least(saving.at_least, 4), at_most(saving.at_most, 4));
+        let by = format!("without {what} it would be {length:.4}: shorter by {least} at least, {most} at most");
+        lines.push(("shaped by", by));
+    }
+    if let Verdict::Found(path) = &answer.verdict
+        && let Some(nearest) = path.nearest()
+    {
+        let between = scene.describe(nearest.contact.pair);
+        let at = configuration(scene.arm(), nearest.at);
+        lines.push(("tightest", format!("at least {} m, between {between} at {at}", at_least(path.clearance(), 6))));
+    }
+    lines
+}
+
+fn infeasible(scene: &Scene, closed: &Closed) -> Vec<Line> {
+    let mut lines: Vec<Line> = closed.ends.iter().flat_map(|end| end_lines(scene, end)).collect();
+    lines.extend(closed.out_of_reach.iter().map(|out| ("reach", misses(scene, out))));
+    for (number, set) in closed.sets.iter().enumerate() {
+        let elements = set.elements();
+        if elements.is_empty() {
+            continue;
+        }
+        let boxes = set.proof.as_ref().map_or_else(
+            || "start or goal is not free among them".into(),
+            |proof| match proof.stuck().len() {
+                1 => "1 box of collisions proves it".into(),
+                n => format!("{n} boxes of collisions prove it"),
+            },
+        );
+        let also = if number == 0 { "" } else { ", enough by itself, too" };
+        let proven = if set.is_irreducible() { "" } else { "; not proven irreducible" };
+        lines.push(("blocked by", format!("{}{also}; {boxes}{proven}", set.describe(scene))));
+        for blocker in &set.blockers {
+            let what = blocker.element.describe(scene);
+            let known =
+                if blocker.without.is_some() { "a way is certified" } else { "it is not known whether there is a way" };
+            let others = if elements.len() == 1 { "with nothing else there" } else { "among the others alone" };
+            lines.push(("", format!("  without {what} {known} {others}")));
+        }
+    }
+    for set in &closed.sets {
+        let changes = set.blockers.iter().flat_map(|blocker| &blocker.changes);
+        lines.extend(changes.map(|change| ("opens", opens(scene, set, change))));
+    }
+    lines.extend(closed.bottleneck.iter().map(|bottleneck| ("stuck", stuck(scene, bottleneck))));
+    lines
+}
+
+/// What is wrong with a start or goal, and the nearest that is not.
+fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
+    let arm = scene.arm();
+    let key = if blocked.end == End::Start { "bad start" } else { "bad goal" };
+    let beyond = (0..2).filter(|&k| blocked.beyond[k] > 0.0);
+    let beyond = beyond.map(|k| {
+        format!("joint \"{}\" is {} beyond its limits", arm.joints[k].name, arm.joints[k].shown(blocked.beyond[k]))
+    });
+    let reasons: Vec<String> = beyond.chain(blocked.hits.iter().map(|hit| scene.explain(hit))).collect();
+    let mut lines = vec![(key, format!("{}: {}", configuration(arm, blocked.at), listed(&reasons)))];
+    lines.push(match (&blocked.nearest, blocked.tip_moves(arm)) {
+        (Some(nearest), Some(tip)) => {
+            let (at, far) = (configuration(arm, nearest.configuration), nearest.distance);
+            ("", format!("  nearest free: {at}; {far:.4} away in joint space, the tip moves by {tip:.4} m"))
+        }
+        _ => ("", "  no free configuration was found anywhere".into()),
+    });
+    lines
+}
+
+/// How far a tip goal is out of reach.
+fn misses(scene: &Scene, out: &OutOfReach) -> String {
+    let OutOfReach { tip, nearest, at } = out;
+    format!(
+        "within the limits the tip misses ({:.4}, {:.4}) m by {:.4} m: the nearest place is ({:.4}, {:.4}) m, at {}",
+        tip.x,
+        tip.y,
+        (tip - nearest).norm(),
+        nearest.x,
+        nearest.y,
+        configuration(scene.arm(), *at)
+    )
+}
+
+/// A change in words.
+fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
+    let Change { element, cure, among, by } = change;
+    let (what, unit) = (element.describe(scene), element.unit(scene.arm()));
+    let how = match cure {
+        Cure::Moved { direction: [x, y] } => format!("{what} moved towards ({x:.3}, {y:.3}) by"),
+        Cure::Eroded => format!("{what} smaller on all sides by"),
+        Cure::Scaled { to } => format!("{what} scaled to {:.1} % about its middle, its farthest point by", 100.0 * to),
+        Cure::Widened => format!("{what} wider by"),
+        Cure::Lowered => format!("{what} lowered by"),
+    };
+    let others: Vec<String> =
+        set.elements().iter().filter(|other| *other != element).map(|other| other.describe(scene)).collect();
+    let others = if others.is_empty() { "nothing else".into() } else { format!("{} alone", others.join(", ")) };
+    let nothing_else = if *among == Among::Set { format!(", with {others} in the way") } else { String::new() };
+    let digits = if unit == "m" && by.opens < 0.01 { 6 } else { 4 };
+    let (open, shut) = (at_most(by.opens, digits), at_least(by.closed, digits));
+    format!("{how} {open} {unit} opens a way (certified), by {shut} {unit} does not (proven){nothing_else}")
+}
+
+/// A bottleneck in words.
+fn stuck(scene: &Scene, bottleneck: &Bottleneck) -> String {
+    let clearance = scene.workspace().clearance;
+    let lacking = bottleneck.lacking(clearance);
+    let at = configuration(scene.arm(), bottleneck.at);
+    let point = bottleneck.point;
+    let between: Vec<String> = bottleneck.hits.iter().map(|hit| scene.describe(hit.contact.pair)).collect();
+    let between = listed(&between);
+    let (open, shut) = (at_most(bottleneck.by.opens, 4), at_least(bottleneck.by.closed, 4));
+    format!(
+        "at {at}, near ({}, {}) m: too narrow by {} m ({between}); a way opens when everything gives way by {open} m, not yet by \
+         {shut} m",
+        fixed(point.x, 4),
+        fixed(point.y, 4),
+        nonzero(lacking, 4)
+    )
+}

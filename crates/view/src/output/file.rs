@@ -1,0 +1,90 @@
+//! Files of a plan.
+
+use super::cspace::{CSpaceFormat, cspaces};
+use super::picture::{PictureFormat, PictureFormatError, view, view_with_replay};
+#[cfg(feature = "mcap")]
+use super::stage::stage;
+use crate::DrawError;
+use cplan_engine::Plan;
+use cplan_motion::{Format, FormatError, WriteError, write_whole};
+use std::path::Path;
+use thiserror::Error;
+
+/// What a file of a plan holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileFormat {
+    /// The result, or the motion alone.
+    Result(Format),
+    /// The configuration space as data.
+    CSpace(CSpaceFormat),
+    /// A picture, or a page.
+    Picture(PictureFormat),
+}
+
+/// Why a file is not written.
+#[derive(Debug, Error)]
+pub enum SaveError {
+    /// The extension is that of no picture that this program can draw.
+    #[error(transparent)]
+    Picture(#[from] PictureFormatError),
+    /// The extension tells no format.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// The picture cannot be plan.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
+    /// The file cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// The format holds nothing but a trajectory, and there is none.
+    #[error("{file} is not written: there is no trajectory to put into it")]
+    Empty {
+        /// The name as given.
+        file: String,
+    },
+}
+
+impl FileFormat {
+    /// The format that a file's extension stands for: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.gif`, `.html` or `.geojson`; but
+    /// `cspace.json` and what ends in `.cspace.json` is the configuration space.
+    ///
+    /// # Errors
+    /// Any other extension, and those that this build of the program does not have.
+    pub fn from_path(path: &Path) -> Result<Self, SaveError> {
+        if let Some(format) = CSpaceFormat::from_path(path) {
+            return Ok(Self::CSpace(format));
+        }
+        match PictureFormat::from_path(path) {
+            Ok(format) => Ok(Self::Picture(format)),
+            Err(error @ PictureFormatError::WithoutPng { .. }) => Err(error.into()),
+            Err(PictureFormatError::Unknown { .. }) => Ok(Self::Result(Format::from_path(path)?)),
+        }
+    }
+}
+
+/// The plan as a file of this format holds it; none if the format holds nothing but a trajectory and there is none. All but
+/// MCAP, PNG and GIF are text in UTF-8.
+///
+/// # Errors
+/// A picture that cannot be plan of pixels.
+pub fn bytes(plan: &Plan, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
+    match format {
+        #[cfg(feature = "mcap")]
+        FileFormat::Result(Format::Mcap) => Ok(stage(plan).and_then(|stage| plan.report().recording(Some(&stage)))),
+        FileFormat::Result(format) => Ok(plan.report().bytes(format)),
+        FileFormat::CSpace(format) => Ok(Some(format.text(&cspaces(plan)).into_bytes())),
+        FileFormat::Picture(format) if format.plays() => format.bytes(&view_with_replay(plan)).map(Some),
+        FileFormat::Picture(format) => format.bytes(&view(plan)).map(Some),
+    }
+}
+
+/// Writes the plan into a file, whole or not at all; the extension says what it holds, see [`FileFormat::from_path`].
+///
+/// # Errors
+/// An extension that is none of ours, a trajectory that is not there, a picture that cannot be plan, I/O.
+pub fn save(plan: &Plan, path: &Path) -> Result<(), SaveError> {
+    let Some(contents) = bytes(plan, FileFormat::from_path(path)?)? else {
+        return Err(SaveError::Empty { file: path.display().to_string() });
+    };
+    Ok(write_whole(path, &contents)?)
+}

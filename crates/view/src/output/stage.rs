@@ -1,0 +1,112 @@
+//! What a recording of a plan shows: the arm's links, obstacles and objects, and where they are when.
+
+use crate::color::{GREY, INK, Rgb, obstacle as obstacle_color};
+use cplan_core::model::{Arm, Mover, Obstacle, Part, Workspace};
+use cplan_core::space::Configuration;
+use cplan_engine::task::{Event, Leg};
+use cplan_engine::{Kind, Plan, TaskPlan};
+use cplan_geometry::Pose;
+use cplan_motion::{Body, Solid, Stage};
+
+/// Numbers of bodies: the workspace, both links, then objects.
+const LINKS: usize = 1;
+const OBJECTS: usize = 3;
+
+/// What there is to see while the motion runs; none where there is no motion.
+pub(super) fn stage(plan: &Plan) -> Option<Stage> {
+    let (arm, report) = (plan.arm(), plan.report());
+    let trajectory = report.trajectory.as_ref()?;
+    let obstacles = match plan.made() {
+        Kind::Motion(made) => &made.problem.scene().workspace().obstacles,
+        Kind::Task(made) => &made.task.workspace.obstacles,
+    };
+    let mut stage = Stage {
+        plane: arm.plane,
+        bodies: vec![Body { name: "workspace".into(), solids: obstacles.iter().enumerate().map(lying).collect() }],
+        poses: vec![(0.0, 0, Pose::identity(), 0.0)],
+        size: arm.reach(),
+    };
+    for (number, link) in arm.links.iter().enumerate() {
+        // A payload is a body of its own.
+        let parts = match plan.made() {
+            Kind::Motion(made) => made.problem.scene().own_parts(number),
+            Kind::Task(_) => &link.parts,
+        };
+        stage.bodies.push(of_link(&link.name, parts));
+    }
+    for (&time, &q) in trajectory.time.iter().zip(&trajectory.position) {
+        let poses = arm.poses(q.into());
+        let moved = poses.into_iter().enumerate().map(|(link, pose)| (time, LINKS + link, pose, 0.0));
+        stage.poses.extend(moved);
+    }
+    match plan.made() {
+        Kind::Motion(made) => with_movers(&mut stage, made.problem.scene().workspace(), &trajectory.time),
+        Kind::Task(made) => {
+            with_objects(&mut stage, arm, made, &trajectory.time);
+            with_movers(&mut stage, &made.task.workspace, &trajectory.time);
+        }
+    }
+    stage.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Some(stage)
+}
+
+/// What moves, at each of these times.
+fn with_movers(stage: &mut Stage, workspace: &Workspace, times: &[f64]) {
+    for (number, Mover { obstacle, course }) in workspace.movers.iter().enumerate() {
+        let solid = lying((workspace.obstacles.len() + number, obstacle));
+        let body = stage.bodies.len();
+        stage.bodies.push(Body { name: format!("moving/{}", obstacle.name), solids: vec![solid] });
+        stage.poses.extend(times.iter().map(|&time| (time, body, course.pose(time), 0.0)));
+    }
+}
+
+/// Objects lie, or move as is told at these times, are carried, and lie again.
+fn with_objects(stage: &mut Stage, arm: &Arm, plan: &TaskPlan, times: &[f64]) {
+    let TaskPlan { task, answer } = plan;
+    for (number, object) in task.objects.iter().enumerate() {
+        let of_all = task.obstacle_number(number);
+        let solid = Solid {
+            name: object.name.clone(),
+            color: parts_of(obstacle_color(of_all)),
+            pieces: object.pieces.iter().map(|piece| (piece.clone(), object.heights)).collect(),
+        };
+        stage.bodies.push(Body { name: format!("object/{}", object.name), solids: vec![solid] });
+        stage.poses.push((0.0, OBJECTS + number, object.at, 0.0));
+        if let Some(course) = &object.course {
+            let grasped = |leg: &Leg| leg.event_time().filter(|_| leg.event == Some(Event::Grasp { object: number }));
+            let until = answer.legs.iter().find_map(grasped).unwrap_or(f64::INFINITY);
+            let moves = times.iter().filter(|&&time| 0.0 < time && time <= until);
+            stage.poses.extend(moves.map(|&time| (time, OBJECTS + number, course.pose(time), 0.0)));
+        }
+    }
+    for leg in &answer.legs {
+        if let (Some(object), Some(payload)) = (leg.carried, leg.scene.payload()) {
+            let lift = task.objects[object].lift;
+            let motion = &leg.timed.trajectory;
+            stage.poses.extend(motion.time.iter().zip(&motion.position).map(|(&time, &q)| {
+                (leg.begin + time, OBJECTS + object, payload.pose(arm, Configuration::from(q)), lift)
+            }));
+        }
+        if let (Some(Event::Release { object, pose }), Some(time)) = (leg.event, leg.event_time()) {
+            stage.poses.push((time, OBJECTS + object, pose, 0.0));
+        }
+    }
+}
+
+fn lying((number, obstacle): (usize, &Obstacle)) -> Solid {
+    Solid {
+        name: obstacle.name.clone(),
+        color: parts_of(obstacle_color(number)),
+        pieces: obstacle.pieces.iter().map(|piece| (piece.clone(), obstacle.heights)).collect(),
+    }
+}
+
+fn of_link(name: &str, parts: &[Part]) -> Body {
+    let pieces = parts.iter().map(|part| (part.shape.clone(), part.heights)).collect();
+    let color = parts_of(INK.mixed(GREY, 0.5));
+    Body { name: format!("link/{name}"), solids: vec![Solid { name: name.to_owned(), color, pieces }] }
+}
+
+fn parts_of(Rgb(red, green, blue): Rgb) -> [f32; 3] {
+    [red, green, blue].map(|part| f32::from(part) / 255.0)
+}

@@ -1,0 +1,89 @@
+//! A line a step, for people.
+
+use cplan_text::{INDENT, counted, wrapped};
+
+/// Characters of a line: as many as fit a terminal of 80 beside the summary's first column.
+const WIDTH: usize = 80 - INDENT;
+
+/// Repetitions of a step that are shown; of the others only how many there are.
+const SHOWN_CYCLES: usize = 3;
+
+/// A step of a task, for people.
+pub struct StepLine {
+    /// Number of the repetition, from 1.
+    pub cycle: usize,
+    /// True if it is shown in late repetitions, too.
+    pub matters: bool,
+    /// Its line in four columns.
+    pub columns: [String; 4],
+}
+
+/// The lines; runs of later cycles in one each. Where a table of all columns is too wide, what is carried and the motion stand below what
+/// is done.
+pub fn step_lines(steps: &[StepLine]) -> Vec<String> {
+    let shown = |step: &StepLine| step.matters || step.cycle <= SHOWN_CYCLES;
+    let width = |k: usize| {
+        let rows = steps.iter().filter(|step| shown(step));
+        rows.map(|step| step.columns[k].chars().count()).max().unwrap_or(0)
+    };
+    let [a, b, c, d] = [0, 1, 2, 3].map(width);
+    let is_narrow = a + b + c + d + 6 <= WIDTH;
+    let row = |StepLine { columns: [number, action, carried, motion], .. }: &StepLine| {
+        if is_narrow {
+            return vec![format!("{number:<a$}  {action:<b$}  {carried:<c$}  {motion}")];
+        }
+        let below = format!("{:<a$}  {carried:<c$}  {motion}", "");
+        let all = [format!("{number:<a$}  {action}"), below].map(|line| wrapped(&line, WIDTH, a + 2));
+        all.iter().flat_map(|text| text.lines().map(str::to_owned)).collect()
+    };
+    let mut lines = Vec::new();
+    for run in steps.chunk_by(|a, b| shown(a) == shown(b)) {
+        if shown(&run[0]) {
+            lines.extend(run.iter().flat_map(row));
+        } else {
+            let cycles = run.iter().map(|step| step.cycle);
+            let (first, last) =
+                cycles.fold((usize::MAX, 0), |(first, last), cycle| (first.min(cycle), last.max(cycle)));
+            let which = if first == last { format!("cycle {first}") } else { format!("cycles {first} to {last}") };
+            lines.push(format!("... {} in {which}", counted(run.len(), "step")));
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(columns: [&str; 4]) -> StepLine {
+        StepLine { cycle: 1, matters: false, columns: columns.map(str::to_owned) }
+    }
+
+    #[test]
+    fn a_table_that_fits_is_one_line_a_step() {
+        let steps = [line(["1", "pick \"part\"", "empty-handed", "1.0 s"]), line(["10", "move", "", "2.5 s"])];
+        assert_eq!(
+            step_lines(&steps),
+            ["1   pick \"part\"  empty-handed  1.0 s", "10  move                       2.5 s"]
+        );
+    }
+
+    #[test]
+    fn what_is_too_wide_stands_below() {
+        let action = "place at (0.6, 0.4) m, turned to 1.5708 rad, beside the box that was put there";
+        let motion = "0.980 s, turn in 0.512 s, clearance 0.0008 m";
+        let lines =
+            step_lines(&[line(["3", action, "carrying \"part\"", motion]), line(["4", "move", "empty-handed", "1 s"])]);
+        assert_eq!(
+            lines,
+            [
+                "3  place at (0.6, 0.4) m, turned to 1.5708 rad, beside the box that",
+                "   was put there",
+                "   carrying \"part\"  0.980 s, turn in 0.512 s, clearance 0.0008 m",
+                "4  move",
+                "   empty-handed     1 s",
+            ]
+        );
+        assert!(lines.iter().all(|line| line.len() <= WIDTH));
+    }
+}

@@ -1,0 +1,133 @@
+//! The summary for people.
+
+use super::{motion_summary, task_summary};
+use cplan_core::model::{Arm, Joint};
+use cplan_core::space::{Configuration, GoalSet, JointRange, Segment};
+use cplan_engine::{Kind, Options, Plan};
+use cplan_motion::Trajectory;
+use cplan_text::{Columns, first_lines};
+use std::time::Duration;
+
+/// Both joints' values by name.
+pub fn configuration(arm: &Arm, q: Configuration) -> String {
+    let [a, b] = &arm.joints;
+    format!("{} {}, {} {}", a.name, a.shown(q[0]), b.name, b.shown(q[1]))
+}
+
+/// Both joints' values along a segment by name: of a joint that moves all along it, from where to where.
+pub fn segment(arm: &Arm, segment: &Segment) -> String {
+    let [from, to] = segment.ends();
+    let shown = |k: usize| {
+        let joint = &arm.joints[k];
+        match from[k] == to[k] {
+            true => format!("{} {}", joint.name, joint.shown(from[k])),
+            false => format!("{} any from {} to {}", joint.name, joint.shown(from[k]), joint.shown(to[k])),
+        }
+    };
+    format!("{}, {}", shown(0), shown(1))
+}
+
+/// A line for each goal, as long as they are few.
+pub(super) fn goal_lines(arm: &Arm, goals: &GoalSet) -> Vec<Line> {
+    let lines = goals.pieces().iter().map(|goal| segment(arm, goal)).collect();
+    first_lines(lines, |more| format!("and {more} more")).into_iter().map(|line| ("goal", line)).collect()
+}
+
+/// A joint's range.
+pub fn range(joint: &Joint) -> String {
+    match joint.range {
+        JointRange::Circle => "continuous".into(),
+        JointRange::Interval { lower, upper } => format!("{} to {}", joint.shown(lower), joint.shown(upper)),
+    }
+}
+
+/// The result in some ten lines for people, the verdict first, with the files that were written and the stages, in milliseconds, that came after planning; and, if that is asked
+/// for, how the robot was read.
+#[must_use]
+pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
+    let Told { found: mut lines, asked } = told(plan);
+    if let Some(blocked) = plan.made().motion().and_then(|made| motion_summary::blocked_by(made)) {
+        lines.insert(1, blocked);
+    }
+    lines.extend(files.iter().map(|file| ("file", file.clone())));
+    let stages = plan.timings().iter().chain(after);
+    let stages: Vec<String> = stages.map(|(name, time)| format!("{name} {:.1}", time.as_secs_f64() * 1e3)).collect();
+    lines.push(("time", format!("{} ms", stages.join(", "))));
+    lines.extend(asked);
+    lines.extend(arm_lines(plan.arm()));
+    let robot = plan.problem().robot();
+    let geometry = robot.geometry.iter().filter(|_| is_verbose);
+    lines.extend(geometry.map(|fact| ("robot", fact.clone())));
+    lines.extend(robot.notes.iter().chain(plan.problem().notes()).map(|note| ("note", note.clone())));
+    laid_out(&lines)
+}
+
+/// What a page says of it: outcome and arm.
+pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
+    let lines = told(plan).found.into_iter().chain(arm_lines(plan.arm()));
+    lines.map(|(key, text)| [key.to_owned(), text]).collect()
+}
+
+fn told(plan: &Plan) -> Told {
+    match plan.made() {
+        Kind::Motion(made) => motion_summary::told(plan, made),
+        Kind::Task(made) => task_summary::told(plan, made),
+    }
+}
+
+/// Lines that a single motion and a task have for themselves.
+pub(super) struct Told {
+    /// What was found, which a page says, too: the verdict first.
+    pub found: Vec<Line>,
+    /// What was asked.
+    pub asked: Vec<Line>,
+}
+
+/// A line of the summary: its key, empty if it goes on with what the line before is about, and its text.
+pub type Line = (&'static str, String);
+
+/// The arm and its joints.
+fn arm_lines(arm: &Arm) -> Vec<Line> {
+    let mut lines = vec![("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name))];
+    let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits);
+    for (k, joint) in arm.joints.iter().enumerate() {
+        let unit = joint.unit();
+        let mut speeds = format!("at most {} {unit}/s", joint.velocity);
+        // What takes the place of an acceleration is no wish of anybody's.
+        if dynamics.is_none_or(|dynamics| !dynamics.assumed[k]) {
+            speeds += &format!(", {} {unit}/s2", joint.acceleration);
+        }
+        speeds += &joint.jerk.map(|jerk| format!(", {jerk} {unit}/s3")).unwrap_or_default();
+        speeds += &dynamics.map(|d| format!(", {} {}", d.effort[k], joint.effort_unit())).unwrap_or_default();
+        lines.push(("joint", format!("{}: {}; {speeds}", joint.name, range(joint))));
+    }
+    lines
+}
+
+/// The greatest torques of a motion that keeps within the joints' efforts.
+pub(super) fn torque(arm: &Arm, trajectory: &Trajectory) -> Option<Line> {
+    let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;
+    let joint = |k: usize| {
+        let greatest = trajectory.torque.iter().map(|torque| torque[k].abs()).fold(0.0, f64::max);
+        let joint = &arm.joints[k];
+        format!("{} {greatest:.2} of {} {}", joint.name, dynamics.effort[k], joint.effort_unit())
+    };
+    Some(("torque", format!("at most {}, {}", joint(0), joint(1))))
+}
+
+/// The field that was asked for.
+pub(super) fn field(options: &Options) -> Option<Line> {
+    options.planner.field().map(|field| ("field", field.to_string()))
+}
+
+/// Lines in two columns.
+pub fn laid_out(lines: &[Line]) -> String {
+    let mut columns = Columns::default();
+    lines.iter().for_each(|(key, line)| columns.add(key, line));
+    columns.into_text()
+}
+
+/// A title, or words for none.
+pub(super) fn non_empty(name: &str) -> &str {
+    if name.is_empty() { "(no name)" } else { name }
+}

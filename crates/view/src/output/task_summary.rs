@@ -1,0 +1,109 @@
+//! The summary of a task for people.
+
+use super::motion_summary::among_movers;
+use super::step_lines::{StepLine, step_lines};
+use super::summary::{Line, Told, configuration, field, non_empty, torque};
+use cplan_core::model::{Arm, Task};
+use cplan_engine::task::{Leg, TaskAnswer};
+use cplan_engine::{Plan, Report, TaskPlan};
+use cplan_text::{at_least, counted, nonzero, percent};
+
+/// What came of the steps; start and steps.
+pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
+    let (TaskPlan { task, answer }, report) = (plan, whole.report());
+    let moving = match (task.workspace.movers.len(), task.moving_at_first().count()) {
+        (0, 0) => String::new(),
+        (obstacles, objects) => format!(", {} moving", obstacles + objects),
+    };
+    let things = [counted(task.workspace.obstacles.len(), "obstacle"), counted(task.objects.len(), "object") + &moving];
+    let (motions, states) = (counted(answer.motions, "motion"), counted(answer.expanded, "state"));
+    let mut asked = vec![
+        ("world", format!("{}, {}", non_empty(&task.workspace.name), things.join(", "))),
+        ("start", configuration(&task.arm, task.start)),
+    ];
+    asked.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
+    let mut found = outcome(&task.arm, answer, report);
+    found.extend(clearance(answer, report));
+    found.extend(answer.timing.iter().flat_map(|timing| among_movers(&task.arm, timing)));
+    found.push(("planner", format!("{}: {motions} planned, {states} seen", report.planner)));
+    found.extend(field(whole.options()));
+    Told { found, asked }
+}
+
+/// A line a step, those of later cycles in one.
+fn steps(task: &Task, answer: &TaskAnswer) -> Vec<String> {
+    let repeated = answer.legs.iter().any(|leg| leg.step.cycle > 1);
+    let line = |leg: &Leg| StepLine { cycle: leg.step.cycle, matters: false, columns: row(task, leg, repeated) };
+    step_lines(&answer.legs.iter().map(line).collect::<Vec<_>>())
+}
+
+/// Number, action, what is carried, and the motion of a step.
+fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
+    let objects = &task.objects;
+    let cycle = if repeated { format!(" (cycle {})", leg.step.cycle) } else { String::new() };
+    let carried = leg.carried.map_or("empty-handed".into(), |object| format!("carrying \"{}\"", objects[object].name));
+    let seconds = leg.timed.trajectory.duration();
+    let turn = leg.turn.map_or(String::new(), |(_, seconds)| format!(", turn in {seconds:.3} s"));
+    let clearance = match leg.clearance() {
+        clearance if clearance.is_finite() => format!("clearance {} m", nonzero(clearance, 4)),
+        _ => "nothing can be hit".into(),
+    };
+    let number = format!("{}{cycle}", leg.step.number);
+    [number, leg.step.action.describe(objects), carried, format!("{seconds:.3} s{turn}, {clearance}")]
+}
+
+/// The verdict, and what is proven of the time, or why it fails.
+fn outcome(arm: &Arm, answer: &TaskAnswer, report: &Report) -> Vec<Line> {
+    let count = counted(answer.legs.len(), "step");
+    let figures = report.task.as_ref();
+    let Some(duration) = report.duration else {
+        let mut lines = vec![("result", report.reason.clone().unwrap_or_default())];
+        let failed = figures.and_then(|figures| figures.failed.as_ref());
+        let reasons = failed.into_iter().flat_map(|failed| failed.reasons.iter().cloned());
+        lines.extend(reasons.map(|reason| ("why", reason)));
+        lines.push(("before it", format!("{count} can be done, in {:.3} s", answer.duration())));
+        return lines;
+    };
+    let samples = report.trajectory.as_ref().map_or(0, |trajectory| trajectory.time.len());
+    let still: f64 = answer.legs.iter().map(Leg::rest).sum();
+    let still = if still > 0.0 { format!(", {still:.3} s of it standing still") } else { String::new() };
+    let proven = match figures.and_then(|figures| figures.lower_bound.zip(figures.gap)) {
+        Some((lower, gap)) => format!(
+            "proven: no sequence of motions takes less than {} s, so at most {} longer than the fastest",
+            at_least(lower, 3),
+            percent(gap)
+        ),
+        None => "nothing is proven of the fastest".into(),
+    };
+    let choice = if answer.exact {
+        "no other postures, turns and order are faster with the motions of this planner"
+    } else {
+        "a good choice of postures, turns and order; not all were looked at"
+    };
+    let mut lines = vec![
+        ("result", format!("done and certified: {count}")),
+        ("motion", format!("{duration:.3} s{still}, {samples} samples")),
+    ];
+    lines.extend(report.trajectory.as_ref().and_then(|trajectory| torque(arm, trajectory)));
+    lines.extend([("optimum", proven), ("optimum", choice.into())]);
+    lines
+}
+
+/// What is kept all the time, and in which step it comes nearest.
+fn clearance(answer: &TaskAnswer, report: &Report) -> Option<Line> {
+    report.trajectory.as_ref()?;
+    let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
+    let (step, cycle) = (least.step.number, least.step.cycle);
+    let cycle = if cycle > 1 { format!(" of cycle {cycle}") } else { String::new() };
+    // Pictures count steps as they are done.
+    let is_in_order = answer.legs.is_sorted_by_key(|leg| (leg.step.cycle, leg.step.number));
+    let file = if is_in_order { "" } else { " of the file" };
+    let curve = &least.timed.curve;
+    let closest = match (least.turn, curve.nearest()) {
+        (Some((turn, _)), _) if turn.clearance < curve.clearance() => "the object that is turned".to_owned(),
+        (_, Some(nearest)) => least.scene.describe(nearest.contact.pair),
+        (_, None) => return Some(("clearance", "nothing can be hit".into())),
+    };
+    let kept = at_least(least.clearance(), 6);
+    Some(("clearance", format!("{kept} m proven; closest: {closest} in step {step}{file}{cycle}")))
+}

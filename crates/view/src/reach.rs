@@ -1,0 +1,106 @@
+//! Where the tip can get: cells of the workspace, and the solutions in the configuration space.
+
+use super::axes::Frame;
+use super::chart::Chart;
+use super::color::Rgb;
+use super::figure::{Item, Raster, Rect, Style};
+use super::legend::{Key, Sign};
+use super::view::{Chain, Grain};
+use cplan_engine::{Access, Reach, Solution};
+use serde::Serialize;
+
+/// With one solution, with several, proven that none can be reached, blocked, unknown.
+const LOOKS: [(Rgb, &str); 5] = [
+    (Rgb(0xb5, 0xd9, 0xc2), "the tip can get there, one way"),
+    (Rgb(0x5f, 0xae, 0x83), "with several solutions"),
+    (Rgb(0xe8, 0xa1, 0x6b), "free, but proven out of reach"),
+    (Rgb(0xe1, 0xe4, 0xe8), "not free"),
+    (Rgb(0xc9, 0xa7, 0xdc), "unknown"),
+];
+
+fn look(access: Access, count: usize) -> usize {
+    match (access, count) {
+        (Access::Reachable, 1) => 0,
+        (Access::Reachable, _) => 1,
+        (Access::Unreachable, _) => 2,
+        (Access::Blocked, _) => 3,
+        (Access::Unknown, _) => 4,
+    }
+}
+
+/// The cells of the workspace.
+#[must_use]
+pub fn in_workspace(reach: &Reach, frame: &Frame) -> Item {
+    let [columns, rows] = reach.size;
+    let mut levels = vec![None; columns * rows];
+    for (place, access, count) in reach.best() {
+        levels[place % columns * rows + place / columns] = Some(look(access, count));
+    }
+    let [left, bottom] = frame.at(reach.corner[0], reach.corner[1]);
+    let [right, top] =
+        frame.at(reach.corner[0] + reach.cell * columns as f64, reach.corner[1] + reach.cell * rows as f64);
+    let rect = Rect { x: left, y: top, width: right - left, height: bottom - top };
+    Item::Raster(Raster { rect, cells: reach.size, palette: LOOKS.map(|(color, _)| color).to_vec(), levels })
+}
+
+/// The solutions that are free, as dots.
+#[must_use]
+pub fn in_cspace(reach: &Reach, chart: &Chart) -> Vec<Item> {
+    let dot = |solution: &Solution| {
+        let (color, _) = LOOKS[look(solution.access, 2)];
+        Item::Disc(chart.place(solution.joints), 1.1, Style::fill(color))
+    };
+    free(reach).map(dot).collect()
+}
+
+fn free(reach: &Reach) -> impl Iterator<Item = &Solution> {
+    reach.places.iter().flatten().filter(|solution| solution.access != Access::Blocked)
+}
+
+/// What pages draw.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReachView {
+    /// Least coordinates of the first cell, metres.
+    corner: [f64; 2],
+    /// Side of the cells, metres.
+    cell: f64,
+    /// Cells along x, and along y.
+    size: [usize; 2],
+    /// Of each kind of cell the colour, and the solutions that are free and that it stands for in the configuration space.
+    kinds: Vec<KindView>,
+    /// The kind of each cell, row by row from below; a dot where the tip is out of reach.
+    cells: String,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct KindView {
+    color: Rgb,
+    solutions: Chain,
+}
+
+impl ReachView {
+    pub fn new(reach: &Reach, grain: Grain) -> Self {
+        let mut cells = vec![b'.'; reach.places.len()];
+        for (place, access, count) in reach.best() {
+            cells[place] = b'0' + look(access, count) as u8;
+        }
+        let kind = |(number, &(color, _)): (usize, &(Rgb, &str))| {
+            let solutions = free(reach).filter(|solution| look(solution.access, 2) == number);
+            KindView { color, solutions: grain.configurations(solutions.map(|solution| &solution.joints)) }
+        };
+        Self {
+            corner: reach.corner,
+            cell: reach.cell,
+            size: reach.size,
+            kinds: LOOKS.iter().enumerate().map(kind).collect(),
+            cells: cells.into_iter().map(char::from).collect(),
+        }
+    }
+}
+
+/// What the colours mean.
+#[must_use]
+pub fn keys(reach: &Reach) -> Vec<Key> {
+    let is_there = |which: &usize| reach.best().any(|(_, access, count)| look(access, count) == *which);
+    (0..LOOKS.len()).filter(is_there).map(|which| (Sign::Swatch(LOOKS[which].0), LOOKS[which].1.to_owned())).collect()
+}

@@ -1,0 +1,81 @@
+//! What is in the way of a motion that is not there, and where it gets stuck.
+
+use super::arm::{self, UNREACHED};
+use super::axes::Frame;
+use super::chart::Chart;
+use super::color::{BARRED, WHITE};
+use super::figure::{Item, Pen, Spot, Step, Style};
+use super::legend::{Key, Sign};
+use super::shapes;
+use super::view::View;
+use cplan_core::space::Configuration;
+use cplan_geometry::Point;
+use serde::{Serialize, Serializer};
+
+/// Dashes of what is in the way.
+const DASH: &[f64] = &[7.0, 3.0];
+
+/// Width of its outline.
+const WIDTH: f64 = 3.0;
+
+/// What is in the way, and where it is narrowest.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stuck {
+    /// Numbers of the obstacles.
+    pub blockers: Vec<usize>,
+    /// Where the arm gets stuck: the configuration, and the place in the plane.
+    #[serde(serialize_with = "pair", skip_serializing_if = "Option::is_none")]
+    pub at: Option<(Configuration, Point)>,
+}
+
+/// The configuration and the place, as pages read them.
+fn pair<S: Serializer>(at: &Option<(Configuration, Point)>, serializer: S) -> Result<S::Ok, S::Error> {
+    at.map(|(q, p)| [[q[0], q[1]], [p.x, p.y]]).serialize(serializer)
+}
+
+/// The blockers' outlines, the arm where it gets stuck, and the place.
+#[must_use]
+pub fn in_workspace(stuck: &Stuck, view: &View, frame: &Frame) -> Vec<Item> {
+    let world = view.first_world();
+    let blockers = stuck.blockers.iter().filter_map(|&number| world.obstacles.get(number));
+    let mut items: Vec<Item> = blockers.map(|obstacle| shapes::marked(frame, obstacle, pen())).collect();
+    if let Some((at, point)) = stuck.at {
+        items.extend(arm::items(frame, &view.arm, world.payload.as_ref(), at, &UNREACHED));
+        items.extend(cross(frame.at(point.x, point.y)));
+    }
+    items
+}
+
+/// The configuration where it gets stuck.
+#[must_use]
+pub fn in_cspace(stuck: &Stuck, chart: &Chart) -> Vec<Item> {
+    stuck.at.iter().flat_map(|(at, _)| cross(chart.place(*at))).collect()
+}
+
+/// What the marks mean.
+#[must_use]
+pub fn keys(stuck: &Stuck) -> Vec<Key> {
+    let blocking = (!stuck.blockers.is_empty()).then(|| (Sign::Dashed(BARRED), "in the way".to_owned()));
+    let place = stuck.at.map(|_| {
+        let pen = Pen { color: BARRED, width: 1.2, dash: &[] };
+        (Sign::Line(pen), "x: where it gets stuck, and the arm there".to_owned())
+    });
+    blocking.into_iter().chain(place).collect()
+}
+
+fn pen() -> Style {
+    Style::line(BARRED, WIDTH).dashed(DASH)
+}
+
+/// A cross on white.
+fn cross([x, y]: Spot) -> Vec<Item> {
+    let strokes = |r: f64| {
+        vec![
+            Step::Move([x - r, y - r]),
+            Step::Line([x + r, y + r]),
+            Step::Move([x - r, y + r]),
+            Step::Line([x + r, y - r]),
+        ]
+    };
+    vec![Item::Outline(strokes(7.5), Style::line(WHITE, 6.0)), Item::Outline(strokes(6.0), Style::line(BARRED, 2.6))]
+}

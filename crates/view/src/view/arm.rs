@@ -1,0 +1,111 @@
+//! The arm: enough of it to put it into any configuration.
+
+use super::numbers::{Grain, ShapeView};
+use crate::{chart, workspace};
+use cplan_core::model::{Arm, JointType, Part, Scene};
+use serde::{Serialize, Serializer};
+
+#[derive(Serialize)]
+struct JointView<'a> {
+    name: &'a str,
+    /// `rad` or `m`.
+    unit: &'static str,
+    /// +1 or -1 of one that turns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sign: Option<f64>,
+    /// Direction of one that slides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    direction: Option<[f64; 2]>,
+    /// Least and greatest value shown.
+    domain: [f64; 2],
+    /// Whether the ends of the domain are one.
+    circle: bool,
+    velocity: f64,
+    acceleration: f64,
+    /// The effort, where motions keep within it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct LinkView<'a> {
+    name: &'a str,
+    parts: Vec<PartView<'a>>,
+}
+
+#[derive(Serialize)]
+struct PartView<'a> {
+    body: &'a str,
+    #[serde(flatten)]
+    shape: ShapeView,
+}
+
+/// See [`Arm`] for the kinematics.
+#[derive(Serialize)]
+struct ArmView<'a> {
+    name: &'a str,
+    kind: &'static str,
+    joints: [JointView<'a>; 2],
+    /// Whether both axes of the configuration space have one scale.
+    one_scale: bool,
+    links: [LinkView<'a>; 2],
+    base: [f64; 2],
+    offset: [f64; 2],
+    tip: [f64; 2],
+    /// What the tip can never leave.
+    reach: ShapeView,
+    /// Names of the plane's coordinates.
+    plane: [String; 2],
+}
+
+/// A scene's arm, empty-handed.
+#[must_use]
+pub fn empty_handed(scene: &Scene, grain: Grain) -> Arm {
+    let mut arm = scene.arm().clone();
+    for (k, link) in arm.links.iter_mut().enumerate() {
+        let part = |part: &Part| Part { shape: grain.shape(&part.shape).0, ..part.clone() };
+        link.parts = scene.own_parts(k).iter().map(part).collect();
+    }
+    arm
+}
+
+/// What a page has to know of an arm.
+pub fn document<'a, S: Serializer>(arm: &'a Arm, serializer: S) -> Result<S::Ok, S::Error> {
+    let link = |k: usize| {
+        let part = |part: &'a Part| PartView { body: &part.body, shape: ShapeView(part.shape.clone()) };
+        LinkView { name: &arm.links[k].name, parts: arm.links[k].parts.iter().map(part).collect() }
+    };
+    let document = ArmView {
+        name: &arm.name,
+        kind: arm.kind(),
+        joints: [0, 1].map(|k| joint(arm, k)),
+        one_scale: chart::one_scale(arm).is_some(),
+        links: [link(0), link(1)],
+        base: [arm.base.x, arm.base.y],
+        offset: [arm.offset.x, arm.offset.y],
+        tip: [arm.tip.x, arm.tip.y],
+        reach: ShapeView(workspace::reach_shape(arm)),
+        plane: workspace::titles(&arm.plane),
+    };
+    document.serialize(serializer)
+}
+
+/// Unrounded: what comes of these numbers is multiplied and added up.
+fn joint(arm: &Arm, k: usize) -> JointView<'_> {
+    let joint = &arm.joints[k];
+    let (sign, direction) = match joint.joint_type {
+        JointType::Revolute { sign } => (Some(sign), None),
+        JointType::Prismatic { direction } => (None, Some([direction.x, direction.y])),
+    };
+    JointView {
+        name: &joint.name,
+        unit: joint.unit(),
+        sign,
+        direction,
+        domain: joint.range.domain().into(),
+        circle: joint.range.is_circle(),
+        velocity: joint.velocity,
+        acceleration: joint.acceleration,
+        torque: arm.dynamics.filter(|dynamics| dynamics.limits).map(|dynamics| dynamics.effort[k]),
+    }
+}

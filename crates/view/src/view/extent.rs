@@ -1,0 +1,70 @@
+//! What of the workspace is shown.
+
+use crate::axes::Range;
+use cplan_core::model::Scene;
+use cplan_core::space::Configuration;
+use cplan_geometry::{Convex, Point, Pose};
+
+/// Configurations along each axis from which the extent of the arm's motion is read.
+const SAMPLES: usize = 17;
+
+/// Least and greatest coordinates of all that the arm can sweep, and of the obstacles what is not much farther away.
+#[must_use]
+pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
+    /// Part of the swept extent up to which the panel grows for the sake of obstacles.
+    const NEARBY: f64 = 0.25;
+    const MARGIN: f64 = 0.04;
+    let swept = swept(scene, shown);
+    let size = (swept[0].1 - swept[0].0).max(swept[1].1 - swept[1].0);
+    let mut sides = swept;
+    for corners in scene.workspace().obstacles.iter().map(|o| around(&o.pieces)) {
+        let near = [0, 1]
+            .map(|k| (corners[k].0.max(swept[k].0 - NEARBY * size), corners[k].1.min(swept[k].1 + NEARBY * size)));
+        if near.iter().all(|(lower, upper)| lower <= upper) {
+            sides = [0, 1].map(|k| (sides[k].0.min(near[k].0), sides[k].1.max(near[k].1)));
+        }
+    }
+    sides.map(|(lower, upper)| (lower - MARGIN * size, upper + MARGIN * size))
+}
+
+/// The box around the arm in a sample of its configurations, which are dense enough for a picture.
+fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
+    let arm = scene.arm();
+    let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
+    let mut include = |p: Point, r: f64| {
+        for k in 0..2 {
+            bounds[k] = (bounds[k].0.min(p[k] - r), bounds[k].1.max(p[k] + r));
+        }
+    };
+    include(arm.base, 0.0);
+    let [first, second] = arm.topology().ranges.map(|axis| {
+        let (lower, upper) = axis.domain();
+        (0..SAMPLES).map(move |i| lower + (upper - lower) * i as f64 / (SAMPLES - 1) as f64)
+    });
+    let sampled = first.flat_map(|q1| second.clone().map(move |q2| Configuration::new(q1, q2)));
+    for q in sampled.chain(shown.iter().copied()) {
+        include(arm.tip_at(q), 0.0);
+        let mut shape =
+            |shape: &Convex, pose: &Pose| shape.core().iter().for_each(|p| include(pose * p, shape.radius()));
+        for (link, pose) in arm.poses(q).iter().enumerate() {
+            scene.own_parts(link).iter().for_each(|part| shape(&part.shape, pose));
+        }
+        if let Some(payload) = scene.payload() {
+            let pose = payload.pose(arm, q);
+            payload.pieces.iter().for_each(|piece| shape(piece, &pose));
+        }
+    }
+    bounds
+}
+
+/// The box around shapes; turned inside out if there are none.
+#[must_use]
+pub fn around<'a>(shapes: impl IntoIterator<Item = &'a Convex>) -> [Range; 2] {
+    let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
+    for shape in shapes {
+        for (p, k) in shape.core().iter().flat_map(|p| [(p, 0), (p, 1)]) {
+            bounds[k] = (bounds[k].0.min(p[k] - shape.radius()), bounds[k].1.max(p[k] + shape.radius()));
+        }
+    }
+    bounds
+}

@@ -1,0 +1,201 @@
+//! Paths, and motions in time.
+
+use super::numbers::{Chain, Grain};
+use crate::color::{self, GREY, INK, Rgb};
+use crate::figure::Pen;
+use cplan_core::space::{Configuration, Path};
+use cplan_motion::Trajectory;
+use serde::Serialize;
+
+/// Poses shown between the ends of a path.
+const GHOSTS: usize = 5;
+/// Width of a line that is looked at, and of one that is not, pixels.
+const WIDE: f64 = 2.4;
+const THIN: f64 = 1.6;
+
+/// A path in a world.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PathView {
+    pub name: String,
+    pub world: usize,
+    /// Colour, unless it is drawn in ink.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    color: Option<Rgb>,
+    /// Pixels.
+    width: f64,
+    /// Lengths of dashes and gaps in turn.
+    dash: &'static [f64],
+    /// Unwrapped configurations.
+    pub points: Chain,
+    /// Configurations that divide it into equal parts.
+    pub ghosts: Chain,
+    /// The number of the step that it is in a task.
+    #[serde(skip_serializing_if = "is_none")]
+    pub step: usize,
+    /// Whether it is being drawn, and does not end where it does as yet.
+    #[serde(skip)]
+    pub grows: bool,
+}
+
+fn is_none(step: &usize) -> bool {
+    *step == 0
+}
+
+impl PathView {
+    /// Path `index` out of `count`: a single one is drawn in ink.
+    pub fn of_several(name: &str, path: &Path, [index, count]: [usize; 2], grain: Grain) -> Self {
+        let (color, dash) = color::path(index);
+        let (color, dash) = if count > 1 { (Some(color), dash) } else { (None, &[][..]) };
+        Self {
+            name: name.to_owned(),
+            world: 0,
+            color,
+            width: WIDE,
+            dash,
+            points: grain.configurations(path.waypoints()),
+            ghosts: grain.configurations(&between(path, GHOSTS)),
+            step: 0,
+            grows: false,
+        }
+    }
+
+    /// The path of a step, in the colour of what is carried.
+    pub fn of_step(name: String, path: &Path, world: usize, step: usize, carried: Option<Rgb>, grain: Grain) -> Self {
+        let color = carried.map(|color| color.darker(0.25));
+        let width = if carried.is_some() { WIDE } else { THIN };
+        Self { name, world, color, width, step, ..Self::of_several("", path, [0, 1], grain) }
+    }
+
+    /// The same line along other configurations, without poses between its ends, while it is being drawn.
+    pub fn along(&self, points: Chain) -> Self {
+        Self { points, ghosts: Chain::default(), grows: true, ..self.clone() }
+    }
+
+    /// Another way than this path's, in grey beside it.
+    pub fn beside(&self, points: Chain) -> Self {
+        Self { name: "before it is pulled taut".to_owned(), color: Some(GREY), width: THIN, ..self.along(points) }
+    }
+
+    /// How it is drawn.
+    pub fn pen(&self) -> Pen {
+        let ink = if self.width < WIDE { INK.lighter(0.3) } else { INK };
+        Pen { color: self.color.unwrap_or(ink), width: self.width, dash: self.dash }
+    }
+
+    /// Whether something is carried along it.
+    pub fn is_colored(&self) -> bool {
+        self.color.is_some()
+    }
+
+    /// Where it begins.
+    pub fn start(&self) -> Configuration {
+        self.points.0[0]
+    }
+
+    /// Where it ends.
+    pub fn goal(&self) -> Configuration {
+        self.points.0[self.points.0.len() - 1]
+    }
+}
+
+/// Configurations that divide the path into `count + 1` equal parts.
+fn between(path: &Path, count: usize) -> Vec<Configuration> {
+    let total = path.length();
+    let mut wanted = (1..=count).map(|k| total * k as f64 / (count + 1) as f64).peekable();
+    let (mut found, mut done) = (Vec::new(), 0.0);
+    for (a, b) in path.segments() {
+        let length = (b - a).norm();
+        while let Some(s) = wanted.next_if(|&s| s <= done + length) {
+            found.push(a + (b - a) * ((s - done) / length));
+        }
+        done += length;
+    }
+    found
+}
+
+/// A motion from rest to rest.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MotionView {
+    pub world: usize,
+    /// Which of the paths it follows; none of a world in which nothing moves any more.
+    pub path: Option<usize>,
+    /// When its world begins to be that which is there, seconds.
+    pub from: f64,
+    /// What it does, in words.
+    pub label: String,
+    /// How the planner came to it: which of the replays.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replay: Option<usize>,
+}
+
+impl MotionView {
+    /// The only motion of a plan.
+    pub fn only(duration: f64) -> Self {
+        Self { world: 0, path: Some(0), from: 0.0, label: format!("{duration:.3} s"), replay: None }
+    }
+}
+
+/// Where the arm is at which time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Clock {
+    time: Vec<f64>,
+    /// Of both joints; radians or metres.
+    position: Chain,
+    /// The same a second.
+    velocity: Chain,
+    /// The same a second squared, at the beginning of the interval that begins here.
+    acceleration: Chain,
+    /// Torques or forces likewise, where they are known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    torque: Option<Chain>,
+}
+
+impl Clock {
+    /// The end of the motion, seconds.
+    pub fn duration(&self) -> f64 {
+        self.time.last().copied().unwrap_or(0.0)
+    }
+
+    /// Where the arm is at a time: between two samples on the straight line, which no one can tell from the curve.
+    pub fn at(&self, time: f64) -> Configuration {
+        let positions = &self.position.0;
+        if let [only] = positions[..] {
+            return only;
+        }
+        let next = self.time.partition_point(|&t| t <= time).clamp(1, positions.len() - 1);
+        let [from, to] = [self.time[next - 1], self.time[next]];
+        let part = ((time - from) / (to - from).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        positions[next - 1] + (positions[next] - positions[next - 1]) * part
+    }
+
+    pub fn new(trajectory: &Trajectory, grain: Grain) -> Self {
+        let chain = |values: &[[f64; 2]]| Chain(values.iter().map(|&q| grain.configuration(q.into()).into()).collect());
+        Self {
+            time: trajectory.time.iter().map(|&t| (t * 1e6).round() / 1e6).collect(),
+            position: chain(&trajectory.position),
+            velocity: chain(&trajectory.velocity),
+            acceleration: chain(&trajectory.acceleration),
+            torque: (!trajectory.torque.is_empty()).then(|| chain(&trajectory.torque)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ghosts_are_equally_spaced() {
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 3.0), (0.5, 3.0)];
+        let path = Path::new(corners.iter().map(|c| Configuration::new(c.0, c.1)).collect());
+        let all = between(&path, 8);
+        let expected: Vec<Configuration> =
+            [(0.5, 0.0), (1.0, 0.0), (1.0, 0.5), (1.0, 1.0), (1.0, 1.5), (1.0, 2.0), (1.0, 2.5), (1.0, 3.0)]
+                .iter()
+                .map(|c| Configuration::new(c.0, c.1))
+                .collect();
+        assert_eq!(all.len(), expected.len());
+        assert!(all.iter().zip(&expected).all(|(a, b)| (a - b).norm() < 1e-12), "{all:?}");
+        assert!(between(&Path::new(vec![Configuration::zeros()]), 3).is_empty());
+    }
+}

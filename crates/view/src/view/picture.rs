@@ -1,0 +1,152 @@
+//! One motion, several to compare, or none: what there is to show of a scene.
+
+use super::arm;
+use super::motion::{Clock, MotionView, PathView};
+use super::numbers::{Grain, number};
+use super::trace::TraceView;
+use super::world::WorldView;
+use super::{FrameView, PanelView, Still, View, extent};
+use cplan_core::check::CheckedProof;
+use cplan_core::cspace::CObstacle;
+use cplan_core::model::{Scene, Status};
+use cplan_core::planner::Trace;
+use cplan_core::space::{Configuration, Measure, Metric, Path, Segment};
+use cplan_geometry::Point;
+use cplan_motion::Trajectory;
+use nalgebra::Vector3;
+
+/// What there is to show of a scene. With one path, the path of a plan with the arm's poses along it; with several, a
+/// comparison that tells the paths apart by colour and dashes; with none, the problem alone.
+#[derive(Debug, Clone)]
+pub struct Picture<'a> {
+    /// The first line is the title; the others follow in smaller type.
+    pub title: Vec<String>,
+    /// How it ended, in a word or two.
+    pub status: String,
+    /// The same for colours and symbols; none where nothing was asked for.
+    pub ending: Option<Status>,
+    /// What is to be said of the result: names and values.
+    pub facts: Vec<[String; 2]>,
+    /// Arm and obstacles.
+    pub scene: &'a Scene,
+    /// Where the arm begins.
+    pub start: Configuration,
+    /// Where it may end: single configurations and segments. Without a path the arm is shown at the first, on a segment where
+    /// it is nearest to the start.
+    pub goals: &'a [Segment],
+    /// Names and paths, in unwrapped values.
+    pub paths: Vec<(String, &'a Path)>,
+    /// The motion along the only path.
+    pub trajectory: Option<&'a Trajectory>,
+    /// What the planner saw.
+    pub trace: Option<&'a Trace>,
+    /// The proof that there is no path, if that is the answer.
+    pub proof: Option<&'a CheckedProof>,
+    /// Contours in joint space.
+    pub c_obstacles: &'a [CObstacle],
+    /// Those of what moves at some times, seconds, ascending; by its number among what moves.
+    pub moments: &'a [(f64, Vec<CObstacle>)],
+}
+
+/// A frame, drawn by its axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxesFrame {
+    /// Written beside it.
+    pub name: String,
+    /// Origin, plane coordinates.
+    pub at: Point,
+    /// Directions of x, y and z: their parts along the plane's two coordinates and along its normal.
+    pub axes: [Vector3<f64>; 3],
+}
+
+impl<'a> Picture<'a> {
+    /// A scene with the arm at `start`, and nothing else.
+    #[must_use]
+    pub fn new(scene: &'a Scene, start: Configuration) -> Self {
+        Self {
+            title: Vec::new(),
+            status: String::new(),
+            ending: None,
+            facts: Vec::new(),
+            scene,
+            start,
+            goals: &[],
+            paths: Vec::new(),
+            trajectory: None,
+            trace: None,
+            proof: None,
+            c_obstacles: &[],
+            moments: &[],
+        }
+    }
+
+    /// The single goals, and where no path shows how a segment of them is reached its place nearest to the start.
+    fn single_goals(&self) -> Vec<Configuration> {
+        let shown = self.goals.iter().filter(|goal| goal.is_point() || self.paths.is_empty());
+        shown.map(|goal| goal.nearest(Measure::from(Metric::Euclidean), self.start)).collect()
+    }
+}
+
+impl View {
+    /// The view of a picture.
+    #[must_use]
+    pub fn of_picture(picture: &Picture) -> Self {
+        let Picture { scene, start, .. } = *picture;
+        let grain = Grain::of(scene.arm());
+        let trace = picture.trace.and_then(|trace| TraceView::new(trace, &scene.arm().topology(), grain));
+        let world = WorldView::new(scene, String::new(), picture.c_obstacles, grain);
+        let world = world.proven(picture.proof, grain).traced(trace).timed(picture.moments, grain);
+        let count = picture.paths.len();
+        let named = picture.paths.iter().enumerate();
+        let paths: Vec<PathView> =
+            named.map(|(i, (name, path))| PathView::of_several(name, path, [i, count], grain)).collect();
+        let goals = picture.single_goals();
+        let ends = picture.paths.iter().map(|(_, path)| path.goal());
+        let shown: Vec<Configuration> = [start].into_iter().chain(goals.iter().copied()).chain(ends).collect();
+        let goals: Vec<[f64; 2]> = goals.into_iter().map(|q| grain.configuration(q)).collect();
+        let segments = picture.goals.iter().filter(|goal| !goal.is_point());
+        let end = paths.first().map(|path| path.goal().into()).or(goals.first().copied());
+        Self {
+            title: picture.title.clone(),
+            status: picture.status.clone(),
+            ending: picture.ending,
+            facts: picture.facts.clone(),
+            arm: arm::empty_handed(scene, grain),
+            frame: extent::sides(scene, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
+            start: grain.configuration(start),
+            goals,
+            goal_lines: segments.map(|goal| grain.configurations(&goal.ends())).collect(),
+            motions: picture.trajectory.map(|t| MotionView::only(t.duration())).into_iter().collect(),
+            clock: picture.trajectory.map(|trajectory| Clock::new(trajectory, grain)),
+            frames: Vec::new(),
+            replay: Vec::new(),
+            replays: Vec::new(),
+            still: Still {
+                panels: vec![PanelView {
+                    title: "Configuration space".to_owned(),
+                    worlds: vec![0],
+                    paths: (0..count).collect(),
+                    start: grain.configuration(start),
+                    fails: None,
+                }],
+                end: end.map(|q| (q, 0)),
+                ..Still::default()
+            },
+            worlds: vec![world],
+            paths,
+        }
+    }
+
+    /// The view of an arm in one configuration with frames, without its configuration space.
+    #[must_use]
+    pub fn of_arm(picture: &Picture, frames: &[AxesFrame]) -> Self {
+        let grain = Grain::of(picture.scene.arm());
+        let frame = |frame: &AxesFrame| FrameView {
+            name: frame.name.clone(),
+            at: grain.point(frame.at).into(),
+            axes: frame.axes.map(|axis| [axis.x, axis.y, axis.z].map(number)),
+        };
+        let frames = frames.iter().map(frame).collect();
+        Self { frames, still: Still::default(), ..Self::of_picture(picture) }
+    }
+}

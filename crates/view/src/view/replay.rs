@@ -1,0 +1,363 @@
+//! How the planner came to its answer, to be played.
+
+use super::numbers::{Chain, Grain};
+use super::trace::{ScaleView, TraceView};
+use super::waves::{self, Waves};
+use super::{View, WorldView};
+use cplan_core::space::{Configuration, Topology};
+use cplan_engine::task::TaskReplay;
+use cplan_engine::{Phase, Replay, Shows, SlabBoxes, Sweeps};
+use serde::Serialize;
+
+/// A phase takes this long at least and at most, and so long for the square root of its events; seconds.
+const SECONDS: [f64; 2] = [1.2, 2.2];
+const A_ROOT: f64 = 0.1;
+
+/// All phases together take this long at most, seconds: what takes longer nobody watches.
+const MOST: f64 = 6.0;
+
+/// A page holds so much of how a task's motions came about, bytes; motions beyond go without.
+const MOST_BYTES: usize = 200_000;
+
+/// So many boxes of slabs at most, of all motions of a task together.
+const MOST_BOXES: usize = 5_000;
+
+/// Boxes narrower than this share of a joint's range are left out where there are too many: the first share that will do.
+const NARROW: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
+
+/// How the planner came to a motion of a task, and what it saw.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MotionReplayView {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trace: Option<TraceView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scale: Option<ScaleView>,
+    pub phases: Vec<PhaseView>,
+}
+
+/// A phase of a run; without data of its own it shows a part of the trace.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PhaseView {
+    pub caption: String,
+    /// How many things are shown, one after the other.
+    pub events: usize,
+    /// How long it takes to show them.
+    pub seconds: f64,
+    #[serde(flatten)]
+    pub shows: ShowsView,
+}
+
+/// What a phase shows: see [`Shows`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum ShowsView {
+    Nodes,
+    Edges,
+    Cells {
+        swept: bool,
+    },
+    Channel,
+    Expanded,
+    Slices,
+    Wave,
+    Levels,
+    /// Boxes of the trace by their places among the free, the stuck and the mixed ones, in the order in which they are shown.
+    Boxes {
+        order: Vec<usize>,
+    },
+    /// Boxes of slabs, the same way.
+    Slabs {
+        free: Chain,
+        stuck: Chain,
+        mixed: Chain,
+        order: Vec<usize>,
+    },
+    /// A field after so many sweeps, as levels.
+    Sweeps {
+        frames: Vec<(usize, Waves)>,
+    },
+    /// A path that is not the answer's.
+    Own {
+        points: Chain,
+    },
+    Path,
+    Proof,
+}
+
+impl PhaseView {
+    /// All phases of a replay.
+    pub fn all(replay: &Replay, topology: &Topology, trace: Option<&TraceView>, grain: Grain) -> Vec<Self> {
+        let seconds = |phase: &Phase| (A_ROOT * (phase.events as f64).sqrt()).clamp(SECONDS[0], SECONDS[1]);
+        let hurry = (MOST / replay.phases.iter().map(seconds).sum::<f64>()).min(1.0);
+        let rounded = |seconds: f64| (seconds * 100.0).round() / 100.0;
+        let told = |phase| Self::new(phase, rounded(hurry * seconds(phase)), topology, trace, grain);
+        replay.phases.iter().map(told).collect()
+    }
+
+    fn new(phase: &Phase, seconds: f64, topology: &Topology, trace: Option<&TraceView>, grain: Grain) -> Self {
+        let corners = |boxes: &[[Configuration; 2]]| grain.configurations(boxes.iter().flatten());
+        let shows = match &phase.shows {
+            Shows::Nodes => ShowsView::Nodes,
+            Shows::Edges => ShowsView::Edges,
+            Shows::Cells { swept } => ShowsView::Cells { swept: *swept },
+            Shows::Channel => ShowsView::Channel,
+            Shows::Expanded => ShowsView::Expanded,
+            Shows::Slices => ShowsView::Slices,
+            Shows::Wave => ShowsView::Wave,
+            Shows::Levels => ShowsView::Levels,
+            Shows::Boxes => {
+                let order = match trace {
+                    Some(TraceView::Boxes { free, stuck, mixed, .. }) => {
+                        coarse_to_fine([free, stuck, mixed], topology, [1.0; 2])
+                    }
+                    _ => Vec::new(),
+                };
+                ShowsView::Boxes { order }
+            }
+            Shows::Slabs(SlabBoxes { free, stuck, mixed }) => {
+                let [free, stuck, mixed] = [free, stuck, mixed].map(|boxes| corners(boxes));
+                // All boxes of a slab are of its level.
+                let order = coarse_to_fine([&free, &stuck, &mixed], topology, [1.0, 0.0]);
+                ShowsView::Slabs { free, stuck, mixed, order }
+            }
+            Shows::Sweeps(sweeps) => ShowsView::Sweeps { frames: frames(sweeps) },
+            Shows::Own(path) => ShowsView::Own { points: grain.configurations(path.waypoints()) },
+            Shows::Path => ShowsView::Path,
+            Shows::Proof => ShowsView::Proof,
+        };
+        Self { caption: phase.caption.clone(), events: phase.events, seconds, shows }
+    }
+}
+
+/// The replay with no more than so many boxes of slabs: the finest are left out.
+fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
+    let extents = topology.ranges.map(|axis| axis.extent());
+    let mut replay = replay.clone();
+    for phase in &mut replay.phases {
+        let Shows::Slabs(SlabBoxes { free, stuck, mixed }) = &mut phase.shows else { continue };
+        for narrow in NARROW {
+            if free.len() + stuck.len() + mixed.len() <= most {
+                break;
+            }
+            let is_wide =
+                |[lower, upper]: &[Configuration; 2]| (0..2).all(|k| upper[k] - lower[k] >= narrow * extents[k]);
+            for boxes in [&mut *free, &mut *stuck, &mut *mixed] {
+                boxes.retain(is_wide);
+            }
+        }
+    }
+    replay
+}
+
+/// The places of boxes by how often their sides were halved, which weigh this much, and from left to right.
+fn coarse_to_fine(kinds: [&Chain; 3], topology: &Topology, weights: [f64; 2]) -> Vec<usize> {
+    let extents = topology.ranges.map(|axis| axis.extent());
+    let level = |[lower, upper]: [Configuration; 2]| {
+        let halved = |k: usize| weights[k] * (extents[k] / (upper[k] - lower[k]).max(f64::MIN_POSITIVE)).log2();
+        (halved(0) + halved(1)).round() as i64
+    };
+    let boxes: Vec<[Configuration; 2]> = kinds.iter().flat_map(|chain| chain.pairs()).collect();
+    let mut order: Vec<usize> = (0..boxes.len()).collect();
+    let key = |&at: &usize| (level(boxes[at]), boxes[at][0]);
+    order.sort_by(|a, b| {
+        let ((one, p), (other, q)) = (key(a), key(b));
+        one.cmp(&other).then(p[0].total_cmp(&q[0])).then(p[1].total_cmp(&q[1]))
+    });
+    order
+}
+
+/// Values as levels between the greatest and the least of the last frame.
+fn frames(sweeps: &Sweeps) -> Vec<(usize, Waves)> {
+    let finite = |values: &[f64]| values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::min);
+    let least = sweeps.frames.last().map_or(0.0, |(_, values)| finite(values)).min(-f64::MIN_POSITIVE);
+    let part = |value: &f64| value.is_finite().then(|| (value / least).clamp(0.0, 1.0));
+    let levels = |values: &[f64]| values.iter().map(|value| waves::letter(part(value))).collect();
+    sweeps.frames.iter().map(|(sweep, values)| (*sweep, Waves::of_levels(sweeps.cells, levels(values)))).collect()
+}
+
+impl View {
+    /// The same with how the planner came to each motion of a task, as far as there is room.
+    #[must_use]
+    pub fn with_task_replay(mut self, replay: &TaskReplay) -> Self {
+        let (grain, topology) = (Grain::of(&self.arm), self.arm.topology());
+        let most = MOST_BOXES / replay.motions.len().max(1);
+        let mut left = MOST_BYTES;
+        for told in &replay.motions {
+            let trace = told.trace.as_ref().and_then(|trace| TraceView::new(trace, &topology, grain));
+            let phases = PhaseView::all(&thinned(&told.replay, &topology, most), &topology, trace.as_ref(), grain);
+            let scale = trace.as_ref().and_then(TraceView::scale);
+            let view = MotionReplayView { trace, scale, phases };
+            // Numbers and strings.
+            let bytes = serde_json::to_string(&view).map_or(usize::MAX, |json| json.len());
+            let Some(room) = left.checked_sub(bytes) else { break };
+            left = room;
+            self.replays.push(view);
+        }
+        for (motion, &told) in self.motions.iter_mut().zip(&replay.legs) {
+            motion.replay = Some(told).filter(|&told| told < self.replays.len());
+        }
+        self
+    }
+
+    /// The same with how the planner came to its answer.
+    #[must_use]
+    pub fn with_replay(mut self, replay: &Replay) -> Self {
+        let (grain, trace) = (Grain::of(&self.arm), self.first_world().trace.as_ref());
+        self.replay = PhaseView::all(replay, &self.arm.topology(), trace, grain);
+        self
+    }
+
+    /// What is there when so much of a phase has been shown, from 0 to 1.
+    pub fn thinking(&self, phase: usize, part: f64) -> Self {
+        let mut view = self.clone();
+        let now = &self.replay[phase];
+        let shown = |is: fn(&ShowsView) -> bool| match self.replay.iter().position(|phase| is(&phase.shows)) {
+            Some(at) if at == phase => part,
+            Some(at) if at > phase => 0.0,
+            _ => 1.0,
+        };
+        // As many lines as there are when the motion begins, so that nothing jumps.
+        view.title.rotate_right(1);
+        view.title[0].clone_from(&now.caption);
+        view.status.clear();
+        let world = &mut view.worlds[0];
+        world.proof = begun(&world.proof, 2, shown(|shows| *shows == ShowsView::Proof));
+        restrict(world, now, part, &shown);
+        view.paths = match &now.shows {
+            ShowsView::Own { points } => vec![self.paths[0].beside(gone(points, part))],
+            ShowsView::Path => {
+                let own = self.replay.iter().find_map(|phase| match &phase.shows {
+                    ShowsView::Own { points } => Some(self.paths[0].beside(points.clone())),
+                    _ => None,
+                });
+                let path = self.paths[0].along(gone(&self.paths[0].points, part));
+                own.into_iter().chain([path]).collect()
+            }
+            _ => Vec::new(),
+        };
+        for panel in &mut view.still.panels {
+            panel.paths = (0..view.paths.len()).collect();
+        }
+        view
+    }
+}
+
+/// Leaves of a world's trace what has been shown.
+fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn(&ShowsView) -> bool) -> f64) {
+    let edges = || shown(|shows| *shows == ShowsView::Edges);
+    let expanded_part = || shown(|shows| *shows == ShowsView::Expanded);
+    let Some(trace) = &mut world.trace else { return };
+    match (&now.shows, trace) {
+        (ShowsView::Slabs { free, stuck, mixed, order }, trace) => *trace = cut([free, stuck, mixed], order, part),
+        (ShowsView::Sweeps { frames }, TraceView::Field { levels, values, .. }) => {
+            levels.clear();
+            *values = frames
+                .get((part * frames.len() as f64).ceil() as usize - usize::from(part > 0.0))
+                .map(|frame| frame.1.clone());
+        }
+        (_, TraceView::Roadmap { edges: all, .. }) => *all = begun(all, 2, edges()),
+        (_, TraceView::Slices { free }) => *free = begun(free, 2, shown(|shows| *shows == ShowsView::Slices)),
+        (_, TraceView::Channel { cells, channel, expanded, sweep }) => {
+            // Those that are not there yet keep their places.
+            let count = count(cells.len(), shown(|shows| matches!(shows, ShowsView::Cells { .. })));
+            cells[count..].iter_mut().for_each(|cell| cell.0.clear());
+            *sweep = match now.shows {
+                ShowsView::Cells { swept: true } => cells[..count].last().map(left),
+                _ => None,
+            };
+            channel.truncate(self::count(channel.len(), shown(|shows| *shows == ShowsView::Channel)));
+            *expanded = begun(expanded, 1, expanded_part());
+        }
+        (ShowsView::Nodes, TraceView::Roads { edges, expanded }) => {
+            *expanded = begun(&Chain(edges.0.chunks_exact(2).map(|ends| ends[0]).collect()), 1, part);
+            edges.0.clear();
+        }
+        (_, TraceView::Roads { edges: all, expanded }) => {
+            (*all, *expanded) = (begun(all, 2, edges()), begun(expanded, 1, expanded_part()));
+        }
+        (ShowsView::Boxes { order }, trace @ TraceView::Boxes { .. }) => {
+            if let TraceView::Boxes { free, stuck, mixed, .. } = &*trace {
+                *trace = cut([free, stuck, mixed], order, part);
+            }
+        }
+        (ShowsView::Wave, TraceView::Wavefront(waves)) => *waves = waves.up_to(part),
+        (_, TraceView::Field { levels, .. }) => {
+            levels.truncate(count(levels.len(), shown(|shows| *shows == ShowsView::Levels)));
+        }
+        (_, TraceView::Wavefront(_) | TraceView::Boxes { .. }) => {}
+    }
+}
+
+/// The least value of joint 1.
+fn left(cell: &Chain) -> f64 {
+    cell.0.iter().map(|corner| corner[0]).fold(f64::INFINITY, f64::min)
+}
+
+/// How many of so many are there.
+fn count(all: usize, part: f64) -> usize {
+    ((all as f64 * part).round() as usize).min(all)
+}
+
+/// The first things, each of so many configurations.
+fn begun(chain: &Chain, each: usize, part: f64) -> Chain {
+    Chain(chain.0[..each * count(chain.0.len() / each, part)].to_vec())
+}
+
+/// The boxes that are there; all others are where nothing has been decided yet.
+fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
+    let boxes: Vec<[Configuration; 2]> = kinds.iter().flat_map(|chain| chain.pairs()).collect();
+    let ends = [kinds[0].0.len() / 2, (kinds[0].0.len() + kinds[1].0.len()) / 2];
+    let mut found: [Vec<Configuration>; 4] = Default::default();
+    let there = count(order.len(), part);
+    for (place, &at) in order.iter().enumerate() {
+        let kind = if place >= there { 3 } else { ends.iter().filter(|&&end| at >= end).count() };
+        found[kind].extend(boxes[at]);
+    }
+    let [free, stuck, mixed, rest] = found.map(Chain);
+    TraceView::Boxes { free, stuck, mixed, rest }
+}
+
+/// The beginning of a path, by its length.
+fn gone(points: &Chain, part: f64) -> Chain {
+    let lengths = || points.0.windows(2).map(|ends| (ends[1] - ends[0]).norm());
+    let mut left = part * lengths().sum::<f64>();
+    let mut there = vec![points.0[0]];
+    for (ends, length) in points.0.windows(2).zip(lengths()) {
+        if length > left {
+            there.push(ends[0] + (ends[1] - ends[0]) * (left / length));
+            break;
+        }
+        left -= length;
+        there.push(ends[1]);
+    }
+    Chain(there)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chain(numbers: &[f64]) -> Chain {
+        Chain(numbers.chunks(2).map(|q| Configuration::new(q[0], q[1])).collect())
+    }
+
+    #[test]
+    fn a_path_grows_by_its_length() {
+        let path = chain(&[0.0, 0.0, 1.0, 0.0, 1.0, 3.0]);
+        assert_eq!(gone(&path, 0.0), chain(&[0.0, 0.0, 0.0, 0.0]));
+        assert_eq!(gone(&path, 0.5), chain(&[0.0, 0.0, 1.0, 0.0, 1.0, 1.0]));
+        assert_eq!(gone(&path, 1.0), path);
+    }
+
+    #[test]
+    fn boxes_that_are_not_there_yet_are_undecided() {
+        let free = chain(&[0.0, 0.0, 1.0, 1.0]);
+        let stuck = chain(&[1.0, 0.0, 2.0, 1.0]);
+        let mixed = chain(&[2.0, 0.0, 3.0, 1.0]);
+        let TraceView::Boxes { free: f, stuck: s, mixed: m, rest } = cut([&free, &stuck, &mixed], &[2, 0, 1], 0.4)
+        else {
+            panic!("boxes")
+        };
+        assert_eq!((m, f.0.len(), s.0.len(), rest.0.len()), (mixed, 0, 0, 4));
+    }
+}

@@ -1,0 +1,107 @@
+//! Fields that paths follow upwards: where their equipotentials are.
+
+use super::isolines::Samples;
+use cplan_core::planner::Trace;
+use cplan_core::space::Topology;
+use std::borrow::Cow;
+
+/// How many equipotentials are drawn.
+const LINES: usize = 20;
+/// Part of the cells that may lie below the lowest equipotential: the field goes on falling in dead ends that no one
+/// asks about, and would leave no lines for the rest.
+const TAIL: f64 = 0.02;
+/// The same for a potential that grows without bound towards obstacles.
+const SLOPES: f64 = 0.15;
+
+/// A field that paths follow upwards, coarse enough to be drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slope {
+    /// The values at the points of a coarse grid.
+    pub samples: Samples,
+    /// The values between which equipotentials are drawn.
+    pub span: (f64, f64),
+}
+
+impl Slope {
+    /// The slope that a field planner followed; none of other planners, and where the field has no values.
+    pub fn new(trace: &Trace, topology: &Topology) -> Option<Self> {
+        let (cells, values, tail) = match trace {
+            // What rises towards the goal where heights fall.
+            Trace::Potential { cells, heights } => {
+                (*cells, Cow::Owned(heights.iter().map(|height| -height).collect::<Vec<_>>()), SLOPES)
+            }
+            _ => {
+                let (cells, ln) = trace.logarithms()?;
+                (cells, ln, TAIL)
+            }
+        };
+        if values.len() != cells[0] * cells[1] {
+            return None;
+        }
+        Some(Self { span: span(&values, tail)?, samples: samples(cells, &values, topology) })
+    }
+
+    /// Lines at equal distances of values, each set with its place in the span: 0 at the goal, 1 at the far end.
+    pub fn equipotentials(&self) -> impl Iterator<Item = (f64, Vec<Vec<[f64; 2]>>)> + '_ {
+        let (low, high) = self.span;
+        let part = |k: usize| (k as f64 + 0.5) / LINES as f64;
+        (0..LINES).map(part).map(move |part| (part, self.samples.isolines(high + (low - high) * part)))
+    }
+}
+
+/// The values between which equipotentials are drawn; `tail` is the part of the cells below them.
+fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
+    let mut known: Vec<f64> = potential.iter().copied().filter(|v| v.is_finite()).collect();
+    known.sort_by(f64::total_cmp);
+    let low = *known.get((known.len() as f64 * tail) as usize)?;
+    Some((low, *known.last()?))
+}
+
+/// The potential at the centres of every cell, or of some on a fine grid; on a circle once more beyond each seam, so
+/// that lines go on across it.
+fn samples(cells: [usize; 2], potential: &[f64], topology: &Topology) -> Samples {
+    const MOST: usize = 256;
+    let [x, y] = [0, 1].map(|k| {
+        let axis = topology.ranges[k];
+        let (n, extent) = (cells[k], axis.extent());
+        let place = |i: usize| axis.domain().0 + (i as f64 + 0.5) / n as f64 * extent;
+        let mut all: Vec<(usize, f64)> = (0..n).step_by(n.div_ceil(MOST).max(1)).map(|i| (i, place(i))).collect();
+        if let (true, Some(&first), Some(&last)) = (axis.is_circle(), all.first(), all.last()) {
+            all.insert(0, (last.0, last.1 - extent));
+            all.push((first.0, first.1 + extent));
+        }
+        all
+    });
+    Samples {
+        values: x.iter().flat_map(|a| y.iter().map(move |b| potential[a.0 * cells[1] + b.0])).collect(),
+        x: x.into_iter().map(|a| a.1).collect(),
+        y: y.into_iter().map(|b| b.1).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_core::space::JointRange;
+
+    #[test]
+    fn lines_cross_the_seam_of_a_circle() {
+        let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: 0.0, upper: 1.0 }] };
+        let cells = [8, 4];
+        let potential: Vec<f64> = (0..32).map(|k| f64::from(k % 4)).collect();
+        let all = samples(cells, &potential, &topology);
+        assert_eq!((all.x.len(), all.y.len()), (10, 4));
+        let lines = all.isolines(1.5);
+        assert_eq!(lines.len(), 1);
+        let [from, to] = [lines[0][0][0], lines[0][lines[0].len() - 1][0]];
+        assert!(from.min(to) < -std::f64::consts::PI && from.max(to) > std::f64::consts::PI);
+    }
+
+    #[test]
+    fn a_field_without_values_has_no_lines() {
+        let topology = Topology { ranges: [JointRange::Circle; 2] };
+        let trace = Trace::Field { cells: [4, 4], potential: vec![f64::NEG_INFINITY; 16] };
+        assert_eq!(Slope::new(&trace, &topology), None);
+        assert_eq!(span(&[f64::NEG_INFINITY, -3.0, 0.0], TAIL), Some((-3.0, 0.0)));
+    }
+}

@@ -1,0 +1,124 @@
+//! Which motions share a panel.
+
+use super::steps::Order;
+use cplan_core::space::{Configuration, Topology};
+use cplan_engine::task::Leg;
+use std::sync::Arc;
+
+/// Configurations nearer than this, radians and metres, look the same; rounding of those that are.
+const SAME: f64 = 1e-6;
+
+/// Motions with the same payload in the same world, one after the other.
+#[derive(Debug, Clone)]
+pub struct PayloadState<'a> {
+    /// The motions, each with its number among all; those that are repeated once.
+    pub motions: Vec<(usize, &'a Leg)>,
+    /// How often this comes about.
+    pub times: usize,
+}
+
+/// The payload states in the order in which they come about first; repetitions that look the same are one.
+/// `O(n^2)` for `n` motions at the worst, `O(n)` if the repetitions of a step look the same.
+#[must_use]
+pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadState<'a>> {
+    let mut states: Vec<PayloadState> = Vec::new();
+    let numbered: Vec<(usize, &Leg)> = legs.iter().enumerate().collect();
+    for run in numbered.chunk_by(|a, b| same_world(a.1, b.1)) {
+        let mut motions: Vec<(usize, &Leg)> = Vec::new();
+        for &(index, leg) in run {
+            if !motions.iter().any(|known| same_motion(known.1, leg, topology)) {
+                motions.push((index, leg));
+            }
+        }
+        let rounds = |number| run.iter().filter(|(_, leg)| leg.step.number == number).count();
+        let times = motions.iter().map(|(_, leg)| rounds(leg.step.number)).max().unwrap_or(0);
+        let same = |a: &Leg, b: &Leg| same_motion(a, b, topology) && same_world(a, b);
+        let known = states.iter_mut().find(|state| {
+            state.motions.len() == motions.len() && state.motions.iter().zip(&motions).all(|(a, b)| same(a.1, b.1))
+        });
+        match known {
+            Some(state) => state.times += times,
+            None => states.push(PayloadState { motions, times }),
+        }
+    }
+    states
+}
+
+fn same_world(a: &Leg, b: &Leg) -> bool {
+    let same = || a.scene.payload() == b.scene.payload() && a.scene.workspace() == b.scene.workspace();
+    Arc::ptr_eq(&a.scene, &b.scene) || same()
+}
+
+/// Whether the same step moves the joints in the same way.
+fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
+    let paths = [a, b].map(|leg| leg.timed.curve.curve().path().waypoints());
+    let same = || {
+        let near = |(a, b): (&Configuration, &Configuration)| topology.distance(*a, *b) <= SAME;
+        paths[0].len() == paths[1].len() && paths[0].iter().zip(paths[1]).all(near)
+    };
+    a.step.number == b.step.number && (Arc::ptr_eq(&a.timed, &b.timed) || same())
+}
+
+impl PayloadState<'_> {
+    /// The numbers of the steps, in the order of the motions, each once.
+    #[must_use]
+    pub fn numbers(&self, order: &Order) -> Vec<usize> {
+        let mut numbers: Vec<usize> = Vec::new();
+        for number in self.motions.iter().map(|(_, leg)| order.number(&leg.step)) {
+            if !numbers.contains(&number) {
+                numbers.push(number);
+            }
+        }
+        numbers
+    }
+
+    /// Steps, payload and repetitions: `1–2 empty-handed`, `3 carrying "part" (×100)`; in a task of several `rounds` also
+    /// `4 empty-handed, round 2`.
+    #[must_use]
+    pub fn title(&self, rounds: usize, order: &Order) -> String {
+        let first = self.motions.first().map(|(_, leg)| leg);
+        let payload = first.and_then(|leg| leg.scene.payload()).map(|payload| payload.object.as_str());
+        let times = match first {
+            _ if self.times > 1 => format!(" (\u{d7}{})", self.times),
+            Some(leg) if rounds > 1 => format!(", round {}", leg.step.cycle),
+            _ => String::new(),
+        };
+        format!("{} {}{times}", ranges(&self.numbers(order)), describe(payload))
+    }
+}
+
+/// The number of repetitions.
+#[must_use]
+pub fn rounds(legs: &[Leg]) -> usize {
+    legs.iter().map(|leg| leg.step.cycle).max().unwrap_or(1)
+}
+
+/// What is carried, in words.
+#[must_use]
+pub fn describe(object: Option<&str>) -> String {
+    object.map_or("empty-handed".to_owned(), |object| format!("carrying \"{object}\""))
+}
+
+/// Numbers with those that follow each other as a range: `1–3, 5`.
+#[must_use]
+pub fn ranges(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+        [one] => one.to_string(),
+        [first, .., last] => format!("{first}\u{2013}{last}"),
+        [] => String::new(),
+    });
+    runs.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_joined_to_ranges() {
+        assert_eq!(ranges(&[1, 2, 3, 5, 7, 8]), "1\u{2013}3, 5, 7\u{2013}8");
+        assert_eq!(ranges(&[4]), "4");
+        assert_eq!(ranges(&[3, 2, 9, 10]), "3, 2, 9\u{2013}10");
+        assert_eq!(ranges(&[]), "");
+    }
+}

@@ -1,0 +1,111 @@
+//! What is done, step by step, in words.
+
+use super::TaskPicture;
+use super::states::rounds;
+use crate::color::{BARRED, GREY, INK, Rgb};
+use cplan_core::model::{Object, Step};
+use cplan_engine::task::{TaskAnswer, TaskVerdict};
+
+/// More rows than this are not shown.
+const MOST: usize = 26;
+/// More lines than this on why a step fails are not shown.
+const MOST_REASONS: usize = 4;
+
+/// A row: the step's number, what it does, and when it is over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    pub number: String,
+    pub text: String,
+    pub time: String,
+    pub color: Rgb,
+}
+
+impl Row {
+    fn new(number: impl ToString, text: impl Into<String>, time: impl Into<String>, color: Rgb) -> Self {
+        Self { number: number.to_string(), text: text.into(), time: time.into(), color }
+    }
+}
+
+/// The numbers of steps in pictures: in the order in which they are done the first time, which need not be the file's.
+pub struct Order(Vec<usize>);
+
+impl Order {
+    pub fn of(answer: &TaskAnswer) -> Self {
+        let done = answer.legs.iter().map(|leg| leg.step.number);
+        let mut order: Vec<usize> = Vec::new();
+        for number in done.chain(answer.impossible().map(|fails| fails.step.number)) {
+            if !order.contains(&number) {
+                order.push(number);
+            }
+        }
+        Self(order)
+    }
+
+    /// The number of a step.
+    pub fn number(&self, step: &Step) -> usize {
+        self.0.iter().position(|&number| number == step.number).map_or(step.number, |place| place + 1)
+    }
+
+    /// What it does, and its number in the file where that is another one.
+    pub fn describe(&self, step: &Step, objects: &[Object]) -> String {
+        let what = step.action.describe(objects);
+        if self.number(step) == step.number { what } else { format!("{what} ({} in the file)", step.number) }
+    }
+
+    /// Number and description: `3. pick "part"`.
+    pub fn named(&self, step: &Step, objects: &[Object]) -> String {
+        format!("{}. {}", self.number(step), self.describe(step, objects))
+    }
+}
+
+/// What the columns are called, then each step once, as it is done the first time; then the one that fails.
+#[must_use]
+pub fn rows(picture: &TaskPicture) -> Vec<Row> {
+    let objects = &picture.task.objects;
+    let (order, rounds) = (Order::of(picture.answer), rounds(&picture.answer.legs));
+    let which = if rounds > 1 { format!("end, first of {rounds} rounds") } else { "end".to_owned() };
+    let mut seen = std::collections::BTreeSet::new();
+    let mut rows = vec![Row::new("", "step", which, GREY)];
+    for leg in picture.answer.legs.iter().filter(|leg| seen.insert(leg.step.number)) {
+        let (text, time) = (order.describe(&leg.step, objects), format!("{:.2} s", leg.end()));
+        rows.push(Row::new(order.number(&leg.step), text, time, INK));
+    }
+    if rows.len() > 1 + MOST {
+        let text = format!("and {} further steps", rows.len() - 1 - MOST);
+        rows.truncate(1 + MOST);
+        rows.push(Row::new("", text, "", GREY));
+    }
+    if let Some(impossible) = picture.answer.impossible() {
+        let time = match picture.answer.verdict {
+            TaskVerdict::Infeasible(_) => "impossible",
+            _ => "unknown",
+        };
+        let step = &impossible.step;
+        rows.push(Row::new(order.number(step), order.describe(step, objects), time, BARRED));
+    }
+    rows
+}
+
+/// The lines of the title and the status.
+#[must_use]
+pub fn words(picture: &TaskPicture) -> (Vec<String>, String) {
+    let mut lines = picture.title.clone();
+    let Some(impossible) = picture.answer.impossible() else { return (lines, picture.status.clone()) };
+    let (order, step) = (Order::of(picture.answer), &impossible.step);
+    let number = order.number(step);
+    let round = if step.cycle > 1 { format!(", round {}", step.cycle) } else { String::new() };
+    let status = format!("step {number}{round} fails: {}", picture.status);
+    let heading = format!("step {number}, {}:", order.describe(step, &picture.task.objects));
+    let reasons = &impossible.reasons;
+    if let [reason] = &reasons[..] {
+        lines.push(format!("{heading} {reason}"));
+        return (lines, status);
+    }
+    lines.push(heading);
+    let shown = if reasons.len() > MOST_REASONS { MOST_REASONS - 1 } else { reasons.len() };
+    lines.extend(reasons[..shown].iter().cloned());
+    if shown < reasons.len() {
+        lines.push(format!("and {} further reasons", reasons.len() - shown));
+    }
+    (lines, status)
+}

@@ -1,0 +1,130 @@
+//! What a planner saw.
+
+use super::flow;
+use super::numbers::{Chain, Grain, number};
+use super::slope::Slope;
+use super::waves::Waves;
+use cplan_core::planner::Trace;
+use cplan_core::space::{Configuration, Topology};
+use serde::Serialize;
+
+/// Lines of one value.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LevelView {
+    /// 0 at the goal, 1 at the far end.
+    pub part: f64,
+    pub lines: Vec<Chain>,
+}
+
+/// What a scale of colours is about, and the values at its dark end and at its light one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ScaleView {
+    pub title: &'static str,
+    pub ends: [String; 2],
+    /// Whether the colours are those of surfaces, on which lines must stay legible.
+    pub soft: bool,
+}
+
+/// A trace.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum TraceView {
+    /// Arcs of the visibility graph: both ends of each.
+    Roadmap { edges: Chain, whole: bool },
+    /// Free stretches of slices: both ends of each.
+    #[serde(rename = "rows")]
+    Slices { free: Chain },
+    /// Cells of the decomposition, and which of them make the channel.
+    Channel {
+        cells: Vec<Chain>,
+        channel: Vec<usize>,
+        /// Where the search came, in order.
+        #[serde(skip_serializing_if = "Chain::is_empty")]
+        expanded: Chain,
+        /// Where the line is that sweeps over the cells, while it is told how it was.
+        #[serde(skip)]
+        sweep: Option<f64>,
+    },
+    /// A roadmap: both ends of each edge, and where the search came, in order.
+    Roads { edges: Chain, expanded: Chain },
+    /// Boxes of a subdivision: least and greatest values of each.
+    Boxes {
+        free: Chain,
+        stuck: Chain,
+        mixed: Chain,
+        /// Where nothing has been decided yet, while it is told how it was; without sides.
+        #[serde(skip)]
+        rest: Chain,
+    },
+    /// Distances to the goal.
+    Wavefront(Waves),
+    /// A field: its equipotentials, and lines of steepest ascent.
+    Field {
+        levels: Vec<LevelView>,
+        flow: Vec<Chain>,
+        /// Whether values are logarithms.
+        logarithmic: bool,
+        /// At the far end, and at the goal.
+        span: [f64; 2],
+        /// Values on the way there, while it is told how it was.
+        #[serde(skip)]
+        values: Option<Waves>,
+    },
+}
+
+impl TraceView {
+    /// What its colours are values of, if it has any.
+    pub fn scale(&self) -> Option<ScaleView> {
+        let whole = |value: f64| format!("{value:.0}").replace('-', "\u{2212}").replace("\u{2212}0", "0");
+        let (title, ends, soft) = match self {
+            Self::Wavefront(waves) if waves.levels().any(|level| level.is_some()) => {
+                ("steps to the goal", [waves.farthest.to_string(), "0".to_owned()], true)
+            }
+            Self::Field { logarithmic: true, span, .. } => ("ln of the potential", span.map(whole), false),
+            Self::Field { span, .. } => ("potential", span.map(|value| format!("{value:.2}")), false),
+            _ => return None,
+        };
+        Some(ScaleView { title, ends, soft })
+    }
+
+    /// The trace; none where there is nothing to show.
+    pub fn new(trace: &Trace, topology: &Topology, grain: Grain) -> Option<Self> {
+        let pairs = |pairs: &[[Configuration; 2]]| grain.configurations(pairs.iter().flatten());
+        Some(match trace {
+            Trace::Roadmap { edges, whole } => Self::Roadmap { edges: pairs(edges), whole: *whole },
+            // Without a path there are none that it passes.
+            Trace::Slices { free } if free.is_empty() => return None,
+            Trace::Slices { free } => Self::Slices { free: pairs(free) },
+            Trace::Channel { cells, channel, expanded } => Self::Channel {
+                cells: cells.iter().map(|cell| grain.configurations(cell)).collect(),
+                channel: channel.clone(),
+                expanded: grain.configurations(expanded),
+                sweep: None,
+            },
+            Trace::Roads { edges, expanded } => {
+                Self::Roads { edges: pairs(edges), expanded: grain.configurations(expanded) }
+            }
+            Trace::Boxes { free, stuck, mixed } => {
+                Self::Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed), rest: Chain::default() }
+            }
+            Trace::Wavefront { cells, labels, expanded } => Self::Wavefront(Waves::new(*cells, labels, expanded)?),
+            Trace::Field { .. } | Trace::Harmonic { .. } | Trace::Potential { .. } => {
+                let slope = Slope::new(trace, topology)?;
+                let chain =
+                    |line: &Vec<[f64; 2]>| Chain(line.iter().map(|&q| grain.configuration(q.into()).into()).collect());
+                let levels = slope
+                    .equipotentials()
+                    .map(|(part, lines)| LevelView { part: number(part), lines: lines.iter().map(chain).collect() });
+                let logarithmic = !matches!(trace, Trace::Potential { .. });
+                let sign = if logarithmic { 1.0 } else { -1.0 };
+                Self::Field {
+                    levels: levels.collect(),
+                    flow: flow::lines(&slope.samples, topology).iter().map(chain).collect(),
+                    logarithmic,
+                    span: [slope.span.0, slope.span.1].map(|value| number(sign * value)),
+                    values: None,
+                }
+            }
+        })
+    }
+}

@@ -1,0 +1,339 @@
+//! A world that the arm moves in: obstacles, what it carries, which pairs can meet, and the C-obstacles.
+
+use super::names::{self, NameView};
+use super::numbers::{Chain, Grain, ShapeView, number, outline};
+use super::trace::{ScaleView, TraceView};
+use crate::color::{self, Rgb};
+use cplan_core::check::CheckedProof;
+use cplan_core::cspace::CObstacle;
+use cplan_core::model::{Carrier, Course, Grip, Mover, Obstacle, Pair, Preference, Region, Scene, Shape};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Convex, Point};
+use serde::{Serialize, Serializer};
+
+/// More obstacles than this are numbered, not named.
+pub const NAMED: usize = 16;
+
+/// An obstacle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ObstacleView {
+    pub name: String,
+    /// The same in both spaces.
+    pub color: Rgb,
+    /// As the user gave it; without a shape of its own, it is the union of its pieces.
+    #[serde(serialize_with = "outline")]
+    pub outline: Shape,
+    /// How many of the pieces are the obstacle itself; those that follow are what a payload meets in their place: what
+    /// a level one makes of them, which the tip must not enter, and supports, nearer than the clearance.
+    own: usize,
+    pieces: Vec<ShapeView>,
+}
+
+impl ObstacleView {
+    /// One that is number `number` in its world.
+    pub fn new(obstacle: &Obstacle, number: usize, grain: Grain) -> Self {
+        Self {
+            name: obstacle.name.clone(),
+            color: color::obstacle(number),
+            outline: grain.outline(&obstacle.shape),
+            own: obstacle.pieces.len(),
+            pieces: obstacle.pieces.iter().map(|piece| grain.shape(piece)).collect(),
+        }
+    }
+
+    /// The same in the colour of the robot's own links.
+    fn of_robot(self) -> Self {
+        Self { color: color::ROBOT, ..self }
+    }
+
+    /// The obstacle itself as convex pieces; without any it lies nowhere: it is carried.
+    pub fn own(&self) -> impl Iterator<Item = &Convex> {
+        self.pieces[..self.own].iter().map(|piece| &piece.0)
+    }
+
+    /// Whether it lies somewhere.
+    pub fn lies(&self) -> bool {
+        self.own > 0
+    }
+}
+
+/// What moves while the arm does.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MoverView {
+    /// In its own frame.
+    #[serde(flatten)]
+    pub obstacle: ObstacleView,
+    /// Time, both coordinates and angle of the frame, of each stop.
+    stops: Vec<[f64; 4]>,
+    /// From the last stop on, metres a second.
+    velocity: [f64; 2],
+    /// When it is picked, if it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub until: Option<f64>,
+    #[serde(skip)]
+    course: Course,
+}
+
+impl MoverView {
+    fn new(mover: &Mover, color: usize, grain: Grain) -> Self {
+        let Mover { obstacle, course } = mover;
+        let velocity = course.velocity();
+        Self {
+            obstacle: ObstacleView::new(obstacle, color, grain),
+            stops: course
+                .stops()
+                .iter()
+                .map(|s| [number(s.time), grain.length(s.at.x), grain.length(s.at.y), number(s.angle)])
+                .collect(),
+            velocity: [grain.length(velocity.x), grain.length(velocity.y)],
+            until: None,
+            course: course.clone(),
+        }
+    }
+
+    /// Where it is at a time, as an obstacle.
+    pub fn at(&self, time: f64) -> ObstacleView {
+        let pose = self.course.pose(time);
+        let ObstacleView { name, color, outline, own, pieces } = &self.obstacle;
+        let pieces = pieces.iter().map(|piece| ShapeView(piece.0.at(&pose))).collect();
+        ObstacleView { name: name.clone(), color: *color, outline: outline.at(&pose), own: *own, pieces }
+    }
+
+    /// The times at which it changes its course, and the end of the motion, or when it is picked.
+    pub fn moments(&self, duration: f64) -> Vec<f64> {
+        let duration = duration.min(self.until.unwrap_or(f64::INFINITY));
+        let stops = self.course.stops().iter().map(|stop| stop.time).filter(|&time| 0.0 < time && time < duration);
+        stops.chain([duration]).collect()
+    }
+
+    /// Where its frame's origin is at a time.
+    pub fn origin(&self, time: f64) -> Point {
+        Point::from(self.course.pose(time).translation.vector)
+    }
+}
+
+/// What is carried.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PayloadView {
+    pub object: String,
+    /// That of the obstacle which it is while it lies somewhere, or the one after all others.
+    pub color: Rgb,
+    /// In its own frame.
+    pub pieces: Vec<ShapeView>,
+    #[serde(serialize_with = "grip")]
+    pub grip: Grip,
+    /// What it is to link 2, in whose frame these are: parts that follow the link's own.
+    parts: Vec<ShapeView>,
+}
+
+/// Rigid: coordinates and angle in link 2's frame. Level: angle in the plane, and the point at the tip.
+fn grip<S: Serializer>(grip: &Grip, serializer: S) -> Result<S::Ok, S::Error> {
+    let (index, name, numbers) = match *grip {
+        Grip::Rigid(pose) => (0, "rigid", [pose.translation.x, pose.translation.y, pose.rotation.angle()]),
+        Grip::Level { angle, point } => (1, "level", [angle, point.x, point.y]),
+    };
+    serializer.serialize_newtype_variant("Grip", index, name, &numbers.map(number))
+}
+
+/// The contour of a part of a C-obstacle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContourView {
+    pub obstacle: usize,
+    link: usize,
+    pub contour: Chain,
+}
+
+/// The C-obstacles of what moves, at a time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MomentView {
+    /// Seconds.
+    pub time: f64,
+    /// Of each the mover by its number.
+    pub c_obstacles: Vec<ContourView>,
+}
+
+/// A region that fields prefer (negative) or avoid.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RegionView {
+    name: String,
+    pub epsilon: f64,
+    /// Whether the corners are configurations, rather than places of the tip.
+    pub joints: bool,
+    pub corners: Chain,
+}
+
+/// A world as it is drawn.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WorldView {
+    /// What there is to say of it, in a word or two.
+    pub label: String,
+    pub clearance: f64,
+    pub obstacles: Vec<ObstacleView>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub movers: Vec<MoverView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub payload: Option<PayloadView>,
+    /// Which shapes can meet: link, part, obstacle, first piece, and the one after the last.
+    pub pairs: Vec<[usize; 5]>,
+    pub c_obstacles: Vec<ContourView>,
+    /// The C-obstacles of what moves, at some times.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub moments: Vec<MomentView>,
+    /// Where the names of C-obstacles stand.
+    pub names: Vec<NameView>,
+    /// What the obstacles would block that link 2 may reach into here. Pages show one world at a time, and do without.
+    #[serde(skip)]
+    pub open: Vec<ContourView>,
+    pub regions: Vec<RegionView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trace: Option<TraceView>,
+    /// What the colours of the trace are values of.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scale: Option<ScaleView>,
+    /// Boxes that prove that there is no path: least and greatest values of each.
+    pub proof: Chain,
+    /// Configurations that were to be reached and are not.
+    pub unreached: Vec<[f64; 2]>,
+}
+
+impl WorldView {
+    /// A scene, what there is to say of it, and the contours of its C-obstacles.
+    pub fn new(scene: &Scene, label: String, c_obstacles: &[CObstacle], grain: Grain) -> Self {
+        let standing = scene.workspace().obstacles.len();
+        let shown = |number| shown_number(scene, number);
+        let in_view = c_obstacles.iter().map(|c| CObstacle { obstacle: shown(c.obstacle), ..c.clone() });
+        let contours = contours(&in_view.collect::<Vec<_>>(), grain);
+        let obstacles = (0..standing).map(|number| obstacle(scene, number, number, grain));
+        let links = scene.self_obstacles().map(|number| obstacle(scene, number, shown(number), grain).of_robot());
+        let obstacles: Vec<ObstacleView> = obstacles.chain(links).collect();
+        Self {
+            label,
+            clearance: scene.workspace().clearance,
+            movers: movers(scene, grain),
+            payload: payload(scene, grain),
+            pairs: ranges(scene),
+            names: names::places(scene.arm(), obstacles.len(), &contours, grain),
+            obstacles,
+            c_obstacles: contours,
+            moments: Vec::new(),
+            open: Vec::new(),
+            regions: scene.workspace().preferences.iter().map(|preference| region(preference, grain)).collect(),
+            trace: None,
+            scale: None,
+            proof: Chain::default(),
+            unreached: Vec::new(),
+        }
+    }
+
+    /// The same with the C-obstacles of what moves at some times, by the number of what moves.
+    pub fn timed(self, moments: &[(f64, Vec<CObstacle>)], grain: Grain) -> Self {
+        let moment =
+            |(time, all): &(f64, Vec<CObstacle>)| MomentView { time: number(*time), c_obstacles: contours(all, grain) };
+        Self { moments: moments.iter().map(moment).collect(), ..self }
+    }
+
+    /// The last of the moments up to a time.
+    pub fn moment(&self, time: f64) -> Option<&MomentView> {
+        let next = self.moments.partition_point(|moment| moment.time <= time);
+        self.moments.get(next.saturating_sub(1))
+    }
+
+    /// The same with what a planner saw.
+    pub fn traced(self, trace: Option<TraceView>) -> Self {
+        let scale = trace.as_ref().and_then(TraceView::scale);
+        Self { trace, scale, ..self }
+    }
+
+    /// What an obstacle is called: its name or, where there are many, its number.
+    pub fn called(&self, obstacle: usize) -> String {
+        if self.obstacles.len() > NAMED { (obstacle + 1).to_string() } else { self.obstacles[obstacle].name.clone() }
+    }
+
+    /// The same with proofs.
+    pub fn proven<'a>(self, proofs: impl IntoIterator<Item = &'a CheckedProof>, grain: Grain) -> Self {
+        let boxes = proofs.into_iter().flat_map(CheckedProof::stuck).flat_map(|s| [s.cell.lower, s.cell.upper]);
+        let corners: Vec<_> = boxes.map(Configuration::from).collect();
+        Self { proof: grain.configurations(&corners), ..self }
+    }
+}
+
+/// Contours as they are drawn.
+pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Grain) -> Vec<ContourView> {
+    let contour = |c: &CObstacle| ContourView {
+        obstacle: c.obstacle,
+        link: c.link,
+        contour: grain.configurations(c.contour.iter().map(|p| &p.coords)),
+    };
+    all.into_iter().map(contour).collect()
+}
+
+/// The number in the view's list of an obstacle: links of the robot follow those of the workspace; those that move have a list of their own.
+fn shown_number(scene: &Scene, number: usize) -> usize {
+    let links = scene.self_obstacles();
+    if links.contains(&number) { number - links.start + scene.workspace().obstacles.len() } else { number }
+}
+
+/// An obstacle by its number in the scene, and that in the view. What joint 1 carries lies nowhere of its own.
+fn obstacle(scene: &Scene, number: usize, shown: usize, grain: Grain) -> ObstacleView {
+    let mut view = ObstacleView::new(scene.obstacle(number), shown, grain);
+    if scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint) {
+        view.own = 0;
+    }
+    let last = scene.pairs().iter().filter(|pair| pair.obstacle == number).map(|pair| pair.piece + 1).max();
+    let made = (view.own..last.unwrap_or(view.own))
+        .map(|piece| scene.piece(Pair { link: 1, part: 0, obstacle: number, piece }));
+    view.pieces.extend(made.map(|piece| grain.shape(piece)));
+    view
+}
+
+/// What moves, in the colours after those of what stands; an object in that which it has where it lies.
+fn movers(scene: &Scene, grain: Grain) -> Vec<MoverView> {
+    let obstacles = &scene.workspace().obstacles;
+    let numbered = scene.workspace().movers.iter().zip(obstacles.len()..);
+    let view = |(mover, number): (&Mover, usize)| {
+        let lying = obstacles.iter().position(|o| o.pieces.is_empty() && o.name == mover.obstacle.name);
+        MoverView::new(mover, lying.unwrap_or(number), grain)
+    };
+    numbered.map(view).collect()
+}
+
+fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {
+    let payload = scene.payload()?;
+    let obstacles = &scene.workspace().obstacles;
+    let lying = obstacles.iter().position(|o| o.name == payload.object);
+    let own = scene.own_parts(1).len();
+    Some(PayloadView {
+        object: payload.object.clone(),
+        color: color::obstacle(lying.unwrap_or(obstacles.len())),
+        pieces: payload.pieces.iter().map(|piece| grain.shape(piece)).collect(),
+        grip: payload.grip,
+        parts: scene.arm().links[1].parts[own..].iter().map(|part| grain.shape(&part.shape)).collect(),
+    })
+}
+
+/// Pairs with consecutive pieces as one.
+fn ranges(scene: &Scene) -> Vec<[usize; 5]> {
+    let mut ranges: Vec<[usize; 5]> = Vec::new();
+    for pair in scene.pairs() {
+        let pair = Pair { obstacle: shown_number(scene, pair.obstacle), ..*pair };
+        match ranges.last_mut() {
+            Some([link, part, obstacle, _, end])
+                if [*link, *part, *obstacle, *end] == [pair.link, pair.part, pair.obstacle, pair.piece] =>
+            {
+                *end += 1;
+            }
+            _ => ranges.push([pair.link, pair.part, pair.obstacle, pair.piece, pair.piece + 1]),
+        }
+    }
+    ranges
+}
+
+fn region(preference: &Preference, grain: Grain) -> RegionView {
+    let (joints, polygon) = match &preference.region {
+        Region::Configurations(polygon) => (true, polygon),
+        Region::Tip(polygon) => (false, polygon),
+    };
+    let corner = |p: &Point| if joints { grain.configuration(p.coords).into() } else { grain.point(*p).coords };
+    let corners = Chain(polygon.corners().iter().map(corner).collect());
+    RegionView { name: preference.name.clone(), epsilon: preference.epsilon, joints, corners }
+}

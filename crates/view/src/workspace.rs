@@ -1,0 +1,197 @@
+//! The workspace, with the arm in it and all that takes place.
+
+use super::arm::{self, GHOST, GOAL, NOW, START, UNREACHED};
+use super::axes::{Frame, Unit};
+use super::color::{BARRED, GREY, INK, PALE, WHITE};
+use super::figure::{Anchor, Item, Rect, Spot, Step, Style, chain, label};
+use super::labels::{self, Named};
+use super::view::{ObstacleView, PathView, View, around};
+use super::{frames, page, preferences, reach, shapes, stuck, tags};
+use cplan_core::model::{Arm, JointType, Plane};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Convex, cross};
+use nalgebra::Vector3;
+
+/// The panel in this part of the page, which it fills.
+#[must_use]
+pub fn panel(view: &View, area: Rect) -> Vec<Item> {
+    let View { arm, frame: [x, y], still, .. } = view;
+    let frame = Frame::filling(area, (*x).into(), (*y).into());
+    let first = view.first_world();
+    let lying = || first.obstacles.iter().chain(&still.placed).filter(|obstacle| obstacle.lies());
+    let mut inside = ground(&frame, arm);
+    inside.extend(still.reach.as_ref().map(|reach| reach::in_workspace(reach, &frame)));
+    inside.extend(view.world_now().obstacles.iter().map(|obstacle| shapes::solid(&frame, obstacle)));
+    inside.extend(movers(view, &frame));
+    inside.extend(still.placed.iter().map(|object| shapes::dashed(&frame, object)));
+    inside.extend(preferences::in_workspace(&first.regions, &frame));
+    let mut pose = |world: usize, q, look| {
+        inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q, look));
+    };
+    if let ([path], false) = (&view.paths[..], view.is_task()) {
+        path.ghosts.0.iter().for_each(|&q| pose(0, q, &GHOST));
+    }
+    view.unreached().for_each(|(world, q)| pose(world, q, &UNREACHED));
+    pose(0, view.start.into(), &START);
+    still.end.into_iter().for_each(|(q, world)| pose(world, q.into(), &GOAL));
+    let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
+    let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
+    let spots: Vec<Spot> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
+    inside.extend(page::lines(traces));
+    let named = if view.is_task() || view.still.panels.is_empty() { Vec::new() } else { names(view, &frame) };
+    inside.extend(labels::items(&frame.rect, &named));
+    if view.is_task() {
+        let boxes: Vec<Rect> = lying().map(|obstacle| on_page(&frame, obstacle)).collect();
+        inside.extend(numbers(view, &frame, &boxes, &spots));
+    }
+    if let Some((q, world)) = still.now {
+        inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q.into(), &NOW));
+    }
+    inside.extend(still.stuck.iter().flat_map(|stuck| stuck::in_workspace(stuck, view, &frame)));
+    inside.extend(hidden_note(&frame, lying()));
+    let mut items = vec![Item::Clip(frame.rect, inside)];
+    items.extend(frame.border([Unit::Meters; 2], titles(&arm.plane), [false; 2]));
+    items.extend(frames::items(&frame, &view.frames));
+    items
+}
+
+/// What moves, where it is now; while nothing does, also where it goes, dashed.
+fn movers(view: &View, frame: &Frame) -> Vec<Item> {
+    let (movers, mut items) = (&view.world_now().movers, Vec::new());
+    if let (None, Some(duration)) = (view.still.now, view.duration()) {
+        for mover in movers {
+            let moments = mover.moments(duration);
+            let places = std::iter::once(&0.0).chain(&moments).map(|&time| mover.origin(time));
+            let way = chain(places.map(|p| frame.at(p.x, p.y)), false);
+            items.push(Item::Outline(way, Style::line(GREY, 1.0).dashed(shapes::DASH)));
+            items.extend(moments.iter().map(|&time| shapes::dashed(frame, &mover.at(time))));
+        }
+    }
+    items.extend(movers.iter().map(|mover| shapes::solid(frame, &mover.at(view.still.time))));
+    items
+}
+
+/// Which of the arms is which, and the names of obstacles, or numbers of many.
+fn names(view: &View, frame: &Frame) -> Vec<Named> {
+    let arm = |name: &str, q: [f64; 2]| {
+        let [tip, elbow] = [view.arm.tip_at(q.into()), view.arm.elbow_at(q[0])].map(|p| frame.at(p.x, p.y));
+        (name.to_owned(), labels::beyond(name, tip, elbow))
+    };
+    // An arm that goes nowhere needs no name.
+    let ends = view.still.end.map(|(q, _)| [arm("goal", q), arm("start", view.start)]);
+    let arms = ends.into_iter().flatten();
+    let world = view.first_world();
+    let lying = world.obstacles.iter().enumerate().filter(|(_, obstacle)| obstacle.lies());
+    let obstacles = lying.map(|(number, o)| (world.called(number), labels::place(frame, &o.outline, o.own())));
+    let movers = world.movers.iter().map(|mover| mover.at(view.still.time));
+    let movers = movers.map(|o| (o.name.clone(), labels::place(frame, &o.outline, o.own())));
+    arms.chain(obstacles).chain(movers).collect()
+}
+
+/// A dot where each step ends, or was to end, with its number.
+fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[Spot]) -> Vec<Item> {
+    let (mut items, mut tags) = (Vec::new(), Vec::new());
+    for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
+        let tip = view.arm.tip_at(q);
+        let spot = frame.at(tip.x, tip.y);
+        let (line, fill) = if reached { (Style::line(WHITE, 1.2), INK) } else { (Style::line(BARRED, 1.4), WHITE) };
+        items.push(Item::Disc(spot, 3.6, line.filled(fill)));
+        tags::add(&mut tags, spot, number);
+    }
+    items.extend(tags::items(&tags, frame.rect, boxes, spots));
+    items
+}
+
+/// Where a step of an outline leads.
+fn end(step: &Step) -> Option<Spot> {
+    match *step {
+        Step::Move(spot) | Step::Line(spot) | Step::Arc(_, spot) => Some(spot),
+        Step::Close => None,
+    }
+}
+
+/// The box around an obstacle that lies somewhere, on the page.
+fn on_page(frame: &Frame, obstacle: &ObstacleView) -> Rect {
+    let [x, y] = around(obstacle.own());
+    let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
+    Rect { x: left, y: top, width: right - left, height: bottom - top }
+}
+
+/// Says so if obstacles lie outside the panel.
+fn hidden_note<'a>(frame: &Frame, obstacles: impl Iterator<Item = &'a ObstacleView>) -> Option<Item> {
+    let outside = |o: &&ObstacleView| {
+        let [x, y] = around(o.own());
+        x.1 < frame.x.0 || x.0 > frame.x.1 || y.1 < frame.y.0 || y.0 > frame.y.1
+    };
+    let text = match obstacles.filter(outside).count() {
+        0 => return None,
+        1 => "1 obstacle lies outside this picture".to_owned(),
+        n => format!("{n} obstacles lie outside this picture"),
+    };
+    let at = [frame.rect.x + 10.0, frame.rect.bottom() - 10.0];
+    Some(label(at, text, 13.0, Anchor::Start, GREY))
+}
+
+/// What lies below everything: grid and reach.
+fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
+    let mut items = frame.grid([Unit::Meters; 2]);
+    let reach = Style::line(PALE, 1.0).dashed(&[2.0, 4.0]);
+    items.push(Item::Outline(shapes::outline(frame, &reach_shape(arm)), reach));
+    items
+}
+
+/// The plane's coordinates are named after the root frame's axes if they run along them.
+pub fn titles(plane: &Plane) -> [String; 2] {
+    const ALONG: f64 = 0.9999;
+    let name = |v: Vector3<f64>, other: &str| {
+        let axis = ["x", "y", "z"].into_iter().zip(v.iter()).find(|(_, part)| **part > ALONG);
+        format!("{} (m)", axis.map_or(other, |(name, _)| name))
+    };
+    [name(plane.u, "u"), name(plane.v, "v")]
+}
+
+/// The region that the tip can never leave: within the greatest distance from the base if joint 1 turns, else the
+/// places that the slides reach, grown by the reach of a turning second link.
+pub fn reach_shape(arm: &Arm) -> Convex {
+    let topology = arm.topology();
+    let [first, second] = topology.ranges.map(|axis| axis.domain());
+    if arm.joints[0].joint_type.is_revolute() {
+        const FINE: usize = 720;
+        let at = |i: usize| second.0 + (second.1 - second.0) * i as f64 / FINE as f64;
+        let distance = |i: usize| (arm.tip_at(Configuration::new(first.0, at(i))) - arm.base).norm();
+        return Convex::trusted(vec![arm.base], (0..=FINE).map(distance).fold(0.0, f64::max));
+    }
+    match arm.joints[1].joint_type {
+        JointType::Revolute { .. } => {
+            Convex::trusted(vec![arm.elbow_at(first.0), arm.elbow_at(first.1)], arm.tip.coords.norm())
+        }
+        JointType::Prismatic { .. } => {
+            let tip = |q1, q2| arm.tip_at(Configuration::new(q1, q2));
+            let mut corners =
+                vec![tip(first.0, second.0), tip(first.1, second.0), tip(first.1, second.1), tip(first.0, second.1)];
+            if cross(corners[1] - corners[0], corners[2] - corners[1]) < 0.0 {
+                corners.reverse();
+            }
+            Convex::trusted(corners, 0.0)
+        }
+    }
+}
+
+/// Where the tip goes: straight joint motions are curves here, so they are followed in small steps.
+fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
+    /// Radians; a chord of such an arc is off by 2e-5 of the reach at most, a hundredth of a pixel.
+    const STEP: f64 = 0.0125;
+    const MOST: f64 = 2000.0;
+    let turns = [0, 1].map(|k| arm.joints[k].joint_type.is_revolute());
+    let mut spots = vec![path.start()];
+    for (a, b) in path.points.0.windows(2).map(|ends| (ends[0], ends[1])) {
+        let angle = (0..2).filter(|&k| turns[k]).map(|k| (b[k] - a[k]).abs()).fold(0.0, f64::max);
+        let n = (angle / STEP).ceil().clamp(1.0, MOST) as usize;
+        spots.extend((1..=n).map(|i| a + (b - a) * (i as f64 / n as f64)));
+    }
+    let place = |q: Configuration| {
+        let tip = arm.tip_at(q);
+        frame.at(tip.x, tip.y)
+    };
+    chain(spots.into_iter().map(place), false)
+}
