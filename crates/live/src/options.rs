@@ -3,7 +3,7 @@
 use clap::{Command, CommandFactory, Parser};
 use cplan_core::model::Scene;
 use cplan_engine::Method;
-use cplan_options::{MotionArgs, PlannerArgs};
+use cplan_options::{MotionArgs, PlannerArgs, word};
 
 /// The finest trajectory that a page asks for, seconds: it is drawn, and sent to a browser.
 const SHORTEST_PERIOD: f64 = 1e-3;
@@ -17,6 +17,7 @@ pub struct Options {
 #[derive(Debug, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct Grammar {
+    #[arg(value_parser = word::<Method>())]
     planner: Method,
     #[command(flatten)]
     motion: MotionArgs,
