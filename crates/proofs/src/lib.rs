@@ -1,5 +1,5 @@
 //! Where proofs and bounds are found: slabs and boxes that tell whether there is a path, and lower bounds on how short one can
-//! be. What it finds passes [`cplan_motion::recorded`], which shares no code with it but the kernels of geometry and
+//! be. What it finds passes [`cplan_core::check`], which shares no code with it but the kernels of geometry and
 //! [`cplan_core::check::Deviation`].
 //!
 //! [`slab_connectivity`] is asked first: in a slab of `q1`, contact angles with obstacles grown by the slab's motion

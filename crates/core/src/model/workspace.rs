@@ -154,7 +154,7 @@ pub struct Workspace {
     /// Regions that field planners may prefer or avoid, in the order of the file; of several that hold the last counts.
     pub preferences: Vec<Preference>,
     /// Obstacles that move. What has no time knows nothing of them: planners, configuration spaces, paths and proofs. Motions are put in time
-    /// among them ([`crate::engine`]) and judged in time ([`crate::check::certify_in_time`]).
+    /// among them (the crate `engine`) and judged in time (`certify_in_time` of the crate `motion`).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub movers: Vec<Mover>,
 }

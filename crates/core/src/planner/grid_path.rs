@@ -106,7 +106,7 @@ const OFF_THE_CURVE: f64 = 0.05;
 const ARRIVAL: f64 = 12.0;
 
 /// The path from the exact start along a field ([`follow`]) to the exact goal, no farther off the curve than
-/// [`OFF_THE_CURVE`] but for the [`ARRIVAL`]; or pulled taut. It stays in free cells, but for the pieces between a
+/// `OFF_THE_CURVE` except for the `ARRIVAL`; or pulled taut. It stays in free cells, but for the pieces between a
 /// configuration and a cell that does not contain it. `home` is the cell joined to the start.
 ///
 /// # Errors

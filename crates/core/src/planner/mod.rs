@@ -3,7 +3,7 @@
 //! Both roadmap planners begin with `geometry::planar`, which takes polygons apart into vertices and sides. A path may
 //! touch obstacles, along sides too, but not squeeze between two that touch in a point: triangles and cells are
 //! neighbours through pieces of positive length only. Which of two paths a planner gives, its own or that one pulled
-//! taut, [`PathKind`] says. [`FieldPlanner`] follows any field on a `cspace::ZonedGrid`, whose cells know the world's
+//! taut, [`PathKind`] says. The `FieldPlanner` of the crate `fields` follows any field on a `cspace::ZonedGrid`, whose cells know the world's
 //! preferences.
 //!
 //! ```

@@ -11,7 +11,7 @@ impl Report {
     /// MCAP are text in UTF-8.
     ///
     /// Tables of tasks have a column with the number of each sample's step among those that are done, from 1. ROS 2 messages hold the
-    /// motion as one, recordings, which show nothing here (see [`Plan::bytes`](crate::Plan::bytes)), a message for each step: its motion, and the turns of the wrist and strokes of the tool after it.
+    /// motion as one, recordings, which show nothing here (see `PlanOutput::bytes` of the crate `view`), a message for each step: its motion, and the turns of the wrist and strokes of the tool after it.
     #[must_use]
     pub fn bytes(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {

@@ -123,7 +123,7 @@ fn all_pairs<'a>(scene: &'a Scene, recording: &Recording) -> Cow<'a, [Pair]> {
 }
 
 /// The same of what moves alone, on the recording's clock from its first sample on: the arm's motion in time is certified if it is known to be
-/// free of what stands, as the motion along a [`super::CertifiedCurve`] is.
+/// free of what stands, as the motion along a [`cplan_core::check::CertifiedCurve`] is.
 #[must_use]
 pub fn certify_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
     check_pairs(scene, scene.moving_pairs().into(), recording, clearance)

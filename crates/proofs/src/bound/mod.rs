@@ -3,10 +3,10 @@
 //! The evidence is a set of straight segments of configurations, each with the pair of shapes that is too near all along it:
 //! *walls* on slices, where joint 1 stays at one value, and *barriers* across the strips between two slices. No motion crosses
 //! any of them, so none is shorter than the shortest way past all of them. The check looks along every segment for itself
-//! ([`held`]: depths from the Minkowski difference, one after the other, each of which covers a part of the segment), takes
-//! of a wall what it could see closed, and looks for the shortest way itself ([`cover`], [`ways`]: from each end of a wall
+//! (`held`: depths from the Minkowski difference, one after the other, each of which covers a part of the segment), takes
+//! of a wall what it could see closed, and looks for the shortest way itself (`cover`, `ways`: from each end of a wall
 //! to all that it sees). It shares no code with the search that found the evidence, but for the kernels of geometry and
-//! [`super::Deviation`].
+//! [`cplan_core::check::Deviation`].
 
 mod cover;
 mod held;

@@ -1,6 +1,6 @@
 //! How a plan leaves cplan: as files, pictures, a page, and a summary for people.
 //!
-//! [`PlanOutput`] adds all of it to [`Plan`](cplan_engine::Plan): `bytes` and `save` for files, `svg` and `html` for pictures,
+//! [`PlanOutput`] adds all of it to [`Plan`]: `bytes` and `save` for files, `svg` and `html` for pictures,
 //! `summary` for a terminal; `cspaces` has the configuration space as data.
 
 mod cspace;

@@ -74,7 +74,7 @@ impl PictureFormat {
     }
 
     /// Whether it has time, so that it can show how the planner came to its answer: then the view is better one with a replay
-    /// ([`Plan::view_with_replay`]).
+    /// (`PlanOutput::view_with_replay`).
     #[must_use]
     pub fn plays(self) -> bool {
         match self {
