@@ -69,8 +69,8 @@ fn answered(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut
             let planner = |level: usize| Prm { samples: samples << level, nearest, seed, path, search };
             climb(problem, options, progress, planner, |level| polygons(problem, margin, level))
         }
-        Planner::Wavefront { search, neighborhood, space, path, cells: counts } => {
-            let planner = Wavefront { search, neighborhood, path };
+        Planner::Wavefront { search, ties, forward, neighborhood, space, path, cells: counts } => {
+            let planner = Wavefront { search, ties, forward, neighborhood, path };
             climb(problem, options, progress, |_| planner, |level| cells(problem, space, counts, level))
         }
         Planner::Harmonic { field: None, space, path, cells } => {

@@ -2,6 +2,7 @@
 
 use super::{CellCounts, GridSpace, Method};
 use crate::field::Neighborhood;
+use crate::field::search::Ties;
 use crate::model::{Arm, Preference};
 use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, GridSearch, PathKind, Prm, RoadmapSearch, Wavefront};
 use crate::space::Metric;
@@ -108,6 +109,12 @@ pub enum Planner {
     Wavefront {
         /// How the grid is searched.
         search: GridSearch,
+        /// Which of equally promising cells A\* expands.
+        #[serde(default, skip_serializing_if = "Ties::is_usual")]
+        ties: Ties,
+        /// Whether the search begins at the start, not at the goals.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        forward: bool,
         /// Where a move can lead.
         neighborhood: Neighborhood,
         /// How cells are decided.
@@ -171,8 +178,9 @@ impl Planner {
                 Planner::Prm { samples, nearest, seed, path, margin, search }
             }
             Method::Wavefront => {
-                let Wavefront { search, neighborhood, .. } = Wavefront::default();
-                Planner::Wavefront { search, neighborhood, space, path, cells: CellCounts::square(FIRST_CELLS) }
+                let Wavefront { search, ties, forward, neighborhood, .. } = Wavefront::default();
+                let cells = CellCounts::square(FIRST_CELLS);
+                Planner::Wavefront { search, ties, forward, neighborhood, space, path, cells }
             }
             Method::Harmonic => Planner::Harmonic { field: None, space, path, cells: None },
             Method::Subdivision => Planner::Subdivision { path },
@@ -407,6 +415,9 @@ impl Planner {
             Planner::Prm { samples, nearest, margin, .. } => wrong_number("samples", samples, &SAMPLES)
                 .or_else(|| wrong_number("nearest", nearest, &NEAREST))
                 .or_else(|| wrong_margin(margin)),
+            Planner::Wavefront { search: GridSearch::Wave, forward: true, .. } => {
+                Some("forward: the wave begins at the goals, so that its labels are steps to them".into())
+            }
             Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => cells.error(),
             Planner::Harmonic { cells: None, .. } | Planner::First | Planner::Subdivision { .. } => None,
         }

@@ -189,7 +189,7 @@ impl Phases {
                 let caption = format!("{}, coarse to fine: free ones green, undecided ones yellow", boxes(count));
                 self.add(count, caption, Shows::Boxes);
             }
-            Trace::Wavefront { labels, expanded, .. } => {
+            Trace::Wavefront { labels, expanded, forward, .. } => {
                 let reached = labels.iter().filter(|&&label| label != u32::MAX).count();
                 if expanded.is_empty() {
                     self.add(
@@ -198,8 +198,9 @@ impl Phases {
                         Shows::Wave,
                     );
                 } else {
+                    let begins = if *forward { "start" } else { "goal" };
                     let caption =
-                        format!("The search begins at the goal and expands {}", counted(expanded.len(), "cell"));
+                        format!("The search begins at the {begins} and expands {}", counted(expanded.len(), "cell"));
                     self.add(expanded.len(), caption, Shows::Wave);
                 }
             }

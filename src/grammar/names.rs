@@ -1,6 +1,7 @@
 //! Planners, paths, searches and what else has names, so that help and shells can list them.
 
 use crate::engine::{GridSpace, Method, NamedJoints};
+use crate::field::search::Ties;
 use crate::field::{Device, Difference, Limits, Measure};
 use crate::motion::Objective;
 use crate::planner::{GridSearch, PathKind};
@@ -64,6 +65,9 @@ impl ValueEnum for GridSearch {
             }
             GridSearch::AStar => "The same cost, led by the distance to the other end",
             GridSearch::Greedy => "Nearest to the other end first: some path, found soon",
+            GridSearch::IterativeDeepening => {
+                "Of grids: depth first within a limit of moves, which grows by one each round: fewest moves"
+            }
         };
         Some(PossibleValue::new(self.name()).help(help))
     }
@@ -114,6 +118,9 @@ named!(Limits: High "high" "Obstacles", Reflecting "reflecting" "Mirrors: they n
 named!(Measure: GreatestRelativeChange "relative" "Greatest change as a part of the value", GreatestChange "greatest" "Greatest change",
     SumOfChange "sum" "Sum of changes", SumOfSquares "squares" "Sum of squared changes",
     DifferenceOfSums "sums" "Difference between the sum of changes and that of the sweep before");
+
+named!(Ties: Farthest "farthest" "The cell that has come farther, and of equals the last one: goes straight ahead",
+    First "first" "The cell that came first: all equally promising cells in rounds, one step at a time");
 
 named!(NamedJoints: All "all" "Every movable joint of the robot", Planned "planned" "The two that are planned for");
 

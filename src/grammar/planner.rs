@@ -5,6 +5,7 @@ use super::number::number_in;
 use super::roadmap::RoadmapArgs;
 use crate::engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
 use crate::field::Neighborhood;
+use crate::field::search::Ties;
 use crate::planner::{FieldPlanner, GridSearch, PathKind};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, ValueEnum};
@@ -79,14 +80,21 @@ pub struct PathArgs {
     /// [default: own for harmonic and voronoi, taut for the others].
     #[arg(long, value_enum, value_name = "KIND")]
     pub path: Option<PathKind>,
-    /// How the grid is searched, from the goal (planner wavefront), or the roadmap, from the start unless it is --backward
-    /// (planners visibility, trapezoid, triangles, voronoi, prm), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the others]
+    /// How the grid is searched, from the goal unless it is --forward (planner wavefront), or the roadmap, from the start unless it
+    /// is --backward (planners visibility, trapezoid, triangles, voronoi, prm), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the others]
     #[arg(long, value_enum, value_name = "NAME")]
     pub search: Option<GridSearch>,
     /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
     /// (planner wavefront). wave and bfs count moves; dijkstra and astar take a diagonal one for 1.414. [default: 4]
     #[arg(long, value_name = "N", value_parser = neighbors())]
     pub neighbors: Option<Neighborhood>,
+    /// Which of equally promising cells A* expands (planner wavefront). [default: farthest]
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub ties: Option<Ties>,
+    /// Search from the start to the goals, which planners with a roadmap do anyway; the wave cannot. Labels are then steps from
+    /// the start.
+    #[arg(long, conflicts_with = "backward")]
+    pub forward: bool,
     /// How the grid's cells are decided (planners wavefront, harmonic): by exact slices, or by sampled collision checks, which
     /// prove nothing. Paths are certified either way. [default: rows]
     #[arg(long, value_enum, value_name = "NAME")]
@@ -145,8 +153,10 @@ impl PlannerArgs {
     fn put_into(&self, planner: Planner, chosen: Option<FieldPlanner>) -> Planner {
         let mut planner = self.effort.put_into(planner).with_criterion(self.optimum.criterion());
         match &mut planner {
-            Planner::Wavefront { search, neighborhood, .. } => {
+            Planner::Wavefront { search, ties, forward, neighborhood, .. } => {
                 *search = self.path.search.unwrap_or(*search);
+                *ties = self.path.ties.unwrap_or(*ties);
+                *forward = self.path.forward;
                 *neighborhood = self.path.neighbors.unwrap_or(*neighborhood);
             }
             Planner::Harmonic { field, .. } => *field = chosen,
@@ -201,6 +211,14 @@ impl PathArgs {
         if self.neighbors.is_some() && planner != Method::Wavefront {
             return Err(format!("--neighbors needs --planner wavefront: {planner} searches no grid from cell to cell"));
         }
+        if self.ties.is_some() && (planner != Method::Wavefront || self.search != Some(GridSearch::AStar)) {
+            return Err(
+                "--ties needs --planner wavefront --search astar: only there are cells equally promising".into()
+            );
+        }
+        if self.forward {
+            self.check_forward(planner)?;
+        }
         if self.space.is_some() && !matches!(planner, Method::Wavefront | Method::Harmonic) {
             return Err(format!("--space needs --planner wavefront or harmonic: {planner} has no grid"));
         }
@@ -208,6 +226,26 @@ impl PathArgs {
             return Err(format!("--path own is not for {planner}: its path is taut as it is"));
         }
         Ok(())
+    }
+
+    /// Refuses --forward where nothing is searched, or where the search has to begin at the goal.
+    fn check_forward(&self, planner: Method) -> Result<(), String> {
+        if planner.has_roadmap() {
+            return Ok(());
+        }
+        if planner != Method::Wavefront {
+            return Err(format!(
+                "--forward needs a planner that searches: {planner} has neither a grid's cells nor a roadmap"
+            ));
+        }
+        match self.search.unwrap_or_default() {
+            GridSearch::Wave => {
+                Err("--forward needs --search bfs, dfs, dijkstra, astar, greedy or deepening: the wave begins \
+                                     at the goal, so that its labels are steps to it"
+                    .into())
+            }
+            _ => Ok(()),
+        }
     }
 }
 

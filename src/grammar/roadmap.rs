@@ -9,7 +9,7 @@ use clap::Args;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Roadmaps (planners visibility, trapezoid, triangles, voronoi, prm)")]
 pub struct RoadmapArgs {
-    /// Search from the goals to the start.
+    /// Search from the goals to the start, which planner wavefront does anyway.
     #[arg(long)]
     pub backward: bool,
     /// Random free configurations (planner prm), twice as many with each attempt [default: 500].
@@ -38,11 +38,9 @@ impl RoadmapArgs {
             return Err(format!("{name} needs --planner prm: {planner} draws no samples"));
         }
         if !planner.has_roadmap() {
-            let from_goal =
-                if planner == Method::Wavefront { "searches from the goal anyway" } else { "has no roadmap" };
-            let needs = "--backward needs --planner visibility, trapezoid, triangles, voronoi or prm";
-            return if self.backward {
-                Err(format!("{needs}: {planner} {from_goal}"))
+            let needs = "--backward needs --planner visibility, trapezoid, triangles, voronoi, prm or wavefront";
+            return if self.backward && planner != Method::Wavefront {
+                Err(format!("{needs}: {planner} has no roadmap"))
             } else {
                 Ok(RoadmapSearch::default())
             };
@@ -50,6 +48,9 @@ impl RoadmapArgs {
         let order = match search.unwrap_or(GridSearch::AStar) {
             GridSearch::Wave => {
                 return Err(format!("--search wave labels the cells of a grid: {planner} has a roadmap"));
+            }
+            GridSearch::IterativeDeepening => {
+                return Err(format!("--search deepening goes over the cells of a grid: {planner} has a roadmap"));
             }
             GridSearch::BreadthFirst => SearchOrder::BreadthFirst,
             GridSearch::DepthFirst => SearchOrder::DepthFirst,

@@ -122,6 +122,15 @@ pub enum Size {
         /// Those that were reached.
         labelled: usize,
     },
+    /// Cells of a grid as far as a search came that began anew, round by round.
+    Deepening {
+        /// How often it began.
+        rounds: usize,
+        /// How many times a cell was expanded, in all rounds together.
+        expansions: usize,
+        /// Cells that were reached.
+        labelled: usize,
+    },
     /// Nothing was built.
     Nothing,
 }
@@ -136,6 +145,9 @@ impl Size {
             Size::Grid { cells, sweeps } => vec![("cells", cells), ("sweeps", sweeps)],
             Size::Slices { slices } => vec![("rows", slices)],
             Size::Search { expanded, labelled } => vec![("cells", labelled), ("expanded", expanded)],
+            Size::Deepening { rounds, expansions, labelled } => {
+                vec![("cells", labelled), ("expanded", expansions), ("rounds", rounds)]
+            }
             Size::Nothing => Vec::new(),
         }
     }
@@ -152,6 +164,15 @@ impl std::fmt::Display for Size {
             Size::Slices { slices } => write!(f, "{}", counted(slices, "slice")),
             Size::Search { expanded, labelled } => {
                 write!(f, "{} expanded of {labelled} labelled", counted(expanded, "cell"))
+            }
+            Size::Deepening { rounds, expansions, labelled } => {
+                write!(
+                    f,
+                    "{}, {} of {}",
+                    counted(rounds, "round"),
+                    counted(expansions, "expansion"),
+                    counted(labelled, "cell")
+                )
             }
             Size::Nothing => f.write_str("no space built"),
         }
@@ -198,7 +219,8 @@ pub enum Trace {
         /// Boxes that are neither proven free nor proven stuck.
         mixed: Vec<[Configuration; 2]>,
     },
-    /// Steps to the goal for every cell of the grid, `u32::MAX` where the wave did not come.
+    /// Steps to the goal for every cell of the grid, of a forward search steps from the start; `u32::MAX` where it did not
+    /// come.
     Wavefront {
         /// Shape of the grid.
         cells: [usize; 2],
@@ -206,6 +228,8 @@ pub enum Trace {
         labels: Vec<u32>,
         /// Cells in the order in which a search expanded them; none of the wave, which comes to all cells of a label at once.
         expanded: Vec<u32>,
+        /// Whether the search began at the start.
+        forward: bool,
     },
     /// Natural logarithm of the potential for every cell (0 at the goal, the lower the farther), minus infinity where
     /// there is none.

@@ -5,6 +5,7 @@
 
 use crate::common::{all_kinds, arm, disc, joint, link, q, rectangle, rr, scene, wall};
 use cplan::cspace::{Grid, Proves, Regions, ZonedGrid, outer_grid, regions, sampled_grid};
+use cplan::field::search::Ties;
 use cplan::field::{Device, Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, Scene};
@@ -19,7 +20,7 @@ use std::f64::consts::TAU;
 type Plan = fn(&Scene, &Query) -> Run;
 
 /// Every planner, with every setting that changes what its paths look like.
-const PLANNERS: [(&str, Plan); 24] = [
+const PLANNERS: [(&str, Plan); 26] = [
     (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
     ("visibility, weighted", |scene, query| {
         let metric = Metric::Weighted { weights: [1.0, 0.6] };
@@ -64,7 +65,18 @@ const PLANNERS: [(&str, Plan); 24] = [
     }),
     ("wavefront, A*, 8 neighbours", |scene, query| {
         let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
-        answered(&Wavefront { search, neighborhood, path: PathKind::Own }, &cells(scene), query)
+        let planner = Wavefront { search, neighborhood, path: PathKind::Own, ..Wavefront::default() };
+        answered(&planner, &cells(scene), query)
+    }),
+    ("wavefront, A* from the start", |scene, query| {
+        let (search, ties) = (GridSearch::AStar, Ties::First);
+        let planner = Wavefront { search, ties, forward: true, path: PathKind::Own, ..Wavefront::default() };
+        answered(&planner, &cells(scene), query)
+    }),
+    ("wavefront, iterative deepening from the start", |scene, query| {
+        let search = GridSearch::IterativeDeepening;
+        let planner = Wavefront { search, forward: true, path: PathKind::Own, ..Wavefront::default() };
+        answered(&planner, &cells(scene), query)
     }),
     ("wavefront, sampled", |scene, query| {
         answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &sampled(scene), query)
@@ -237,6 +249,11 @@ fn the_trace_and_size_are_those_of_the_representation() {
                 drawn.len() == cells[0] * cells[1]
                     && drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
                     && expanded <= labelled
+            }
+            (Trace::Wavefront { labels: drawn, expanded, .. }, Size::Deepening { rounds, expansions, labelled }) => {
+                drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
+                    && rounds > 0
+                    && expansions >= expanded.len()
             }
             (
                 trace @ (Trace::Field { .. } | Trace::Harmonic { .. }),

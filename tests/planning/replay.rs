@@ -73,7 +73,8 @@ fn searches_are_told_in_the_order_in_which_they_went() {
         let Planner::Wavefront { search: how, .. } = &mut planner else { panic!("a wavefront") };
         *how = search;
         let plan = asked("planar_2r", "shelf", planner);
-        let Trace::Wavefront { cells, labels, expanded } = &plan.motion().unwrap().answer.run.trace else {
+        let Trace::Wavefront { cells, labels, expanded, forward: false } = &plan.motion().unwrap().answer.run.trace
+        else {
             panic!("a wavefront")
         };
         assert_eq!(expanded.is_empty(), search == GridSearch::Wave);

@@ -98,6 +98,8 @@ fn an_outcome_is_one_of_three() {
     let coarse = Options {
         planner: Planner::Wavefront {
             search: Default::default(),
+            ties: Default::default(),
+            forward: false,
             neighborhood: Default::default(),
             space: Default::default(),
             path: cplan::planner::PathKind::Taut,

@@ -78,7 +78,8 @@ impl TraceView {
         let whole = |value: f64| format!("{value:.0}").replace('-', "\u{2212}").replace("\u{2212}0", "0");
         let (title, ends, soft) = match self {
             Self::Wavefront(waves) if waves.levels().any(|level| level.is_some()) => {
-                ("steps to the goal", [waves.farthest.to_string(), "0".to_owned()], true)
+                let title = if waves.from_start { "steps from the start" } else { "steps to the goal" };
+                (title, [waves.farthest.to_string(), "0".to_owned()], true)
             }
             Self::Field { logarithmic: true, span, .. } => ("ln of the potential", span.map(whole), false),
             Self::Field { span, .. } => ("potential", span.map(|value| format!("{value:.2}")), false),
@@ -107,7 +108,11 @@ impl TraceView {
             Trace::Boxes { free, stuck, mixed } => {
                 Self::Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed), rest: Chain::default() }
             }
-            Trace::Wavefront { cells, labels, expanded } => Self::Wavefront(Waves::new(*cells, labels, expanded)?),
+            Trace::Wavefront { cells, labels, expanded, forward } => {
+                let mut waves = Waves::new(*cells, labels, expanded)?;
+                waves.from_start = *forward;
+                Self::Wavefront(waves)
+            }
             Trace::Field { .. } | Trace::Harmonic { .. } | Trace::Potential { .. } => {
                 let slope = Slope::new(trace, topology)?;
                 let chain =

@@ -25,6 +25,9 @@ pub struct Waves {
     order: String,
     /// The greatest label.
     pub farthest: u32,
+    /// Whether distances are those from the start.
+    #[serde(skip)]
+    pub from_start: bool,
 }
 
 impl Waves {
@@ -55,12 +58,13 @@ impl Waves {
             levels: coarse(&mut labels.iter().copied().enumerate(), farthest),
             order: if expanded.is_empty() { String::new() } else { coarse(&mut { places }, expanded.len() as u32 - 1) },
             farthest,
+            from_start: false,
         })
     }
 
     /// Blocks of these levels, written as letters, over the whole of both axes.
     pub fn of_levels(blocks: [usize; 2], levels: String) -> Self {
-        Self { blocks, extent: [1.0; 2], levels, order: String::new(), farthest: 0 }
+        Self { blocks, extent: [1.0; 2], levels, order: String::new(), farthest: 0, from_start: false }
     }
 
     /// The same as far as this part of the levels, or of the order of expansion, goes.

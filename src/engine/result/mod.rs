@@ -206,10 +206,15 @@ impl SearchUsed {
     /// How a planner searches its grid, or its roadmap if that is not by the usual search.
     #[must_use]
     pub fn of(planner: &Planner) -> Option<Self> {
-        if let Planner::Wavefront { search, neighborhood, .. } = planner {
-            return Some(Self { search: search.name(), neighbors: Some(neighborhood.count()), backward: None });
+        if let Planner::Wavefront { search, ties, forward, neighborhood, .. } = planner {
+            return Some(Self {
+                search: search.name(),
+                ties: (!ties.is_usual()).then(|| ties.name()),
+                neighbors: Some(neighborhood.count()),
+                backward: forward.then_some(false),
+            });
         }
         let search = planner.search().filter(|search| !search.is_usual())?;
-        Some(Self { search: search.order.name(), neighbors: None, backward: Some(search.backward) })
+        Some(Self { search: search.order.name(), ties: None, neighbors: None, backward: Some(search.backward) })
     }
 }

@@ -177,7 +177,7 @@ pub struct FieldGrid {
     #[serde(serialize_with = "bits")]
     #[schemars(with = "Vec<u8>")]
     pub blocked: Vec<bool>,
-    /// What `values` are: `steps` to the goal, `ln_potential` (natural logarithm, 0 at the goal, the lower the farther), or
+    /// What `values` are: `steps` to the goal, `steps_from_start`, `ln_potential` (natural logarithm, 0 at the goal, the lower the farther), or
     /// `height` (descended by the path).
     pub quantity: &'static str,
     /// One a cell; infinite, in JSON null, where there is none. Empty where there is no field.
@@ -309,9 +309,10 @@ impl CSpace {
                 let boxes = Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed) };
                 Self { boxes: Some(boxes), ..self }
             }
-            Trace::Wavefront { labels, .. } => {
+            Trace::Wavefront { labels, forward, .. } => {
                 let steps = |&label: &u32| if label == u32::MAX { f64::INFINITY } else { f64::from(label) };
-                Self { grid: grid("steps", &labels.iter().map(steps).collect::<Vec<_>>()), ..self }
+                let quantity = if *forward { "steps_from_start" } else { "steps" };
+                Self { grid: grid(quantity, &labels.iter().map(steps).collect::<Vec<_>>()), ..self }
             }
             Trace::Potential { heights, .. } => Self { grid: grid("height", heights), ..self },
             // Guessed for pictures.

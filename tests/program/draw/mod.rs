@@ -137,7 +137,7 @@ fn planned(
 #[test]
 fn a_wavefront_between_limits() {
     let text = planned("rr_wavefront", &three(), [at(-1.9, 0.6), at(1.4, -1.0)], 160, |cells, labels, _, _| {
-        Trace::Wavefront { cells: [cells.n; 2], labels: labels.to_vec(), expanded: Vec::new() }
+        Trace::Wavefront { cells: [cells.n; 2], labels: labels.to_vec(), expanded: Vec::new(), forward: false }
     });
     let words = words(&text);
     for word in ["shoulder", "elbow", "90\u{b0}", "shelf", "post <1>", "fence & gate", "steps to the goal"] {
@@ -269,9 +269,9 @@ fn a_motion_that_stays_where_it_is_is_drawn() {
         Trace::Roadmap { edges: Vec::new(), whole: true },
         Trace::Channel { cells: [].into(), channel: Vec::new(), expanded: Vec::new() },
         Trace::Roads { edges: Vec::new(), expanded: Vec::new() },
-        Trace::Wavefront { cells: [1, 1], labels: vec![0], expanded: Vec::new() },
-        Trace::Wavefront { cells: [0, 0], labels: Vec::new(), expanded: Vec::new() },
-        Trace::Wavefront { cells: [2, 1], labels: vec![u32::MAX; 2], expanded: Vec::new() },
+        Trace::Wavefront { cells: [1, 1], labels: vec![0], expanded: Vec::new(), forward: false },
+        Trace::Wavefront { cells: [0, 0], labels: Vec::new(), expanded: Vec::new(), forward: false },
+        Trace::Wavefront { cells: [2, 1], labels: vec![u32::MAX; 2], expanded: Vec::new(), forward: false },
         Trace::Field { cells: [2, 2], potential: vec![f64::NEG_INFINITY, 0.0, -1.0, -2.0] },
         Trace::Field { cells: [0, 0], potential: Vec::new() },
     ] {
