@@ -9,6 +9,8 @@ pub enum GridSpace {
     /// By exact slices: cells that are wholly free, then cells whose centres are ([`Proves`](crate::cspace::Proves) says which).
     #[default]
     Rows,
+    /// By exact slices: cells whose centres are free, from the first attempt on, as the literature's grids have it.
+    Centers,
     /// By parry2d's collision checks at the centres ([`Proves::Sampled`](crate::cspace::Proves::Sampled)): what other libraries
     /// do, to compare with. Slower by as much as there are more cells than slices.
     Sampled,
@@ -16,13 +18,14 @@ pub enum GridSpace {
 
 impl GridSpace {
     /// All, in the order of the command line's help.
-    pub const ALL: [Self; 2] = [Self::Rows, Self::Sampled];
+    pub const ALL: [Self; 3] = [Self::Rows, Self::Centers, Self::Sampled];
 
     /// Name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Rows => "rows",
+            Self::Centers => "centers",
             Self::Sampled => "sampled",
         }
     }

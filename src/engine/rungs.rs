@@ -99,6 +99,7 @@ pub(super) fn zoned_cells(
 fn finer(problem: &MotionProblem, space: GridSpace, CellCounts(first): CellCounts, level: usize) -> Option<[usize; 2]> {
     let (finer, checks) = match space {
         GridSpace::Rows => (level / 2, 0),
+        GridSpace::Centers => (level, 0),
         GridSpace::Sampled => (level, problem.scene().pairs().len()),
     };
     let [a, b] = first.map(|n| n << finer);
@@ -110,7 +111,7 @@ fn grid(problem: &MotionProblem, space: GridSpace, level: usize, shape: [usize; 
     let build = match space {
         GridSpace::Sampled => sampled_grid,
         GridSpace::Rows if level.is_multiple_of(2) => outer_grid,
-        GridSpace::Rows => grid_from_slices,
+        GridSpace::Rows | GridSpace::Centers => grid_from_slices,
     };
     build(problem.scene(), shape, problem.scene().workspace().clearance)
 }

@@ -81,6 +81,7 @@ impl ValueEnum for GridSpace {
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let help = match self {
             GridSpace::Rows => "By exact slices: cells that are wholly free first, then cells whose centres are",
+            GridSpace::Centers => "By exact slices: cells whose centres are free, in every attempt",
             GridSpace::Sampled => "By parry2d's collision checks at the cells' centres",
         };
         Some(PossibleValue::new(self.name()).help(help))
