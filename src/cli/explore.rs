@@ -108,7 +108,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
         match sink {
             Sink::Result(Format::Json, path) => files.push((path.clone(), json().into_bytes())),
             Sink::Result(format, path) => match &done.trajectory {
-                None => sinks::warn_unwritten(path),
+                None => sinks::warn_unwritten(path, "trajectory"),
                 Some(trajectory) => {
                     let text = match format {
                         Format::Csv => csv(&joints, trajectory, false, None),

@@ -34,17 +34,19 @@ pub enum SaveError {
     /// The file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The format holds nothing but a trajectory, and there is none.
-    #[error("{file} is not written: there is no trajectory to put into it")]
+    /// The format holds nothing but a trajectory, or a grid, and there is none.
+    #[error("{file} is not written: there is no {content} to put into it")]
     Empty {
         /// The name as given.
         file: String,
+        /// What the format holds.
+        content: &'static str,
     },
 }
 
 impl FileFormat {
     /// The format that a file's extension stands for: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.gif`, `.html` or `.geojson`; but
-    /// `cspace.json` and what ends in `.cspace.json` is the configuration space.
+    /// `cspace.json`, `cspace.csv` and what ends in `.cspace.json` or `.cspace.csv` is the configuration space.
     ///
     /// # Errors
     /// Any other extension, and those that this build of the program does not have.
@@ -61,7 +63,7 @@ impl FileFormat {
 }
 
 impl Plan {
-    /// The plan as a file of this format holds it; none if the format holds nothing but a trajectory and there is none. All but
+    /// The plan as a file of this format holds it; none if the format holds nothing but a trajectory, or a grid, and there is none. All but
     /// MCAP, PNG and GIF are text in UTF-8.
     ///
     /// # Errors
@@ -73,7 +75,7 @@ impl Plan {
                 Ok(self.stage().and_then(|stage| self.report().recording(Some(&stage))))
             }
             FileFormat::Result(format) => Ok(self.report().bytes(format)),
-            FileFormat::CSpace(format) => Ok(Some(format.text(&self.cspaces()).into_bytes())),
+            FileFormat::CSpace(format) => Ok(format.text(&self.cspaces()).map(String::into_bytes)),
             FileFormat::Picture(format) if format.plays() => format.bytes(&self.view_with_replay()).map(Some),
             FileFormat::Picture(format) => format.bytes(&self.view()).map(Some),
         }
@@ -85,8 +87,10 @@ impl Plan {
     /// An extension that is none of ours, a trajectory that is not there, a picture that cannot be made, I/O.
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
         let path = path.as_ref();
-        let Some(bytes) = self.bytes(FileFormat::from_path(path)?)? else {
-            return Err(SaveError::Empty { file: path.display().to_string() });
+        let format = FileFormat::from_path(path)?;
+        let Some(bytes) = self.bytes(format)? else {
+            let content = if let FileFormat::CSpace(_) = format { "grid" } else { "trajectory" };
+            return Err(SaveError::Empty { file: path.display().to_string(), content });
         };
         Ok(write_whole(path, &bytes)?)
     }

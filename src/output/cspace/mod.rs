@@ -2,6 +2,7 @@
 
 mod format;
 mod geojson;
+mod matrix;
 
 pub use format::CSpaceFormat;
 
@@ -177,8 +178,8 @@ pub struct FieldGrid {
     #[serde(serialize_with = "bits")]
     #[schemars(with = "Vec<u8>")]
     pub blocked: Vec<bool>,
-    /// What `values` are: `steps` to the goal, `steps_from_start`, `ln_potential` (natural logarithm, 0 at the goal, the lower the farther), or
-    /// `height` (descended by the path).
+    /// What `values` are: `steps` to the goal, `steps_from_start`, `ln_potential` (natural logarithm, 0 at the goal, the lower
+    /// the farther), or `height` (descended by the path).
     pub quantity: &'static str,
     /// One a cell; infinite, in JSON null, where there is none. Empty where there is no field.
     #[schemars(with = "Vec<Option<f64>>")]
@@ -223,6 +224,12 @@ impl CSpaces {
     #[must_use]
     pub fn json(&self) -> String {
         line_a_field(self)
+    }
+
+    /// Returns the values of the first grid as a matrix in CSV, if there is a grid.
+    #[must_use]
+    pub fn csv(&self) -> Option<String> {
+        self.spaces.iter().find_map(|space| space.grid.as_ref()).map(FieldGrid::matrix)
     }
 
     /// As a GeoJSON `FeatureCollection`, whose coordinates are joint values.
