@@ -18,6 +18,7 @@ mod explore;
 mod fields;
 mod first;
 mod free_joint;
+mod grids;
 mod hardly_meant;
 pub mod help;
 mod import;
