@@ -179,7 +179,9 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
     let mut rows: Vec<Vec<Key>> = vec![Vec::new()];
     let mut used = 0.0;
     for (sign, name) in keys {
-        let key = (sign, shortened(&name, SIZE, room / 5.0));
+        // Names of paths hold what planners were asked for.
+        let share = if let Sign::Line(_) = sign { 3.0 } else { 5.0 };
+        let key = (sign, shortened(&name, SIZE, room / share));
         let needed = width(&key) + GAP;
         let last = rows.len() - 1;
         if used + needed > room && !rows[last].is_empty() {

@@ -15,6 +15,7 @@
 mod arena;
 mod comparison;
 mod convergence;
+mod labels;
 mod measure;
 pub(crate) mod page;
 mod row;
@@ -27,6 +28,7 @@ mod words;
 
 pub use comparison::Comparison;
 pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, convergence};
+pub use labels::labels;
 pub use measure::Measure;
 pub use page::{Overlay, Page, Picture, Spot};
 pub use row::{Family, OtherPath, Row};
