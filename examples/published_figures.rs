@@ -71,10 +71,8 @@ fn errors(data: &Path) -> Result<(), Box<dyn Error>> {
                 let sample = run.samples.iter().find(|s| s.sweep >= shown);
                 print!("{:>9}", sample.map_or_else(|| "-".into(), |sample| format!("{:.1e}", sample.squares)));
             }
-            let leap = run.samples.windows(2).find(|pair| pair[0].stage < pair[1].stage);
-            let [before, after] = leap.map_or([f64::NAN; 2], |pair| [pair[0].squares, pair[1].squares]);
-            let end = leap.map_or(0, |pair| pair[0].sweep);
-            println!("  {end}: {before:.1e} to {after:.1e}, {} in all", run.sweeps);
+            let leap = run.leap().ok_or("preferences begin")?;
+            println!("  {}: {:.1e} to {:.1e}, {} in all", leap.sweep, leap.before, leap.after, run.sweeps);
         }
     }
     println!();
@@ -111,6 +109,17 @@ fn factors() -> Result<(), Box<dyn Error>> {
             let theirs = scan.points.iter().find(|p| (p.at - published[k]).abs() < 1e-9);
             let theirs = theirs.and_then(|p| p.converged()).map_or_else(|| "-".into(), |sweeps| sweeps.to_string());
             println!("  {name:<13} {:.1} (takes {theirs:>4} here)   {best}", published[k]);
+        }
+        if k == 0 {
+            println!(
+                "Figures 6.1 to 6.3, weighted Jacobi (WJR): published 1.8 for all; ours, and the first that is lost"
+            );
+            for scan in &measured.weights {
+                let shown = |point: Option<cplan::report::Point>| {
+                    point.map_or_else(|| "-".into(), |p| format!("{:.2} ({} sweeps)", p.at, p.sweeps))
+                };
+                println!("  {:<13} {}, lost at {}", scan.equation, shown(scan.best()), shown(scan.lost_from()));
+            }
         }
         println!(
             "Figure 6.4, Gauss-Seidel {order}: published: central differences diverge above 3.4, upwind ones do not"

@@ -27,7 +27,7 @@ mod table;
 mod words;
 
 pub use comparison::Comparison;
-pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, convergence};
+pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, WeightScan, convergence};
 pub use labels::labels;
 pub use measure::Measure;
 pub use page::{Overlay, Page, Picture, Spot};

@@ -31,4 +31,4 @@ pub use equation::{Difference, Direction, Equation, Influence, around};
 pub use relaxation::{Factor, Lines, Order, Precision, Relaxation, Scan, Scheme};
 pub use stopping::{Convergence, Measure, Stopping};
 pub use sweeps::{RelaxError, Relaxed, Watched, relax, relax_from, relax_watched};
-pub use trace::{Ending, Sample, Trace, trace};
+pub use trace::{Ending, Leap, Sample, Trace, trace};

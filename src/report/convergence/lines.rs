@@ -24,6 +24,11 @@ const COLORS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#b04f88", "#a87400"
 /// Lines of one colour differ in their dashes.
 const DASHES: [&str; 3] = ["", "7 3", "2 3"];
 
+/// The pen of the line of this number: another colour for each, and other dashes once all colours are taken.
+pub fn pen(line: usize) -> [usize; 2] {
+    [line % COLORS.len(), line / COLORS.len()]
+}
+
 /// Lines over a horizontal axis.
 pub struct LineChart {
     pub title: String,
