@@ -93,7 +93,7 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
     let with = |choice: FieldChoice| {
         let mut planner = named;
         if let Planner::Harmonic { field, .. } = &mut planner {
-            *field = Some(FieldPlanner { field: choice, limits: Limits::High, path: PathKind::Own });
+            *field = Some(FieldPlanner { field: choice, limits: Limits::High, escape: None, path: PathKind::Own });
         }
         planner
     };

@@ -3,7 +3,7 @@
 use super::{Answer, Space};
 use crate::field::{Difference, Factor, Khatib, Limits, Relaxation, Scheme};
 use crate::motion::FieldReport;
-use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, Size};
+use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, Note, Size};
 
 /// The field that was asked for and what came of it.
 pub(super) fn field_report(planner: &FieldPlanner, answer: &Answer) -> FieldReport {
@@ -14,6 +14,11 @@ pub(super) fn field_report(planner: &FieldPlanner, answer: &Answer) -> FieldRepo
             attraction: Some(attraction.to_string()),
             repulsion: Some(repulsion.to_string()),
             saturated: Some(saturated),
+            escape: planner.escape.map(|escape| escape.to_string()),
+            escaped: planner.escape.map(|_| match answer.run.note {
+                Some(Note::Escaped { escaped, .. }) => escaped.minima,
+                _ => 0,
+            }),
             ..FieldReport::default()
         },
         FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on } => {

@@ -24,7 +24,7 @@ pub use cplan_harmonic::{
     Uphill, Wave, advance, direction, follow, harmonic, harmonic_way, residual, rough_harmonic,
 };
 pub use cplan_multigrid as multigrid;
-pub use khatib::{Attraction, Downforce, ForceField, Khatib, Repulsion, Trap, nearest_obstacles};
+pub use khatib::{Attraction, Downforce, Escape, Escaped, ForceField, Khatib, Repulsion, Trap, nearest_obstacles};
 pub use moving::{Disc, Moment, MovingField, Solver};
 pub use relax::{
     Boundary, Cell, Convergence, Device, Difference, Direction, Domain, Ending, Equation, Factor, Influence, Leap,

@@ -3,7 +3,8 @@
 use super::number::{finite, positive};
 use crate::engine::Method;
 use crate::field::{
-    Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
+    Attraction, Device, Difference, Direction, Escape, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion,
+    Scan,
 };
 use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, PathKind};
 use clap::{Args, ValueEnum};
@@ -113,6 +114,10 @@ pub struct FieldArgs {
     /// Let each component of pull and push go through tanh (khatib).
     #[arg(long)]
     pub saturated: bool,
+    /// Leave local minima (khatib): wave fills the basin until it runs over into a lower cell; walk:SEED goes at random and then
+    /// down, until that leads lower; walk is walk:1. The answer reports it [default: a local minimum ends the search].
+    #[arg(long, value_name = "HOW", value_parser = escape)]
+    pub escape: Option<Escape>,
 }
 
 /// Sweeps before the answer is what there is.
@@ -157,8 +162,11 @@ impl FieldArgs {
                 on: self.device(),
             },
         };
+        if self.saturated && self.escape.is_some() {
+            return Err("--escape leads to where the potential is lower: the forces of --saturated have none".into());
+        }
         let limits = self.limits.unwrap_or_default();
-        Ok(Some(FieldPlanner { field, limits, path: PathKind::Own }))
+        Ok(Some(FieldPlanner { field, limits, escape: self.escape, path: PathKind::Own }))
     }
 
     /// What the field is relaxed on.
@@ -188,6 +196,7 @@ impl FieldArgs {
             ("--attraction", self.attraction.is_some()),
             ("--repulsion", self.repulsion.is_some()),
             ("--saturated", self.saturated),
+            ("--escape", self.escape.is_some()),
         ];
         options.into_iter().filter(|option| option.1).map(|option| option.0).collect()
     }
@@ -246,7 +255,7 @@ fn needed_field(option: &str) -> Option<&'static [FieldName]> {
         "--relaxation" | "--order" | "--factor" | "--tolerance" | "--max-sweeps" | "--on" => {
             Some(&[Harmonic, Oriented, Local, Bvp, Bvp2])
         }
-        "--attraction" | "--repulsion" | "--saturated" => Some(&[Khatib]),
+        "--attraction" | "--repulsion" | "--saturated" | "--escape" => Some(&[Khatib]),
         _ => None,
     }
 }
@@ -292,6 +301,16 @@ fn attraction(text: &str) -> Result<Attraction, String> {
         Some(("linear", [k])) => Ok(Attraction::Linear(*k)),
         _ => Err("must be constant:C or linear:K with a positive number, such as linear:1".into()),
     }
+}
+
+fn escape(text: &str) -> Result<Escape, String> {
+    match text.split_once(':') {
+        None if text == "wave" => Some(Escape::Wave),
+        None if text == "walk" => Some(Escape::Walk { seed: 1 }),
+        Some(("walk", seed)) => seed.parse().ok().map(|seed| Escape::Walk { seed }),
+        _ => None,
+    }
+    .ok_or_else(|| "must be wave, walk or walk:SEED with a whole number, such as walk:7".into())
 }
 
 fn repulsion(text: &str) -> Result<Repulsion, String> {

@@ -44,6 +44,12 @@ pub struct FieldReport {
     /// Whether pull and push go through tanh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub saturated: Option<bool>,
+    /// How local minima were to be left, as on the command line; left out if they end the search.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub escape: Option<String>,
+    /// How many local minima were left so; left out without `escape`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub escaped: Option<usize>,
     /// What lies beyond joint limits: `high` or `reflecting`.
     pub limits: &'static str,
     /// Whether the tolerance was met; left out if nothing was relaxed.

@@ -2,7 +2,7 @@
 
 use super::PathKind;
 use crate::cspace::ZonedGrid;
-use crate::field::{Device, Difference, Direction, Equation, Khatib, Limits, Relaxation};
+use crate::field::{Device, Difference, Direction, Equation, Escape, Khatib, Limits, Relaxation};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -77,6 +77,9 @@ pub struct FieldPlanner {
     pub field: FieldChoice,
     /// What lies beyond the limits of intervals.
     pub limits: Limits,
+    /// How local minima of attraction and repulsion are left; none if the planner gives up there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub escape: Option<Escape>,
     /// [`PathKind::Own`] is the curve along the gradient, or the force.
     pub path: PathKind,
 }
@@ -156,6 +159,9 @@ impl fmt::Display for FieldPlanner {
                     "attraction {attraction}, repulsion {repulsion}{}",
                     if saturated { ", saturated" } else { "" }
                 )?;
+                if let Some(escape) = self.escape {
+                    write!(f, ", escape {escape}")?;
+                }
             }
         }
         write!(f, "; limits {}", if self.limits == Limits::High { "high" } else { "reflecting" })

@@ -5,8 +5,8 @@ use super::field_choice::{EquationChoice, FieldChoice, FieldPlanner};
 use super::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::{Grid, ZonedGrid};
 use crate::field::{
-    Cell, Device, Domain, Downforce, Equation, ForceField, Khatib, Levels, Limits, Measure, Place, Relaxation, Relaxed,
-    Slope, Stopping, Stuck, Trap, relax_on,
+    Cell, Device, Domain, Downforce, Equation, Escape, ForceField, Khatib, Levels, Limits, Measure, Place, Relaxation,
+    Relaxed, Slope, Stopping, Stuck, Trap, relax_on,
 };
 use crate::space::{Configuration, Path};
 
@@ -46,7 +46,7 @@ impl Planner for FieldPlanner {
         };
         let task = Task { space, query, joined: &joined, start, kind: self.path };
         let followed = match self.field {
-            FieldChoice::Khatib(laws) => task.follow_forces(laws, &goals, self.limits),
+            FieldChoice::Khatib(laws) => task.follow_forces(laws, self.escape, &goals, self.limits),
             FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on } => {
                 let stopping = Stopping { measure: Measure::GreatestRelativeChange, below: tolerance, max_sweeps };
                 match task.follow_relaxed(&domain, equation, &relaxation, &stopping, on) {
@@ -82,7 +82,7 @@ struct Task<'a> {
 
 impl Task<'_> {
     /// Follows attraction and repulsion.
-    fn follow_forces(&self, laws: Khatib, goals: &[usize], limits: Limits) -> Followed {
+    fn follow_forces(&self, laws: Khatib, escape: Option<Escape>, goals: &[usize], limits: Limits) -> Followed {
         let grid = &self.space.grid;
         let centers: Vec<Configuration> = goals.iter().map(|&cell| grid.center(cell)).collect();
         let field = ForceField::new(grid, laws, &centers, limits);
@@ -92,16 +92,18 @@ impl Task<'_> {
         });
         let trace = Trace::Potential { cells: grid.cells, heights: heights.collect() };
         let at = |place: Place| grid_path::cell(grid, place).filter(|&cell| !grid.blocked[cell]);
-        let mut guide = Downforce::new(&field, goals, at);
+        let mut guide = Downforce::new(&field, goals, at).with_escape(escape);
         let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
         let path = path.map_err(|Trap { cell, value, minimum }| {
             let at = shown(grid, cell);
             match minimum {
-                true => format!("the potential has a local minimum at {at}, of value {value:.4e}"),
+                true => format!("the potential has a local minimum at {at}, of value {value:.4e}{}", stayed(escape)),
                 false => format!("the forces trap the arm at {at}, where they add up to {value:.4e}"),
             }
         });
-        Followed { path, trace, sweeps: 0, note: None }
+        let escaped = guide.escaped();
+        let note = escape.filter(|_| escaped.minima > 0).map(|by| Note::Escaped { by, escaped });
+        Followed { path, trace, sweeps: 0, note }
     }
 
     /// Relaxes and climbs; the reason if there is no field.
@@ -136,6 +138,15 @@ impl Task<'_> {
         });
         let trace = Trace::Field { cells: domain.cells(), potential };
         Ok(Followed { path, trace, sweeps: field.sweeps(), note })
+    }
+}
+
+/// What was tried in vain to leave a local minimum.
+fn stayed(escape: Option<Escape>) -> &'static str {
+    match escape {
+        None => "",
+        Some(Escape::Walk { .. }) => "; no random walk from it led to a lower cell",
+        Some(Escape::Wave) => "; no lower cell is connected with it",
     }
 }
 

@@ -58,7 +58,7 @@ pub use visibility::{Visibility, VisibilityMap};
 pub use voronoi::{Voronoi, VoronoiMap};
 pub use wavefront::{GridSearch, Wavefront};
 
-use crate::field::{Component, Potential, rough_harmonic};
+use crate::field::{Component, Escape, Escaped, Potential, rough_harmonic};
 use crate::geometry::planar::NONE;
 use crate::space::{Configuration, GoalSet, Path};
 use crate::text::counted;
@@ -286,6 +286,13 @@ pub enum Note {
         /// Greatest relative change of a value in the last sweep that was measured.
         change: f64,
     },
+    /// The way left local minima, which the forces alone do not.
+    Escaped {
+        /// How.
+        by: Escape,
+        /// How many there were, and how long the ways out of them.
+        escaped: Escaped,
+    },
     /// Not relaxed to the tolerance, since the precision of a GPU goes no further.
     Floor {
         /// Passes over all cells, until only roundings changed.
@@ -303,6 +310,14 @@ impl std::fmt::Display for Note {
                     f,
                     "not converged: relaxation stopped after {sweeps} sweeps, at a relative change of {change:.1e}"
                 )
+            }
+            Self::Escaped { by, escaped: Escaped { minima, moves } } => {
+                let how = match by {
+                    Escape::Walk { .. } => "by random walks",
+                    Escape::Wave => "by a wave over the basin",
+                };
+                let minima = if *minima == 1 { "a local minimum".to_owned() } else { format!("{minima} local minima") };
+                write!(f, "escaped from {minima} {how}: {} that the forces do not make", counted(*moves, "move"))
             }
             Self::Floor { sweeps, change } => {
                 write!(

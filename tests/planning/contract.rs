@@ -111,7 +111,7 @@ fn is_no_path(name: &str, run: &Run) -> bool {
 fn relaxed(equation: EquationChoice) -> FieldPlanner {
     let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
     let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-2, max_sweeps: 120, on: Device::Cpu };
-    FieldPlanner { field, limits: Limits::High, path: PathKind::Taut }
+    FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Taut }
 }
 
 /// Polygons grown by a margin far below the room in the scenes here.

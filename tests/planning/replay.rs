@@ -142,6 +142,7 @@ fn a_field_is_told_between_its_sweeps() {
             on: cplan::field::Device::Cpu,
         },
         limits: cplan::field::Limits::High,
+        escape: None,
         path: PathKind::Own,
     };
     let mut planner = Planner::named(Method::Harmonic).with_cells(32);

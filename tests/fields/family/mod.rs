@@ -5,6 +5,7 @@ mod charges;
 mod convergence;
 pub mod direct;
 mod divergence;
+mod escapes;
 mod khatib;
 mod planner;
 mod product;

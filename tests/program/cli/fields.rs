@@ -33,6 +33,9 @@ fn options_that_do_not_go_together_end_with_2() {
         ("--planner harmonic --max-sweeps 0", "1.."),
         ("--planner harmonic --field khatib --relaxation sor", "--relaxation is for --field harmonic"),
         ("--planner harmonic --saturated", "--saturated is for --field khatib"),
+        ("--planner harmonic --escape wave", "--escape is for --field khatib"),
+        ("--planner harmonic --field khatib --escape wave --saturated", "the forces of --saturated have none"),
+        ("--planner harmonic --field khatib --escape tunnel", "wave, walk or walk:SEED"),
         ("--planner harmonic --field khatib --attraction cubic:1", "constant:C or linear:K"),
         ("--planner harmonic --field khatib --attraction linear:-1", "positive"),
         ("--planner harmonic --field khatib --repulsion ranged:1", "ranged:K,P0"),
@@ -133,6 +136,39 @@ fn a_local_minimum_and_a_divergence_are_unknown_with_their_reasons() {
     let diverged = place.run(&u_trap(), &format!("{COARSE} --levels 1 --relaxation sor --factor 2.5"));
     assert_eq!(diverged.code, 4, "{}", diverged.stderr);
     assert!(diverged.json()["reason"].as_str().unwrap().contains("the relaxation diverged: after "));
+}
+
+/// The figure of a trap, its cure and its price; and two ways out without another sum.
+#[test]
+fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
+    let place = Place::new();
+    let cup = [shipped("robots/stage_robot.urdf"), shipped("workspaces/published/cup.toml")];
+    let forces = "--planner harmonic --field khatib --attraction constant:1 --cells 80 --levels 1 --json";
+    let run = |options: &str| place.run(&cup, &format!("{forces} {options}"));
+    let trapped = |charge: &str| {
+        let done = run(&format!("--repulsion sum:{charge}"));
+        assert_eq!(done.code, 4, "{}", done.stderr);
+        done.json()["reason"].as_str().unwrap().to_owned()
+    };
+    // Within the cup; and, with four times as much, beside the goal at (0, -12).
+    assert!(trapped("1").contains("local minimum at (0.2500, 3.7500)"), "{}", trapped("1"));
+    assert_eq!(run("--repulsion sum:3").code, 0);
+    assert!(trapped("4").contains("local minimum at (0.2500, -12.7500)"), "{}", trapped("4"));
+    for (charge, escape, said) in [
+        ("1", "wave", "escaped from a local minimum by a wave over the basin: "),
+        ("1", "walk", "by random walks: "),
+        ("4", "walk:7", "by random walks: "),
+        ("4", "wave", "escaped from a local minimum by a wave over the basin: 2 moves "),
+    ] {
+        let options = format!("--repulsion sum:{charge} --escape {escape}");
+        let done = run(&options);
+        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+        let field = &done.json()["field"];
+        let named = if escape == "walk" { "walk:1" } else { escape };
+        assert!(field["escape"] == named && field["escaped"].as_u64() >= Some(1), "{field}");
+        let text = place.run(&cup, &format!("{} {options}", forces.replace("--json", ""))).stdout;
+        assert!(text.contains(said) && text.contains(&format!(", escape {named}; limits high")), "{options}: {text}");
+    }
 }
 
 #[test]
