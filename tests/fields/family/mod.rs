@@ -1,6 +1,7 @@
 //! The family of field equations and relaxations against direct solutions of the same equations, assembled here from
 //! difference quotients; and its promises on random grids.
 
+mod arrival;
 mod charges;
 mod convergence;
 pub mod direct;
