@@ -9,5 +9,7 @@ mod khatib;
 mod planner;
 mod product;
 mod promises;
+mod sides;
+mod small_values;
 mod stopping;
 mod zones;
