@@ -27,7 +27,7 @@ impl Scene {
     pub fn read(world: &str, without: Option<&str>) -> Result<Self, Box<dyn Error>> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let world = root.join("workspaces/maps").join(world).with_extension("toml");
-        let loaded = load_scene(&root.join("robots/room_gantry.urdf"), &world)?;
+        let loaded = load_scene(root.join("robots/room_gantry.urdf"), &world)?;
         let problem = loaded.problem(&Overrides::default())?.problem;
         let workspace = problem.scene().workspace();
         let obstacles = workspace.obstacles.iter().filter(|obstacle| Some(&*obstacle.name) != without);
