@@ -2,11 +2,11 @@
 //! whose curves are pictures; what their text says of them stands beside ours.
 //!
 //! ```text
-//! CPLAN_REFERENCE=folder cargo run --release --example published_figures
+//! cargo run --release --example published_figures
 //! ```
 //!
-//! Figures 39 to 47 need `folder/data/map1.map` and `preference1.map`; the others are of a state of play of our own. Prints numbers,
-//! and writes figures 6.1 to 6.4 as `target/figure_6_1.svg`.
+//! Figures 39 to 47 are of map 1, which is `workspaces/maps/leon.toml`; the others are of a state of play of our own. Prints
+//! numbers, and writes figures 6.1 to 6.4 as `target/figure_6_1.svg`.
 
 #[path = "published_tables/deicu.rs"]
 #[allow(dead_code, reason = "sweep counts are for published_tables")]
@@ -26,22 +26,18 @@ use cplan::field::{
 use cplan::report::{Setup, convergence};
 use silva::Kind;
 use std::error::Error;
-use std::path::{Path, PathBuf};
 
 /// Sweeps after which the figures of the first source begin, and later ones.
 const SHOWN: [usize; 8] = [1, 20, 40, 100, 200, 500, 1000, 1400];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    match std::env::var_os("CPLAN_REFERENCE") {
-        Some(folder) => errors(&PathBuf::from(folder).join("data"))?,
-        None => println!("Figures 39 to 47 need CPLAN_REFERENCE to name the folder with data/map1.map.\n"),
-    }
+    errors()?;
     factors()
 }
 
 /// Figures 39 to 47: the error of map 1, 100 x 100 cells, sweep by sweep.
-fn errors(data: &Path) -> Result<(), Box<dyn Error>> {
-    let scene = deicu::scene(&deicu::TABLES[0], data)?;
+fn errors() -> Result<(), Box<dyn Error>> {
+    let scene = deicu::scene(&deicu::TABLES[0])?;
     let domain = scene.domain(100);
     println!("Figures 39 to 47: squared changes of a sweep on map 1, 100 x 100 cells, after so many sweeps;");
     println!("where preferences begin the error leaps, from the first of the two numbers to the second");

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::engine::{FieldProblem, Problem};
-use crate::field::{Difference, Direction, Equation, Limits, Measure, Stopping};
+use crate::field::{Difference, Direction, Equation, Limits, Measure, Stencil, Stopping};
 use crate::grammar::{OrderName, direction, finite, positive};
 use crate::input;
 use crate::motion::write_whole_set;
@@ -129,7 +129,8 @@ impl ConvergeArgs {
                 ("bvp2", EquationChoice::AlteredPreference { elsewhere: 0.0 }),
             ]);
         }
-        let equations = choices.into_iter().map(|(name, choice)| Ok((name.to_owned(), choice.on(&posed.space)?)));
+        let equations =
+            choices.into_iter().map(|(name, choice)| Ok((name.to_owned(), choice.on(&posed.space, Stencil::Square)?)));
         let equations: Vec<(String, Equation)> = equations.collect::<Result<_, String>>()?;
         let in_cells = equations.iter().find_map(|(_, equation)| match equation {
             Equation::Oriented { direction, .. } => Some(*direction),

@@ -10,7 +10,7 @@ use super::{Answer, Options, Planner, Space, Verdict, solve};
 use crate::cspace::ZonedGrid;
 use crate::field::{Device, Measure, Stopping, relax_watched};
 use crate::model::MotionProblem;
-use crate::planner::{FieldChoice, PathKind, Proposal, Size, Trace, field_domain};
+use crate::planner::{FieldChoice, Note, PathKind, Proposal, RELATIVE_TOLERANCE, Size, Trace, field_domain};
 use crate::search::{Occupancy, slab_boxes};
 use crate::space::{Configuration, Path};
 use crate::text::{counted, percent};
@@ -282,14 +282,16 @@ fn own_path(problem: &MotionProblem, options: &Options, answer: &Answer) -> Opti
 /// Relaxes the field once more, watching it.
 fn sweeps(problem: &MotionProblem, options: &Options, answer: &Answer) -> Option<Sweeps> {
     let planner = options.planner.field()?;
-    let FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on: Device::Cpu } = planner.field else {
+    let FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on: Device::Cpu, stencil } =
+        planner.field
+    else {
         return None;
     };
     let (Space::Grid(grid), Size::Grid { sweeps: total, .. }) = (&answer.space, answer.run.size) else { return None };
     let query = Ends::new(problem, &**grid).query;
-    let domain = field_domain(grid, &query, planner.limits).ok()?;
-    let equation = equation.on(&ZonedGrid::new((**grid).clone(), problem.scene())).ok()?;
-    let stopping = Stopping { measure: Measure::GreatestRelativeChange, below: tolerance, max_sweeps };
+    let domain = field_domain(grid, &query, planner.limits).ok()?.with_beta(stencil.beta(grid));
+    let equation = equation.on(&ZonedGrid::new((**grid).clone(), problem.scene()), stencil).ok()?;
+    let stopping = Stopping { measure, below: tolerance, max_sweeps };
     let shape = domain.cells();
     let step = shape.map(|n| n.div_ceil(CELLS).max(1));
     let cells = [0, 1].map(|k| shape[k].div_ceil(step[k]));
@@ -310,6 +312,10 @@ fn sweeps(problem: &MotionProblem, options: &Options, answer: &Answer) -> Option
             frames.push((seen, sampled(watched.values)));
         }
     };
-    relax_watched(&domain, &equation, &relaxation, &stopping, domain.start(), watch).ok()?;
+    let field = relax_watched(&domain, &equation, &relaxation, &stopping, domain.start(), watch).ok()?;
+    if let Some(Note::Continued { .. }) = answer.run.note {
+        let finely = Stopping { measure: Measure::GreatestRelativeChange, below: RELATIVE_TOLERANCE, ..stopping };
+        relax_watched(&domain, &equation, &relaxation, &finely, field.values, watch).ok()?;
+    }
     Some(Sweeps { cells, frames })
 }

@@ -2,7 +2,7 @@
 
 use crate::engine::{GridSpace, Method, NamedJoints};
 use crate::field::search::Ties;
-use crate::field::{Device, Difference, Limits, Measure};
+use crate::field::{Device, Difference, Limits, Measure, Stencil};
 use crate::motion::Objective;
 use crate::planner::{GridSearch, PathKind};
 use clap::ValueEnum;
@@ -88,19 +88,18 @@ impl ValueEnum for GridSpace {
     }
 }
 
-/// Names of the variants of types that have no others, and help that may be empty.
+/// Names of the variants of types that have no others, second names after a bar, and help that may be empty.
 macro_rules! named {
-    ($of:ty: $($variant:ident $name:literal $help:literal),+) => {
+    ($of:ty: $($variant:ident $name:literal $(| $alias:literal)? $help:literal),+) => {
         impl clap::ValueEnum for $of {
             fn value_variants<'a>() -> &'a [Self] {
                 &[$(Self::$variant),+]
             }
 
             fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
-                let (name, help) = match self {
-                    $(Self::$variant => ($name, $help)),+
+                let (value, help) = match self {
+                    $(Self::$variant => (clap::builder::PossibleValue::new($name)$(.alias($alias))?, $help)),+
                 };
-                let value = clap::builder::PossibleValue::new(name);
                 Some(if help.is_empty() { value } else { value.help(help) })
             }
         }
@@ -114,10 +113,13 @@ named!(Difference: Central "central" "Monotone for an epsilon of less than 2 onl
 named!(Device: Cpu "cpu" "In double precision",
     Gpu "gpu" "In single precision, cells red-black or all at once; needs a program with the feature gpu");
 
+named!(Stencil: Square "square" "All four neighbours weigh the same",
+    Anisotropic "anisotropic" "Those along joint 2 weigh beta^2 as much, beta the width of a cell along joint 1 over that along joint 2");
+
 named!(Limits: High "high" "Obstacles", Reflecting "reflecting" "Mirrors: they neither attract nor repel");
 
 named!(Measure: GreatestRelativeChange "relative" "Greatest change as a part of the value", GreatestChange "greatest" "Greatest change",
-    SumOfChange "sum" "Sum of changes", SumOfSquares "squares" "Sum of squared changes",
+    SumOfChange "absolute" | "sum" "Sum of changes, also called sum", SumOfSquares "squares" "Sum of squared changes",
     DifferenceOfSums "sums" "Difference between the sum of changes and that of the sweep before");
 
 named!(Ties: Farthest "farthest" "The cell that has come farther, and of equals the last one: goes straight ahead",

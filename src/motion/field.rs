@@ -26,7 +26,13 @@ pub struct FieldReport {
     /// Of the relaxation, on the last grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// Greatest relative change of a value in a sweep that counts as converged.
+    /// `anisotropic`; left out if cells count as square.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stencil: Option<&'static str>,
+    /// What must fall below the tolerance: `absolute`, `greatest`, `squares` or `sums`; left out if it is the relative change.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measure: Option<&'static str>,
+    /// Measure of a sweep's changes that counts as converged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// At most so many sweeps.

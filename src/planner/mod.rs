@@ -47,7 +47,7 @@ mod voronoi;
 mod wavefront;
 
 pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
-pub use field_planner::field_domain;
+pub use field_planner::{RELATIVE_TOLERANCE, field_domain};
 pub use harmonic::Harmonic;
 pub use path_kind::PathKind;
 pub use prm::{Prm, PrmMap};
@@ -275,23 +275,30 @@ impl Trace {
     }
 }
 
-/// What a run that ended well has to add.
+/// What a run has to add.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Note {
-    /// The field was not relaxed to the tolerance asked for: the way through it is a way, but not the one that the
-    /// solution of its equation would show.
+    /// The field was not relaxed to the tolerance asked for. No path is followed in it.
     Unconverged {
         /// Passes over all cells, until the limit.
         sweeps: usize,
-        /// Greatest relative change of a value in the last sweep that was measured.
+        /// The measure in the last sweep.
         change: f64,
     },
-    /// The way left local minima, which the forces alone do not.
+    /// The path left local minima, which the forces alone do not leave.
     Escaped {
         /// How.
         by: Escape,
-        /// How many there were, and how long the ways out of them.
+        /// How many minima there were, and how many moves led out of them.
         escaped: Escaped,
+    },
+    /// The field was relaxed to the tolerance of its measure, which left values about the path too small to be seen by it. Then it
+    /// was relaxed to a relative tolerance.
+    Continued {
+        /// Passes over all cells until the measure was met.
+        first: usize,
+        /// Passes after that.
+        more: usize,
     },
     /// Not relaxed to the tolerance, since the precision of a GPU goes no further.
     Floor {
@@ -306,9 +313,13 @@ impl std::fmt::Display for Note {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Unconverged { sweeps, change } => {
+                write!(f, "not converged: relaxation stopped after {sweeps} sweeps, at a change of {change:.1e}")
+            }
+            Self::Continued { first, more } => {
                 write!(
                     f,
-                    "not converged: relaxation stopped after {sweeps} sweeps, at a relative change of {change:.1e}"
+                    "the measure was met after {first} sweeps; {more} more, by relative change, for the small values about the \
+                     path"
                 )
             }
             Self::Escaped { by, escaped: Escaped { minima, moves } } => {
@@ -320,11 +331,7 @@ impl std::fmt::Display for Note {
                 write!(f, "escaped from {minima} {how}: {} that the forces do not make", counted(*moves, "move"))
             }
             Self::Floor { sweeps, change } => {
-                write!(
-                    f,
-                    "not converged: after {sweeps} sweeps single precision goes no further, at a relative change of \
-                     {change:.1e}"
-                )
+                write!(f, "after {sweeps} sweeps single precision goes no further, at a change of {change:.1e}")
             }
         }
     }

@@ -6,7 +6,9 @@
 use crate::common::{all_kinds, arm, disc, joint, link, q, rectangle, rr, scene, wall};
 use cplan::cspace::{Grid, Proves, Regions, ZonedGrid, outer_grid, regions, sampled_grid};
 use cplan::field::search::Ties;
-use cplan::field::{Device, Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
+use cplan::field::{
+    Device, Difference, Direction, Factor, Limits, Lines, Measure, Neighborhood, Order, Relaxation, Stencil,
+};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::planner::{
@@ -109,8 +111,15 @@ fn is_no_path(name: &str, run: &Run) -> bool {
 
 /// A field relaxed so far that it leads to the goal.
 fn relaxed(equation: EquationChoice) -> FieldPlanner {
-    let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
-    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-2, max_sweeps: 120, on: Device::Cpu };
+    let field = FieldChoice::Relaxed {
+        equation,
+        relaxation: Relaxation::sor(Factor::Formula, Order::Corners(Lines::Rows)).guarded(),
+        measure: Measure::SumOfChange,
+        tolerance: 1e-2,
+        max_sweeps: 10_000,
+        on: Device::Cpu,
+        stencil: Stencil::Square,
+    };
     FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Taut }
 }
 

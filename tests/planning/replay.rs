@@ -137,9 +137,11 @@ fn a_field_is_told_between_its_sweeps() {
         field: cplan::planner::FieldChoice::Relaxed {
             equation: cplan::planner::EquationChoice::Harmonic,
             relaxation: cplan::field::Relaxation::JACOBI,
+            measure: cplan::field::Measure::GreatestRelativeChange,
             tolerance: 1e-3,
-            max_sweeps: 400,
+            max_sweeps: 2000,
             on: cplan::field::Device::Cpu,
+            stencil: cplan::field::Stencil::Square,
         },
         limits: cplan::field::Limits::High,
         escape: None,

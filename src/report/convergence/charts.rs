@@ -127,6 +127,7 @@ fn pen(scheme: Scheme) -> [usize; 2] {
                 Order::Lines(_) => 0,
                 Order::Corners(_) => 1,
                 Order::RedBlack => 2,
+                Order::FourColors => 3,
             };
             [1 + usize::from(factor == Factor::Formula), dashes]
         }

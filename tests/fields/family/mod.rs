@@ -11,5 +11,7 @@ mod khatib;
 mod planner;
 mod product;
 mod promises;
+mod sides;
+mod small_values;
 mod stopping;
 mod zones;
