@@ -51,8 +51,8 @@ pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
 pub const GHOST: Rgb = Rgb(0xd8, 0xdc, 0xe1);
 /// Edges of roadmaps, sides of cells.
 pub const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
-/// Cells that the way leads through.
-pub const CHANNEL: Rgb = Rgb(0xf6, 0xe3, 0xa1);
+/// Cells that the way leads through: a yellow that no obstacle has.
+pub const CHANNEL: Rgb = Rgb(0xff, 0xf0, 0x70);
 /// Boxes of free configurations.
 pub const FREE: Rgb = Rgb(0xd3, 0xee, 0xda);
 /// Boxes of which nothing is known: grey, which no obstacle is.

@@ -3,7 +3,9 @@
 use super::{CellCounts, GridSpace, Method};
 use crate::field::Neighborhood;
 use crate::model::{Arm, Preference};
-use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, GridSearch, PathKind, Prm, RoadmapSearch, Wavefront};
+use crate::planner::{
+    EquationChoice, FieldChoice, FieldPlanner, GridSearch, PathKind, Prm, RoadmapSearch, VisibilityGraph, Wavefront,
+};
 use crate::space::Metric;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -55,11 +57,15 @@ pub enum Planner {
         criterion: Criterion,
         /// As of [`Planner::Shortest`]; none for what the first margin gives.
         gap: Option<f64>,
-        /// First margin by which polygonal obstacles are grown, as a share of the arm's reach; quartered where needed.
+        /// First margin by which polygonal obstacles are grown, as a share of the arm's reach; quartered where needed. 0 for the
+        /// exact polygons of a gantry, which have the first attempt; paths that touch them are sought among grown ones.
         margin: f64,
         /// How the graph is searched.
         #[serde(default)]
         search: RoadmapSearch,
+        /// Which arcs the graph has.
+        #[serde(default)]
+        graph: VisibilityGraph,
     },
     /// Trapezoidal decomposition: a channel of cells.
     Trapezoid {
@@ -135,7 +141,7 @@ pub enum Planner {
     },
 }
 
-/// Shares of the arm's reach that a margin can be: more than 0, at most this.
+/// Shares of the arm's reach that a margin can be: 0, or more, at most this.
 pub const MOST_MARGIN: f64 = 0.1;
 
 /// The first margin.
@@ -162,7 +168,9 @@ impl Planner {
         match method {
             Method::Shortest => Planner::Shortest { criterion, gap, margin },
             Method::First => Planner::First,
-            Method::Visibility => Planner::Visibility { criterion, gap, margin, search },
+            Method::Visibility => {
+                Planner::Visibility { criterion, gap, margin, search, graph: VisibilityGraph::default() }
+            }
             Method::Trapezoid => Planner::Trapezoid { path, margin, search },
             Method::Triangles => Planner::Triangles { path, margin, search },
             Method::Voronoi => Planner::Voronoi { path, margin, search },
@@ -313,6 +321,28 @@ impl Planner {
         }
     }
 
+    /// Whether the exact polygons of a gantry are asked for: in files and pictures, and for the first attempt.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.margin() == 0.0
+    }
+
+    /// The first numbers of cells along the axes, if they are given.
+    #[must_use]
+    pub fn cells(&self) -> Option<CellCounts> {
+        match *self {
+            Planner::Wavefront { cells, .. } => Some(cells),
+            Planner::Harmonic { cells, .. } => cells,
+            _ => None,
+        }
+    }
+
+    /// Which visibility graph it searches, if it does.
+    #[must_use]
+    pub fn graph(&self) -> Option<VisibilityGraph> {
+        if let Planner::Visibility { graph, .. } = *self { Some(graph) } else { None }
+    }
+
     /// How it measures paths of an arm.
     #[must_use]
     pub fn metric(&self, arm: &Arm) -> Metric {
@@ -390,6 +420,9 @@ impl Planner {
 
     /// What of it makes no sense, by name.
     pub(super) fn error(&self) -> Option<String> {
+        if self.path_kind() == PathKind::Middles && self.method() != Method::Trapezoid {
+            return Some(format!("path: middles is for trapezoid, not for {}", self.method()));
+        }
         let positive = |name: &str, value: f64| {
             (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} is not finite and positive"))
         };
@@ -419,6 +452,6 @@ pub(super) fn wrong_number(name: &str, n: usize, range: &RangeInclusive<usize>) 
 }
 
 fn wrong_margin(margin: f64) -> Option<String> {
-    (!(margin > 0.0 && margin <= MOST_MARGIN))
-        .then(|| format!("margin: {margin} is not more than 0 and at most {MOST_MARGIN} (of the arm's reach)"))
+    (!(0.0..=MOST_MARGIN).contains(&margin))
+        .then(|| format!("margin: {margin} is not from 0 to {MOST_MARGIN} (of the arm's reach)"))
 }

@@ -74,6 +74,9 @@ pub struct SearchUsed {
     /// Of a roadmap: whether it was searched from the goals. Grids always are.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub backward: Option<bool>,
+    /// `full` where that is the visibility graph; left out of the reduced one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub graph: Option<&'static str>,
 }
 
 impl std::fmt::Display for SearchUsed {

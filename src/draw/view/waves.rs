@@ -8,6 +8,9 @@ const CELLS: usize = 192;
 const LETTERS: &[u8; LEVELS] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 const NONE: char = '.';
 
+/// Cells along either axis up to which each has its number.
+const NUMBERED: usize = 32;
+
 /// How many distances to the goal are told apart.
 pub const LEVELS: usize = 64;
 
@@ -25,6 +28,9 @@ pub struct Waves {
     order: String,
     /// The greatest label.
     pub farthest: u32,
+    /// The label of each cell of a grid that is coarse enough for it to be read; none where the wave did not come.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub numbers: Vec<Option<u32>>,
 }
 
 impl Waves {
@@ -48,6 +54,7 @@ impl Waves {
                 .map(|value| letter((value < u32::MAX).then(|| f64::from(value) / f64::from(greatest.max(1)))))
                 .collect()
         };
+        let numbers = labels.iter().map(|&label| (label != u32::MAX).then_some(label)).collect();
         let places = expanded.iter().zip(0..).map(|(&cell, place)| (cell as usize, place));
         Some(Self {
             blocks,
@@ -55,12 +62,13 @@ impl Waves {
             levels: coarse(&mut labels.iter().copied().enumerate(), farthest),
             order: if expanded.is_empty() { String::new() } else { coarse(&mut { places }, expanded.len() as u32 - 1) },
             farthest,
+            numbers: if cells.iter().all(|&n| n <= NUMBERED) { numbers } else { Vec::new() },
         })
     }
 
     /// Blocks of these levels, written as letters, over the whole of both axes.
     pub fn of_levels(blocks: [usize; 2], levels: String) -> Self {
-        Self { blocks, extent: [1.0; 2], levels, order: String::new(), farthest: 0 }
+        Self { blocks, extent: [1.0; 2], levels, order: String::new(), farthest: 0, numbers: Vec::new() }
     }
 
     /// The same as far as this part of the levels, or of the order of expansion, goes.
@@ -70,7 +78,8 @@ impl Waves {
         let there = |letter: u8| LETTERS.iter().position(|&l| l == letter).is_some_and(|level| level < last);
         let levels =
             self.levels.chars().zip(order.bytes()).map(|(level, place)| if there(place) { level } else { NONE });
-        Self { levels: levels.collect(), ..self.clone() }
+        let numbers = self.numbers.iter().zip(order.bytes()).map(|(number, place)| number.filter(|_| there(place)));
+        Self { levels: levels.collect(), numbers: numbers.collect(), ..self.clone() }
     }
 
     /// The level of each block, below [`LEVELS`]; none where the wave did not come.

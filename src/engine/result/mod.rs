@@ -13,6 +13,7 @@ use super::task::MessageError;
 use crate::check::{CertifiedCurve, CheckedProof};
 use crate::model::{AssumedLimits, Joint, RobotJoints, Status};
 use crate::motion::{Blends, Fastest, FieldReport, Optimum, SearchUsed, Trajectory, interpolation};
+use crate::planner::VisibilityGraph;
 use crate::space::Metric;
 use std::collections::BTreeMap;
 
@@ -207,9 +208,15 @@ impl SearchUsed {
     #[must_use]
     pub fn of(planner: &Planner) -> Option<Self> {
         if let Planner::Wavefront { search, neighborhood, .. } = planner {
-            return Some(Self { search: search.name(), neighbors: Some(neighborhood.count()), backward: None });
+            return Some(Self {
+                search: search.name(),
+                neighbors: Some(neighborhood.count()),
+                backward: None,
+                graph: None,
+            });
         }
-        let search = planner.search().filter(|search| !search.is_usual())?;
-        Some(Self { search: search.order.name(), neighbors: None, backward: Some(search.backward) })
+        let graph = planner.graph().filter(|graph| *graph == VisibilityGraph::Full).map(VisibilityGraph::name);
+        let search = planner.search().filter(|search| !search.is_usual() || graph.is_some())?;
+        Some(Self { search: search.order.name(), neighbors: None, backward: Some(search.backward), graph })
     }
 }

@@ -12,7 +12,7 @@ use crate::engine::{Kind, MotionPlan, Plan, Space, TaskPlan};
 use crate::geometry::Point;
 use crate::model::{Joint, Scene, Status};
 use crate::motion::line_a_field;
-use crate::planner::Trace;
+use crate::planner::{GraphKind, Trace, VisibilityGraph};
 use crate::space::{Configuration, Path};
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -60,7 +60,7 @@ pub struct Axis {
 pub struct CSpace {
     /// What is carried, of a task; else empty.
     pub payload: String,
-    /// What blocked proves in `c_obstacles`, besides the clearance asked for.
+    /// What blocked proves in `c_obstacles`, besides the clearance asked for: `exact` for the polygons of gantries with `--margin 0`.
     pub proves: Proves,
     /// By obstacle, in the world's order.
     pub c_obstacles: Vec<ObstacleRegion>,
@@ -140,6 +140,9 @@ pub struct Roadmap {
     pub edges: Vec<[usize; 2]>,
     /// Whether it is all of the graph, or what of it was looked at.
     pub whole: bool,
+    /// Of a visibility graph: `reduced` to arcs that are tangent at both ends, which suffice for shortest paths, or `full`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub visibility: Option<&'static str>,
 }
 
 /// Cells of free space.
@@ -149,6 +152,12 @@ pub struct Cells {
     pub corners: Vec<Vec<Values>>,
     /// Numbers of those that the path passes, in order.
     pub channel: Vec<usize>,
+    /// Centres of area of the channel's cells, in order; of trapezoids.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub centers: Vec<Values>,
+    /// Middles of the doors between them, one less; of trapezoids.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub middles: Vec<Values>,
 }
 
 /// Boxes: least and greatest values of each.
@@ -203,10 +212,11 @@ impl Plan {
     /// that it takes for a picture.
     #[must_use]
     pub fn cspaces(&self) -> CSpaces {
+        let is_exact = self.options().planner.is_exact();
         let axes = self.arm().joints.each_ref().map(Axis::of);
         let spaces = match self.made() {
-            Kind::Motion(plan) => vec![CSpace::of_motion(plan)],
-            Kind::Task(plan) => spaces_of_task(plan),
+            Kind::Motion(plan) => vec![CSpace::of_motion(plan, is_exact)],
+            Kind::Task(plan) => spaces_of_task(plan, is_exact),
         };
         CSpaces {
             name: self.problem().scene().workspace().name.clone(),
@@ -249,14 +259,20 @@ impl Axis {
 
 impl CSpace {
     /// Obstacles alone.
-    fn of_scene(scene: &Scene, start: Configuration) -> Self {
+    fn of_scene(scene: &Scene, start: Configuration, is_exact: bool) -> Self {
         let numbers = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
         let names = numbers.map(|number| scene.obstacle(number).name.clone());
-        let united = cspace::united(scene, &contours(scene));
+        let grown = || {
+            let margin = MARGIN * PICTURE_TOLERANCE * scene.arm().reach();
+            (contours(scene), Proves::Outer { margin })
+        };
+        let exact = if is_exact { cspace::exact_c_obstacles(scene) } else { None };
+        let (contours, proves) = exact.unwrap_or_else(grown);
+        let united = cspace::united(scene, &contours);
         let region = |(obstacle, all): (String, Vec<Polygon>)| ObstacleRegion { obstacle, polygons: polygons(&all) };
         Self {
             payload: scene.payload().map(|payload| payload.object.clone()).unwrap_or_default(),
-            proves: Proves::Outer { margin: MARGIN * PICTURE_TOLERANCE * scene.arm().reach() },
+            proves,
             c_obstacles: names.zip(united).map(region).collect(),
             start: start.into(),
             goals: Vec::new(),
@@ -272,7 +288,7 @@ impl CSpace {
         }
     }
 
-    fn of_motion(plan: &MotionPlan) -> Self {
+    fn of_motion(plan: &MotionPlan, is_exact: bool) -> Self {
         let MotionPlan { problem, answer, curve, .. } = plan;
         let scene = problem.scene();
         let free = match &answer.space {
@@ -288,7 +304,7 @@ impl CSpace {
             paths: curve.iter().map(|curve| Way::of(answer.method.to_string(), curve)).collect(),
             free,
             proof: answer.verdict.proof().map(boxes_of).unwrap_or_default(),
-            ..Self::of_scene(scene, problem.start())
+            ..Self::of_scene(scene, problem.start(), is_exact)
         };
         space.with_trace(&answer.drawn(), &answer.space)
     }
@@ -296,14 +312,26 @@ impl CSpace {
     fn with_trace(self, trace: &Trace, space: &Space) -> Self {
         let grid = |quantity, values: &[f64]| FieldGrid::of(space, quantity, values);
         match trace {
-            Trace::Roadmap { edges, whole } => Self { roadmap: Some(Roadmap::of(edges, *whole)), ..self },
-            Trace::Roads { edges, expanded } => {
-                Self { roadmap: Some(Roadmap::of(edges, true)), expanded: all(expanded), ..self }
+            Trace::Roadmap { edges, whole } => {
+                let reduced = Some(VisibilityGraph::Reduced.name());
+                Self { roadmap: Some(Roadmap::of(edges, *whole, reduced)), ..self }
+            }
+            Trace::Roads { edges, expanded, kind } => {
+                let visibility = match kind {
+                    GraphKind::Visibility(graph) => Some(graph.name()),
+                    GraphKind::Roadmap => None,
+                };
+                Self { roadmap: Some(Roadmap::of(edges, true, visibility)), expanded: all(expanded), ..self }
             }
             Trace::Slices { free } => Self { rows: pairs(free), ..self },
-            Trace::Channel { cells, channel, expanded } => {
-                let corners = cells.iter().map(|cell| all(cell)).collect();
-                Self { cells: Some(Cells { corners, channel: channel.clone() }), expanded: all(expanded), ..self }
+            Trace::Channel { cells, channel, points, expanded } => {
+                let cells = Cells {
+                    corners: cells.iter().map(|cell| all(cell)).collect(),
+                    channel: channel.clone(),
+                    centers: all(&points.centers),
+                    middles: all(&points.middles),
+                };
+                Self { cells: Some(cells), expanded: all(expanded), ..self }
             }
             Trace::Boxes { free, stuck, mixed } => {
                 let boxes = Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed) };
@@ -338,7 +366,7 @@ impl Way {
 
 impl Roadmap {
     /// Vertices in the order in which edges name them first.
-    fn of(edges: &[[Configuration; 2]], whole: bool) -> Self {
+    fn of(edges: &[[Configuration; 2]], whole: bool, visibility: Option<&'static str>) -> Self {
         let mut numbers: HashMap<[u64; 2], usize> = HashMap::new();
         let mut vertices = Vec::new();
         let mut number = |q: &Configuration| {
@@ -348,7 +376,7 @@ impl Roadmap {
             })
         };
         let edges = edges.iter().map(|edge| edge.each_ref().map(&mut number)).collect();
-        Self { edges, vertices, whole }
+        Self { edges, vertices, whole, visibility }
     }
 }
 
@@ -370,7 +398,7 @@ impl FieldGrid {
 }
 
 /// A space for each world, in the order in which the arm moves in them; that of the step that fails comes last.
-fn spaces_of_task(plan: &TaskPlan) -> Vec<CSpace> {
+fn spaces_of_task(plan: &TaskPlan, is_exact: bool) -> Vec<CSpace> {
     let TaskPlan { task, answer } = plan;
     let mut scenes: Vec<&Arc<Scene>> = Vec::new();
     let mut spaces: Vec<CSpace> = Vec::new();
@@ -380,7 +408,7 @@ fn spaces_of_task(plan: &TaskPlan) -> Vec<CSpace> {
         let known = scenes.iter().position(|scene| Arc::ptr_eq(scene, &leg.scene) || **scene == leg.scene);
         let number = known.unwrap_or_else(|| {
             scenes.push(&leg.scene);
-            spaces.push(CSpace::of_scene(&leg.scene, path.start()));
+            spaces.push(CSpace::of_scene(&leg.scene, path.start(), is_exact));
             spaces.len() - 1
         });
         let name = format!("{}. {}", leg.step.number, leg.step.action.describe(&task.objects));
@@ -392,7 +420,7 @@ fn spaces_of_task(plan: &TaskPlan) -> Vec<CSpace> {
         spaces.push(CSpace {
             goals: fails.ik_solutions.iter().map(|to| [to.ik_solution.into(); 2]).collect(),
             proof: proofs.flat_map(boxes_of).collect(),
-            ..CSpace::of_scene(&fails.scene, fails.from)
+            ..CSpace::of_scene(&fails.scene, fails.from, is_exact)
         });
     }
     spaces
