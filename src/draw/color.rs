@@ -183,6 +183,16 @@ mod tests {
         assert_eq!(obstacle(63), obstacle(0));
     }
 
+    /// As they are drawn in configuration spaces: one of them was all but the channel's.
+    #[test]
+    fn no_obstacle_has_the_colour_of_the_channel() {
+        for index in 0..63 {
+            let Rgb(r, g, b) = obstacle(index).lighter(0.35);
+            let off = [(r, CHANNEL.0), (g, CHANNEL.1), (b, CHANNEL.2)].map(|(x, y)| f64::from(x.abs_diff(y)).powi(2));
+            assert!(off.iter().sum::<f64>().sqrt() > 45.0, "{index}");
+        }
+    }
+
     #[test]
     fn the_scale_darkens_steadily() {
         let all: Vec<f64> = (0..=100).map(|i| luminance(scale(f64::from(i) / 100.0))).collect();

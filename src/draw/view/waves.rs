@@ -1,6 +1,6 @@
 //! Wavefronts, coarse enough to be drawn and short enough to be sent.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Cells along an axis that a wavefront is coarsened to: nearly a pixel and a half each.
 const CELLS: usize = 192;
@@ -28,9 +28,14 @@ pub struct Waves {
     order: String,
     /// The greatest label.
     pub farthest: u32,
-    /// The label of each cell of a grid that is coarse enough for it to be read; none where the wave did not come.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    /// The label of each cell of a grid that is coarse enough for it to be read; none, in JSON -1, where the wave did not come.
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "labels_or_minus_one")]
     pub numbers: Vec<Option<u32>>,
+}
+
+/// Labels, and -1 where there is none.
+fn labels_or_minus_one<S: Serializer>(numbers: &[Option<u32>], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(numbers.iter().map(|number| number.map_or(-1, i64::from)))
 }
 
 impl Waves {

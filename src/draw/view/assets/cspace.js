@@ -198,7 +198,7 @@ const CSpace = (() => {
     const [nx, ny] = blocks;
     const [[x0, y0], [x1, y1]] = [panel.at(panel.whole.map((side) => side[0])), panel.at(panel.whole.map((side) => side[1]))];
     const [width, height] = [(x1 - x0) / nx, (y0 - y1) / ny];
-    const digits = `${Math.max(...all.map((number) => number ?? 0))}`.length;
+    const digits = `${Math.max(...all)}`.length;
     const size = Math.min(width / (0.6 * digits), 0.75 * height, 13);
     if (size < 5) return;
     context.font = `${size}px sans-serif`;
@@ -208,7 +208,7 @@ const CSpace = (() => {
     context.strokeStyle = panel.theme.paper;
     context.fillStyle = panel.theme.ink;
     all.forEach((number, k) => {
-      if (number === null) return;
+      if (number < 0) return;
       const at = [x0 + (Math.floor(k / ny) + 0.5) * width, y0 - ((k % ny) + 0.5) * height];
       context.strokeText(number, ...at);
       context.fillText(number, ...at);

@@ -74,7 +74,7 @@ const Think = (() => {
     const order = seen.order ?? seen.levels;
     const there = new Set([...LETTERS.slice(0, Math.floor(share * LETTERS.length))]);
     const less = { ...seen, levels: [...seen.levels].map((level, k) => (there.has(order[k]) ? level : '.')).join('') };
-    if (seen.numbers) less.numbers = seen.numbers.map((number, k) => (there.has(order[k]) ? number : null));
+    if (seen.numbers) less.numbers = seen.numbers.map((number, k) => (there.has(order[k]) ? number : -1));
     return less;
   }
 
