@@ -18,6 +18,7 @@ use super::schema::SchemaArgs;
 use super::serve::ServeArgs;
 #[cfg(feature = "study")]
 use super::study::StudyArgs;
+use crate::draw::FieldLines;
 use crate::engine::Method;
 use crate::grammar::{MotionArgs, PlannerArgs, PlannerWords, number_in};
 use crate::input::{JointValues, Overrides, RobotFile, TipPoint};
@@ -235,6 +236,9 @@ pub struct PlanArgs {
     /// Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
+    /// What pictures of a field show (.svg, .png, .gif; pages show and hide each).
+    #[arg(long, value_enum, value_name = "LINES", default_value_t = FieldLines::default())]
+    pub field_lines: FieldLines,
     /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact arithmetic. If FILE is a
     /// .json of --output, too, it becomes the member `certificate` of that.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -251,6 +255,9 @@ pub struct PlanArgs {
     #[command(flatten)]
     pub options: PlannerArgs,
 }
+
+crate::grammar::named!(FieldLines: Equipotentials "equipotentials" "Lines of equal potential",
+    Flow "flow" "Lines of steepest ascent, with an arrow each", Both "both" "");
 
 /// Arguments of `planners`.
 #[derive(Debug, Args)]

@@ -170,7 +170,7 @@ impl ExploreArgs {
             surveyed: self.surveyed,
             known: self.known.as_deref().map(OccupancyMap::read).transpose()?,
             decisions: self.decisions as usize,
-            options: Options { planner, levels: self.options.levels(), ..usual.options },
+            options: Options { levels: self.options.levels(&planner), planner, ..usual.options },
         })
     }
 }

@@ -110,7 +110,10 @@ fn written(
     let certificate = certificate.as_ref().map(|(path, certificate)| (*path, certificate.as_str()));
     let mut written = files.write(plan, certificate)?;
     let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.plays()));
-    let seen = || if plays { plan.view_with_replay() } else { plan.view() };
+    let seen = || {
+        let view = if plays { plan.view_with_replay() } else { plan.view() };
+        view.with_field_lines(args.field_lines)
+    };
     let (mut view, mut spaces) = (None, None);
     for sink in sinks {
         match sink {

@@ -30,6 +30,15 @@ impl GridSpace {
         }
     }
 
+    /// Attempts until cells become smaller: by slices those of one size are decided in two ways.
+    #[must_use]
+    pub fn levels_of_a_size(self) -> usize {
+        match self {
+            Self::Rows => 2,
+            Self::Centers | Self::Sampled => 1,
+        }
+    }
+
     /// What results say of it: nothing of slices.
     #[must_use]
     pub fn told(self) -> Option<&'static str> {

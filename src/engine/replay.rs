@@ -10,7 +10,7 @@ use super::{Answer, Options, Planner, Space, Verdict, solve};
 use crate::cspace::ZonedGrid;
 use crate::field::{Device, Measure, Stopping, relax_watched};
 use crate::model::MotionProblem;
-use crate::planner::{FieldChoice, Note, PathKind, Proposal, RELATIVE_TOLERANCE, Size, Trace, field_domain};
+use crate::planner::{FieldChoice, GraphKind, Note, PathKind, Proposal, RELATIVE_TOLERANCE, Size, Trace, field_domain};
 use crate::search::{Occupancy, slab_boxes};
 use crate::space::{Configuration, Path};
 use crate::text::{counted, percent};
@@ -145,13 +145,13 @@ impl Phases {
         match &*answer.drawn() {
             Trace::Roadmap { edges, whole } => {
                 let caption = if *whole {
-                    "The visibility graph: corner by corner, straight ways to what it sees"
+                    "The reduced visibility graph: corner by corner, straight ways to what it sees"
                 } else {
-                    "The visibility graph, as far as the search looked at it"
+                    "The reduced visibility graph, as far as the search looked at it"
                 };
                 self.add(edges.len(), caption, Shows::Edges);
             }
-            Trace::Roads { edges, expanded } => {
+            Trace::Roads { edges, expanded, kind } => {
                 if let Planner::Prm { .. } = options.planner {
                     let caption = format!("Random free configurations: {}", counted(graph, "node"));
                     self.add(edges.len(), caption, Shows::Nodes);
@@ -161,11 +161,15 @@ impl Phases {
                         Shows::Edges,
                     );
                 } else {
-                    self.add(edges.len(), format!("The roadmap: {}", counted(edges.len(), "edge")), Shows::Edges);
+                    let name = match kind {
+                        GraphKind::Visibility(graph) => format!("{} visibility graph", graph.name()),
+                        GraphKind::Roadmap => "roadmap".to_owned(),
+                    };
+                    self.add(edges.len(), format!("The {name}: {}", counted(edges.len(), "edge")), Shows::Edges);
                 }
                 self.add(expanded.len(), "The search: where it came, one after the other", Shows::Expanded);
             }
-            Trace::Channel { cells, channel, expanded } => {
+            Trace::Channel { cells, channel, expanded, .. } => {
                 let caption = match options.planner {
                     Planner::Triangles { .. } => format!("Free space in {}", counted(cells.len(), "triangle")),
                     _ => format!("A line sweeps free space and leaves {}", counted(cells.len(), "trapezoid")),

@@ -30,7 +30,6 @@ pub use relax::{
     Boundary, Cell, Convergence, Device, Difference, Direction, Domain, Ending, Equation, Factor, Influence, Leap,
     Levels, Limits, Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, Relaxed, Sample, Scan, Scheme,
     Slope, Stencil, Stopping, Stuck, Trace, Watched, around, by_multigrid, descend, eliminated, relax, relax_from,
-    relax_on,
-    relax_watched, trace,
+    relax_on, relax_watched, trace,
 };
 pub use waves::{FreeCells, Move, Neighborhood, StepLabels, search};

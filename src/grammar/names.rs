@@ -4,7 +4,7 @@ use crate::engine::{GridSpace, Method, NamedJoints};
 use crate::field::search::Ties;
 use crate::field::{Device, Difference, Limits, Measure, Stencil};
 use crate::motion::Objective;
-use crate::planner::{GridSearch, PathKind};
+use crate::planner::{GridSearch, PathKind, VisibilityGraph};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 
@@ -38,13 +38,32 @@ impl ValueEnum for Method {
 
 impl ValueEnum for PathKind {
     fn value_variants<'a>() -> &'a [Self] {
-        &PathKind::ALL
+        &PathKind::CHOICES
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let help = match self {
             PathKind::Own => "As the planner's method has it",
             PathKind::Taut => "Pulled taut: shorter, nearer to obstacles",
+            PathKind::Middles => {
+                "Of trapezoid: through the middles of doors alone, and a cell's centre only between doors on one vertical"
+            }
+        };
+        Some(PossibleValue::new(self.name()).help(help))
+    }
+}
+
+impl ValueEnum for VisibilityGraph {
+    fn value_variants<'a>() -> &'a [Self] {
+        &VisibilityGraph::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            VisibilityGraph::Reduced => "Arcs that a shortest path can take: tangent to the obstacle at either end",
+            VisibilityGraph::Full => {
+                "By definition: an arc between any two corners that see each other, and every side"
+            }
         };
         Some(PossibleValue::new(self.name()).help(help))
     }

@@ -15,11 +15,13 @@ use std::ops::RangeInclusive;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Resolution")]
 pub struct EffortArgs {
-    /// First number of grid cells along each axis, from 8 to 2048, or two such as 128x512, for the joints in turn; doubled up to
-    /// 2048 where needed [default: 256; of fields as many, but square in joint space, where a radian is as long as a metre].
+    /// First number of grid cells along each axis, from 8 to 2048, or two such as 128x512, for the joints in turn. Up to 32 are kept as
+    /// they are unless --levels says more; more are doubled up to 2048 where needed [default: 256; of fields as many, but square in joint space, where a radian is as long as a metre].
     #[arg(long, value_name = "N|AxB", allow_hyphen_values = true)]
     pub cells: Option<CellCounts>,
-    /// First margin of the polygons, as a share of the arm's reach; quartered where needed [default: 0.001].
+    /// First margin of the polygons, as a share of the arm's reach; quartered where needed. 0 is for gantries: files and pictures then
+    /// have the C-obstacles B - A exactly, and the planner has the first attempt among them. Its path counts if it touches none; else
+    /// the certified path is sought among polygons grown by a little, since touching is contact [default: 0.001].
     #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
     pub margin: Option<f64>,
     /// Attempts, each finer than the one before [default: 6].
@@ -34,11 +36,28 @@ impl EffortArgs {
         self.cells.map_or(planner, |counts| planner.with_cell_counts(counts))
     }
 
-    /// Attempts.
-    pub fn levels(&self) -> usize {
-        self.levels.map_or(Options::default().levels, usize::from)
+    /// Attempts of a planner: few coarse cells that were asked for are not doubled.
+    pub fn levels(&self, planner: &Planner) -> usize {
+        let is_coarse = |CellCounts(counts): CellCounts| counts.iter().all(|&n| n <= KEPT_CELLS);
+        let usual = match planner.space().filter(|_| self.cells.is_some_and(is_coarse)) {
+            Some(space) => space.levels_of_a_size(),
+            None => Options::default().levels,
+        };
+        self.levels.map_or(usual, usize::from)
+    }
+
+    /// These options, and where they say nothing those of `base`.
+    pub fn over(&self, base: &Self) -> Self {
+        Self {
+            cells: self.cells.or(base.cells),
+            margin: self.margin.or(base.margin),
+            levels: self.levels.or(base.levels),
+        }
     }
 }
+
+/// Cells along an axis up to which as many are used as are asked for: those of pictures in which each has its number.
+const KEPT_CELLS: usize = 32;
 
 /// What makes a path short.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -76,7 +95,7 @@ pub struct Weights(pub [f64; 2]);
 #[command(next_help_heading = "Paths and grids")]
 pub struct PathArgs {
     /// Which path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of a
-    /// decomposition's doors and cells, the arcs of the Voronoi diagram), or that one pulled taut within the planner's cells
+    /// decomposition's doors and cells, the arcs of the Voronoi diagram), that one pulled taut within the planner's cells, or middles
     /// [default: own for harmonic and voronoi, taut for the others].
     #[arg(long, value_enum, value_name = "KIND")]
     pub path: Option<PathKind>,
@@ -127,9 +146,9 @@ pub struct PlannerWords {
 }
 
 impl PlannerArgs {
-    /// Attempts.
-    pub fn levels(&self) -> usize {
-        self.effort.levels()
+    /// Attempts of a planner.
+    pub fn levels(&self, planner: &Planner) -> usize {
+        self.effort.levels(planner)
     }
 
     /// The planner of that name with these options.
@@ -140,6 +159,11 @@ impl PlannerArgs {
         let field = self.field.planner(method)?;
         self.optimum.check(method)?;
         self.path.check(method)?;
+        if self.effort.margin == Some(0.0) && !method.has_polygons() {
+            return Err(format!(
+                "--margin 0 needs --planner shortest, visibility, trapezoid, triangles, voronoi or prm: {method} plans among no polygons"
+            ));
+        }
         let search = self.roadmap.search(method, self.path.search)?;
         if self.optimum.gap.is_some() && !search.order.is_optimal() {
             return Err(format!(
@@ -222,6 +246,9 @@ impl PathArgs {
         if self.space.is_some() && !matches!(planner, Method::Wavefront | Method::Harmonic) {
             return Err(format!("--space needs --planner wavefront or harmonic: {planner} has no grid"));
         }
+        if self.path == Some(PathKind::Middles) && planner != Method::Trapezoid {
+            return Err(format!("--path middles needs --planner trapezoid: {planner} has no doors on verticals"));
+        }
         if self.path == Some(PathKind::Own) && !planner.has_own_path() {
             return Err(format!("--path own is not for {planner}: its path is taut as it is"));
         }
@@ -267,8 +294,8 @@ fn gap(text: &str) -> Result<f64, String> {
 }
 
 fn margin(text: &str) -> Result<f64, String> {
-    let range = format!("of more than 0 and at most {MOST_MARGIN} (of the arm's reach)");
-    number_in(text, |x| x > 0.0 && x <= MOST_MARGIN, &range)
+    let range = format!("from 0 to {MOST_MARGIN} (of the arm's reach)");
+    number_in(text, |x| (0.0..=MOST_MARGIN).contains(&x), &range)
 }
 
 /// A range for the parser of whole numbers.

@@ -2,7 +2,7 @@
 
 use super::planner::whole;
 use crate::engine::{Method, NEAREST, Planner, SAMPLES};
-use crate::planner::{GridSearch, Prm, RoadmapSearch, SearchOrder};
+use crate::planner::{GridSearch, Prm, RoadmapSearch, SearchOrder, VisibilityGraph};
 use clap::Args;
 
 /// How roadmaps are made and searched; `--search` stands with the paths.
@@ -12,6 +12,9 @@ pub struct RoadmapArgs {
     /// Search from the goals to the start, which planner wavefront does anyway.
     #[arg(long)]
     pub backward: bool,
+    /// Which visibility graph (planner visibility) [default: reduced].
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub graph: Option<VisibilityGraph>,
     /// Random free configurations (planner prm), twice as many with each attempt [default: 500].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(whole(&SAMPLES)))]
     pub samples: Option<u32>,
@@ -36,6 +39,9 @@ impl RoadmapArgs {
         ];
         if let Some((name, _)) = given.iter().find(|option| option.1 && planner != Method::Prm) {
             return Err(format!("{name} needs --planner prm: {planner} draws no samples"));
+        }
+        if self.graph.is_some() && planner != Method::Visibility {
+            return Err(format!("--graph needs --planner visibility: {planner} searches no visibility graph"));
         }
         if !planner.has_roadmap() {
             let needs = "--backward needs --planner visibility, trapezoid, triangles, voronoi, prm or wavefront";
@@ -63,6 +69,9 @@ impl RoadmapArgs {
 
     /// The planner with what of these options is its.
     pub fn put_into(&self, mut planner: Planner) -> Planner {
+        if let Planner::Visibility { graph, .. } = &mut planner {
+            *graph = self.graph.unwrap_or_default();
+        }
         if let Planner::Prm { samples, nearest, seed, .. } = &mut planner {
             let usual = Prm::default();
             *samples = self.samples.map_or(usual.samples, |n| n as usize);

@@ -77,6 +77,9 @@ pub struct SearchUsed {
     /// Whether it was searched from the goals; of a grid only stated where it was not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub backward: Option<bool>,
+    /// `full` where that is the visibility graph; left out of the reduced one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub graph: Option<&'static str>,
 }
 
 impl std::fmt::Display for SearchUsed {

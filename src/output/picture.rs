@@ -1,8 +1,8 @@
 //! Pictures and pages of a plan.
 
-use crate::cspace::{CObstacle, c_obstacles};
+use crate::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
 use crate::draw::{self, DrawError, Moments, Picture, TaskPicture, View};
-use crate::engine::{Kind, MotionPlan, Plan, TaskPlan, Verdict};
+use crate::engine::{Kind, MotionPlan, Options, Plan, TaskPlan, Verdict};
 use crate::model::{Scene, Status};
 use crate::text::{at_least, counted};
 use std::path::Path;
@@ -127,7 +127,7 @@ impl Plan {
     /// What pictures and pages of it show.
     #[must_use]
     pub fn view(&self) -> View {
-        self.view_with(contours)
+        self.view_with(contours_of(self.options()))
     }
 
     /// The same with how the planner came to its answer, for pictures and pages that play.
@@ -212,7 +212,7 @@ impl Plan {
             facts: self.facts(),
             task,
             answer,
-            c_obstacles: contours,
+            c_obstacles: contours_of(self.options()),
             in_time: contours_in_time,
         }
     }
@@ -261,6 +261,16 @@ fn contours_in_time(scene: &Scene, [from, to]: [f64; 2], most: usize) -> Moments
         (time, all)
     };
     (0..=count as usize).map(|k| moment(k as f64)).collect()
+}
+
+/// How the C-obstacles of a plan are traced for its pictures.
+fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
+    if options.planner.is_exact() { exact_contours } else { contours }
+}
+
+/// Exact C-obstacles for pictures, where the arm has any.
+fn exact_contours(scene: &Scene) -> Vec<CObstacle> {
+    exact_c_obstacles(scene).map_or_else(|| contours(scene), |(exact, _)| exact)
 }
 
 /// C-obstacles for pictures.

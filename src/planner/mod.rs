@@ -54,7 +54,7 @@ pub use prm::{Prm, PrmMap};
 pub use roadmap::{RoadmapSearch, SearchOrder};
 pub use trapezoid::{Trapezoid, TrapezoidMap};
 pub use triangles::{Triangles, TrianglesMap};
-pub use visibility::{Visibility, VisibilityMap};
+pub use visibility::{Visibility, VisibilityGraph, VisibilityMap};
 pub use voronoi::{Voronoi, VoronoiMap};
 pub use wavefront::{GridSearch, Wavefront};
 
@@ -179,6 +179,24 @@ impl std::fmt::Display for Size {
     }
 }
 
+/// Points of a channel through which paths may lead.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ChannelPoints {
+    /// Centres of area of its cells, in order (`C1`, `C2`, ...).
+    pub centers: Vec<Configuration>,
+    /// Middles of the portals between them, one less (`Q1`, `Q2`, ...).
+    pub middles: Vec<Configuration>,
+}
+
+/// What a graph of straight motions is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GraphKind {
+    /// A visibility graph.
+    Visibility(VisibilityGraph),
+    /// Any other roadmap.
+    Roadmap,
+}
+
 /// What a planner saw on its way, for pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Trace {
@@ -200,6 +218,8 @@ pub enum Trace {
         cells: Arc<[Vec<Configuration>]>,
         /// Indices of the channel's cells.
         channel: Vec<usize>,
+        /// Where paths through the middle of the channel lead; empty where there are none of a fixed place.
+        points: ChannelPoints,
         /// Where the search came, in order, if that is to be seen.
         expanded: Vec<Configuration>,
     },
@@ -209,6 +229,8 @@ pub enum Trace {
         edges: Vec<[Configuration; 2]>,
         /// Where the search came, in order.
         expanded: Vec<Configuration>,
+        /// Which graph it is.
+        kind: GraphKind,
     },
     /// Boxes of a subdivision: lower and upper corner of each.
     Boxes {

@@ -3,7 +3,7 @@
 use super::mesh::Mesh;
 use super::roadmap::{Roadmap, RoadmapSearch};
 use super::terminals::Terminals;
-use super::{NONE, PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use super::{ChannelPoints, NONE, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::geometry::Point;
 use crate::geometry::planar::Boundary;
@@ -63,7 +63,7 @@ impl Planner for Triangles {
                     None => (Proposal::NoPath, Vec::new(), expanded),
                     Some(Way { own, channel, portals, goals }) => {
                         let waypoints = match self.path {
-                            PathKind::Own => own,
+                            PathKind::Own | PathKind::Middles => own,
                             PathKind::Taut => taut(&map.mesh, terminals.start, &goals, &portals),
                         };
                         let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
@@ -78,7 +78,12 @@ impl Planner for Triangles {
         };
         Run {
             outcome,
-            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel, expanded },
+            trace: Trace::Channel {
+                cells: Arc::clone(&map.corners),
+                channel,
+                points: ChannelPoints::default(),
+                expanded,
+            },
             size: Size::Graph { nodes: map.mesh.triangles(), edges: map.sides.len() },
             note: None,
         }

@@ -240,10 +240,10 @@ fn the_trace_and_size_are_those_of_the_representation() {
         let run = plan(&scene, &query);
         let fits = match (&run.trace, run.size) {
             (Trace::Roadmap { edges: drawn, whole: false }, Size::Graph { edges, .. }) => drawn.len() == edges,
-            (Trace::Roads { edges: drawn, expanded }, Size::Graph { nodes, edges }) => {
+            (Trace::Roads { edges: drawn, expanded, .. }, Size::Graph { nodes, edges }) => {
                 drawn.len() == edges && !expanded.is_empty() && expanded.len() <= nodes
             }
-            (Trace::Channel { cells, channel, expanded }, Size::Graph { nodes, .. }) => {
+            (Trace::Channel { cells, channel, expanded, .. }, Size::Graph { nodes, .. }) => {
                 let is_told = name.starts_with(Triangles::NAME) || name.ends_with("backward");
                 is_told != expanded.is_empty()
                     && cells.len() == nodes

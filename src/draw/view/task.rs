@@ -8,7 +8,7 @@ use super::steps::{Order, rows, words};
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use super::{PanelView, Still, View, extent};
 use crate::cspace::CObstacle;
-use crate::draw::color;
+use crate::draw::{FieldLines, color};
 use crate::engine::task::{Event, Impossible, Leg, Sequence, TaskAnswer};
 use crate::geometry::Pose;
 use crate::model::{Object, Obstacle, Scene, Status, Task};
@@ -94,6 +94,7 @@ impl View {
             now: None,
             reach: None,
             stuck: None,
+            field_lines: FieldLines::default(),
             panels: panels(picture, &order, &paths, world, grain),
             placed: placed.collect(),
             // What was let go of at the end lies there.

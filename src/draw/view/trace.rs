@@ -4,7 +4,7 @@ use super::flow;
 use super::numbers::{Chain, Grain, number};
 use super::slope::Slope;
 use super::waves::Waves;
-use crate::planner::Trace;
+use crate::planner::{GraphKind, Trace};
 use crate::space::{Configuration, Topology};
 use serde::Serialize;
 
@@ -38,6 +38,11 @@ pub enum TraceView {
     Channel {
         cells: Vec<Chain>,
         channel: Vec<usize>,
+        /// Centres of the channel's cells, and middles of the doors between them.
+        #[serde(skip_serializing_if = "Chain::is_empty")]
+        centers: Chain,
+        #[serde(skip_serializing_if = "Chain::is_empty")]
+        middles: Chain,
         /// Where the search came, in order.
         #[serde(skip_serializing_if = "Chain::is_empty")]
         expanded: Chain,
@@ -46,7 +51,13 @@ pub enum TraceView {
         sweep: Option<f64>,
     },
     /// A roadmap: both ends of each edge, and where the search came, in order.
-    Roads { edges: Chain, expanded: Chain },
+    Roads {
+        edges: Chain,
+        expanded: Chain,
+        /// Which visibility graph it is, if it is one.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        visibility: Option<&'static str>,
+    },
     /// Boxes of a subdivision: least and greatest values of each.
     Boxes {
         free: Chain,
@@ -96,15 +107,22 @@ impl TraceView {
             // Without a path there are none that it passes.
             Trace::Slices { free } if free.is_empty() => return None,
             Trace::Slices { free } => Self::Slices { free: pairs(free) },
-            Trace::Channel { cells, channel, expanded } => Self::Channel {
+            Trace::Channel { cells, channel, points, expanded } => Self::Channel {
                 cells: cells.iter().map(|cell| grain.configurations(cell)).collect(),
                 channel: channel.clone(),
+                centers: grain.configurations(&points.centers),
+                middles: grain.configurations(&points.middles),
                 expanded: grain.configurations(expanded),
                 sweep: None,
             },
-            Trace::Roads { edges, expanded } => {
-                Self::Roads { edges: pairs(edges), expanded: grain.configurations(expanded) }
-            }
+            Trace::Roads { edges, expanded, kind } => Self::Roads {
+                edges: pairs(edges),
+                expanded: grain.configurations(expanded),
+                visibility: match kind {
+                    GraphKind::Visibility(graph) => Some(graph.name()),
+                    GraphKind::Roadmap => None,
+                },
+            },
             Trace::Boxes { free, stuck, mixed } => {
                 Self::Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed), rest: Chain::default() }
             }

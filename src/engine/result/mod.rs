@@ -13,6 +13,7 @@ use super::task::MessageError;
 use crate::check::{CertifiedCurve, CheckedProof};
 use crate::model::{AssumedLimits, Joint, RobotJoints, Status};
 use crate::motion::{Blends, Fastest, FieldReport, Optimum, SearchUsed, Trajectory, interpolation};
+use crate::planner::VisibilityGraph;
 use crate::space::Metric;
 use std::collections::BTreeMap;
 
@@ -212,9 +213,12 @@ impl SearchUsed {
                 ties: (!ties.is_usual()).then(|| ties.name()),
                 neighbors: Some(neighborhood.count()),
                 backward: forward.then_some(false),
+                graph: None,
             });
         }
-        let search = planner.search().filter(|search| !search.is_usual())?;
-        Some(Self { search: search.order.name(), ties: None, neighbors: None, backward: Some(search.backward) })
+        let graph = planner.graph().filter(|graph| *graph == VisibilityGraph::Full).map(VisibilityGraph::name);
+        let search = planner.search().filter(|search| !search.is_usual() || graph.is_some())?;
+        let backward = Some(search.backward);
+        Some(Self { search: search.order.name(), ties: None, neighbors: None, backward, graph })
     }
 }
