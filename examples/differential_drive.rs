@@ -1,4 +1,5 @@
-//! A robot with two driven wheels follows a plan by the controller of the literature, and goes without one.
+//! A robot with two driven wheels follows a plan by the controllers of the literature: from waypoint to waypoint, and along the cells of a
+//! wavefront and of A\*; and it goes without a plan.
 //!
 //! ```text
 //! cargo run --example differential_drive [-- FOLDER]
@@ -9,19 +10,35 @@
 #[path = "mobile/mod.rs"]
 mod mobile;
 
+use cplan::engine::{CellCounts, GridSpace, Method, Planner};
+use cplan::planner::{GridSearch, PathKind};
 use cplan::{Options, Problem, plan};
 use mobile::floor::Floor;
 use mobile::robot::Robot;
 use mobile::tanh::{AHEAD, DEVIATION, Drive, Tanh, follow, waypoints};
+use mobile::tracking::{Tracked, Tracking, track};
 use mobile::{START, TARGETS};
 use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The controller as it is used here. Its repulsion begins where the plan never leads: within the body's radius and a part of the clearance.
 const LAW: Tanh = Tanh { pull: 10.0, push: 1.0, range: 0.26 };
 
 /// The controller without a plan has to see obstacles sooner.
 const ALONE: Tanh = Tanh { pull: 1.0, push: 1.0, range: 1.0 };
+
+/// The controller that follows cells: its gain is the source's.
+const ALONG_CELLS: Tracking = Tracking { gain: 1.0, speed: 0.5 };
+
+/// A robot and its world, how many cells there are and how they are decided, start and goal.
+type Gridded = (&'static str, &'static str, [usize; 2], GridSpace, [f64; 2], [f64; 2]);
+
+/// The rooms of the mission, whose partition is thinner than a cell, and the source's own map with its cells, start and goal.
+const GRIDS: [Gridded; 3] = [
+    ("mobile_robot", "explore/hall.toml", [40, 20], GridSpace::Rows, START, TARGETS[0].1),
+    ("mobile_robot", "explore/house.toml", [40, 20], GridSpace::Rows, START, TARGETS[0].1),
+    ("stage_robot", "published/obstacle_map.toml", [12, 20], GridSpace::Centers, [-12.0, 11.0], [15.0, -17.0]),
+];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).map(PathBuf::from);
@@ -56,6 +73,50 @@ fn main() -> Result<(), Box<dyn Error>> {
             let picture = floor.picture("Differential drive", &[TARGETS[0].1], &ways);
             std::fs::write(folder.join(format!("differential_drive_{name}.svg")), picture)?;
         }
+    }
+    for grid in GRIDS {
+        along_cells(grid, folder.as_deref())?;
+    }
+    Ok(())
+}
+
+/// Follows the cells that a wave and A\* find.
+fn along_cells(
+    (robot, world, cells, space, start, goal): Gridded,
+    folder: Option<&Path>,
+) -> Result<(), Box<dyn Error>> {
+    let floor = Floor::of_robot(robot, world)?;
+    println!("{world}: {} x {} cells, from {start:?} to {goal:?}", cells[0], cells[1]);
+    let mut ways = Vec::new();
+    for search in [GridSearch::Wave, GridSearch::AStar] {
+        let (arm, workspace) = floor.scene.clone().into_parts();
+        let problem = Problem::new(arm, workspace, start, goal)?;
+        let mut planner = Planner::named(Method::Wavefront).with_path(PathKind::Own).with_space(space);
+        if let Planner::Wavefront { search: how, .. } = &mut planner {
+            *how = search;
+        }
+        let planner = planner.with_cell_counts(CellCounts(cells));
+        let plan = plan(&problem, &Options { levels: 1, ..Options::from(planner) })?;
+        let path = plan.report().path.clone().ok_or("there is no plan")?;
+        let first = [path[1][0] - path[0][0], path[1][1] - path[0][1]];
+        let heading = first[1].atan2(first[0]);
+        let mut driven =
+            Robot::new(&floor, [start[0] - AHEAD * heading.cos(), start[1] - AHEAD * heading.sin()], heading);
+        let Tracked { arrived, farthest } = track(&mut driven, &ALONG_CELLS, &path, 1_000.0);
+        let gap = driven.track.iter().map(|pose| floor.gap(pose.at)).fold(f64::INFINITY, f64::min);
+        println!(
+            "  cells of {search}: {} in {:.1} s, {:.2} m; {gap:.3} m free at the least, the point at most {farthest:.4} m from the desired one",
+            if arrived { "arrived" } else { "not there" },
+            driven.time,
+            driven.length
+        );
+        ways.push((format!("cells of {search}"), path.iter().map(|&corner| corner.into()).collect()));
+        ways.push((format!("along those of {search}"), driven.way()));
+    }
+    if let Some(folder) = folder {
+        let name = Path::new(world).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let picture = floor.picture("Differential drive along cells", &[goal], &ways);
+        std::fs::write(folder.join(format!("along_cells_{name}.svg")), picture)?;
     }
     Ok(())
 }

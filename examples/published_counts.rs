@@ -2,11 +2,11 @@
 //! 2012) leaves open, by a plain relaxation of its own.
 //!
 //! ```text
-//! CPLAN_REFERENCE=folder cargo run --release --example published_counts [-- 100]
+//! cargo run --release --example published_counts [-- 100]
 //! ```
 //!
 //! The search is done on 100 x 100 cells, for the harmonic stage; then the choice that explains most is put to all counts, on 100 x
-//! 100 and, without the argument, on 250 x 250 cells. `folder/data` is as for `published_tables`. The exit code is 1 if another
+//! 100 and, without the argument, on 250 x 250 cells. The maps are those of `published_tables`. The exit code is 1 if another
 //! choice explains more than the one that the documentation names.
 
 #[path = "published_tables/deicu.rs"]
@@ -22,19 +22,14 @@ mod row;
 #[path = "published_counts/search.rs"]
 mod search;
 
-use cplan::input::InputError;
 use deicu::{RELAXATIONS, SCALES, TABLES};
 use plain::Choice;
 use search::{Maps, OF_GAUSS_SEIDEL, OF_SOR, Tally};
-use std::path::PathBuf;
+use std::error::Error;
 use std::process::ExitCode;
 
-fn main() -> Result<ExitCode, InputError> {
-    let Some(data) = std::env::var_os("CPLAN_REFERENCE").map(|folder| PathBuf::from(folder).join("data")) else {
-        println!("CPLAN_REFERENCE must name the folder with data/map1.map and the files beside it.");
-        return Ok(ExitCode::FAILURE);
-    };
-    let maps = Maps::read(&data)?;
+fn main() -> Result<ExitCode, Box<dyn Error>> {
+    let maps = Maps::read()?;
     let small = std::env::args().nth(1).is_some_and(|scale| scale == "100");
     let scales = if small { 0..1 } else { 0..SCALES.len() };
     let mut as_said = true;

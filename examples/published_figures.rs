@@ -2,11 +2,11 @@
 //! whose curves are pictures; what their text says of them stands beside ours.
 //!
 //! ```text
-//! CPLAN_REFERENCE=folder cargo run --release --example published_figures
+//! cargo run --release --example published_figures
 //! ```
 //!
-//! Figures 39 to 47 need `folder/data/map1.map` and `preference1.map`; the others are of a state of play of our own. Prints numbers,
-//! and writes figures 6.1 to 6.4 as `target/figure_6_1.svg`.
+//! Figures 39 to 47 are of map 1, which is `workspaces/maps/leon.toml`; the others are of a state of play of our own. Prints
+//! numbers, and writes figures 6.1 to 6.4 as `target/figure_6_1.svg`.
 
 #[path = "published_tables/deicu.rs"]
 #[allow(dead_code, reason = "sweep counts are for published_tables")]
@@ -26,22 +26,18 @@ use cplan::field::{
 use cplan::report::{Setup, convergence};
 use silva::Kind;
 use std::error::Error;
-use std::path::{Path, PathBuf};
 
 /// Sweeps after which the figures of the first source begin, and later ones.
 const SHOWN: [usize; 8] = [1, 20, 40, 100, 200, 500, 1000, 1400];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    match std::env::var_os("CPLAN_REFERENCE") {
-        Some(folder) => errors(&PathBuf::from(folder).join("data"))?,
-        None => println!("Figures 39 to 47 need CPLAN_REFERENCE to name the folder with data/map1.map.\n"),
-    }
+    errors()?;
     factors()
 }
 
 /// Figures 39 to 47: the error of map 1, 100 x 100 cells, sweep by sweep.
-fn errors(data: &Path) -> Result<(), Box<dyn Error>> {
-    let scene = deicu::scene(&deicu::TABLES[0], data)?;
+fn errors() -> Result<(), Box<dyn Error>> {
+    let scene = deicu::scene(&deicu::TABLES[0])?;
     let domain = scene.domain(100);
     println!("Figures 39 to 47: squared changes of a sweep on map 1, 100 x 100 cells, after so many sweeps;");
     println!("where preferences begin the error leaps, from the first of the two numbers to the second");
@@ -71,10 +67,8 @@ fn errors(data: &Path) -> Result<(), Box<dyn Error>> {
                 let sample = run.samples.iter().find(|s| s.sweep >= shown);
                 print!("{:>9}", sample.map_or_else(|| "-".into(), |sample| format!("{:.1e}", sample.squares)));
             }
-            let leap = run.samples.windows(2).find(|pair| pair[0].stage < pair[1].stage);
-            let [before, after] = leap.map_or([f64::NAN; 2], |pair| [pair[0].squares, pair[1].squares]);
-            let end = leap.map_or(0, |pair| pair[0].sweep);
-            println!("  {end}: {before:.1e} to {after:.1e}, {} in all", run.sweeps);
+            let leap = run.leap().ok_or("preferences begin")?;
+            println!("  {}: {:.1e} to {:.1e}, {} in all", leap.sweep, leap.before, leap.after, run.sweeps);
         }
     }
     println!();
@@ -111,6 +105,17 @@ fn factors() -> Result<(), Box<dyn Error>> {
             let theirs = scan.points.iter().find(|p| (p.at - published[k]).abs() < 1e-9);
             let theirs = theirs.and_then(|p| p.converged()).map_or_else(|| "-".into(), |sweeps| sweeps.to_string());
             println!("  {name:<13} {:.1} (takes {theirs:>4} here)   {best}", published[k]);
+        }
+        if k == 0 {
+            println!(
+                "Figures 6.1 to 6.3, weighted Jacobi (WJR): published 1.8 for all; ours, and the first that is lost"
+            );
+            for scan in &measured.weights {
+                let shown = |point: Option<cplan::report::Point>| {
+                    point.map_or_else(|| "-".into(), |p| format!("{:.2} ({} sweeps)", p.at, p.sweeps))
+                };
+                println!("  {:<13} {}, lost at {}", scan.equation, shown(scan.best()), shown(scan.lost_from()));
+            }
         }
         println!(
             "Figure 6.4, Gauss-Seidel {order}: published: central differences diverge above 3.4, upwind ones do not"

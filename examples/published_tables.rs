@@ -1,12 +1,11 @@
 //! Sweep counts from the literature, beside those that this library needs: match, close, or unmatched and why.
 //!
 //! ```text
-//! CPLAN_REFERENCE=folder cargo run --release --example published_tables [-- 100]
+//! cargo run --release --example published_tables [-- 100]
 //! ```
 //!
 //! With the argument 100 only the smaller scale of Tables 17 to 19 is measured, in seconds; both take some minutes of CPU.
-//! `folder/data` holds `map1.map` to `map3.map`, `preference1.map` and `preference2.map`, the files printed in the source of Tables 17 to 19;
-//! the other tables need none. The exit code is 1 if a count that is said to match, or to be close, is not.
+//! The maps printed in the source of Tables 17 to 19 are the worlds in `workspaces/maps`. The exit code is 1 if a count that is said to match, or to be close, is not.
 
 #[path = "published_tables/alves.rs"]
 mod alves;
@@ -19,12 +18,11 @@ mod row;
 #[path = "published_tables/silva.rs"]
 mod silva;
 
-use cplan::input::InputError;
 use row::Count;
-use std::path::PathBuf;
+use std::error::Error;
 use std::process::ExitCode;
 
-fn main() -> Result<ExitCode, InputError> {
+fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut claims = Claims::default();
     deicu_tables(&mut claims)?;
     println!("Room of 40 m x 20 m (S. F. dos Reis Alves): index of the last sweep, counted from 0");
@@ -50,20 +48,14 @@ fn main() -> Result<ExitCode, InputError> {
     Ok(if claims.broken == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Tables 17 to 19, or what they need.
-fn deicu_tables(claims: &mut Claims) -> Result<(), InputError> {
-    let Some(data) = std::env::var_os("CPLAN_REFERENCE").map(|folder| PathBuf::from(folder).join("data")) else {
-        println!(
-            "Tables 17 to 19 need CPLAN_REFERENCE to name the folder with data/map1.map and the files beside it.\n"
-        );
-        return Ok(());
-    };
+/// Tables 17 to 19.
+fn deicu_tables(claims: &mut Claims) -> Result<(), Box<dyn Error>> {
     let small = std::env::args().nth(1).is_some_and(|scale| scale == "100");
     let scales: &[usize] = if small { &[0] } else { &[0, 1] };
     for table in &deicu::TABLES {
         println!("{} (L. E. Deicu 2012): sweeps, published and measured", table.title);
         println!("algorithm              cells  before preferences                   in all");
-        let scene = deicu::scene(table, &data)?;
+        let scene = deicu::scene(table)?;
         for line in deicu::lines(table, &scene, scales) {
             println!("{line}");
             line.counts().for_each(|count| claims.check(count));

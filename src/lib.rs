@@ -82,7 +82,7 @@ pub mod check {
 /// Planners: pure functions from a space and a query to a run.
 pub mod planner {
     pub use cplan_core::planner::*;
-    pub use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner, field_domain};
+    pub use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner, RELATIVE_TOLERANCE, field_domain};
     pub use cplan_roadmaps::{Prm, PrmMap, Triangles, TrianglesMap, Voronoi, VoronoiMap};
 }
 

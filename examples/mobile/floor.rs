@@ -23,8 +23,17 @@ impl Floor {
     /// # Errors
     /// What is wrong with it.
     pub fn load(world: &str) -> Result<Self, InputError> {
+        Self::of_robot("mobile_robot", world)
+    }
+
+    /// A shipped world of another robot that slides over its floor.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn of_robot(robot: &str, world: &str) -> Result<Self, InputError> {
         let root = File::new(env!("CARGO_MANIFEST_DIR"));
-        let loaded = input::load_scene(root.join("robots/mobile_robot.urdf"), &root.join("workspaces").join(world))?;
+        let urdf = root.join("robots").join(robot).with_extension("urdf");
+        let loaded = input::load_scene(urdf, &root.join("workspaces").join(world))?;
         Ok(Self::new(loaded.scene))
     }
 

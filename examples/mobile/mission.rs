@@ -8,7 +8,9 @@ use super::robot::Robot;
 use super::{START, TARGETS, fields, in_the_way};
 use cplan::engine::{CellCounts, Method, Planner};
 use cplan::explore::{self, Exploration, Settings, explore};
-use cplan::field::{Attraction, Device, Difference, Direction, Khatib, Limits, Order, Relaxation, Repulsion, Scan};
+use cplan::field::{
+    Attraction, Device, Difference, Direction, Khatib, Limits, Measure, Order, Relaxation, Repulsion, Scan, Stencil,
+};
 use cplan::model::{Mount, Scene, Sensor};
 use cplan::planner::{EquationChoice, FieldChoice, FieldPlanner, PathKind};
 use cplan::{Configuration, Obstacle, Options, Point};
@@ -93,7 +95,7 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
     let with = |choice: FieldChoice| {
         let mut planner = named;
         if let Planner::Harmonic { field, .. } = &mut planner {
-            *field = Some(FieldPlanner { field: choice, limits: Limits::High, path: PathKind::Own });
+            *field = Some(FieldPlanner { field: choice, limits: Limits::High, escape: None, path: PathKind::Own });
         }
         planner
     };
@@ -104,7 +106,9 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
         on: Device::Cpu,
         equation: EquationChoice::Oriented { direction, epsilon: 0.5, difference: Difference::Upwind },
         relaxation: Relaxation::gauss_seidel(Order::Lines(Scan::ROWS)),
+        measure: Measure::GreatestRelativeChange,
         tolerance: 1e-6,
+        stencil: Stencil::Square,
         max_sweeps: 10_000,
     };
     vec![

@@ -10,6 +10,7 @@ pub mod mission;
 pub mod occupancy;
 pub mod robot;
 pub mod tanh;
+pub mod tracking;
 
 use cplan::Point;
 

@@ -1,7 +1,9 @@
 //! What the pictures of the documentation show. `tests/program/pictures.rs` draws them, too.
 
 use cplan::PlanOutput as _;
-use cplan::engine::Method;
+use cplan::engine::{CellCounts, GridSpace, Method, Planner};
+use cplan::field::{Attraction, Khatib, Limits, Repulsion};
+use cplan::planner::{FieldChoice, FieldPlanner, PathKind};
 use cplan::{Options, Plan, Problem, plan};
 use std::error::Error;
 use std::path::Path;
@@ -10,18 +12,23 @@ use std::path::Path;
 pub enum Subject {
     /// What a planner answers to a workspace: robot, workspace, planner.
     Answer(&'static str, &'static str, Method),
+    /// Attraction of constant size, and repulsion by all obstacle cells: robot, workspace, charge of a cell.
+    Forces(&'static str, &'static str, f64),
     /// What comes of a task: robot, workspace in `tasks`.
     Task(&'static str, &'static str),
 }
 
 /// All, with the names of their files.
-pub const PICTURES: [(&str, Subject); 14] = [
+pub const PICTURES: [(&str, Subject); 17] = [
     ("shortest", Subject::Answer("planar_2r", "workbench", Method::Shortest)),
     ("visibility", Subject::Answer("planar_2r", "workbench", Method::Visibility)),
     ("trapezoid", Subject::Answer("planar_2r", "workbench", Method::Trapezoid)),
     ("voronoi", Subject::Answer("planar_2r", "workbench", Method::Voronoi)),
     ("wavefront", Subject::Answer("planar_2r", "workbench", Method::Wavefront)),
     ("harmonic", Subject::Answer("planar_2r", "workbench", Method::Harmonic)),
+    ("khatib_trapped", Subject::Forces("stage_robot", "published/cup", 1.0)),
+    ("khatib_cured", Subject::Forces("stage_robot", "published/cup", 3.0)),
+    ("khatib_blocked", Subject::Forces("stage_robot", "published/cup", 4.0)),
     ("subdivision", Subject::Answer("planar_2r", "workbench", Method::Subdivision)),
     ("no_path", Subject::Answer("planar_2r_continuous", "no_path", Method::Wavefront)),
     ("scara_cell", Subject::Answer("scara", "scara_cell", Method::Shortest)),
@@ -45,6 +52,7 @@ impl Subject {
     pub fn plan(&self) -> Result<Plan, Box<dyn Error>> {
         let (robot, world, options) = match *self {
             Subject::Answer(robot, world, method) => (robot, Path::new("").join(world), method.into()),
+            Subject::Forces(robot, world, charge) => (robot, Path::new("").join(world), by_forces(charge)),
             Subject::Task(robot, world) => (robot, Path::new("tasks").join(world), Options::default()),
         };
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -52,4 +60,13 @@ impl Subject {
         let world = root.join("workspaces").join(world).with_extension("toml");
         Ok(plan(&Problem::load(urdf, world)?, &options)?)
     }
+}
+
+/// One attempt by attraction and repulsion, on 80 x 80 cells.
+fn by_forces(charge: f64) -> Options {
+    let laws = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(charge), saturated: false };
+    let (limits, path) = (Limits::High, PathKind::Own);
+    let field = Some(FieldPlanner { field: FieldChoice::Khatib(laws), limits, escape: None, path });
+    let cells = Some(CellCounts::square(80));
+    Options { levels: 1, ..Options::from(Planner::Harmonic { field, space: GridSpace::Rows, path, cells }) }
 }

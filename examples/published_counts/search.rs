@@ -3,9 +3,8 @@
 use super::deicu::{self, SCALES, TABLES, Table};
 use super::line_maps::Scene;
 use super::plain::{Beyond, Choice, Plain, Rule};
-use cplan::input::InputError;
+use std::error::Error;
 use std::fmt;
-use std::path::Path;
 
 /// Published counts and those of a choice.
 #[derive(Debug, Clone, Default)]
@@ -56,8 +55,8 @@ impl Maps {
     ///
     /// # Errors
     /// What is wrong with the files.
-    pub fn read(data: &Path) -> Result<Self, InputError> {
-        TABLES.iter().map(|table| Ok((table, deicu::scene(table, data)?))).collect::<Result<_, _>>().map(Self)
+    pub fn read() -> Result<Self, Box<dyn Error>> {
+        TABLES.iter().map(|table| Ok((table, deicu::scene(table)?))).collect::<Result<_, _>>().map(Self)
     }
 
     /// Each table's counts of the harmonic stage, at one scale, by these relaxations.

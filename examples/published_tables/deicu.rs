@@ -5,8 +5,7 @@ use super::line_maps::Scene;
 use super::row::{Claim, Count};
 use Claim::{Close, Match, Unmatched};
 use cplan::field::{Difference, Equation, Factor, Lines, Measure, Order, Precision, Relaxation, Scan, Stopping, relax};
-use cplan::input::{InputError, LineMap, PreferenceMap};
-use std::path::Path;
+use std::error::Error;
 
 /// The scales of the tables: cells along each axis.
 pub const SCALES: [usize; 2] = [100, 250];
@@ -16,11 +15,10 @@ pub const SCALES: [usize; 2] = [100, 250];
 pub struct Table {
     /// Its number in the source, and what of the map was used.
     pub title: &'static str,
-    map: usize,
-    /// The number of the preference file.
-    preferences: usize,
-    /// Lines at the end of the file that were left out; if any, the bounds of the map hold for the goal too.
-    without: usize,
+    /// The world of the map, in `workspaces/maps`.
+    world: &'static str,
+    /// The obstacle that was left out, if any.
+    without: Option<&'static str>,
     before: [[(usize, Claim); 2]; 4],
     /// With preferences, and with altered ones ("BVP 2").
     after: [[[(usize, Claim); 2]; 4]; 2],
@@ -84,12 +82,8 @@ impl Table {
 ///
 /// # Errors
 /// What is wrong with the files.
-pub fn scene(table: &Table, data: &Path) -> Result<Scene, InputError> {
-    let scene = Scene {
-        map: LineMap::read(&data.join(format!("map{}.map", table.map)))?,
-        preferences: PreferenceMap::read(&data.join(format!("preference{}.map", table.preferences)))?,
-    };
-    Ok(if table.without == 0 { scene } else { scene.without_last_lines(table.without).in_bounds_of_map() })
+pub fn scene(table: &Table) -> Result<Scene, Box<dyn Error>> {
+    Scene::read(table.world, table.without)
 }
 
 /// One line: the algorithm, the scale, what is counted before preferences and in all (where there are any).
@@ -146,9 +140,8 @@ pub fn lines(table: &Table, scene: &Scene, scales: &[usize]) -> Vec<Line> {
 pub const TABLES: [Table; 3] = [
     Table {
         title: "Table 17: map 1, preference file 1",
-        map: 1,
-        preferences: 1,
-        without: 0,
+        world: "leon",
+        without: None,
         before: [
             [(1408, Match), (8924, Close(0.1))],
             [(1411, Match), (8929, Close(0.1))],
@@ -173,9 +166,8 @@ pub const TABLES: [Table; 3] = [
     },
     Table {
         title: "Table 18: map 2, preference file 2",
-        map: 2,
-        preferences: 2,
-        without: 0,
+        world: "rings",
+        without: None,
         before: [
             [(884, Match), (5572, Match)],
             [(887, Match), (5575, Match)],
@@ -199,10 +191,9 @@ pub const TABLES: [Table; 3] = [
         notes: NOTES_2,
     },
     Table {
-        title: "Table 19: map 3 without its last four lines, preference file 2 in the map's bounds",
-        map: 3,
-        preferences: 2,
-        without: 4,
+        title: "Table 19: map 3 without its last four lines (the kite), preference file 2 in the map's bounds",
+        world: "pillars",
+        without: Some("kite"),
         before: [
             [(2287, Close(0.2)), (14369, Close(0.2))],
             [(2292, Close(0.2)), (14360, Close(0.2))],

@@ -1,37 +1,52 @@
-//! Line maps and preference files as domains of cells, as the published counts ask for.
+//! The worlds of published line maps as domains of cells, as the published counts ask for.
 
 use cplan::field::{Boundary, Cell, Domain, Levels};
 use cplan::geometry::Point;
-use cplan::input::{LineMap, PreferenceMap};
+use cplan::input::{Overrides, load_scene};
+use cplan::model::{MotionProblem, Obstacle, Preference, Region, Shape};
+use std::error::Error;
+use std::path::Path;
 
-/// A line map and a preference file, ready to be cut into cells.
+/// A line map with a goal and preferences, in millimetres as the source has it, ready to be cut into cells.
 pub struct Scene {
-    /// The walls as segments, with start and goal.
-    pub map: LineMap,
-    /// Goal and preferences.
-    pub preferences: PreferenceMap,
+    /// Lower left and upper right corner.
+    bounds: [Point; 2],
+    /// The walls as segments.
+    lines: Vec<[Point; 2]>,
+    /// Lower left and upper right corner of the goal.
+    goal: [Point; 2],
+    /// The same of each preference, and its epsilon.
+    rectangles: Vec<([Point; 2], f64)>,
 }
 
 impl Scene {
-    /// The scene without the last so many lines of its map.
-    pub fn without_last_lines(mut self, count: usize) -> Self {
-        let kept = self.map.lines.len().saturating_sub(count);
-        self.map.lines.truncate(kept);
-        self
-    }
-
-    /// The scene with goal and preferences scaled by the bounds of the map instead of those of their own file.
-    pub fn in_bounds_of_map(mut self) -> Self {
-        self.preferences.bounds = self.map.bounds;
-        self
+    /// Reads a world of `workspaces/maps`, the gantry's limits being the bounds of the map, and leaves out an obstacle.
+    ///
+    /// # Errors
+    /// What is wrong with the files, and a preference that is no region of the tip.
+    pub fn read(world: &str, without: Option<&str>) -> Result<Self, Box<dyn Error>> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let world = root.join("workspaces/maps").join(world).with_extension("toml");
+        let loaded = load_scene(root.join("robots/room_gantry.urdf"), &world)?;
+        let problem = loaded.problem(&Overrides::default())?.problem;
+        let workspace = problem.scene().workspace();
+        let obstacles = workspace.obstacles.iter().filter(|obstacle| Some(&*obstacle.name) != without);
+        let rectangles = workspace.preferences.iter().map(rectangle).collect::<Option<_>>();
+        Ok(Self {
+            bounds: bounds(&problem),
+            lines: obstacles.flat_map(segments).collect(),
+            // The gantry's joints are coordinates of its tip.
+            goal: hull(problem.goals().pieces().iter().flat_map(|piece| piece.ends()).map(Point::from)),
+            rectangles: rectangles.ok_or("a preference is no region of the tip")?,
+        })
     }
 
     /// `n x n` cells: first index `x`, second `y`, both rising. Walls are the cells of the lines and the outermost ones;
     /// the goal, which may lie on a wall, is all cells from that of its lower left to that of its upper right corner.
     pub fn domain(&self, n: usize) -> Domain {
         let mut kinds = vec![Cell::Free; n * n];
-        for &[a, b] in &self.map.lines {
-            for [x, y] in line(cell_of(a, self.map.bounds, n), cell_of(b, self.map.bounds, n)) {
+        for &[a, b] in &self.lines {
+            for [x, y] in line(cell_of(a, self.bounds, n), cell_of(b, self.bounds, n)) {
                 kinds[x * n + y] = Cell::Obstacle;
             }
         }
@@ -40,25 +55,56 @@ impl Scene {
                 kinds[cell] = Cell::Obstacle;
             }
         }
-        let [low, high] = self.preferences.goal.map(|corner| cell_of(corner, self.preferences.bounds, n));
+        let [low, high] = self.goal.map(|corner| cell_of(corner, self.bounds, n));
         for x in low[0]..=high[0] {
             kinds[x * n + low[1]..=x * n + high[1]].fill(Cell::Goal);
         }
         Domain::new([n, n], kinds, [Boundary::High; 2], Levels::PUBLISHED)
     }
 
-    /// The epsilon of each cell; later rectangles of the file overwrite earlier ones. The cell of the upper right corner is
+    /// The epsilon of each cell; later rectangles of the world overwrite earlier ones. The cell of the upper right corner is
     /// outside, unlike that of a goal: so the published counts say.
     pub fn epsilon(&self, n: usize) -> Vec<f64> {
         let mut epsilon = vec![0.0; n * n];
-        for rectangle in &self.preferences.rectangles {
-            let [low, high] = rectangle.corners.map(|corner| cell_of(corner, self.preferences.bounds, n));
+        for (rectangle, strength) in &self.rectangles {
+            let [low, high] = rectangle.map(|corner| cell_of(corner, self.bounds, n));
             for x in low[0]..high[0] {
-                epsilon[x * n + low[1]..x * n + high[1]].fill(rectangle.epsilon);
+                epsilon[x * n + low[1]..x * n + high[1]].fill(*strength);
             }
         }
         epsilon
     }
+}
+
+/// A point in millimetres, without what metres are off by rounding.
+fn millimetres(point: Point) -> Point {
+    point.map(|metres| (1000.0 * metres).round())
+}
+
+fn bounds(problem: &MotionProblem) -> [Point; 2] {
+    let [x, y] = problem.scene().arm().topology().ranges.map(|range| range.domain());
+    [Point::new(x.0, y.0), Point::new(x.1, y.1)].map(millimetres)
+}
+
+/// The segments of a wall; none of what is no polyline.
+fn segments(obstacle: &Obstacle) -> Vec<[Point; 2]> {
+    match &obstacle.shape {
+        Shape::Polyline(points) => points.windows(2).map(|ends| [ends[0], ends[1]].map(millimetres)).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn rectangle(preference: &Preference) -> Option<([Point; 2], f64)> {
+    match &preference.region {
+        Region::Tip(polygon) => Some((hull(polygon.corners().iter().copied()), preference.epsilon)),
+        Region::Configurations(_) => None,
+    }
+}
+
+/// Lower left and upper right corner of what holds all points.
+fn hull(points: impl Iterator<Item = Point>) -> [Point; 2] {
+    let none = [Point::new(f64::INFINITY, f64::INFINITY), Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY)];
+    points.map(millimetres).fold(none, |[low, high], point| [low.inf(&point), high.sup(&point)])
 }
 
 /// The cell of a point, `floor((x - min) / (max - min) n)`, and the last one for what lies at the upper bound.

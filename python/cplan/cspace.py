@@ -74,20 +74,26 @@ class Roadmap:
     """Straight motions: vertices, shape (n, 2), and numbers of the two of each edge, shape (m, 2).
 
     `vertices[edges]` are their ends, shape (m, 2, 2), as matplotlib's `LineCollection` takes them. `whole` tells whether it is all of the
-    graph, or what of it was looked at.
+    graph, or what of it was looked at. `visibility` is `"reduced"` or `"full"` for visibility graphs.
     """
 
     vertices: Array
     edges: NDArray[np.int64]
     whole: bool
+    visibility: str | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Trapezoids or triangles of free space, corners of shape (n, 2), and the numbers of those that the path passes."""
+    """Trapezoids or triangles of free space, corners of shape (n, 2), and the numbers of those that the path passes.
+
+    Of trapezoids: `centers` of area of the channel's cells, and `middles` of the doors between them, one less, shape (n, 2).
+    """
 
     corners: tuple[Array, ...]
     channel: NDArray[np.int64]
+    centers: Array
+    middles: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,8 +173,8 @@ def _space(axes: tuple[Axis, Axis], data: dict[str, Any]) -> CSpace:
         goals=_array(data["goals"], 2, 2),
         paths=tuple(Way(way["name"], _array(way["waypoints"], 2), _array(way["outline"], 2)) for way in data["paths"]),
         free=made("free", lambda free: Free(_proves(free["proves"]), _array(free["window"], 2), _polygons(free["polygons"]))),
-        roadmap=made("roadmap", lambda map: Roadmap(_array(map["vertices"], 2), _numbers(map["edges"], 2), map["whole"])),
-        cells=made("cells", lambda cells: Cells(tuple(_array(each, 2) for each in cells["corners"]), _numbers(cells["channel"]))),
+        roadmap=made("roadmap", lambda map: Roadmap(_array(map["vertices"], 2), _numbers(map["edges"], 2), map["whole"], map.get("visibility"))),
+        cells=made("cells", lambda cells: Cells(tuple(_array(each, 2) for each in cells["corners"]), _numbers(cells["channel"]), *(_array(cells.get(key, []), 2) for key in ("centers", "middles")))),
         expanded=_array(data.get("expanded", []), 2),
         rows=_array(data.get("rows", []), 2, 2),
         boxes=made("boxes", lambda boxes: Boxes(*(_array(boxes[kind], 2, 2) for kind in ("free", "stuck", "mixed")))),

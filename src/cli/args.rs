@@ -18,10 +18,11 @@ use super::schema::SchemaArgs;
 use super::serve::ServeArgs;
 #[cfg(feature = "study")]
 use super::study::StudyArgs;
+use crate::draw::FieldLines;
 use crate::engine::Method;
 use crate::grammar::{MotionArgs, PlannerArgs, PlannerWords, number_in, word};
 use crate::input::{JointValues, Overrides, RobotFile, TipPoint};
-use clap::{Args, CommandFactory, Parser, Subcommand, ValueHint};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum, ValueHint};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -235,6 +236,9 @@ pub struct PlanArgs {
     /// Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
+    /// What pictures of a field show (.svg, .png, .gif; pages show and hide each).
+    #[arg(long, value_enum, value_name = "LINES", default_value_t = FieldLinesName::Equipotentials)]
+    pub field_lines: FieldLinesName,
     /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact arithmetic. If FILE is a
     /// .json of --output, too, it becomes the member `certificate` of that.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -250,6 +254,27 @@ pub struct PlanArgs {
     // Last, because its headings are for all that follows.
     #[command(flatten)]
     pub options: PlannerArgs,
+}
+
+/// Field lines in words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FieldLinesName {
+    /// Lines of equal potential.
+    Equipotentials,
+    /// Lines of steepest ascent, with an arrow each.
+    Flow,
+    // Needs no help.
+    Both,
+}
+
+impl From<FieldLinesName> for FieldLines {
+    fn from(name: FieldLinesName) -> Self {
+        match name {
+            FieldLinesName::Equipotentials => Self::Equipotentials,
+            FieldLinesName::Flow => Self::Flow,
+            FieldLinesName::Both => Self::Both,
+        }
+    }
 }
 
 /// Arguments of `planners`.

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::engine::{FieldProblem, Problem};
-use crate::field::{Difference, Direction, Equation, Limits, Measure, Stopping};
+use crate::field::{Difference, Direction, Equation, Limits, Measure, Stencil, Stopping};
 use crate::grammar::{OrderName, direction, finite, positive, word};
 use crate::input;
 use crate::motion::write_whole_set;
@@ -21,8 +21,8 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Jacobi's, weighted Jacobi's (0.8), Gauss-Seidel's and SOR's relaxations (the latter row by row, from the four corners in turn,
 red-black; SOR by the formula for empty rectangles) are measured on the cells of the harmonic planner: obstacles 0, goals 1, free
-cells from 0. Equations: harmonic; oriented by central and upwind differences; and bvp, where the world has preferences. The error is
-against the solution by elimination. What diverges is said to diverge.
+cells from 0. Equations: harmonic; oriented by central and upwind differences; where the world has preferences, local by both, with
+the direction of regions that have none, bvp and bvp2. The error is against the solution by elimination. What diverges is said to diverge.
 
 Examples:
   cplan converge robots/planar_2r.urdf workspaces/shelf.toml --cells 24
@@ -41,7 +41,7 @@ pub struct ConvergeArgs {
     /// Strength of the drift, per grid cell, of the oriented equations.
     #[arg(long, value_name = "E", default_value_t = 0.5, value_parser = finite, allow_hyphen_values = true)]
     pub epsilon: f64,
-    /// Direction of the drift in joint space.
+    /// Direction of the drift in joint space, also of [[preference]] regions without one of their own.
     #[arg(long, value_name = "v1,v2", default_value = "1,0", value_parser = direction, allow_hyphen_values = true)]
     pub direction: Direction,
     /// In which order cells go in the scans over factor and epsilon.
@@ -121,9 +121,16 @@ impl ConvergeArgs {
             ("oriented, upwind", oriented(Difference::Upwind)),
         ];
         if !posed.space.zones.is_empty() {
-            choices.push(("bvp", EquationChoice::Preference { elsewhere: 0.0, difference: Difference::Central }));
+            let local = |difference| EquationChoice::LocallyOriented { direction: Some(self.direction), difference };
+            choices.extend([
+                ("local, central", local(Difference::Central)),
+                ("local, upwind", local(Difference::Upwind)),
+                ("bvp", EquationChoice::Preference { elsewhere: 0.0, difference: Difference::Central }),
+                ("bvp2", EquationChoice::AlteredPreference { elsewhere: 0.0 }),
+            ]);
         }
-        let equations = choices.into_iter().map(|(name, choice)| Ok((name.to_owned(), choice.on(&posed.space)?)));
+        let equations =
+            choices.into_iter().map(|(name, choice)| Ok((name.to_owned(), choice.on(&posed.space, Stencil::Square)?)));
         let equations: Vec<(String, Equation)> = equations.collect::<Result<_, String>>()?;
         let in_cells = equations.iter().find_map(|(_, equation)| match equation {
             Equation::Oriented { direction, .. } => Some(*direction),

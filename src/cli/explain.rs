@@ -102,15 +102,15 @@ impl Explained {
                     }
                 }
                 Err(error) if error.diagnostics().iter().all(|found| found.kind == DiagnosticKind::Start) => {
-                    let Query { scene, start, goal, mut notes, .. } = loaded.start_alone(overrides)?;
+                    let Query { scene, start, goals, mut notes, .. } = loaded.start_alone(overrides)?;
                     notes.push("no step can begin: this is about the start alone".into());
-                    (Question::new(scene, start, goal), notes)
+                    (Question::of_goals(scene, start, &goals), notes)
                 }
                 Err(error) => return Err(error.into()),
             }
         } else {
             let query = loaded.query(overrides)?;
-            (Question::new(query.scene, query.start, query.goal), query.notes)
+            (Question::of_goals(query.scene, query.start, &query.goals), query.notes)
         };
         let question = question.with_time_limit(limit);
         Ok(Self::Motion(Box::new(explain(&question, &Options::default())), notes))

@@ -128,7 +128,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
         match sink {
             Sink::Result(Format::Json, path) => files.push((path.clone(), json().into_bytes())),
             Sink::Result(format, path) => match &done.trajectory {
-                None => sinks::warn_unwritten(path),
+                None => sinks::warn_unwritten(path, "trajectory"),
                 Some(trajectory) => {
                     let text = match format {
                         Format::Csv => csv(&joints, trajectory, false, None),
@@ -190,7 +190,7 @@ impl ExploreArgs {
             surveyed: self.surveyed,
             known: self.known.as_deref().map(OccupancyMap::read).transpose()?,
             decisions: self.decisions as usize,
-            options: Options { planner, levels: self.options.levels(), ..usual.options },
+            options: Options { levels: self.options.levels(&planner), planner, ..usual.options },
         })
     }
 }

@@ -5,11 +5,11 @@ use super::failure::Failure;
 use super::result_files::ResultFiles;
 use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN, words};
-use crate::engine::{Options, Plan, Problem, plan_with};
+use crate::engine::{Options, Plan, Planner, Problem, plan_with};
 use crate::input::{self, Digests, InputError, JointValues, LoadedScene, Overrides};
 use crate::model::{MotionProblem, Status};
 use crate::motion::write_whole;
-use crate::output::{PlanOutput as _, summary_with};
+use crate::output::{CSpaceFormat, PlanOutput as _, summary_with};
 use crate::space::Configuration;
 use std::path::Path;
 use std::time::Instant;
@@ -36,6 +36,7 @@ pub fn answer(
     let sinks = sinks::sinks_with(&args.output, &args.picture, certificate.filter(|_| within.is_none()))?;
     let options = words::options(args.planner, &args.options, &args.motion, &args.message)?;
     let options = Options { timings: args.timings, ..options };
+    require_grid(&sinks, &options.planner)?;
     let begun = Instant::now();
     let loaded = load()?;
     let given = given.filter(|_| certificate.is_some());
@@ -76,6 +77,18 @@ pub fn answer(
     Ok(code)
 }
 
+/// Refuses a matrix of a grid's values where the planner has no grid.
+fn require_grid(sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
+    let matrix = sinks.iter().find(|sink| matches!(sink, Sink::CSpace(CSpaceFormat::Csv, _)));
+    match matrix {
+        Some(sink) if planner.space().is_none() => Err(Failure::Usage(format!(
+            "{} holds the values of a grid: it needs --planner wavefront or harmonic",
+            sink.path().display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
 /// Writes results, then configuration spaces, pictures and the certificate. The names of the files that are written, for people.
 ///
 /// # Errors
@@ -97,14 +110,21 @@ fn written(
     let certificate = certificate.as_ref().map(|(path, certificate)| (*path, certificate.as_str()));
     let mut written = files.write(plan, certificate)?;
     let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.plays()));
-    let seen = || if plays { plan.view_with_replay() } else { plan.view() };
+    let seen = || {
+        let view = if plays { plan.view_with_replay() } else { plan.view() };
+        view.with_field_lines(args.field_lines.into())
+    };
     let (mut view, mut spaces) = (None, None);
     for sink in sinks {
         match sink {
             Sink::Result(..) => continue,
-            Sink::CSpace(format, path) => {
-                write_whole(path, format.text(spaces.get_or_insert_with(|| plan.cspaces())).as_bytes())?;
-            }
+            Sink::CSpace(format, path) => match format.text(spaces.get_or_insert_with(|| plan.cspaces())) {
+                Some(text) => write_whole(path, text.as_bytes())?,
+                None => {
+                    sinks::warn_unwritten(path, "grid");
+                    continue;
+                }
+            },
             Sink::Picture(format, path) => {
                 let mut progress = sinks::pictures_done(path, &args.print);
                 write_whole(path, &format.bytes_with(view.get_or_insert_with(seen), &mut progress)?)?;

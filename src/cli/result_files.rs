@@ -70,7 +70,7 @@ impl ResultFiles {
                 files.push((path.clone(), bytes));
                 names.push(path.display().to_string());
             } else {
-                sinks::warn_unwritten(path);
+                sinks::warn_unwritten(path, "trajectory");
             }
         }
         write_whole_set(&files)?;

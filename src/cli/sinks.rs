@@ -119,10 +119,10 @@ pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>) -> Result<(
     })
 }
 
-/// Says on stderr that a format has no room for a result without a trajectory.
-pub fn warn_unwritten(path: &Path) {
+/// Says on stderr that a format has no room for a result without its content: a trajectory, or a grid.
+pub fn warn_unwritten(path: &Path, content: &str) {
     let is_old = if path.exists() { "; what it has is from before" } else { "" };
-    say(&format!("warning: {} is not written: there is no trajectory to put into it{is_old}", path.display()));
+    say(&format!("warning: {} is not written: there is no {content} to put into it{is_old}", path.display()));
 }
 
 /// Writes a picture.

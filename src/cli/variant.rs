@@ -37,9 +37,9 @@ impl Variant {
 
     /// The planner, and how many attempts it has, where it says nothing of `base` itself.
     pub fn over(&self, base: &EffortArgs) -> (Planner, usize) {
-        let own = &self.options.effort;
-        let levels = if own.levels.is_some() { own.levels() } else { base.levels() };
-        (own.put_into(base.put_into(self.planner)), levels)
+        let effort = self.options.effort.over(base);
+        let planner = effort.put_into(self.planner);
+        (planner, effort.levels(&planner))
     }
 
     /// Why what its field is relaxed on cannot be had, if it cannot, with the cure.

@@ -80,8 +80,8 @@ pub(super) fn options(
     let planner = options.planner(planner).map_err(Failure::Usage)?;
     options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
     Ok(Options {
+        levels: options.levels(&planner),
         planner,
-        levels: options.levels(),
         drive: motion.drive(),
         jerk: motion.jerk(),
         joints: message.joints,

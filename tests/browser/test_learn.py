@@ -296,11 +296,11 @@ def test_the_legend_names_what_lessons_draw(program, show_file):
     seen = show_file(page)
     legend = lambda: seen.page.locator(".legend li").all_inner_texts()
     moves = legend()
-    assert {"path, and trace of the tip", "visibility graph", "start", "goal"} <= set(moves)
+    assert {"path, and trace of the tip", "reduced visibility graph", "start", "goal"} <= set(moves)
     learn(seen)
-    assert set(moves) - set(legend()) == {"path, and trace of the tip", "visibility graph"}
+    assert set(moves) - set(legend()) == {"path, and trace of the tip", "reduced visibility graph"}
     seen.page.get_by_role("button", name="Move", exact=True).click()
     assert legend() == moves
     # As do layers.
-    seen.page.get_by_role("checkbox", name="visibility graph").uncheck()
-    assert set(moves) - set(legend()) == {"visibility graph"}
+    seen.page.get_by_role("checkbox", name="reduced visibility graph").uncheck()
+    assert set(moves) - set(legend()) == {"reduced visibility graph"}

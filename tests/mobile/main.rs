@@ -12,6 +12,7 @@ mod mission;
 #[path = "../../examples/mobile/mod.rs"]
 mod mobile;
 mod plain;
+mod tracking;
 #[path = "../../examples/published_tables/row.rs"]
 #[allow(dead_code, reason = "nothing is claimed of these counts")]
 mod row;

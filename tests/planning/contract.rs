@@ -5,7 +5,10 @@
 
 use crate::common::{all_kinds, arm, disc, joint, link, q, rectangle, rr, scene, wall};
 use cplan::cspace::{Grid, Proves, Regions, ZonedGrid, outer_grid, regions, sampled_grid};
-use cplan::field::{Device, Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
+use cplan::field::search::Ties;
+use cplan::field::{
+    Device, Difference, Direction, Factor, Limits, Lines, Measure, Neighborhood, Order, Relaxation, Stencil,
+};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::planner::{
@@ -19,7 +22,7 @@ use std::f64::consts::TAU;
 type Plan = fn(&Scene, &Query) -> Run;
 
 /// Every planner, with every setting that changes what its paths look like.
-const PLANNERS: [(&str, Plan); 24] = [
+const PLANNERS: [(&str, Plan); 26] = [
     (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
     ("visibility, weighted", |scene, query| {
         let metric = Metric::Weighted { weights: [1.0, 0.6] };
@@ -64,7 +67,18 @@ const PLANNERS: [(&str, Plan); 24] = [
     }),
     ("wavefront, A*, 8 neighbours", |scene, query| {
         let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
-        answered(&Wavefront { search, neighborhood, path: PathKind::Own }, &cells(scene), query)
+        let planner = Wavefront { search, neighborhood, path: PathKind::Own, ..Wavefront::default() };
+        answered(&planner, &cells(scene), query)
+    }),
+    ("wavefront, A* from the start", |scene, query| {
+        let (search, ties) = (GridSearch::AStar, Ties::First);
+        let planner = Wavefront { search, ties, forward: true, path: PathKind::Own, ..Wavefront::default() };
+        answered(&planner, &cells(scene), query)
+    }),
+    ("wavefront, iterative deepening from the start", |scene, query| {
+        let search = GridSearch::IterativeDeepening;
+        let planner = Wavefront { search, forward: true, path: PathKind::Own, ..Wavefront::default() };
+        answered(&planner, &cells(scene), query)
     }),
     ("wavefront, sampled", |scene, query| {
         answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &sampled(scene), query)
@@ -97,9 +111,16 @@ fn is_no_path(name: &str, run: &Run) -> bool {
 
 /// A field relaxed so far that it leads to the goal.
 fn relaxed(equation: EquationChoice) -> FieldPlanner {
-    let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
-    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-2, max_sweeps: 120, on: Device::Cpu };
-    FieldPlanner { field, limits: Limits::High, path: PathKind::Taut }
+    let field = FieldChoice::Relaxed {
+        equation,
+        relaxation: Relaxation::sor(Factor::Formula, Order::Corners(Lines::Rows)).guarded(),
+        measure: Measure::SumOfChange,
+        tolerance: 1e-2,
+        max_sweeps: 10_000,
+        on: Device::Cpu,
+        stencil: Stencil::Square,
+    };
+    FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Taut }
 }
 
 /// Polygons grown by a margin far below the room in the scenes here.
@@ -219,10 +240,10 @@ fn the_trace_and_size_are_those_of_the_representation() {
         let run = plan(&scene, &query);
         let fits = match (&run.trace, run.size) {
             (Trace::Roadmap { edges: drawn, whole: false }, Size::Graph { edges, .. }) => drawn.len() == edges,
-            (Trace::Roads { edges: drawn, expanded }, Size::Graph { nodes, edges }) => {
+            (Trace::Roads { edges: drawn, expanded, .. }, Size::Graph { nodes, edges }) => {
                 drawn.len() == edges && !expanded.is_empty() && expanded.len() <= nodes
             }
-            (Trace::Channel { cells, channel, expanded }, Size::Graph { nodes, .. }) => {
+            (Trace::Channel { cells, channel, expanded, .. }, Size::Graph { nodes, .. }) => {
                 let is_told = name.starts_with(Triangles::NAME) || name.ends_with("backward");
                 is_told != expanded.is_empty()
                     && cells.len() == nodes
@@ -237,6 +258,11 @@ fn the_trace_and_size_are_those_of_the_representation() {
                 drawn.len() == cells[0] * cells[1]
                     && drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
                     && expanded <= labelled
+            }
+            (Trace::Wavefront { labels: drawn, expanded, .. }, Size::Deepening { rounds, expansions, labelled }) => {
+                drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
+                    && rounds > 0
+                    && expansions >= expanded.len()
             }
             (
                 trace @ (Trace::Field { .. } | Trace::Harmonic { .. }),

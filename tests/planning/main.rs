@@ -11,6 +11,7 @@ mod decide;
 mod explaining;
 mod fastest;
 mod free_orders;
+mod full_graph;
 mod goal_seams;
 mod goal_sets;
 mod interrupt;

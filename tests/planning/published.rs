@@ -16,18 +16,15 @@ mod row;
 #[allow(dead_code, reason = "the search itself takes minutes")]
 mod search;
 
-use crate::common::reference::published;
 use plain::{Beyond, Choice, Plain, Rule};
 use row::Claim;
 use search::{Maps, OF_GAUSS_SEIDEL, OF_SOR, Tally};
 
 #[test]
-#[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn line_maps_of_100_x_100_cells_take_the_published_sweeps() {
-    let data = published("data");
     // Map 3 is not printed as it was measured.
     for table in &deicu::TABLES[..2] {
-        let scene = deicu::scene(table, &data).unwrap_or_else(|e| panic!("{e}"));
+        let scene = deicu::scene(table).unwrap_or_else(|e| panic!("{e}"));
         let lines = deicu::lines(table, &scene, &[0]);
         assert_eq!(lines.len(), 12);
         for line in &lines {
@@ -47,9 +44,8 @@ fn the_unfurnished_room_takes_the_same_multiple_of_the_published_sweeps_for_ever
 
 /// The tally of docs/convergence.md, on 100 x 100 cells.
 #[test]
-#[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_tally_of_the_published_counts_holds() {
-    let maps = Maps::read(&published("data")).unwrap_or_else(|e| panic!("{e}"));
+    let maps = Maps::read().unwrap_or_else(|e| panic!("{e}"));
     let counts = |relaxations, choice: &Choice| -> Vec<[usize; 3]> {
         let numbers = |tally: &Tally| [tally.exact(), tally.within_2(), tally.within_5_per_cent()];
         maps.all(relaxations, choice, 0).iter().map(numbers).collect()

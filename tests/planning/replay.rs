@@ -73,7 +73,8 @@ fn searches_are_told_in_the_order_in_which_they_went() {
         let Planner::Wavefront { search: how, .. } = &mut planner else { panic!("a wavefront") };
         *how = search;
         let plan = asked("planar_2r", "shelf", planner);
-        let Trace::Wavefront { cells, labels, expanded } = &plan.motion().unwrap().answer.run.trace else {
+        let Trace::Wavefront { cells, labels, expanded, forward: false } = &plan.motion().unwrap().answer.run.trace
+        else {
             panic!("a wavefront")
         };
         assert_eq!(expanded.is_empty(), search == GridSearch::Wave);
@@ -136,11 +137,14 @@ fn a_field_is_told_between_its_sweeps() {
         field: cplan::planner::FieldChoice::Relaxed {
             equation: cplan::planner::EquationChoice::Harmonic,
             relaxation: cplan::field::Relaxation::JACOBI,
+            measure: cplan::field::Measure::GreatestRelativeChange,
             tolerance: 1e-3,
-            max_sweeps: 400,
+            max_sweeps: 2000,
             on: cplan::field::Device::Cpu,
+            stencil: cplan::field::Stencil::Square,
         },
         limits: cplan::field::Limits::High,
+        escape: None,
         path: PathKind::Own,
     };
     let mut planner = Planner::named(Method::Harmonic).with_cells(32);

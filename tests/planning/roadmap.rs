@@ -6,14 +6,14 @@ use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{
     PathKind, Planner, Prm, Proposal, Query, RoadmapSearch, Run, SearchOrder, Size, Trace, Trapezoid, Triangles,
-    Visibility, Voronoi,
+    Visibility, VisibilityGraph, Voronoi,
 };
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path, Topology};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 const USUAL: RoadmapSearch = RoadmapSearch { order: SearchOrder::AStar, backward: false };
-const VISIBILITY: Visibility = Visibility { metric: Metric::Euclidean, search: USUAL };
+const VISIBILITY: Visibility = Visibility { metric: Metric::Euclidean, search: USUAL, graph: VisibilityGraph::Reduced };
 const MIDDLES: Trapezoid = Trapezoid { path: PathKind::Own, search: USUAL };
 const TAUT: Trapezoid = Trapezoid { path: PathKind::Taut, search: USUAL };
 
@@ -66,7 +66,7 @@ fn assert_searched(regions: &Regions, query: &Query, shortest: Option<f64>) {
             assert!(length >= shortest.map(|shortest| shortest - 1e-9), "{search}: {length:?} {shortest:?}");
             length
         };
-        let seen = same(checked_path(&Visibility { metric: Metric::Euclidean, search }, regions, query));
+        let seen = same(checked_path(&Visibility { metric: Metric::Euclidean, search, ..VISIBILITY }, regions, query));
         if let (true, Some(length), Some(shortest)) = (search.order.is_optimal(), seen, shortest) {
             assert!(length < shortest + 1e-9, "{search}: {length} {shortest}");
         }
@@ -158,7 +158,7 @@ proptest! {
         let [s, g] = [0, 1].map(|_| Point::new(random.within(-0.2, -0.01), random.within(-0.2, side as f64 + 0.2)));
         let goals = [Point::new(side as f64 - g.x, g.y), Point::new(g.x, side as f64 - g.x)];
         for metric in metrics(ratio) {
-            let planner = Visibility { metric, search: USUAL };
+            let planner = Visibility { metric, ..VISIBILITY };
             let query = Query { start: s.coords, goals: goals.map(|g| g.coords).into_iter().collect() };
             let found = metric.length(&checked_path(&planner, &regions, &query).unwrap());
             let expected = goals.map(|g| brute_force(&crowd, window, s, g, metric).unwrap());
@@ -200,7 +200,7 @@ proptest! {
             let [s, g] = [turned(p.0, p.1), turned(q.0, q.1)];
             let query = query((s.x, s.y), (g.x, g.y));
             for metric in metrics(1.7) {
-                let found = checked_path(&Visibility { metric, search: USUAL }, &regions, &query).map(|path| metric.length(&path));
+                let found = checked_path(&Visibility { metric, ..VISIBILITY }, &regions, &query).map(|path| metric.length(&path));
                 let most = brute_force(&grown, window, s, g, metric).unwrap_or(f64::INFINITY);
                 let least = brute_force(&shrunk, window, s, g, metric).unwrap_or(f64::INFINITY);
                 let found = found.unwrap_or(f64::INFINITY);
@@ -443,7 +443,7 @@ fn between_squares_that_touch_in_a_corner_there_is_no_way() {
 fn of_motions_that_take_equally_long_the_shortest_is_taken() {
     // The first joint takes 4 s whichever way the obstacle is passed; below it the way is shorter.
     let regions = window_with_holes((0.0, 4.0), (-2.0, 2.0), vec![rectangle((1.5, 2.5), (-0.5, 0.6))]);
-    let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] }, search: USUAL };
+    let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] }, ..VISIBILITY };
     let path = checked_path(&planner, &regions, &query((0.0, 0.0), (4.0, 0.0))).unwrap();
     let corners = [(0.0, 0.0), (1.5, -0.5), (2.5, -0.5), (4.0, 0.0)].map(|(x, y)| configuration(x, y));
     assert_eq!(path.waypoints(), corners);

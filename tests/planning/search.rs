@@ -143,7 +143,7 @@ fn check_order(search: &Search, order: Order, target: usize) -> Result<(), TestC
     let once: BTreeSet<u32> = expanded.iter().copied().collect();
     prop_assert!(once.len() == expanded.len() && expanded.len() <= search.labelled);
     prop_assert!(expanded.iter().all(|&cell| labels[cell as usize] != UNREACHED));
-    if order == Order::BreadthFirst {
+    if matches!(order, Order::BreadthFirst | Order::IterativeDeepening) {
         prop_assert!(expanded.is_sorted_by_key(|&cell| labels[cell as usize]));
     }
     let is_last = expanded.last().is_some_and(|&cell| cell as usize == target);
@@ -160,7 +160,15 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
         let node = NodeIndex::new(target);
         let least = petgraph::algo::dijkstra(&graph, origin, Some(node), |edge| *edge.weight()).get(&node).copied();
         let steps = textbook(grid, sources, neighborhood)[target];
-        let orders = [Order::BreadthFirst, Order::DepthFirst, Order::Dijkstra, A_STAR[0], A_STAR[1], Order::Greedy];
+        let orders = [
+            Order::BreadthFirst,
+            Order::DepthFirst,
+            Order::Dijkstra,
+            A_STAR[0],
+            A_STAR[1],
+            Order::Greedy,
+            Order::IterativeDeepening,
+        ];
         for order in orders {
             let search = Search::new(&free, neighborhood, order, sources, target);
             prop_assert_eq!(search.cost(target).is_some(), least.is_some(), "{:?}", order);
@@ -185,6 +193,13 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
             prop_assert_eq!(search.cost(target), Some(cost));
             match order {
                 Order::BreadthFirst => prop_assert_eq!(cost.moves(), steps),
+                Order::IterativeDeepening => {
+                    prop_assert_eq!((cost.moves(), search.rounds as u32), (steps, steps + 1));
+                    // Each round but the last expands each cell that is as near as its limit, once.
+                    let within = |limit: u32| labels.iter().filter(|&&label| label <= limit).count();
+                    let rounds: usize = (0..steps).map(within).sum();
+                    prop_assert!(search.expansions > rounds && search.expansions <= rounds + within(steps));
+                }
                 Order::DepthFirst | Order::Greedy => prop_assert!(cost.value() >= least - 1e-9),
                 Order::Dijkstra | Order::AStar(_) => prop_assert!((cost.value() - least).abs() < 1e-9),
             }
@@ -222,6 +237,26 @@ proptest! {
     #[test]
     fn searches_of_rooms((grid, sources, target) in with_cells(random_rooms().prop_filter("small", |g| g.blocked.len() < 2000))) {
         check_searches(&grid, &sources, target)?;
+    }
+
+    /// From one cell to the nearest of several: as far as from the several to the one.
+    #[test]
+    fn a_search_to_any_target_finds_the_nearest((grid, targets, start) in with_cells(random_grid(1..14, 1..14, 0.4))) {
+        let free = FreeCells::new(&grid);
+        for neighborhood in BOTH {
+            for order in [Order::BreadthFirst, Order::Dijkstra, A_STAR[0], A_STAR[1], Order::IterativeDeepening] {
+                let there = Search::to_any(&free, neighborhood, order, &[start], &targets);
+                let back = Search::new(&free, neighborhood, order, &targets, start);
+                prop_assert_eq!(there.met.is_some(), back.cost(start).is_some());
+                let Some(met) = there.met else { continue };
+                prop_assert!(targets.contains(&met));
+                let by = |cost: Option<Cost>| match order {
+                    Order::Dijkstra | Order::AStar(_) => cost.map(|cost| (cost.value() * 1e9).round()),
+                    _ => cost.map(|cost| f64::from(cost.moves())),
+                };
+                prop_assert_eq!(by(there.cost(met)), by(back.cost(start)), "{:?}", order);
+            }
+        }
     }
 
     /// A* looks at no more cells than Dijkstra, up to those that are as far as the target.

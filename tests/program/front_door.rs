@@ -99,6 +99,8 @@ fn an_outcome_is_one_of_three() {
     let coarse = Options {
         planner: Planner::Wavefront {
             search: Default::default(),
+            ties: Default::default(),
+            forward: false,
             neighborhood: Default::default(),
             space: Default::default(),
             path: cplan::planner::PathKind::Taut,
@@ -121,7 +123,7 @@ fn what_makes_no_sense_is_refused_by_name() {
         ("levels", Options { levels: 13, ..plain }),
         ("gap", Options { planner: shortest(Some(f64::NAN), 1e-3), ..plain }),
         ("gap", Options { planner: shortest(Some(0.0), 1e-3), ..plain }),
-        ("margin", Options { planner: shortest(None, 0.0), ..plain }),
+        ("margin", Options { planner: shortest(None, -1e-3), ..plain }),
         ("margin", Options { planner: shortest(None, f64::NAN), ..plain }),
         ("jerk", Options { jerk: Some([Some(-1.0), None]), ..plain }),
     ];

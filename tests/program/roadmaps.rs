@@ -72,10 +72,9 @@ fn what_a_planner_does_not_have_is_refused() {
             "--search needs --planner wavefront, visibility, trapezoid, triangles, voronoi or prm",
         ),
         ("--planner prm --search wave", "--search wave labels the cells of a grid"),
-        ("--planner wavefront --backward", "wavefront searches from the goal anyway"),
         (
             "--backward",
-            "--backward needs --planner visibility, trapezoid, triangles, voronoi or prm: shortest has no roadmap",
+            "--backward needs --planner visibility, trapezoid, triangles, voronoi, prm or wavefront: shortest has no roadmap",
         ),
         ("--planner triangles --samples 5", "--samples needs --planner prm"),
         ("--planner prm --samples 0", "0 is not in 1..=100000"),

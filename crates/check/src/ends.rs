@@ -44,7 +44,7 @@ impl End {
     fn of(what: &'static str, own: Option<Goal>, given: Option<&Goal>) -> Result<Self, CheckError> {
         let said = match &own {
             Some(Goal::Joints([[a, _], [b, _]]) | Goal::Tip([a, b])) => format!(" ({a}, {b})"),
-            None => String::new(),
+            Some(Goal::Areas(_)) | None => String::new(),
         };
         let missing = || format!("there is no {what}: [{what}] joints = [q1, q2]");
         let at = own.or_else(|| given.cloned()).ok_or_else(|| CheckError::in_file(Input::World, missing()))?;
@@ -56,6 +56,7 @@ impl End {
         match self.at {
             Goal::Joints(_) => self.own.clone(),
             Goal::Tip(_) => format!("{}, a place of the tip \"{}\",", self.own, arm.tip_link),
+            Goal::Areas(_) => format!("{}, an area of the tip \"{}\",", self.own, arm.tip_link),
         }
     }
 }

@@ -491,6 +491,8 @@ impl<'a> Replay<'a> {
         let unknown = || CheckError::fails(format!("where step {} ends depends on what is not known", step.number));
         let tip_at = |place: Point| Ok(Region::tip(self.arm, place));
         match &step.action {
+            // A step has no areas.
+            Action::Move(Goal::Areas(_)) => unknown(),
             Action::Move(Goal::Tip(at)) => tip_at(at.each_ref().map(Interval::from)),
             Action::Move(Goal::Joints(values)) => Ok(Region::Configuration(self.arm.configuration("target", values)?)),
             Action::Pick { object, grasp, .. } => match &self.standing[self.task.first + object] {

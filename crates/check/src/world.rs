@@ -69,6 +69,8 @@ pub enum Goal {
     Joints([Range; 2]),
     /// A place of the tip, in whatever configuration.
     Tip(Corner),
+    /// Rectangles of the tip by opposite corners, any of which will do.
+    Areas(Vec<[Corner; 2]>),
 }
 
 /// Reads values of the file, with their places.
@@ -156,6 +158,10 @@ impl Reader<'_> {
     /// `[start]` or `[goal]`.
     fn place(&self, value: &Value) -> Read<Goal> {
         let table = self.table(value)?;
+        if let (Some(areas), 1) = (table.get("areas"), table.len()) {
+            let area = |corners: &Value| self.two(corners, |corner| self.two(corner, |n| self.number(n)));
+            return self.list(areas)?.into_iter().map(area).collect::<Read<Vec<_>>>().map(Goal::Areas);
+        }
         match (table.get("joints"), table.get("tip")) {
             (Some(joints), None) if table.len() == 1 => Ok(Goal::Joints(self.two(joints, |q| self.quantity(q))?)),
             (None, Some(tip)) if table.len() == 1 => Ok(Goal::Tip(self.two(tip, |n| self.number(n))?)),

@@ -15,6 +15,7 @@
 mod arena;
 mod comparison;
 mod convergence;
+mod labels;
 mod measure;
 pub mod page;
 mod row;
@@ -26,7 +27,8 @@ mod table;
 mod words;
 
 pub use comparison::Comparison;
-pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, convergence};
+pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, WeightScan, convergence};
+pub use labels::labels;
 pub use measure::Measure;
 pub use page::{Overlay, Page, Picture, Spot};
 pub use row::{Family, OtherPath, Row};

@@ -1,8 +1,8 @@
 //! A field's settings in the result.
 
 use super::{Answer, Space};
-use cplan_core::planner::Size;
-use cplan_fields::{Difference, Factor, Khatib, Limits, Relaxation, Scheme};
+use cplan_core::planner::{Note, Size};
+use cplan_fields::{Difference, Factor, Khatib, Limits, Measure, Relaxation, Scheme};
 use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
 use cplan_motion::FieldReport;
 
@@ -15,20 +15,37 @@ pub(super) fn field_report(planner: &FieldPlanner, answer: &Answer) -> FieldRepo
             attraction: Some(attraction.to_string()),
             repulsion: Some(repulsion.to_string()),
             saturated: Some(saturated),
+            escape: planner.escape.map(|escape| escape.to_string()),
+            escaped: planner.escape.map(|_| match answer.run.note {
+                Some(Note::Escaped { minima, .. }) => minima,
+                _ => 0,
+            }),
             ..FieldReport::default()
         },
-        FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on } => {
+        FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on, stencil } => {
             let sweeps = if let Size::Grid { sweeps, .. } = answer.run.size { sweeps } else { 0 };
             FieldReport {
+                stencil: (!stencil.is_square()).then_some("anisotropic"),
+                measure: (!measure.is_relative()).then(|| measure_name(measure)),
                 tolerance: Some(tolerance),
                 max_sweeps: Some(max_sweeps),
                 on: on.adapter().ok().flatten(),
-                converged: (sweeps > 0).then_some(answer.run.note.is_none()),
+                converged: (sweeps > 0).then_some(matches!(answer.run.note, None | Some(Note::Continued { .. }))),
                 ..relaxed(equation_report(equation), &relaxation, answer)
             }
         }
     };
     FieldReport { limits, ..base }
+}
+
+fn measure_name(measure: Measure) -> &'static str {
+    match measure {
+        Measure::SumOfChange => "absolute",
+        Measure::SumOfSquares => "squares",
+        Measure::DifferenceOfSums => "sums",
+        Measure::GreatestChange => "greatest",
+        Measure::GreatestRelativeChange => "relative",
+    }
 }
 
 fn equation_report(equation: EquationChoice) -> FieldReport {

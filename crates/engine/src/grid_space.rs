@@ -9,6 +9,8 @@ pub enum GridSpace {
     /// By exact slices: cells that are wholly free, then cells whose centres are ([`Proves`](cplan_core::cspace::Proves) says which).
     #[default]
     Rows,
+    /// By exact slices: cells whose centres are free, from the first attempt on, as the literature's grids have it.
+    Centers,
     /// By parry2d's collision checks at the centres ([`Proves::Sampled`](cplan_core::cspace::Proves::Sampled)): what other libraries
     /// do, to compare with. Slower by as much as there are more cells than slices.
     Sampled,
@@ -16,14 +18,24 @@ pub enum GridSpace {
 
 impl GridSpace {
     /// All, in the order of the command line's help.
-    pub const ALL: [Self; 2] = [Self::Rows, Self::Sampled];
+    pub const ALL: [Self; 3] = [Self::Rows, Self::Centers, Self::Sampled];
 
     /// Name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Rows => "rows",
+            Self::Centers => "centers",
             Self::Sampled => "sampled",
+        }
+    }
+
+    /// Attempts until cells become smaller: by slices those of one size are decided in two ways.
+    #[must_use]
+    pub fn levels_of_a_size(self) -> usize {
+        match self {
+            Self::Rows => 2,
+            Self::Centers | Self::Sampled => 1,
         }
     }
 

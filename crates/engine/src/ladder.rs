@@ -6,6 +6,7 @@ use super::rungs::{Described, cells, field_cells, polygons, zoned_cells};
 use super::settle::decide;
 use super::{Answer, Options, Planner, Space, Stages, Verdict, first, shortest, subdivision};
 use cplan_core::check::{CertifiedPath, Rejection, certify};
+use cplan_core::cspace::has_exact_polygons;
 use cplan_core::model::{MotionProblem, Scene};
 use cplan_core::planner::{Harmonic, Note, Proposal, Query, Run, Trapezoid, Visibility, Wavefront};
 use cplan_core::space::{Metric, Path, Segment};
@@ -69,8 +70,8 @@ fn answered(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut
             let planner = |level: usize| Prm { samples: samples << level, nearest, seed, path, search };
             climb(problem, options, progress, planner, |level| polygons(problem, margin, level))
         }
-        Planner::Wavefront { search, neighborhood, space, path, cells: counts } => {
-            let planner = Wavefront { search, neighborhood, path };
+        Planner::Wavefront { search, ties, forward, neighborhood, space, path, cells: counts } => {
+            let planner = Wavefront { search, ties, forward, neighborhood, path };
             climb(problem, options, progress, |_| planner, |level| cells(problem, space, counts, level))
         }
         Planner::Harmonic { field: None, space, path, cells } => {
@@ -87,7 +88,8 @@ fn answered(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut
 /// By a visibility graph, of which the planner has the margin.
 pub(super) fn climb_polygons(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
     let (metric, margin) = (options.planner.metric(problem.scene().arm()), options.planner.margin());
-    let planner = Visibility { metric, search: options.planner.search().unwrap_or_default() };
+    let (search, graph) = (options.planner.search().unwrap_or_default(), options.planner.graph().unwrap_or_default());
+    let planner = Visibility { metric, search, graph };
     climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
 }
 
@@ -108,6 +110,7 @@ where
     let mut last: Option<(Run, P::Space)> = None;
     let mut known = None;
     let mut finest = "its finest resolution";
+    let keeps_first = options.planner.is_exact() && has_exact_polygons(problem.scene());
     for level in 0..options.levels.max(1) {
         let clock = Instant::now();
         let Some(space) = build(level) else { break };
@@ -127,7 +130,10 @@ where
         // On a finer grid a field takes more sweeps yet.
         let takes_more = matches!((&run.outcome, &run.note), (Proposal::GaveUp(_), Some(Note::Unconverged { .. })));
         let failure = climb.judge(&ends, &run.outcome).map(|failure| format!("{}: {failure}", space.describe()));
-        last = Some((run, space));
+        // Exact polygons are asked for to be seen, whatever the path needs.
+        if level == 0 || !keeps_first {
+            last = Some((run, space));
+        }
         let Some(failure) = failure else { break };
         progress(&format!("{method}: {failure}"));
         history.push(failure);
@@ -149,7 +155,13 @@ where
     }
     let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
     let why = || history.last().cloned().unwrap_or_default();
-    let unknown = || format!("{method} found no certified path at {finest} ({})", why());
+    let hint = if options.planner.cells().is_some() && history.len() == options.levels && finest.ends_with("resolution")
+    {
+        "; more --cells or --levels may show one"
+    } else {
+        ""
+    };
+    let unknown = || format!("{method} found no certified path at {finest} ({}){hint}", why());
     let (verdict, witness) = match (path, known) {
         (Some(path), _) => (Verdict::Found(path), None),
         (None, Some(Verdict::Infeasible(proof))) => (Verdict::Infeasible(proof), None),

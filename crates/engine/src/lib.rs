@@ -56,6 +56,7 @@ mod motion_plan;
 mod moving;
 mod options;
 mod plan;
+mod planner_errors;
 mod planner_options;
 mod problem;
 mod reach;

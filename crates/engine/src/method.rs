@@ -76,6 +76,12 @@ impl Method {
         !self.optimises() && self != Method::First
     }
 
+    /// Whether it plans among polygons, which have a margin.
+    #[must_use]
+    pub fn has_polygons(self) -> bool {
+        self.has_roadmap() || self == Method::Shortest
+    }
+
     /// Whether it has a roadmap, which can be searched in several orders.
     #[must_use]
     pub fn has_roadmap(self) -> bool {

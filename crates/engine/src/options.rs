@@ -1,6 +1,7 @@
 //! What is asked for: a planner with options of its own, how to drive, and what files hold.
 
 use super::{Method, Planner, Problem};
+use cplan_core::cspace::has_exact_polygons;
 use cplan_core::model::{Arm, Joint};
 use cplan_motion::{Drive, SHORTEST_INTERVAL};
 use serde::{Deserialize, Serialize};
@@ -93,6 +94,13 @@ impl Options {
 
     /// What they ask of a robot that its file does not say.
     pub fn lack(&self, problem: &Problem) -> Option<String> {
+        if self.planner.is_exact() && !has_exact_polygons(problem.scene()) {
+            let kind = problem.scene().arm().kind();
+            return Some(format!(
+                "--margin 0 takes C-obstacles that are polygons, as gantries (PP) have them: this arm ({kind}) turns, or slides in one \
+                 direction; use a small margin, such as --margin 1e-5"
+            ));
+        }
         if !self.drive.torque || problem.scene().arm().dynamics.is_some() {
             return None;
         }

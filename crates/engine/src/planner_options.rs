@@ -1,11 +1,12 @@
 //! A planner with options of its own.
 
 use super::{CellCounts, GridSpace, Method};
-use cplan_core::model::{Arm, Preference};
-use cplan_core::planner::{GridSearch, PathKind, RoadmapSearch, Wavefront};
+use cplan_core::model::Arm;
+use cplan_core::planner::{GridSearch, PathKind, RoadmapSearch, VisibilityGraph, Wavefront};
 use cplan_core::space::Metric;
 use cplan_core::waves::Neighborhood;
-use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
+use cplan_core::waves::search::Ties;
+use cplan_fields::FieldPlanner;
 use cplan_roadmaps::Prm;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -57,11 +58,15 @@ pub enum Planner {
         criterion: Criterion,
         /// As of [`Planner::Shortest`]; none for what the first margin gives.
         gap: Option<f64>,
-        /// First margin by which polygonal obstacles are grown, as a share of the arm's reach; quartered where needed.
+        /// First margin by which polygonal obstacles are grown, as a share of the arm's reach; quartered where needed. 0 for the
+        /// exact polygons of a gantry, which have the first attempt; paths that touch them are sought among grown ones.
         margin: f64,
         /// How the graph is searched.
         #[serde(default)]
         search: RoadmapSearch,
+        /// Which arcs the graph has.
+        #[serde(default)]
+        graph: VisibilityGraph,
     },
     /// Trapezoidal decomposition: a channel of cells.
     Trapezoid {
@@ -110,6 +115,12 @@ pub enum Planner {
     Wavefront {
         /// How the grid is searched.
         search: GridSearch,
+        /// Which of equally promising cells A\* expands.
+        #[serde(default, skip_serializing_if = "Ties::is_usual")]
+        ties: Ties,
+        /// Whether the search begins at the start, not at the goals.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        forward: bool,
         /// Where a move can lead.
         neighborhood: Neighborhood,
         /// How cells are decided.
@@ -137,7 +148,7 @@ pub enum Planner {
     },
 }
 
-/// Shares of the arm's reach that a margin can be: more than 0, at most this.
+/// Shares of the arm's reach that a margin can be: 0, or more, at most this.
 pub const MOST_MARGIN: f64 = 0.1;
 
 /// The first margin.
@@ -164,7 +175,9 @@ impl Planner {
         match method {
             Method::Shortest => Planner::Shortest { criterion, gap, margin },
             Method::First => Planner::First,
-            Method::Visibility => Planner::Visibility { criterion, gap, margin, search },
+            Method::Visibility => {
+                Planner::Visibility { criterion, gap, margin, search, graph: VisibilityGraph::default() }
+            }
             Method::Trapezoid => Planner::Trapezoid { path, margin, search },
             Method::Triangles => Planner::Triangles { path, margin, search },
             Method::Voronoi => Planner::Voronoi { path, margin, search },
@@ -173,8 +186,9 @@ impl Planner {
                 Planner::Prm { samples, nearest, seed, path, margin, search }
             }
             Method::Wavefront => {
-                let Wavefront { search, neighborhood, .. } = Wavefront::default();
-                Planner::Wavefront { search, neighborhood, space, path, cells: CellCounts::square(FIRST_CELLS) }
+                let Wavefront { search, ties, forward, neighborhood, .. } = Wavefront::default();
+                let cells = CellCounts::square(FIRST_CELLS);
+                Planner::Wavefront { search, ties, forward, neighborhood, space, path, cells }
             }
             Method::Harmonic => Planner::Harmonic { field: None, space, path, cells: None },
             Method::Subdivision => Planner::Subdivision { path },
@@ -315,6 +329,28 @@ impl Planner {
         }
     }
 
+    /// Whether the exact polygons of a gantry are asked for: in files and pictures, and for the first attempt.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.margin() == 0.0
+    }
+
+    /// The first numbers of cells along the axes, if they are given.
+    #[must_use]
+    pub fn cells(&self) -> Option<CellCounts> {
+        match *self {
+            Planner::Wavefront { cells, .. } => Some(cells),
+            Planner::Harmonic { cells, .. } => cells,
+            _ => None,
+        }
+    }
+
+    /// Which visibility graph it searches, if it does.
+    #[must_use]
+    pub fn graph(&self) -> Option<VisibilityGraph> {
+        if let Planner::Visibility { graph, .. } = *self { Some(graph) } else { None }
+    }
+
     /// How it measures paths of an arm.
     #[must_use]
     pub fn metric(&self, arm: &Arm) -> Metric {
@@ -366,61 +402,4 @@ impl Planner {
     pub fn field(&self) -> Option<&FieldPlanner> {
         if let Planner::Harmonic { field, .. } = self { field.as_ref() } else { None }
     }
-
-    /// What its field needs and these regions of the world lack, if anything, with the cure.
-    #[must_use]
-    pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
-        let FieldChoice::Relaxed { equation, .. } = self.field()?.field else { return None };
-        let name = match equation {
-            EquationChoice::LocallyOriented { direction, .. } => {
-                if preferences.is_empty() {
-                    return Some("--field local needs [[preference]] regions in the world file".into());
-                }
-                let lost = preferences.iter().find(|region| region.direction.is_none() && direction.is_none())?;
-                let name = &lost.name;
-                return Some(format!(
-                    "--field local: the preference \"{name}\" has no direction; give it one, or --direction"
-                ));
-            }
-            EquationChoice::Preference { elsewhere: 0.0, .. } => "bvp",
-            EquationChoice::AlteredPreference { elsewhere: 0.0 } => "bvp2",
-            _ => return None,
-        };
-        let needs = || format!("--field {name} needs [[preference]] regions in the world file, or --epsilon");
-        preferences.is_empty().then(needs)
-    }
-
-    /// What of it makes no sense, by name.
-    pub(super) fn error(&self) -> Option<String> {
-        let positive = |name: &str, value: f64| {
-            (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} is not finite and positive"))
-        };
-        match *self {
-            Planner::Shortest { criterion, gap, margin } | Planner::Visibility { criterion, gap, margin, .. } => {
-                let weights = if let Criterion::Weighted(weights) = criterion { weights } else { [1.0; 2] };
-                let wrong = weights.into_iter().find_map(|weight| positive("weights", weight));
-                let blind = || "gap: a search that is not after the shortest path closes none".to_owned();
-                let blind = (gap.is_some() && !self.optimises()).then(blind);
-                wrong.or_else(|| positive("gap", gap?)).or(blind).or_else(|| wrong_margin(margin))
-            }
-            Planner::Trapezoid { margin, .. } | Planner::Triangles { margin, .. } | Planner::Voronoi { margin, .. } => {
-                wrong_margin(margin)
-            }
-            Planner::Prm { samples, nearest, margin, .. } => wrong_number("samples", samples, &SAMPLES)
-                .or_else(|| wrong_number("nearest", nearest, &NEAREST))
-                .or_else(|| wrong_margin(margin)),
-            Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => cells.error(),
-            Planner::Harmonic { cells: None, .. } | Planner::First | Planner::Subdivision { .. } => None,
-        }
-    }
-}
-
-/// What is wrong with a number that is to be in a range, if anything.
-pub(super) fn wrong_number(name: &str, n: usize, range: &RangeInclusive<usize>) -> Option<String> {
-    (!range.contains(&n)).then(|| format!("{name}: {n} is not from {} to {}", range.start(), range.end()))
-}
-
-fn wrong_margin(margin: f64) -> Option<String> {
-    (!(margin > 0.0 && margin <= MOST_MARGIN))
-        .then(|| format!("margin: {margin} is not more than 0 and at most {MOST_MARGIN} (of the arm's reach)"))
 }

@@ -9,9 +9,9 @@ use super::ladder::FIRST_BOXES;
 use super::{Answer, Options, Planner, Space, Verdict, solve};
 use cplan_core::cspace::ZonedGrid;
 use cplan_core::model::MotionProblem;
-use cplan_core::planner::{PathKind, Proposal, Size, Trace};
+use cplan_core::planner::{GraphKind, Note, PathKind, Proposal, Size, Trace};
 use cplan_core::space::{Configuration, Path};
-use cplan_fields::{Device, Measure, Stopping, relax_watched};
+use cplan_fields::{Device, Measure, RELATIVE_TOLERANCE, Stopping, relax_watched};
 use cplan_fields::{FieldChoice, field_domain};
 use cplan_proofs::{Occupancy, slab_boxes};
 use cplan_text::{counted, percent};
@@ -146,13 +146,13 @@ impl Phases {
         match &*answer.drawn() {
             Trace::Roadmap { edges, whole } => {
                 let caption = if *whole {
-                    "The visibility graph: corner by corner, straight ways to what it sees"
+                    "The reduced visibility graph: corner by corner, straight ways to what it sees"
                 } else {
-                    "The visibility graph, as far as the search looked at it"
+                    "The reduced visibility graph, as far as the search looked at it"
                 };
                 self.add(edges.len(), caption, Shows::Edges);
             }
-            Trace::Roads { edges, expanded } => {
+            Trace::Roads { edges, expanded, kind } => {
                 if let Planner::Prm { .. } = options.planner {
                     let caption = format!("Random free configurations: {}", counted(graph, "node"));
                     self.add(edges.len(), caption, Shows::Nodes);
@@ -162,11 +162,15 @@ impl Phases {
                         Shows::Edges,
                     );
                 } else {
-                    self.add(edges.len(), format!("The roadmap: {}", counted(edges.len(), "edge")), Shows::Edges);
+                    let name = match kind {
+                        GraphKind::Visibility(graph) => format!("{} visibility graph", graph.name()),
+                        GraphKind::Roadmap => "roadmap".to_owned(),
+                    };
+                    self.add(edges.len(), format!("The {name}: {}", counted(edges.len(), "edge")), Shows::Edges);
                 }
                 self.add(expanded.len(), "The search: where it came, one after the other", Shows::Expanded);
             }
-            Trace::Channel { cells, channel, expanded } => {
+            Trace::Channel { cells, channel, expanded, .. } => {
                 let caption = match options.planner {
                     Planner::Triangles { .. } => format!("Free space in {}", counted(cells.len(), "triangle")),
                     _ => format!("A line sweeps free space and leaves {}", counted(cells.len(), "trapezoid")),
@@ -190,7 +194,7 @@ impl Phases {
                 let caption = format!("{}, coarse to fine: free ones green, undecided ones yellow", boxes(count));
                 self.add(count, caption, Shows::Boxes);
             }
-            Trace::Wavefront { labels, expanded, .. } => {
+            Trace::Wavefront { labels, expanded, forward, .. } => {
                 let reached = labels.iter().filter(|&&label| label != u32::MAX).count();
                 if expanded.is_empty() {
                     self.add(
@@ -199,8 +203,9 @@ impl Phases {
                         Shows::Wave,
                     );
                 } else {
+                    let begins = if *forward { "start" } else { "goal" };
                     let caption =
-                        format!("The search begins at the goal and expands {}", counted(expanded.len(), "cell"));
+                        format!("The search begins at the {begins} and expands {}", counted(expanded.len(), "cell"));
                     self.add(expanded.len(), caption, Shows::Wave);
                 }
             }
@@ -283,14 +288,16 @@ fn own_path(problem: &MotionProblem, options: &Options, answer: &Answer) -> Opti
 /// Relaxes the field once more, watching it.
 fn sweeps(problem: &MotionProblem, options: &Options, answer: &Answer) -> Option<Sweeps> {
     let planner = options.planner.field()?;
-    let FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on: Device::Cpu } = planner.field else {
+    let FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on: Device::Cpu, stencil } =
+        planner.field
+    else {
         return None;
     };
     let (Space::Grid(grid), Size::Grid { sweeps: total, .. }) = (&answer.space, answer.run.size) else { return None };
     let query = Ends::new(problem, &**grid).query;
-    let domain = field_domain(grid, &query, planner.limits).ok()?;
-    let equation = equation.on(&ZonedGrid::new((**grid).clone(), problem.scene())).ok()?;
-    let stopping = Stopping { measure: Measure::GreatestRelativeChange, below: tolerance, max_sweeps };
+    let domain = field_domain(grid, &query, planner.limits).ok()?.with_beta(stencil.beta(grid));
+    let equation = equation.on(&ZonedGrid::new((**grid).clone(), problem.scene()), stencil).ok()?;
+    let stopping = Stopping { measure, below: tolerance, max_sweeps };
     let shape = domain.cells();
     let step = shape.map(|n| n.div_ceil(CELLS).max(1));
     let cells = [0, 1].map(|k| shape[k].div_ceil(step[k]));
@@ -311,6 +318,10 @@ fn sweeps(problem: &MotionProblem, options: &Options, answer: &Answer) -> Option
             frames.push((seen, sampled(watched.values)));
         }
     };
-    relax_watched(&domain, &equation, &relaxation, &stopping, domain.start(), watch).ok()?;
+    let field = relax_watched(&domain, &equation, &relaxation, &stopping, domain.start(), watch).ok()?;
+    if let Some(Note::Continued { .. }) = answer.run.note {
+        let finely = Stopping { measure: Measure::GreatestRelativeChange, below: RELATIVE_TOLERANCE, ..stopping };
+        relax_watched(&domain, &equation, &relaxation, &finely, field.values, watch).ok()?;
+    }
     Some(Sweeps { cells, frames })
 }

@@ -3,7 +3,8 @@
 use super::planner_options::FIRST_CELLS;
 use super::{CellCounts, GridSpace, Space};
 use cplan_core::cspace::{
-    Grid, Proves, Regions, ZonedGrid, grid_from_slices, outer_grid, regions, sampled_grid, traced_pairs,
+    Grid, Proves, Regions, ZonedGrid, exact_regions, grid_from_slices, has_exact_polygons, outer_grid, regions,
+    sampled_grid, traced_pairs,
 };
 use cplan_core::model::{Arm, MotionProblem};
 
@@ -29,9 +30,25 @@ const WIDER: (f64, usize) = (2.0, 6);
 /// Pairs of shapes on finer levels. With more there is no such level.
 const MOST_PAIRS: usize = 16_384;
 
+/// The first margin after exact polygons, as a share of the arm's reach: paths among the exact ones mostly touch, and these are to be as
+/// near as a path within the usual gap of the shortest.
+const AFTER_EXACT: f64 = 4e-5;
+
+/// Polygons of the level: with a first margin of 0 exact ones first, if the arm has any, then grown ones; else all grown. None when
+/// there is no finer level.
+pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
+    if first > 0.0 {
+        return grown_polygons(problem, first, level);
+    }
+    match level.checked_sub(usize::from(has_exact_polygons(problem.scene()))) {
+        Some(level) => grown_polygons(problem, AFTER_EXACT, level),
+        None => exact_regions(problem.scene()),
+    }
+}
+
 /// Polygons grown by the level's margin, a quarter of that of the level before, of which the first is a share of the arm's
 /// reach; none when there is no finer level.
-pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
+fn grown_polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     let scene = problem.scene();
     let few = |margin: f64, most: usize| scene.pairs().len() <= most || traced_pairs(scene, margin) <= most;
     let (mut margin, (factor, times)) = (margin(problem, first, level), WIDER);
@@ -99,6 +116,7 @@ pub(super) fn zoned_cells(
 fn finer(problem: &MotionProblem, space: GridSpace, CellCounts(first): CellCounts, level: usize) -> Option<[usize; 2]> {
     let (finer, checks) = match space {
         GridSpace::Rows => (level / 2, 0),
+        GridSpace::Centers => (level, 0),
         GridSpace::Sampled => (level, problem.scene().pairs().len()),
     };
     let [a, b] = first.map(|n| n << finer);
@@ -110,7 +128,7 @@ fn grid(problem: &MotionProblem, space: GridSpace, level: usize, shape: [usize; 
     let build = match space {
         GridSpace::Sampled => sampled_grid,
         GridSpace::Rows if level.is_multiple_of(2) => outer_grid,
-        GridSpace::Rows => grid_from_slices,
+        GridSpace::Rows | GridSpace::Centers => grid_from_slices,
     };
     build(problem.scene(), shape, problem.scene().workspace().clearance)
 }

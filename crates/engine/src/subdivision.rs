@@ -27,7 +27,7 @@ pub(super) fn solve(problem: &MotionProblem, options: &Options, progress: &mut d
     let (outcome, verdict) = match exploration.answer {
         Connectivity::Connected(channel) => {
             let certified = match options.planner.path_kind() {
-                PathKind::Own => certify(scene, channel.path(), clearance),
+                PathKind::Own | PathKind::Middles => certify(scene, channel.path(), clearance),
                 PathKind::Taut => certified(problem, &channel),
             };
             stages.certify = clock.elapsed();

@@ -1,6 +1,6 @@
 //! What the planner for any field is asked for.
 
-use crate::{Device, Difference, Direction, Equation, Khatib, Limits, Relaxation};
+use crate::{Device, Difference, Direction, Equation, Escape, Khatib, Limits, Measure, Relaxation, Stencil};
 use cplan_core::cspace::ZonedGrid;
 use cplan_core::planner::PathKind;
 use serde::{Deserialize, Serialize};
@@ -52,13 +52,20 @@ pub enum FieldChoice {
         equation: EquationChoice,
         /// The relaxation that solves it.
         relaxation: Relaxation,
-        /// The field is relaxed until no value changes by more than this part of itself in a sweep.
+        /// What of a sweep's changes must fall below the tolerance. The relative measure alone sees small values. By another one
+        /// the path may be stuck where they are; then the relaxation goes on by the relative one.
+        #[serde(default, skip_serializing_if = "Measure::is_relative")]
+        measure: Measure,
+        /// The field is relaxed until the measure falls below this.
         tolerance: f64,
         /// At most so many sweeps, of each stage.
         max_sweeps: usize,
         /// What it is relaxed on.
         #[serde(default, skip_serializing_if = "Device::is_cpu")]
         on: Device,
+        /// Whether the equation sees that cells are not square.
+        #[serde(default, skip_serializing_if = "Stencil::is_square")]
+        stencil: Stencil,
     },
     /// Attraction and repulsion.
     Khatib(Khatib),
@@ -77,6 +84,9 @@ pub struct FieldPlanner {
     pub field: FieldChoice,
     /// What lies beyond the limits of intervals.
     pub limits: Limits,
+    /// How local minima of attraction and repulsion are left; none if the planner gives up there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub escape: Option<Escape>,
     /// [`PathKind::Own`] is the curve along the gradient, or the force.
     pub path: PathKind,
 }
@@ -86,10 +96,10 @@ impl EquationChoice {
     ///
     /// # Errors
     /// Why there is none, in words: a zone without the direction that it needs.
-    pub fn on(self, space: &ZonedGrid) -> Result<Equation, String> {
+    pub fn on(self, space: &ZonedGrid, stencil: Stencil) -> Result<Equation, String> {
         let cells = 0..space.grid.blocked.len();
-        // A direction of joint space, in cells, which need not be square.
-        let step = space.grid.step();
+        // A direction of joint space, in cells that count as square, or in lengths.
+        let step = if stencil.is_square() { space.grid.step() } else { [1.0; 2] };
         let in_cells = |direction: Direction| {
             let [a, b] = direction.components();
             Direction::of([a / step[0], b / step[1]]).unwrap_or(direction)
@@ -144,8 +154,11 @@ impl fmt::Display for EquationChoice {
 impl fmt::Display for FieldPlanner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.field {
-            FieldChoice::Relaxed { equation, relaxation, on, .. } => {
+            FieldChoice::Relaxed { equation, relaxation, on, stencil, .. } => {
                 write!(f, "{equation}; {relaxation}")?;
+                if !stencil.is_square() {
+                    f.write_str("; anisotropic stencil")?;
+                }
                 if !on.is_cpu() {
                     write!(f, "; on {}", on.adapter().ok().flatten().unwrap_or("a GPU"))?;
                 }
@@ -156,6 +169,9 @@ impl fmt::Display for FieldPlanner {
                     "attraction {attraction}, repulsion {repulsion}{}",
                     if saturated { ", saturated" } else { "" }
                 )?;
+                if let Some(escape) = self.escape {
+                    write!(f, ", escape {escape}")?;
+                }
             }
         }
         write!(f, "; limits {}", if self.limits == Limits::High { "high" } else { "reflecting" })

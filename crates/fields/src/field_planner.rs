@@ -1,15 +1,19 @@
 //! The planner for any field of the family.
 
-use crate::field_choice::{EquationChoice, FieldChoice, FieldPlanner};
+use crate::field_choice::{FieldChoice, FieldPlanner};
 use crate::{
-    Cell, Device, Domain, Downforce, Equation, ForceField, Khatib, Levels, Limits, Measure, Relaxation, Relaxed, Slope,
-    Stopping, Stuck, Trap, relax_on,
+    Cell, Device, Domain, Downforce, Equation, Escape, Escaped, ForceField, Khatib, Levels, Limits, Measure,
+    RelaxError, Relaxation, Relaxed, Slope, Stopping, Stuck, Trap, relax_from, relax_on,
 };
 use cplan_core::cspace::{Grid, ZonedGrid};
 use cplan_core::planner::attach::Joined;
 use cplan_core::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use cplan_core::space::{Configuration, Path};
 use cplan_harmonic::Place;
+
+/// Relative change in a sweep of a field that is relaxed finely: leaves directions of ascent as they are, except in cells where two
+/// are practically equal.
+pub const RELATIVE_TOLERANCE: f64 = 1e-6;
 
 /// What became of a field.
 struct Followed {
@@ -47,10 +51,15 @@ impl Planner for FieldPlanner {
         };
         let task = Task { space, query, joined: &joined, start, kind: self.path };
         let followed = match self.field {
-            FieldChoice::Khatib(laws) => task.follow_forces(laws, &goals, self.limits),
-            FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on } => {
-                let stopping = Stopping { measure: Measure::GreatestRelativeChange, below: tolerance, max_sweeps };
-                match task.follow_relaxed(&domain, equation, &relaxation, &stopping, on) {
+            FieldChoice::Khatib(laws) => task.follow_forces(laws, self.escape, &goals, self.limits),
+            FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on, stencil } => {
+                let stopping = Stopping { measure, below: tolerance, max_sweeps };
+                let domain = domain.with_beta(stencil.beta(grid));
+                let equation = match equation.on(space, stencil) {
+                    Ok(equation) => equation,
+                    Err(reason) => return ended(Proposal::GaveUp(reason), cells),
+                };
+                match task.follow_relaxed(&domain, &equation, &relaxation, &stopping, on) {
                     Ok(followed) => followed,
                     Err(reason) => return ended(Proposal::GaveUp(reason), cells),
                 }
@@ -83,7 +92,7 @@ struct Task<'a> {
 
 impl Task<'_> {
     /// Follows attraction and repulsion.
-    fn follow_forces(&self, laws: Khatib, goals: &[usize], limits: Limits) -> Followed {
+    fn follow_forces(&self, laws: Khatib, escape: Option<Escape>, goals: &[usize], limits: Limits) -> Followed {
         let grid = &self.space.grid;
         let centers: Vec<Configuration> = goals.iter().map(|&cell| grid.center(cell)).collect();
         let field = ForceField::new(grid, laws, &centers, limits);
@@ -93,35 +102,44 @@ impl Task<'_> {
         });
         let trace = Trace::Potential { cells: grid.cells, heights: heights.collect() };
         let at = |place: Place| grid_path::cell(grid, place).filter(|&cell| !grid.blocked[cell]);
-        let mut guide = Downforce::new(&field, goals, at);
+        let mut guide = Downforce::new(&field, goals, at).with_escape(escape);
         let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
         let path = path.map_err(|Trap { cell, value, minimum }| {
             let at = shown(grid, cell);
             match minimum {
-                true => format!("the potential has a local minimum at {at}, of value {value:.4e}"),
+                true => format!("the potential has a local minimum at {at}, of value {value:.4e}{}", stayed(escape)),
                 false => format!("the forces trap the arm at {at}, where they add up to {value:.4e}"),
             }
         });
-        Followed { path, trace, sweeps: 0, note: None }
+        let Escaped { minima, moves } = guide.escaped();
+        let note = escape.filter(|_| minima > 0).map(|by| Note::Escaped { how: by.description(), minima, moves });
+        Followed { path, trace, sweeps: 0, note }
     }
 
     /// Relaxes and climbs; the reason if there is no field.
     fn follow_relaxed(
         &self,
         domain: &Domain,
-        choice: EquationChoice,
+        equation: &Equation,
         relaxation: &Relaxation,
         stopping: &Stopping,
         on: Device,
     ) -> Result<Followed, String> {
         let grid = &self.space.grid;
-        let equation = choice.on(self.space)?;
-        let field = relax_on(on, domain, &equation, relaxation, stopping).map_err(|error| error.to_string())?;
-        let mut guide = Slope::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
-        let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
-        let path = path.map_err(|stuck| {
-            format!("{} at {}: {}", what(&stuck), shown(grid, stuck.cell), why(&stuck, &equation, &field, on))
-        });
+        let climb = |field: &Relaxed| {
+            let mut guide = Slope::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
+            grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind)
+        };
+        let refused = |error: RelaxError| error.to_string();
+        let mut field = relax_on(on, domain, equation, relaxation, stopping).map_err(refused)?;
+        let (mut path, mut note) = (climb(&field), None);
+        if path.is_err() && field.converged() && !stopping.measure.is_relative() && on.is_cpu() {
+            // The measure does not see what is small, such as the values about a start far from the goal.
+            let first = field.sweeps();
+            let finely = Stopping { measure: Measure::GreatestRelativeChange, below: RELATIVE_TOLERANCE, ..*stopping };
+            field = relax_from(domain, equation, relaxation, &finely, field.values).map_err(refused)?;
+            (path, note) = (climb(&field), Some(Note::Continued { first, more: field.sweeps() }));
+        }
         let logarithm = |(value, kind): (&f64, &Cell)| match kind {
             Cell::Obstacle => f64::NEG_INFINITY,
             // What is not monotone may fall below the obstacles' zero.
@@ -129,14 +147,32 @@ impl Task<'_> {
         };
         let potential = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
         let (sweeps, change) = (field.sweeps(), field.change());
-        // On a GPU what ends before the limit has come to the end of its precision.
-        let is_floor = field.stages.iter().all(|stage| stage.sweeps < stopping.max_sweeps);
-        let note = (!field.converged()).then_some(match is_floor {
-            true => Note::Floor { sweeps, change },
-            false => Note::Unconverged { sweeps, change },
-        });
+        if !field.converged() {
+            // On a GPU what ends before the limit has come to the end of its precision.
+            note = Some(match field.stages.iter().all(|stage| stage.sweeps < stopping.max_sweeps) {
+                true => Note::Floor { sweeps, change },
+                false => Note::Unconverged { sweeps, change },
+            });
+        }
+        let path = match (path, note) {
+            // A path through it says nothing of the field that was asked for.
+            (_, Some(Note::Unconverged { .. })) => Err(unfinished(domain, equation, sweeps)),
+            (path, _) => path.map_err(|stuck| {
+                format!("{} at {}: {}", what(&stuck), shown(grid, stuck.cell), why(&stuck, domain, equation, on))
+            }),
+        };
+        let earlier = if let Some(Note::Continued { first, .. }) = note { first } else { 0 };
         let trace = Trace::Field { cells: domain.cells(), potential };
-        Ok(Followed { path, trace, sweeps: field.sweeps(), note })
+        Ok(Followed { path, trace, sweeps: earlier + sweeps, note })
+    }
+}
+
+/// What was tried in vain to leave a local minimum.
+fn stayed(escape: Option<Escape>) -> &'static str {
+    match escape {
+        None => "",
+        Some(Escape::Walk { .. }) => "; no random walk from it led to a lower cell",
+        Some(Escape::Wave) => "; no lower cell is connected with it",
     }
 }
 
@@ -145,14 +181,27 @@ fn what(stuck: &Stuck) -> &'static str {
     if stuck.flat { "the field is flat" } else { "the field has a local maximum" }
 }
 
+/// What an equation that is not monotone asks for.
+fn not_monotone(equation: &Equation) -> String {
+    match equation {
+        Equation::AlteredPreference { .. } => "the equation is not monotone; take a smaller epsilon".into(),
+        _ => "the equation is not monotone; take upwind differences, or a smaller epsilon".into(),
+    }
+}
+
+/// A relaxation that came to its limit, and what may help.
+fn unfinished(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
+    let help = match equation.is_monotone_on(domain) {
+        true => "allow more sweeps, a larger tolerance, or relax by sor".into(),
+        false => not_monotone(equation),
+    };
+    format!("the field is not converged after {sweeps} sweeps: {help}")
+}
+
 /// Why a climb is stuck, as far as that can be told.
-fn why(stuck: &Stuck, equation: &Equation, field: &Relaxed, on: Device) -> String {
+fn why(stuck: &Stuck, domain: &Domain, equation: &Equation, on: Device) -> String {
     match stuck {
-        _ if !equation.is_monotone() => match equation {
-            Equation::AlteredPreference { .. } => "the equation is not monotone; take a smaller epsilon".into(),
-            _ => "the equation is not monotone; take upwind differences, or a smaller epsilon".into(),
-        },
-        _ if !field.converged() => format!("it is not converged after {} sweeps", field.sweeps()),
+        _ if !equation.is_monotone_on(domain) => not_monotone(equation),
         Stuck { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
         Stuck { value, .. } => format!("values around {value} differ by less than {} can tell", on.precision()),
     }

@@ -45,7 +45,8 @@ fn configurations(
 ) -> impl Iterator<Item = (Configuration, Vec<Obstruction>)> {
     let found = match place {
         Goal::Joints(q) => vec![q],
-        Goal::Tip(tip) => {
+        Goal::Tip(_) | Goal::Area(_) => {
+            let tip = place.tip().unwrap_or(scene.arm().base);
             let solved = inverse(scene.arm(), tip, near);
             let within: Vec<_> = solved.solutions(scene.arm()).iter().map(|piece: &Segment| piece.ends()[0]).collect();
             if within.is_empty() { solved.branches } else { within }

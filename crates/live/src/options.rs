@@ -49,8 +49,8 @@ impl Options {
         let planner = grammar.options.planner(grammar.planner)?;
         grammar.options.missing().map_or(Ok(()), Err)?;
         let options = cplan_engine::Options {
+            levels: grammar.options.levels(&planner),
             planner,
-            levels: grammar.options.levels(),
             drive: grammar.motion.drive(),
             jerk: grammar.motion.jerk(),
             ..cplan_engine::Options::default()

@@ -26,7 +26,13 @@ pub struct FieldReport {
     /// Of the relaxation, on the last grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// Greatest relative change of a value in a sweep that counts as converged.
+    /// `anisotropic`; left out if cells count as square.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stencil: Option<&'static str>,
+    /// What must fall below the tolerance: `absolute`, `greatest`, `squares` or `sums`; left out if it is the relative change.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measure: Option<&'static str>,
+    /// Measure of a sweep's changes that counts as converged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// At most so many sweeps.
@@ -44,6 +50,12 @@ pub struct FieldReport {
     /// Whether pull and push go through tanh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub saturated: Option<bool>,
+    /// How local minima were to be left, as on the command line; left out if they end the search.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub escape: Option<String>,
+    /// How many local minima were left so; left out without `escape`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub escaped: Option<usize>,
     /// What lies beyond joint limits: `high` or `reflecting`.
     pub limits: &'static str,
     /// Whether the tolerance was met; left out if nothing was relaxed.

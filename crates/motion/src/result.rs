@@ -66,14 +66,20 @@ impl Blends {
 /// How a grid or a roadmap was searched.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SearchUsed {
-    /// `wave` (grids alone), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
+    /// `wave` or `deepening` (grids alone), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
     pub search: &'static str,
+    /// Which of equally promising cells A\* expands, if not the default.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ties: Option<&'static str>,
     /// Of a grid: 4, or 8 with diagonal moves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbors: Option<u8>,
-    /// Of a roadmap: whether it was searched from the goals. Grids always are.
+    /// Whether it was searched from the goals; of a grid only stated where it was not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub backward: Option<bool>,
+    /// `full` where that is the visibility graph; left out of the reduced one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub graph: Option<&'static str>,
 }
 
 impl std::fmt::Display for SearchUsed {
@@ -82,6 +88,13 @@ impl std::fmt::Display for SearchUsed {
         if let Some(neighbors) = self.neighbors {
             write!(f, ", {neighbors} neighbours")?;
         }
-        f.write_str(if self.backward == Some(true) { ", backward" } else { "" })
+        if let Some(ties) = self.ties {
+            write!(f, ", ties {ties}")?;
+        }
+        f.write_str(match (self.neighbors, self.backward) {
+            (None, Some(true)) => ", backward",
+            (Some(_), Some(false)) => ", forward",
+            _ => "",
+        })
     }
 }

@@ -6,7 +6,8 @@ use clap::{Args, ValueEnum};
 use cplan_core::planner::PathKind;
 use cplan_engine::Method;
 use cplan_fields::{
-    Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
+    Attraction, Device, Difference, Direction, Escape, Factor, Khatib, Limits, Lines, Measure, Order,
+    RELATIVE_TOLERANCE, Relaxation, Repulsion, Scan, Stencil,
 };
 use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
 
@@ -51,6 +52,8 @@ pub enum OrderName {
     Corners,
     /// Like the squares of a chessboard.
     RedBlack,
+    /// In blocks of 2 x 2 cells, one cell of each block after the other.
+    FourColor,
 }
 
 impl From<OrderName> for Order {
@@ -60,6 +63,7 @@ impl From<OrderName> for Order {
             OrderName::Columns => Self::Lines(Scan { lines: Lines::Columns, ..Scan::ROWS }),
             OrderName::Corners => Self::Corners(Lines::Rows),
             OrderName::RedBlack => Self::RedBlack,
+            OrderName::FourColor => Self::FourColors,
         }
     }
 }
@@ -92,13 +96,21 @@ pub struct FieldArgs {
     /// rectangle].
     #[arg(long, value_name = "W", value_parser = positive, allow_hyphen_values = true)]
     pub factor: Option<f64>,
+    /// Whether the equation sees that cells are not square [default: square].
+    #[arg(long, value_parser = word::<Stencil>(), value_name = "NAME")]
+    pub stencil: Option<Stencil>,
     /// What lies beyond joint limits [default: high].
     #[arg(long, value_parser = word::<Limits>(), value_name = "NAME")]
     pub limits: Option<Limits>,
-    /// Relax until no value changes by more than this part of itself in a sweep [default: 1e-6].
-    #[arg(long, value_name = "SHARE", value_parser = positive, allow_hyphen_values = true)]
+    /// What of a sweep's changes must fall below the tolerance. The relative measure alone sees values that are small, far from
+    /// the goal. By another one the path may be stuck there; then sweeps go on by the relative one, and the result says so
+    /// [default: relative, of sor absolute, on a GPU relative].
+    #[arg(long, value_parser = word::<Measure>(), value_name = "NAME")]
+    pub measure: Option<Measure>,
+    /// Relax until the measure is below this [default: 1e-6, of absolute 0.01].
+    #[arg(long, value_name = "SIZE", value_parser = positive, allow_hyphen_values = true)]
     pub tolerance: Option<f64>,
-    /// At most so many sweeps [default: 10000].
+    /// At most so many sweeps, of each stage [default: 30000].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub max_sweeps: Option<u32>,
     /// What the field is relaxed on [default: cpu].
@@ -115,12 +127,16 @@ pub struct FieldArgs {
     /// Let each component of pull and push go through tanh (khatib).
     #[arg(long)]
     pub saturated: bool,
+    /// Leave local minima (khatib): wave fills the basin until it runs over into a lower cell; walk:SEED goes at random and then
+    /// down, until that leads lower; walk is walk:1. The answer reports it [default: a local minimum ends the search].
+    #[arg(long, value_name = "HOW", value_parser = escape)]
+    pub escape: Option<Escape>,
 }
 
-/// Sweeps before the answer is what there is.
-const MAX_SWEEPS: u32 = 10_000;
-/// Relative change: leaves directions of ascent as they are, but for cells where two are practically equal.
-const TOLERANCE: f64 = 1e-6;
+/// Sweeps of each stage before the relaxation is given up: more than any published count.
+const MAX_SWEEPS: u32 = 30_000;
+/// Tolerance of sums of changes over all cells: that of published sweep counts (Deicu 2012, Tables 17 to 19).
+const SUM_TOLERANCE: f64 = 0.01;
 
 impl FieldArgs {
     /// The planner that follows the field; none where nothing but the default is asked for.
@@ -154,13 +170,24 @@ impl FieldArgs {
             name => FieldChoice::Relaxed {
                 equation: self.equation(name)?,
                 relaxation: self.relaxation()?,
-                tolerance: self.tolerance.unwrap_or(TOLERANCE),
+                measure: self.measure(),
+                tolerance: self.tolerance.unwrap_or_else(|| usual_tolerance(self.measure())),
                 max_sweeps: self.max_sweeps.unwrap_or(MAX_SWEEPS) as usize,
                 on: self.device(),
+                stencil: self.stencil.unwrap_or_default(),
             },
         };
+        if self.saturated && self.escape.is_some() {
+            return Err("--escape leads to where the potential is lower: the forces of --saturated have none".into());
+        }
         let limits = self.limits.unwrap_or_default();
-        Ok(Some(FieldPlanner { field, limits, path: PathKind::Own }))
+        Ok(Some(FieldPlanner { field, limits, escape: self.escape, path: PathKind::Own }))
+    }
+
+    /// What ends the relaxation. That of over-relaxed values ends where published counts do.
+    fn measure(&self) -> Measure {
+        let is_sor = self.relaxation == Some(RelaxationName::Sor) && self.device().is_cpu();
+        self.measure.unwrap_or(if is_sor { Measure::SumOfChange } else { Measure::GreatestRelativeChange })
     }
 
     /// What the field is relaxed on.
@@ -183,13 +210,16 @@ impl FieldArgs {
             ("--relaxation", self.relaxation.is_some()),
             ("--order", self.order.is_some()),
             ("--factor", self.factor.is_some()),
+            ("--stencil", self.stencil.is_some()),
             ("--limits", self.limits.is_some()),
+            ("--measure", self.measure.is_some()),
             ("--tolerance", self.tolerance.is_some()),
             ("--max-sweeps", self.max_sweeps.is_some()),
             ("--on", self.on.is_some()),
             ("--attraction", self.attraction.is_some()),
             ("--repulsion", self.repulsion.is_some()),
             ("--saturated", self.saturated),
+            ("--escape", self.escape.is_some()),
         ];
         options.into_iter().filter(|option| option.1).map(|option| option.0).collect()
     }
@@ -221,6 +251,8 @@ impl FieldArgs {
         if jacobi && self.order.is_some() {
             return Err("--order is for --relaxation gauss-seidel and sor: with Jacobi's all cells go at once".into());
         }
+        // A GPU's sweeps know no guard.
+        let guarded = |relaxation: Relaxation| if self.device().is_cpu() { relaxation.guarded() } else { relaxation };
         match (name, self.factor) {
             (RelaxationName::Jacobi, None) => Ok(Relaxation::JACOBI),
             (RelaxationName::Jacobi, Some(_)) => Err("--factor is for --relaxation weighted-jacobi and sor".into()),
@@ -232,9 +264,19 @@ impl FieldArgs {
             (RelaxationName::GaussSeidel, Some(_)) => {
                 Err("--factor is for --relaxation weighted-jacobi and sor: Gauss-Seidel is sor with 1".into())
             }
-            (RelaxationName::Sor, Some(factor)) => Ok(Relaxation::sor(Factor::Given(factor), order)),
-            (RelaxationName::Sor, None) => Ok(Relaxation::sor(Factor::Formula, order)),
+            (RelaxationName::Sor, Some(factor)) => Ok(guarded(Relaxation::sor(Factor::Given(factor), order))),
+            (RelaxationName::Sor, None) => Ok(guarded(Relaxation::sor(Factor::Formula, order))),
         }
+    }
+}
+
+/// The tolerance of a measure.
+fn usual_tolerance(measure: Measure) -> f64 {
+    match measure {
+        Measure::SumOfChange | Measure::DifferenceOfSums => SUM_TOLERANCE,
+        // Of changes of which each is as large as if their sum were just met on 1 cell.
+        Measure::SumOfSquares => SUM_TOLERANCE * SUM_TOLERANCE,
+        Measure::GreatestChange | Measure::GreatestRelativeChange => RELATIVE_TOLERANCE,
     }
 }
 
@@ -245,10 +287,9 @@ fn needed_field(option: &str) -> Option<&'static [FieldName]> {
         "--epsilon" => Some(&[Oriented, Bvp, Bvp2]),
         "--direction" => Some(&[Oriented, Local]),
         "--difference" => Some(&[Oriented, Local, Bvp]),
-        "--relaxation" | "--order" | "--factor" | "--tolerance" | "--max-sweeps" | "--on" => {
-            Some(&[Harmonic, Oriented, Local, Bvp, Bvp2])
-        }
-        "--attraction" | "--repulsion" | "--saturated" => Some(&[Khatib]),
+        "--relaxation" | "--order" | "--factor" | "--stencil" | "--measure" | "--tolerance" | "--max-sweeps"
+        | "--on" => Some(&[Harmonic, Oriented, Local, Bvp, Bvp2]),
+        "--attraction" | "--repulsion" | "--saturated" | "--escape" => Some(&[Khatib]),
         _ => None,
     }
 }
@@ -294,6 +335,16 @@ fn attraction(text: &str) -> Result<Attraction, String> {
         Some(("linear", [k])) => Ok(Attraction::Linear(*k)),
         _ => Err("must be constant:C or linear:K with a positive number, such as linear:1".into()),
     }
+}
+
+fn escape(text: &str) -> Result<Escape, String> {
+    match text.split_once(':') {
+        None if text == "wave" => Some(Escape::Wave),
+        None if text == "walk" => Some(Escape::Walk { seed: 1 }),
+        Some(("walk", seed)) => seed.parse().ok().map(|seed| Escape::Walk { seed }),
+        _ => None,
+    }
+    .ok_or_else(|| "must be wave, walk or walk:SEED with a whole number, such as walk:7".into())
 }
 
 fn repulsion(text: &str) -> Result<Repulsion, String> {

@@ -1,9 +1,10 @@
 //! Planners, paths, searches and what else has names, so that help and shells can list them.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use cplan_core::planner::{GridSearch, PathKind};
+use cplan_core::planner::{GridSearch, PathKind, VisibilityGraph};
+use cplan_core::waves::search::Ties;
 use cplan_engine::{GridSpace, Method, NamedJoints};
-use cplan_fields::{Device, Difference, Limits, Measure};
+use cplan_fields::{Device, Difference, Limits, Measure, Stencil};
 use cplan_motion::Objective;
 use std::ffi::OsStr;
 use std::marker::PhantomData;
@@ -15,6 +16,11 @@ pub trait Named: Copy + Send + Sync + 'static {
 
     /// Returns its word.
     fn word(self) -> &'static str;
+
+    /// Returns another word for it, which the help does not list.
+    fn alias(self) -> Option<&'static str> {
+        None
+    }
 
     /// Returns what the help says about it; may be empty.
     fn help(self) -> &'static str;
@@ -46,7 +52,8 @@ impl<T: Named> TypedValueParser for WordParser<T> {
     ) -> Result<Self::Value, clap::Error> {
         let known = PossibleValuesParser::new(T::VALUES.iter().copied().map(possible));
         let word = known.parse_ref(command, argument, value)?;
-        Ok(T::VALUES.iter().copied().find(|value| value.word() == word).expect("the word is one of its values"))
+        let is_meant = |value: &T| value.word() == word || value.alias() == Some(&word);
+        Ok(T::VALUES.iter().copied().find(is_meant).expect("the word is one of its values"))
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
@@ -55,7 +62,7 @@ impl<T: Named> TypedValueParser for WordParser<T> {
 }
 
 fn possible<T: Named>(value: T) -> PossibleValue {
-    let possible = PossibleValue::new(value.word());
+    let possible = PossibleValue::new(value.word()).aliases(value.alias());
     if value.help().is_empty() { possible } else { possible.help(value.help()) }
 }
 
@@ -89,7 +96,7 @@ impl Named for Method {
 }
 
 impl Named for PathKind {
-    const VALUES: &'static [Self] = &PathKind::ALL;
+    const VALUES: &'static [Self] = &PathKind::CHOICES;
 
     fn word(self) -> &'static str {
         self.name()
@@ -99,6 +106,26 @@ impl Named for PathKind {
         match self {
             PathKind::Own => "As the planner's method has it",
             PathKind::Taut => "Pulled taut: shorter, nearer to obstacles",
+            PathKind::Middles => {
+                "Of trapezoid: through the middles of doors alone, and a cell's centre only between doors on one vertical"
+            }
+        }
+    }
+}
+
+impl Named for VisibilityGraph {
+    const VALUES: &'static [Self] = &VisibilityGraph::ALL;
+
+    fn word(self) -> &'static str {
+        self.name()
+    }
+
+    fn help(self) -> &'static str {
+        match self {
+            VisibilityGraph::Reduced => "Arcs that a shortest path can take: tangent to the obstacle at either end",
+            VisibilityGraph::Full => {
+                "By definition: an arc between any two corners that see each other, and every side"
+            }
         }
     }
 }
@@ -120,6 +147,9 @@ impl Named for GridSearch {
             }
             GridSearch::AStar => "The same cost, led by the distance to the other end",
             GridSearch::Greedy => "Nearest to the other end first: some path, found soon",
+            GridSearch::IterativeDeepening => {
+                "Of grids: depth first within a limit of moves, which grows by one each round: fewest moves"
+            }
         }
     }
 }
@@ -134,20 +164,33 @@ impl Named for GridSpace {
     fn help(self) -> &'static str {
         match self {
             GridSpace::Rows => "By exact slices: cells that are wholly free first, then cells whose centres are",
+            GridSpace::Centers => "By exact slices: cells whose centres are free, in every attempt",
             GridSpace::Sampled => "By parry2d's collision checks at the cells' centres",
         }
     }
 }
 
-/// Names of the variants of types that have no others, and help that may be empty.
+/// Names of the variants of types that have no others, second names after a bar, and help that may be empty.
 macro_rules! named {
-    ($of:ty: $($variant:ident $name:literal $help:literal),+) => {
+    (@alias) => {
+        None
+    };
+    (@alias $alias:literal) => {
+        Some($alias)
+    };
+    ($of:ty: $($variant:ident $name:literal $(| $alias:literal)? $help:literal),+) => {
         impl Named for $of {
             const VALUES: &'static [Self] = &[$(Self::$variant),+];
 
             fn word(self) -> &'static str {
                 match self {
                     $(Self::$variant => $name),+
+                }
+            }
+
+            fn alias(self) -> Option<&'static str> {
+                match self {
+                    $(Self::$variant => named!(@alias $($alias)?)),+
                 }
             }
 
@@ -165,11 +208,17 @@ named!(Difference: Central "central" "Monotone for an epsilon of less than 2 onl
 named!(Device: Cpu "cpu" "In double precision",
     Gpu "gpu" "In single precision, cells red-black or all at once; needs a program with the feature gpu");
 
+named!(Stencil: Square "square" "All four neighbours weigh the same",
+    Anisotropic "anisotropic" "Those along joint 2 weigh beta^2 as much, beta the width of a cell along joint 1 over that along joint 2");
+
 named!(Limits: High "high" "Obstacles", Reflecting "reflecting" "Mirrors: they neither attract nor repel");
 
 named!(Measure: GreatestRelativeChange "relative" "Greatest change as a part of the value", GreatestChange "greatest" "Greatest change",
-    SumOfChange "sum" "Sum of changes", SumOfSquares "squares" "Sum of squared changes",
+    SumOfChange "absolute" | "sum" "Sum of changes, also called sum", SumOfSquares "squares" "Sum of squared changes",
     DifferenceOfSums "sums" "Difference between the sum of changes and that of the sweep before");
+
+named!(Ties: Farthest "farthest" "The cell that has come farther, and of equals the last one: goes straight ahead",
+    First "first" "The cell that came first: all equally promising cells in rounds, one step at a time");
 
 named!(NamedJoints: All "all" "Every movable joint of the robot", Planned "planned" "The two that are planned for");
 

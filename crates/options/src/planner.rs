@@ -8,6 +8,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, ValueEnum};
 use cplan_core::planner::{GridSearch, PathKind};
 use cplan_core::waves::Neighborhood;
+use cplan_core::waves::search::Ties;
 use cplan_engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
 use cplan_fields::FieldPlanner;
 use std::ops::RangeInclusive;
@@ -16,11 +17,13 @@ use std::ops::RangeInclusive;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Resolution")]
 pub struct EffortArgs {
-    /// First number of grid cells along each axis, from 8 to 2048, or two such as 128x512, for the joints in turn; doubled up to
-    /// 2048 where needed [default: 256; of fields as many, but square in joint space, where a radian is as long as a metre].
+    /// First number of grid cells along each axis, from 8 to 2048, or two such as 128x512, for the joints in turn. Up to 32 are kept as
+    /// they are unless --levels says more; more are doubled up to 2048 where needed [default: 256; of fields as many, but square in joint space, where a radian is as long as a metre].
     #[arg(long, value_name = "N|AxB", allow_hyphen_values = true)]
     pub cells: Option<CellCounts>,
-    /// First margin of the polygons, as a share of the arm's reach; quartered where needed [default: 0.001].
+    /// First margin of the polygons, as a share of the arm's reach; quartered where needed. 0 is for gantries: files and pictures then
+    /// have the C-obstacles B - A exactly, and the planner has the first attempt among them. Its path counts if it touches none; else
+    /// the certified path is sought among polygons grown by a little, since touching is contact [default: 0.001].
     #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
     pub margin: Option<f64>,
     /// Attempts, each finer than the one before [default: 6].
@@ -35,11 +38,28 @@ impl EffortArgs {
         self.cells.map_or(planner, |counts| planner.with_cell_counts(counts))
     }
 
-    /// Attempts.
-    pub fn levels(&self) -> usize {
-        self.levels.map_or(Options::default().levels, usize::from)
+    /// Attempts of a planner: few coarse cells that were asked for are not doubled.
+    pub fn levels(&self, planner: &Planner) -> usize {
+        let is_coarse = |CellCounts(counts): CellCounts| counts.iter().all(|&n| n <= KEPT_CELLS);
+        let usual = match planner.space().filter(|_| self.cells.is_some_and(is_coarse)) {
+            Some(space) => space.levels_of_a_size(),
+            None => Options::default().levels,
+        };
+        self.levels.map_or(usual, usize::from)
+    }
+
+    /// These options, and where they say nothing those of `base`.
+    pub fn over(&self, base: &Self) -> Self {
+        Self {
+            cells: self.cells.or(base.cells),
+            margin: self.margin.or(base.margin),
+            levels: self.levels.or(base.levels),
+        }
     }
 }
+
+/// Cells along an axis up to which as many are used as are asked for: those of pictures in which each has its number.
+const KEPT_CELLS: usize = 32;
 
 /// What makes a path short.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -77,18 +97,25 @@ pub struct Weights(pub [f64; 2]);
 #[command(next_help_heading = "Paths and grids")]
 pub struct PathArgs {
     /// Which path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of a
-    /// decomposition's doors and cells, the arcs of the Voronoi diagram), or that one pulled taut within the planner's cells
+    /// decomposition's doors and cells, the arcs of the Voronoi diagram), that one pulled taut within the planner's cells, or middles
     /// [default: own for harmonic and voronoi, taut for the others].
     #[arg(long, value_parser = word::<PathKind>(), value_name = "KIND")]
     pub path: Option<PathKind>,
-    /// How the grid is searched, from the goal (planner wavefront), or the roadmap, from the start unless it is --backward
-    /// (planners visibility, trapezoid, triangles, voronoi, prm), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the others]
+    /// How the grid is searched, from the goal unless it is --forward (planner wavefront), or the roadmap, from the start unless it
+    /// is --backward (planners visibility, trapezoid, triangles, voronoi, prm), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the others]
     #[arg(long, value_parser = word::<GridSearch>(), value_name = "NAME")]
     pub search: Option<GridSearch>,
     /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
     /// (planner wavefront). wave and bfs count moves; dijkstra and astar take a diagonal one for 1.414. [default: 4]
     #[arg(long, value_name = "N", value_parser = neighbors())]
     pub neighbors: Option<Neighborhood>,
+    /// Which of equally promising cells A* expands (planner wavefront). [default: farthest]
+    #[arg(long, value_parser = word::<Ties>(), value_name = "NAME")]
+    pub ties: Option<Ties>,
+    /// Search from the start to the goals, which planners with a roadmap do anyway; the wave cannot. Labels are then steps from
+    /// the start.
+    #[arg(long, conflicts_with = "backward")]
+    pub forward: bool,
     /// How the grid's cells are decided (planners wavefront, harmonic): by exact slices, or by sampled collision checks, which
     /// prove nothing. Paths are certified either way. [default: rows]
     #[arg(long, value_parser = word::<GridSpace>(), value_name = "NAME")]
@@ -128,9 +155,9 @@ pub struct PlannerWords {
 }
 
 impl PlannerArgs {
-    /// Attempts.
-    pub fn levels(&self) -> usize {
-        self.effort.levels()
+    /// Attempts of a planner.
+    pub fn levels(&self, planner: &Planner) -> usize {
+        self.effort.levels(planner)
     }
 
     /// The planner of that name with these options.
@@ -141,6 +168,11 @@ impl PlannerArgs {
         let field = self.field.planner(method)?;
         self.optimum.check(method)?;
         self.path.check(method)?;
+        if self.effort.margin == Some(0.0) && !method.has_polygons() {
+            return Err(format!(
+                "--margin 0 needs --planner shortest, visibility, trapezoid, triangles, voronoi or prm: {method} plans among no polygons"
+            ));
+        }
         let search = self.roadmap.search(method, self.path.search)?;
         if self.optimum.gap.is_some() && !search.order.is_optimal() {
             return Err(format!(
@@ -154,8 +186,10 @@ impl PlannerArgs {
     fn put_into(&self, planner: Planner, chosen: Option<FieldPlanner>) -> Planner {
         let mut planner = self.effort.put_into(planner).with_criterion(self.optimum.criterion());
         match &mut planner {
-            Planner::Wavefront { search, neighborhood, .. } => {
+            Planner::Wavefront { search, ties, forward, neighborhood, .. } => {
                 *search = self.path.search.unwrap_or(*search);
+                *ties = self.path.ties.unwrap_or(*ties);
+                *forward = self.path.forward;
                 *neighborhood = self.path.neighbors.unwrap_or(*neighborhood);
             }
             Planner::Harmonic { field, .. } => *field = chosen,
@@ -210,13 +244,44 @@ impl PathArgs {
         if self.neighbors.is_some() && planner != Method::Wavefront {
             return Err(format!("--neighbors needs --planner wavefront: {planner} searches no grid from cell to cell"));
         }
+        if self.ties.is_some() && (planner != Method::Wavefront || self.search != Some(GridSearch::AStar)) {
+            return Err(
+                "--ties needs --planner wavefront --search astar: only there are cells equally promising".into()
+            );
+        }
+        if self.forward {
+            self.check_forward(planner)?;
+        }
         if self.space.is_some() && !matches!(planner, Method::Wavefront | Method::Harmonic) {
             return Err(format!("--space needs --planner wavefront or harmonic: {planner} has no grid"));
+        }
+        if self.path == Some(PathKind::Middles) && planner != Method::Trapezoid {
+            return Err(format!("--path middles needs --planner trapezoid: {planner} has no doors on verticals"));
         }
         if self.path == Some(PathKind::Own) && !planner.has_own_path() {
             return Err(format!("--path own is not for {planner}: its path is taut as it is"));
         }
         Ok(())
+    }
+
+    /// Refuses --forward where nothing is searched, or where the search has to begin at the goal.
+    fn check_forward(&self, planner: Method) -> Result<(), String> {
+        if planner.has_roadmap() {
+            return Ok(());
+        }
+        if planner != Method::Wavefront {
+            return Err(format!(
+                "--forward needs a planner that searches: {planner} has neither a grid's cells nor a roadmap"
+            ));
+        }
+        match self.search.unwrap_or_default() {
+            GridSearch::Wave => {
+                Err("--forward needs --search bfs, dfs, dijkstra, astar, greedy or deepening: the wave begins \
+                                     at the goal, so that its labels are steps to it"
+                    .into())
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -238,8 +303,8 @@ fn gap(text: &str) -> Result<f64, String> {
 }
 
 fn margin(text: &str) -> Result<f64, String> {
-    let range = format!("of more than 0 and at most {MOST_MARGIN} (of the arm's reach)");
-    number_in(text, |x| x > 0.0 && x <= MOST_MARGIN, &range)
+    let range = format!("from 0 to {MOST_MARGIN} (of the arm's reach)");
+    number_in(text, |x| (0.0..=MOST_MARGIN).contains(&x), &range)
 }
 
 /// A range for the parser of whole numbers.

@@ -1,8 +1,9 @@
 //! Words for roadmaps.
 
+use super::names::word;
 use super::planner::whole;
 use clap::Args;
-use cplan_core::planner::{GridSearch, RoadmapSearch, SearchOrder};
+use cplan_core::planner::{GridSearch, RoadmapSearch, SearchOrder, VisibilityGraph};
 use cplan_engine::{Method, NEAREST, Planner, SAMPLES};
 use cplan_roadmaps::Prm;
 
@@ -10,9 +11,12 @@ use cplan_roadmaps::Prm;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Roadmaps (planners visibility, trapezoid, triangles, voronoi, prm)")]
 pub struct RoadmapArgs {
-    /// Search from the goals to the start.
+    /// Search from the goals to the start, which planner wavefront does anyway.
     #[arg(long)]
     pub backward: bool,
+    /// Which visibility graph (planner visibility) [default: reduced].
+    #[arg(long, value_parser = word::<VisibilityGraph>(), value_name = "KIND")]
+    pub graph: Option<VisibilityGraph>,
     /// Random free configurations (planner prm), twice as many with each attempt [default: 500].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(whole(&SAMPLES)))]
     pub samples: Option<u32>,
@@ -38,12 +42,13 @@ impl RoadmapArgs {
         if let Some((name, _)) = given.iter().find(|option| option.1 && planner != Method::Prm) {
             return Err(format!("{name} needs --planner prm: {planner} draws no samples"));
         }
+        if self.graph.is_some() && planner != Method::Visibility {
+            return Err(format!("--graph needs --planner visibility: {planner} searches no visibility graph"));
+        }
         if !planner.has_roadmap() {
-            let from_goal =
-                if planner == Method::Wavefront { "searches from the goal anyway" } else { "has no roadmap" };
-            let needs = "--backward needs --planner visibility, trapezoid, triangles, voronoi or prm";
-            return if self.backward {
-                Err(format!("{needs}: {planner} {from_goal}"))
+            let needs = "--backward needs --planner visibility, trapezoid, triangles, voronoi, prm or wavefront";
+            return if self.backward && planner != Method::Wavefront {
+                Err(format!("{needs}: {planner} has no roadmap"))
             } else {
                 Ok(RoadmapSearch::default())
             };
@@ -51,6 +56,9 @@ impl RoadmapArgs {
         let order = match search.unwrap_or(GridSearch::AStar) {
             GridSearch::Wave => {
                 return Err(format!("--search wave labels the cells of a grid: {planner} has a roadmap"));
+            }
+            GridSearch::IterativeDeepening => {
+                return Err(format!("--search deepening goes over the cells of a grid: {planner} has a roadmap"));
             }
             GridSearch::BreadthFirst => SearchOrder::BreadthFirst,
             GridSearch::DepthFirst => SearchOrder::DepthFirst,
@@ -63,6 +71,9 @@ impl RoadmapArgs {
 
     /// The planner with what of these options is its.
     pub fn put_into(&self, mut planner: Planner) -> Planner {
+        if let Planner::Visibility { graph, .. } = &mut planner {
+            *graph = self.graph.unwrap_or_default();
+        }
         if let Planner::Prm { samples, nearest, seed, .. } = &mut planner {
             let usual = Prm::default();
             *samples = self.samples.map_or(usual.samples, |n| n as usize);

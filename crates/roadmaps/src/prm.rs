@@ -140,7 +140,7 @@ impl Prm {
 /// A way through free space as a path: as it is, or pulled tight through the triangles that it crosses.
 pub(super) fn along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
     let waypoints = match kind {
-        PathKind::Own => own,
+        PathKind::Own | PathKind::Middles => own,
         PathKind::Taut => tightened(mesh, &own).unwrap_or(own),
     };
     Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect()))

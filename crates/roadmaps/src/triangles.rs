@@ -4,7 +4,7 @@ use cplan_core::cspace::Regions;
 use cplan_core::planner::mesh::Mesh;
 use cplan_core::planner::roadmap::{Roadmap, RoadmapSearch};
 use cplan_core::planner::terminals::Terminals;
-use cplan_core::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use cplan_core::planner::{ChannelPoints, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use cplan_core::space::{Configuration, Measure, Metric, Path, Portal, Segment, funnel_path, nearest_end};
 use cplan_geometry::Point;
 use cplan_geometry::planar::{Boundary, NONE};
@@ -63,7 +63,7 @@ impl Planner for Triangles {
                     None => (Proposal::NoPath, Vec::new(), expanded),
                     Some(Way { own, channel, portals, goals }) => {
                         let waypoints = match self.path {
-                            PathKind::Own => own,
+                            PathKind::Own | PathKind::Middles => own,
                             PathKind::Taut => taut(&map.mesh, terminals.start, &goals, &portals),
                         };
                         let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
@@ -78,7 +78,12 @@ impl Planner for Triangles {
         };
         Run {
             outcome,
-            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel, expanded },
+            trace: Trace::Channel {
+                cells: Arc::clone(&map.corners),
+                channel,
+                points: ChannelPoints::default(),
+                expanded,
+            },
             size: Size::Graph { nodes: map.mesh.triangles(), edges: map.sides.len() },
             note: None,
         }

@@ -34,7 +34,6 @@ pub fn plain_line(text: &str) -> Cow<'_, str> {
 }
 
 /// JSON with all that acts as escapes of JSON's: it reads as the same.
-
 #[must_use]
 pub fn plain_json(json: &str) -> Cow<'_, str> {
     use std::fmt::Write;

@@ -51,8 +51,8 @@ pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
 pub const GHOST: Rgb = Rgb(0xd8, 0xdc, 0xe1);
 /// Edges of roadmaps, sides of cells.
 pub const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
-/// Cells that the way leads through.
-pub const CHANNEL: Rgb = Rgb(0xf6, 0xe3, 0xa1);
+/// Cells that the way leads through: a yellow that no obstacle has.
+pub const CHANNEL: Rgb = Rgb(0xff, 0xf0, 0x70);
 /// Boxes of free configurations.
 pub const FREE: Rgb = Rgb(0xd3, 0xee, 0xda);
 /// Boxes of which nothing is known: grey, which no obstacle is.
@@ -182,6 +182,16 @@ mod tests {
             }
         }
         assert_eq!(obstacle(63), obstacle(0));
+    }
+
+    /// As they are drawn in configuration spaces: one of them was all but the channel's.
+    #[test]
+    fn no_obstacle_has_the_colour_of_the_channel() {
+        for index in 0..63 {
+            let Rgb(r, g, b) = obstacle(index).lighter(0.35);
+            let off = [(r, CHANNEL.0), (g, CHANNEL.1), (b, CHANNEL.2)].map(|(x, y)| f64::from(x.abs_diff(y)).powi(2));
+            assert!(off.iter().sum::<f64>().sqrt() > 45.0, "{index}");
+        }
     }
 
     #[test]

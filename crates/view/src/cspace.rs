@@ -35,7 +35,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(world.trace.iter().flat_map(|trace| trace::below(trace, chart)));
     inside.extend(c_obstacles(&worlds, chart));
     inside.extend(in_time(view, world, chart));
-    inside.extend(world.trace.iter().flat_map(|trace| trace::above(trace, chart)));
+    inside.extend(world.trace.iter().flat_map(|trace| trace::above(trace, view.still.field_lines, chart)));
     inside.extend(view.still.reach.iter().flat_map(|reach| reach::in_cspace(reach, chart)));
     inside.extend(preferences::in_cspace(&world.regions, chart));
     inside.extend(boxes::proof(&world.proof, frame));
@@ -45,6 +45,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(names(world, frame, markers));
     inside.extend(page::lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOALS))));
     inside.extend(page::lines(paths.map(|path| (chart.outline(&path.points.0), path.pen()))));
+    inside.extend(world.trace.iter().flat_map(|trace| trace::over_path(trace, chart)));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
     items.extend(world.scale.iter().flat_map(|scale| trace::color_bar(scale, &frame.rect)));

@@ -2,8 +2,9 @@
 
 use super::color::{self, BARRED, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
+use super::flow::FieldLines;
 use super::view::{NAMED, ObstacleView, PathView, TraceView, View};
-use super::{boxes, cspace, preferences, reach, shapes, stuck, trace};
+use super::{boxes, channel, cspace, preferences, reach, shapes, stuck, trace};
 use serde::Serialize;
 
 /// Height of a row, pixels.
@@ -31,6 +32,11 @@ pub enum Sign {
     Dashed(Rgb),
     /// The hatch of a proof.
     Hatched,
+    /// A point of a channel: the middle of a door, or the centre of a cell.
+    Point {
+        /// Whether it is the middle of a door.
+        middle: bool,
+    },
 }
 
 /// A sign and what it means.
@@ -73,6 +79,8 @@ impl KeyView {
             Sign::Shade(_) => "shade",
             Sign::Dashed(_) => "dashed",
             Sign::Hatched => "hatched",
+            Sign::Point { middle: true } => "middle",
+            Sign::Point { middle: false } => "center",
         };
         let bare = Self { sign: name, color: None, width: None, dash: &[], part: None, text, layers, think };
         match sign {
@@ -81,7 +89,7 @@ impl KeyView {
             }
             Sign::Swatch(color) | Sign::Dashed(color) => Self { color: Some(color::tint(color)), ..bare },
             Sign::Shade(part) => Self { part: Some(part), ..bare },
-            Sign::Start | Sign::Goal | Sign::Unreached | Sign::Hatched => bare,
+            Sign::Start | Sign::Goal | Sign::Unreached | Sign::Hatched | Sign::Point { .. } => bare,
         }
     }
 }
@@ -96,7 +104,9 @@ pub fn keys(view: &View) -> Vec<Key> {
 #[must_use]
 pub fn on_pages(view: &View) -> Vec<KeyView> {
     let mut keys: Vec<KeyView> = all(view, false).into_iter().map(|key| KeyView::new(key, false)).collect();
-    for key in view.traces_of_steps().flat_map(of_trace).map(|key| KeyView::new(key, true)) {
+    for key in
+        view.traces_of_steps().flat_map(|seen| of_trace(seen, FieldLines::default())).map(|key| KeyView::new(key, true))
+    {
         if !keys.contains(&key) {
             keys.push(key);
         }
@@ -105,7 +115,7 @@ pub fn on_pages(view: &View) -> Vec<KeyView> {
 }
 
 /// What a planner saw.
-fn of_trace(seen: &TraceView) -> Vec<Layered> {
+fn of_trace(seen: &TraceView, lines: FieldLines) -> Vec<Layered> {
     let layers: &[&str] = match seen {
         TraceView::Roadmap { .. } => &["roadmap"],
         TraceView::Slices { .. } => &["rows"],
@@ -115,7 +125,7 @@ fn of_trace(seen: &TraceView) -> Vec<Layered> {
         TraceView::Wavefront(_) => &["wavefront"],
         TraceView::Field { .. } => &["equipotentials", "flow"],
     };
-    trace::keys(seen).into_iter().map(|key| (key, layers)).collect()
+    trace::keys(seen, lines).into_iter().map(|key| (key, layers)).collect()
 }
 
 fn all(view: &View, still: bool) -> Vec<Layered> {
@@ -132,7 +142,8 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
         let pen = Pen { color: BARRED, width: 1.2, dash: &[] };
         keys.push(((Sign::Line(pen), "the arm there".to_owned()), &["poses"]));
     }
-    keys.extend(world.trace.as_ref().map_or_else(Vec::new, of_trace));
+    let lines = if still { view.still.field_lines } else { FieldLines::default() };
+    keys.extend(world.trace.as_ref().map_or_else(Vec::new, |seen| of_trace(seen, lines)));
     let proof = view.worlds.iter().any(|world| !world.proof.0.is_empty());
     keys.extend(proof.then(|| -> Layered { (boxes::proof_key(), &["proof"]) }));
     keys.extend(preferences::keys(&world.regions).into_iter().map(|key| -> Layered { (key, &["regions"]) }));
@@ -179,7 +190,9 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
     let mut rows: Vec<Vec<Key>> = vec![Vec::new()];
     let mut used = 0.0;
     for (sign, name) in keys {
-        let key = (sign, shortened(&name, SIZE, room / 5.0));
+        // Names of paths hold what planners were asked for.
+        let share = if let Sign::Line(_) = sign { 3.0 } else { 5.0 };
+        let key = (sign, shortened(&name, SIZE, room / share));
         let needed = width(&key) + GAP;
         let last = rows.len() - 1;
         if used + needed > room && !rows[last].is_empty() {
@@ -228,6 +241,7 @@ fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
             vec![Item::Outline(rectangle(swatch(x, y)), Style::line(*color, 1.4).dashed(shapes::DASH))]
         }
         Sign::Hatched => boxes::hatched(&[swatch(x, y)]),
+        Sign::Point { middle } => vec![channel::sign([x + SIGN - 8.0, y], *middle)],
     }
 }
 

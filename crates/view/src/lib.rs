@@ -18,12 +18,14 @@ mod animation;
 mod arm;
 mod axes;
 mod boxes;
+mod channel;
 mod chart;
 pub mod color;
 mod copies;
 mod cspace;
 mod exploration;
 mod figure;
+mod flow;
 mod frames;
 #[cfg(feature = "png")]
 mod gif_writer;
@@ -43,9 +45,11 @@ mod svg_writer;
 mod tags;
 mod trace;
 mod view;
+mod wave_numbers;
 mod workspace;
 
 pub use exploration::exploration_page;
+pub use flow::FieldLines;
 pub use obstacles::{extent, obstacles, still_page};
 pub use stuck::Stuck;
 pub use view::{AxesFrame, Moments, Picture, TaskPicture, View, drawing, page, shell};

@@ -1,11 +1,12 @@
 //! What the planner saw on its way.
 
-use super::boxes;
 use super::chart::Chart;
-use super::color::{self, ACCENT, CHANNEL, EDGE, GREY, INK, PALE, Rgb};
+use super::color::{self, ACCENT, CHANNEL, EDGE, GREY, INK, Rgb};
 use super::figure::{Anchor, Item, Pen, Raster, Rect, Style, chain, label, upwards};
+use super::flow::FieldLines;
 use super::legend::{Key, Sign};
 use super::view::{Chain, LEVELS, ScaleView, TraceView, Waves};
+use super::{boxes, channel, wave_numbers};
 
 /// Colours of a wavefront; each stands for some of its levels.
 const SHADES: usize = 32;
@@ -17,10 +18,7 @@ const SOFT: f64 = 0.22;
 #[must_use]
 pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
-        TraceView::Channel { cells, channel, .. } => {
-            let steps = channel.iter().filter_map(|&i| cells.get(i)).flat_map(|cell| chart.polygon(cell)).collect();
-            vec![Item::Outline(steps, Style::fill(CHANNEL).faded(0.75))]
-        }
+        TraceView::Channel { cells, channel, .. } => vec![channel::surface(cells, channel, chart)],
         TraceView::Boxes { free, mixed, rest, .. } => boxes::surfaces(free, [mixed, rest], &chart.frame),
         TraceView::Wavefront(waves) | TraceView::Field { values: Some(waves), .. } => {
             vec![Item::Raster(shades(waves, &chart.frame.rect))]
@@ -29,40 +27,36 @@ pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     }
 }
 
-/// What lies over the C-obstacles: lines.
+/// What lies over the C-obstacles: lines and numbers; of a field these lines.
 #[must_use]
-pub fn above(trace: &TraceView, chart: &Chart) -> Vec<Item> {
+pub fn above(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<Item> {
     match trace {
         TraceView::Roadmap { edges: lines, .. } | TraceView::Slices { free: lines } => vec![edges(lines, chart)],
-        TraceView::Roads { edges: lines, expanded } => {
+        TraceView::Roads { edges: lines, expanded, .. } => {
             [edges(lines, chart)].into_iter().chain(places(expanded, chart)).collect()
         }
-        TraceView::Channel { cells, expanded, sweep, .. } => {
-            let steps = cells.iter().filter(|cell| wide(cell, chart)).flat_map(|cell| chart.polygon(cell)).collect();
-            let sides = Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.7));
+        TraceView::Channel { cells, channel, expanded, sweep, .. } => {
             let [bottom, top] = [chart.frame.y.0, chart.frame.y.1];
             let line = sweep.map(|x| chain([chart.frame.at(x, bottom), chart.frame.at(x, top)], false));
             let line = line.map(|steps| Item::Outline(steps, Style::line(ACCENT, 2.0)));
-            [sides].into_iter().chain(line).chain(places(expanded, chart)).collect()
+            let sides = channel::sides(cells, channel, chart).into_iter();
+            sides.chain(line).chain(places(expanded, chart)).collect()
         }
         TraceView::Boxes { free, stuck, mixed, .. } => {
             [free, stuck, mixed].map(|b| boxes::sides(b, &chart.frame)).into()
         }
-        TraceView::Field { levels, .. } => {
-            let line = |Chain(line): &Chain| chain(line.iter().map(|q| chart.frame.at(q[0], q[1])), false);
-            let style = |part| Style::line(color::scale(part).mixed(PALE.darker(0.4), 0.15), 1.1);
-            levels.iter().map(|set| Item::Outline(set.lines.iter().flat_map(line).collect(), style(set.part))).collect()
-        }
-        TraceView::Wavefront(_) => Vec::new(),
+        TraceView::Field { levels, flow, .. } => field_lines.items(levels, flow, chart),
+        TraceView::Wavefront(waves) => wave_numbers::items(waves, &chart.frame.rect),
     }
 }
 
-/// Whether the sides of a cell are drawn: those of narrow ones together make a moire.
-fn wide(Chain(corners): &Chain, chart: &Chart) -> bool {
-    const NARROW: f64 = 5.0;
-    let columns = corners.iter().map(|q| chart.frame.at(q[0], q[1])[0]);
-    let (low, high) = columns.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-    high - low >= NARROW
+/// What lies over the path: the points that it may lead by.
+#[must_use]
+pub fn over_path(trace: &TraceView, chart: &Chart) -> Vec<Item> {
+    match trace {
+        TraceView::Channel { centers, middles, .. } => channel::points([centers, middles], chart),
+        _ => Vec::new(),
+    }
 }
 
 fn edges(lines: &Chain, chart: &Chart) -> Item {
@@ -77,27 +71,29 @@ fn places(expanded: &Chain, chart: &Chart) -> impl Iterator<Item = Item> {
     expanded.0.iter().enumerate().map(move |(k, &q)| Item::Disc(chart.place(q), 2.2, Style::fill(shade(k)).faded(0.8)))
 }
 
-/// Legend of the trace.
+/// Legend of the trace; of a field with these lines.
 #[must_use]
-pub fn keys(trace: &TraceView) -> Vec<Key> {
+pub fn keys(trace: &TraceView, field_lines: FieldLines) -> Vec<Key> {
     let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });
     match trace {
         TraceView::Roadmap { whole, .. } => {
             let extent = if *whole { "" } else { ", as far as searched" };
-            vec![(line(EDGE), format!("visibility graph{extent}"))]
+            vec![(line(EDGE), format!("reduced visibility graph{extent}"))]
         }
         TraceView::Slices { free } if free.is_empty() => Vec::new(),
         TraceView::Slices { .. } => vec![(line(EDGE), "slices that the path passes".to_owned())],
-        TraceView::Channel { channel, expanded, .. } => {
+        TraceView::Channel { channel, expanded, centers, middles, .. } => {
             let found = (!channel.is_empty()).then(|| (Sign::Swatch(CHANNEL), "channel".to_owned()));
-            [(line(EDGE), "cells".to_owned())].into_iter().chain(found).chain(order(expanded)).collect()
+            let cells = [(line(EDGE), "cells".to_owned())].into_iter().chain(found);
+            cells.chain(channel::keys([centers, middles])).chain(order(expanded)).collect()
         }
-        TraceView::Roads { expanded, .. } => {
-            [(line(EDGE), "roadmap".to_owned())].into_iter().chain(order(expanded)).collect()
+        TraceView::Roads { expanded, visibility, .. } => {
+            let name = visibility.map_or_else(|| "roadmap".to_owned(), |graph| format!("{graph} visibility graph"));
+            [(line(EDGE), name)].into_iter().chain(order(expanded)).collect()
         }
         TraceView::Boxes { .. } => boxes::keys(),
         TraceView::Wavefront(_) => Vec::new(),
-        TraceView::Field { .. } => vec![(line(color::scale(0.5)), "equipotentials".to_owned())],
+        TraceView::Field { .. } => field_lines.keys(),
     }
 }
 
@@ -145,10 +141,15 @@ mod tests {
     #[test]
     fn a_channel_is_explained_only_where_there_is_one() {
         let names = |channel: Vec<usize>| -> Vec<String> {
-            keys(&TraceView::Channel { cells: Vec::new(), channel, expanded: Chain(Vec::new()), sweep: None })
-                .into_iter()
-                .map(|key| key.1)
-                .collect()
+            let trace = TraceView::Channel {
+                cells: Vec::new(),
+                channel,
+                centers: Chain::default(),
+                middles: Chain::default(),
+                expanded: Chain::default(),
+                sweep: None,
+            };
+            keys(&trace, FieldLines::default()).into_iter().map(|key| key.1).collect()
         };
         assert_eq!(names(vec![0]), ["cells", "channel"]);
         assert_eq!(names(Vec::new()), ["cells"]);

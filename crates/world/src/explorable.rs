@@ -30,7 +30,7 @@ impl LoadedScene {
     pub fn explorable(self, overrides: &Overrides) -> Result<Explorable, InputError> {
         self.require_standing("a world is explored as it stands")?;
         let sensor = self.sensor();
-        let has_goal = self.world.goal.is_some() || overrides.goal.is_some() || overrides.goal_tip.is_some();
+        let has_goal = self.world.goals.is_some() || overrides.goal.is_some() || overrides.goal_tip.is_some();
         if has_goal || self.has_steps() {
             let loaded = self.problem(overrides)?;
             let (start, goals) = (loaded.problem.start(), Some(loaded.problem.goals().clone()));

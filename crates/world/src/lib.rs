@@ -207,10 +207,11 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
 }
 
 impl LoadedScene {
-    /// Start and goal as the world gives them, whether or not anything is wrong with them.
+    /// Start and (first) goal as the world gives them, whether or not anything is wrong with them.
     #[must_use]
     pub fn given(&self) -> [Option<Goal>; 2] {
-        [&self.world.start, &self.world.goal].map(|place| place.as_ref().map(|&(goal, _)| goal))
+        let goal = self.world.goals.as_ref().and_then(|(goals, _)| goals.first().copied());
+        [self.world.start.as_ref().map(|&(start, _)| start), goal]
     }
 
     /// As [`scene_from`] for another text of the world, without reading the robot again where the world's `[robot]` table

@@ -111,13 +111,24 @@ impl MapText {
         item: &str,
         end: &str,
     ) -> Result<Vec<Numbers<N>>, Diagnostic> {
+        let list = self.list_before(announced, key, item, end)?;
+        self.word(end)?;
+        Ok(list)
+    }
+
+    /// The same up to a line that begins with `end`, which is not passed over.
+    pub fn list_before<const N: usize>(
+        &mut self,
+        (count, at): (usize, Range<usize>),
+        key: &str,
+        item: &str,
+        end: &str,
+    ) -> Result<Vec<Numbers<N>>, Diagnostic> {
         let what = format!("{item} or \"{end}\"");
         let mut list = Vec::new();
-        while self.expected(&what)?.0 != end {
+        while !self.expected(&what)?.0.starts_with(end) {
             list.push(self.numbers(&what)?);
         }
-        self.next += 1;
-        let (count, at) = announced;
         if count != list.len() {
             let message = format!("{key} says {count}, but {} follow", list.len());
             return Err(self

@@ -24,8 +24,8 @@ pub struct PreferenceMap {
     /// `LineMinPos` and `LineMaxPos`: lower left and upper right corner; all rectangles lie within. They need not be those
     /// of the line map.
     pub bounds: [Point; 2],
-    /// The goal: lower left and upper right corner. It may be a point.
-    pub goal: [Point; 2],
+    /// The goals, any of which will do: lower left and upper right corners. They may be points. At least one.
+    pub goals: Vec<[Point; 2]>,
     /// In the order of the file.
     pub rectangles: Vec<PreferenceRectangle>,
 }
@@ -43,18 +43,19 @@ impl PreferenceMap {
     /// Reads a file. Rectangles may be given by any two opposite corners.
     ///
     /// # Errors
-    /// As [`super::LineMap::read`]; likewise without exactly one goal, or with a preference rectangle without area.
+    /// As [`super::LineMap::read`]; likewise without a goal, or with a preference rectangle without area.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let mut text = MapText::read(path)?;
         let bounds = text.bounds()?;
         let (count, at) = text.count("NumGoal")?;
-        if count != 1 {
-            let diagnostic = text.source.diagnostic_at(at, format!("NumGoal is {count}, but a plan has one goal"));
-            return Err(diagnostic.help("keep one goal rectangle").into());
+        if count == 0 {
+            let diagnostic = text.source.diagnostic_at(at.clone(), "NumGoal is 0, but a plan has a goal");
+            return Err(diagnostic.help("give a goal rectangle").into());
         }
         text.word("GOAL")?;
-        let goal = text.numbers::<4>("the goal rectangle")?;
-        let goal = ordered(text.corners(&goal.values, &goal.at, &bounds)?);
+        let list = text.list_before::<4>((count, at), "NumGoal", "a goal rectangle", "NumPoint")?;
+        let goals = list.iter().map(|goal| text.corners(&goal.values, &goal.at, &bounds).map(ordered));
+        let goals = goals.collect::<Result<_, _>>()?;
         let announced = text.count("NumPoint")?;
         text.word("POINTS")?;
         let list = text.list::<5>(announced, "NumPoint", "a rectangle and its epsilon", "END")?;
@@ -68,7 +69,7 @@ impl PreferenceMap {
             }
             rectangles.push(PreferenceRectangle { corners, epsilon: line.values[4] });
         }
-        Ok(Self { bounds, goal, rectangles })
+        Ok(Self { bounds, goals, rectangles })
     }
 }
 

@@ -6,7 +6,7 @@ use super::reasons::{
     obstructions, out_of_reach, within_limits,
 };
 use super::{Loaded, LoadedScene, Overrides};
-use cplan_core::model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, inverse};
+use cplan_core::model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::Point;
 use cplan_text::{first_lines, listed};
@@ -44,19 +44,76 @@ impl LoadedScene {
         let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
         is_free.map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
         let about = |diagnostic: Diagnostic| diagnostic.about(DiagnosticKind::Goal);
-        let (goal, place) = loaded.goal(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
-        let goals = match goal {
-            Goal::Joints(q) => {
-                let q = loaded.at_limits("the goal", q, &mut notes);
-                loaded.require("the goal", q, &place).map_err(about)?;
-                GoalSet::from(q)
+        let (asked, place) = loaded.goals(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
+        let (mut goals, mut refused) = (Vec::new(), Vec::new());
+        for goal in &asked {
+            match loaded.configurations(*goal, start, &place, &mut notes) {
+                Ok(found) => goals.extend_from_slice(found.pieces()),
+                Err(diagnostic) => refused.push(diagnostic),
             }
-            Goal::Tip(tip) => loaded.ik_solutions(tip, start, &place, &mut notes).map_err(about)?,
-        };
+        }
+        if goals.is_empty() {
+            // There is at least one goal, and so at least one reason.
+            let first = refused.swap_remove(0);
+            return Err(about(first).into());
+        }
+        notes.extend(refused.iter().map(|diagnostic| format!("a goal is ruled out: {}", diagnostic.message)));
+        let goals: GoalSet = goals.into_iter().collect();
         Ok(Loaded { problem: MotionProblem::trusted(loaded.scene, start, goals), robot: loaded.robot, notes })
     }
 
-    pub(super) fn goal(&self, overrides: &Overrides) -> Result<(Goal, Place<'_>), InputError> {
+    /// The configurations of a goal that may be free.
+    fn configurations(
+        &self,
+        goal: Goal,
+        start: Configuration,
+        place: &Place,
+        notes: &mut Vec<String>,
+    ) -> Result<GoalSet, Diagnostic> {
+        match goal.of_arm(self.scene.arm()) {
+            Goal::Joints(q) => {
+                let q = self.at_limits("the goal", q, notes);
+                self.require("the goal", q, place)?;
+                Ok(GoalSet::from(q))
+            }
+            Goal::Tip(tip) => {
+                if let Goal::Area([low, high]) = goal
+                    && low != high
+                {
+                    let arm = "of this arm, which does not slide along both axes,";
+                    notes.push(format!("{arm} the middle of a goal area is the goal: ({}, {})", tip.x, tip.y));
+                }
+                self.ik_solutions(tip, start, place, notes)
+            }
+            Goal::Area(area) => self.area(area, start, place),
+        }
+    }
+
+    /// The rim of a rectangle of the tip as far as it may be free, and the start if the tip is inside already.
+    fn area(&self, area: [Point; 2], start: Configuration, place: &Place) -> Result<GoalSet, Diagnostic> {
+        let [low, high] = area;
+        let shown = format!("the goal area from ({}, {}) to ({}, {})", low.x, low.y, high.x, high.y);
+        let rim = area_goals(self.scene.arm(), area, start);
+        if rim.is_empty() {
+            let message = format!("{shown} is outside the joint limits");
+            return Err(place.diagnostic(message).help(HELP_FOR_LIMITS));
+        }
+        let (mut goals, mut blocked) = (Vec::new(), Vec::new());
+        for piece in rim.pieces() {
+            match blocked_all_along(&self.scene, piece) {
+                Some(reasons) => blocked.extend(reasons),
+                None => goals.push(*piece),
+            }
+        }
+        if goals.is_empty() {
+            let message = format!("the tip cannot enter {shown}, whose rim is blocked: {}", listed(&blocked));
+            return Err(place.diagnostic(message).help("move the area, or what is in its way"));
+        }
+        Ok(goals.into_iter().collect())
+    }
+
+    /// Where to go, any of which will do: at least one.
+    pub(super) fn goals(&self, overrides: &Overrides) -> Result<(Vec<Goal>, Place<'_>), InputError> {
         match (&overrides.goal, &overrides.goal_tip) {
             (Some(_), Some(_)) => {
                 let diagnostic = Diagnostic::new("--goal and --goal-tip", "both give a goal");
@@ -64,13 +121,13 @@ impl LoadedScene {
             }
             (Some(values), None) => {
                 let q = values.resolve(&self.scene.arm().joints, "--goal")?;
-                return Ok((Goal::Joints(q), Place::Option("--goal")));
+                return Ok((vec![Goal::Joints(q)], Place::Option("--goal")));
             }
-            (None, Some(tip)) => return Ok((Goal::Tip(tip.0), Place::Option("--goal-tip"))),
+            (None, Some(tip)) => return Ok((vec![Goal::Tip(tip.0)], Place::Option("--goal-tip"))),
             (None, None) => {}
         }
-        match &self.world.goal {
-            Some((goal, at)) => Ok((*goal, Place::World(self, at.clone()))),
+        match &self.world.goals {
+            Some((goals, at)) => Ok((goals.clone(), Place::World(self, at.clone()))),
             None => {
                 let help =
                     "[goal] joints = [q1, q2] or tip = [x, y] in the world file, or --goal q1,q2, or --goal-tip x,y";

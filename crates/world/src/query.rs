@@ -12,8 +12,8 @@ pub struct Query {
     pub scene: Scene,
     /// Where the arm begins, free or not.
     pub start: Configuration,
-    /// Where it is to go, whether or not it can be there.
-    pub goal: Goal,
+    /// Where it is to go, whether or not it can be there: any will do.
+    pub goals: Vec<Goal>,
     /// How the robot was read.
     pub robot: RobotReport,
     /// What the user should know of how the world was read.
@@ -32,12 +32,13 @@ impl LoadedScene {
         let loaded = self.keeping(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, _) = loaded.start(overrides, &mut notes)?;
-        let (goal, _) = loaded.goal(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
-        let goal = match goal {
-            Goal::Joints(q) => Goal::Joints(loaded.at_limits("the goal", q, &mut notes)),
-            tip => tip,
-        };
-        Ok(Query { scene: loaded.scene, start, goal, robot: loaded.robot, notes })
+        let (mut goals, _) = loaded.goals(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
+        for goal in &mut goals {
+            if let Goal::Joints(q) = goal {
+                *q = loaded.at_limits("the goal", *q, &mut notes);
+            }
+        }
+        Ok(Query { scene: loaded.scene, start, goals, robot: loaded.robot, notes })
     }
     /// The start alone, of a world with steps, too: to stay there.
     ///
@@ -47,6 +48,6 @@ impl LoadedScene {
         let loaded = self.keeping(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, _) = loaded.start(overrides, &mut notes)?;
-        Ok(Query { scene: loaded.scene, start, goal: Goal::Joints(start), robot: loaded.robot, notes })
+        Ok(Query { scene: loaded.scene, start, goals: vec![Goal::Joints(start)], robot: loaded.robot, notes })
     }
 }

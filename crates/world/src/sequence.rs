@@ -172,10 +172,12 @@ impl Writer<'_> {
             LeafAction::Place { at, angle, supports } => self.place(leaf, *at, angle.as_ref(), supports.as_ref())?,
             LeafAction::Move(goal) => {
                 let required = match *goal {
-                    Goal::Joints(q) => Required::Joints(q),
-                    Goal::Tip(tip) => Required::Tip(tip),
+                    Goal::Joints(q) => Some(Required::Joints(q)),
+                    goal => goal.tip().map(Required::Tip),
                 };
-                self.requirements.add(leaf.number, required, leaf.at.clone());
+                if let Some(required) = required {
+                    self.requirements.add(leaf.number, required, leaf.at.clone());
+                }
                 Action::Move(*goal)
             }
         };

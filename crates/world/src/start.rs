@@ -20,8 +20,8 @@ impl LoadedScene {
     /// The joint values that the world's start and goal are; none of a place of the tip, and where it has none.
     #[must_use]
     pub fn said_ends(&self) -> [Option<Configuration>; 2] {
-        [&self.world.start, &self.world.goal].map(|end| match end {
-            Some((Goal::Joints(q), _)) => Some(*q),
+        self.given().map(|end| match end {
+            Some(Goal::Joints(q)) => Some(q),
             _ => None,
         })
     }
@@ -51,6 +51,8 @@ impl LoadedScene {
         let q = match start {
             Goal::Joints(q) => *q,
             Goal::Tip(tip) => self.only_ik_solution(*tip, &place, notes)?,
+            // No start is read as one.
+            Goal::Area([corner, _]) => self.only_ik_solution(*corner, &place, notes)?,
         };
         Ok((q, place))
     }

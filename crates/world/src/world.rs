@@ -49,7 +49,8 @@ pub struct World {
     pub(super) start: Option<(Goal, Range<usize>)>,
     /// Joint values that are in degrees, where it is not yet known whether the joints turn.
     pub(super) in_degrees: Vec<JointPair>,
-    pub(super) goal: Option<(Goal, Range<usize>)>,
+    /// Where to go, any of which will do, at least one, and where that is written.
+    pub(super) goals: Option<(Vec<Goal>, Range<usize>)>,
     pub(super) steps: Option<Sequence>,
     pub(super) sensor: SensorWishes,
     /// With what is to be said of it.
@@ -74,7 +75,7 @@ impl World {
             place: None,
             start: None,
             in_degrees: Vec::new(),
-            goal: None,
+            goals: None,
             steps: None,
             sensor: SensorWishes::default(),
             wrist: None,
@@ -226,10 +227,10 @@ struct StartTable {
     tip: Option<Numbers>,
 }
 
-/// Where the arm is to go: joint values, or a place for the tip in whatever IK solution is best.
+/// Where the arm is to go: joint values, a place for the tip in whatever IK solution is best, or areas for the tip.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }]))]
+#[schemars(rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }, { "required": ["areas"] }]))]
 pub(super) struct GoalTable {
     /// Values of both joints, base to tip, rad or m.
     #[schemars(with = "Option<[AngleOrLength; 2]>")]
@@ -237,6 +238,10 @@ pub(super) struct GoalTable {
     /// Coordinates of the tip, m.
     #[schemars(with = "Option<Two>")]
     tip: Option<Numbers>,
+    /// Rectangles for the tip, any of which will do, each by two opposite corners, m; of an arm that does not slide along both axes each
+    /// counts as its middle. Not in steps.
+    #[schemars(with = "Option<Vec<[Two; 2]>>")]
+    areas: Option<Spanned<Vec<Spanned<Vec<Numbers>>>>>,
 }
 
 /// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
@@ -275,7 +280,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         reader.place(joints.as_ref(), tip.as_ref(), s.span(), "start")
     });
     let start = start.transpose()?;
-    let goal = file.goal.as_ref().map(|g| reader.goal(&g.get_ref().0, g.span(), "goal")).transpose()?;
+    let goals = file.goal.as_ref().map(|g| reader.goals(&g.get_ref().0, g.span())).transpose()?;
     let (mut obstacles, mut movers) = (Vec::new(), Vec::new());
     for (index, table) in file.obstacle.iter().enumerate() {
         match ObstacleTable::read(&reader, index, table)? {
@@ -312,7 +317,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         start,
         in_degrees: reader.in_degrees.take(),
         // Steps count for more than a map's goal.
-        goal: goal.or(map.goal.filter(|_| steps.is_none()).map(|(tip, at)| (Goal::Tip(tip), at))),
+        goals: goals.or(map.goals.filter(|_| steps.is_none())),
         objects: movables.into_iter().map(|movable| movable.object).collect(),
         steps,
         sensor,
@@ -420,8 +425,40 @@ impl Reader<'_> {
         Ok(is_given.then(place))
     }
 
+    /// All goals of a table, of which any will do, and where they stand.
+    fn goals(&self, goal: &GoalTable, at: Range<usize>) -> Result<(Vec<Goal>, Range<usize>), Diagnostic> {
+        let Some(areas) = &goal.areas else {
+            let (goal, at) = self.goal(goal, at, "goal")?;
+            return Ok((vec![goal], at));
+        };
+        if goal.joints.is_some() || goal.tip.is_some() {
+            let diagnostic = self.source.diagnostic_at(at, "the goal has `areas` beside another goal");
+            return Err(diagnostic.help("keep one of `joints`, `tip` and `areas`"));
+        }
+        let area = |corners: &Spanned<Vec<Numbers>>| match corners.get_ref().as_slice() {
+            [a, b] => {
+                let [a, b] = [self.point(a, "goal area")?, self.point(b, "goal area")?];
+                Ok(Goal::Area([a.inf(&b), a.sup(&b)]))
+            }
+            other => {
+                let message = format!("goal area: expected two opposite corners, found {}", other.len());
+                Err(self.source.diagnostic_at(corners.span(), message).help("write [[x, y], [x, y]]"))
+            }
+        };
+        let found = areas.get_ref().iter().map(area).collect::<Result<Vec<_>, _>>()?;
+        if found.is_empty() {
+            let diagnostic = self.source.diagnostic_at(areas.span(), "the goal has no area");
+            return Err(diagnostic.help("areas = [[[x, y], [x, y]]]: two opposite corners each"));
+        }
+        Ok((found, areas.span()))
+    }
+
     /// Joint values or a point for the tip, and where they stand.
     pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Diagnostic> {
+        if let Some(areas) = &goal.areas {
+            let diagnostic = self.source.diagnostic_at(areas.span(), format!("{what}: a step has no areas"));
+            return Err(diagnostic.help("joints = [q1, q2], or tip = [x, y]"));
+        }
         self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)
     }
 

@@ -6,7 +6,7 @@ use super::obstacle::MOST_PIECES;
 use super::preference_map::{PreferenceMap, PreferenceRectangle};
 use super::schema::{Positive, Two};
 use super::world::{LARGEST, Number, Numbers, Reader};
-use cplan_core::model::{Obstacle, Preference, Region, Shape};
+use cplan_core::model::{Goal, Obstacle, Preference, Region, Shape};
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -22,7 +22,7 @@ pub(super) struct MapTable {
     /// The line map.
     #[schemars(with = "String")]
     file: Spanned<String>,
-    /// A preference file: its goal, unless the world has one, and rectangles for field planners.
+    /// A preference file: its goals, unless the world has one, any of which will do, and rectangles for field planners.
     #[schemars(with = "Option<String>")]
     preferences: Option<Spanned<String>>,
     /// Metres a unit, of both files; by default 0.001.
@@ -42,8 +42,8 @@ pub(super) struct MapTable {
 #[derive(Default)]
 pub(super) struct MapContent {
     pub obstacles: Vec<Obstacle>,
-    /// Centre of the goal rectangle, and what in the world file names it.
-    pub goal: Option<(Point, Range<usize>)>,
+    /// The goal rectangles, and what in the world file names them.
+    pub goals: Option<(Vec<Goal>, Range<usize>)>,
     pub preferences: Vec<Preference>,
 }
 
@@ -101,8 +101,8 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
         let path = reader.beside(file, "preferences")?;
         let map = PreferenceMap::read(&path)?;
         within(map.bounds, file)?;
-        let [a, b] = map.goal;
-        content.goal = Some((place(nalgebra::center(&a, &b)), file.span()));
+        let goals = map.goals.iter().map(|corners| Goal::Area(corners.map(place)));
+        content.goals = Some((goals.collect(), file.span()));
         let name = stem(&path);
         for (i, PreferenceRectangle { corners: [a, b], epsilon }) in map.rectangles.into_iter().enumerate() {
             let name = format!("{name}, rectangle {}", i + 1);

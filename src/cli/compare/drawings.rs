@@ -9,7 +9,7 @@ use crate::draw::{self, Picture, View};
 use crate::engine::{Options, Problem, plan};
 use crate::model::{MotionProblem, Scene, Status};
 use crate::output::{self, PictureFormat};
-use crate::report::{self, Comparison, Overlay, Study};
+use crate::report::{self, Comparison, Overlay, Study, labels};
 use crate::space::Path;
 
 /// Problems that a page draws one by one where start and goal are random.
@@ -95,13 +95,14 @@ fn blocked(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
 
 fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
     let problem = case.problem();
-    let named = comparison.rows.iter().zip(paths).filter_map(|(row, path)| Some((row, path.as_ref()?)));
+    let planners: Vec<&str> = comparison.rows.iter().map(|row| row.planner.as_str()).collect();
+    let named = labels(&planners).into_iter().zip(paths).filter_map(|(name, path)| Some((name, path.as_ref()?)));
     let proof = proof(&problem, comparison);
     View::of_picture(&Picture {
         title: vec![output::title_of(problem.scene()), format!("lengths in {}", comparison.length_unit)],
         status: comparison.outcome(),
         goals: problem.goals().pieces(),
-        paths: named.map(|(row, path)| (format!("{}: {:.3}", row.planner, path.length()), path)).collect(),
+        paths: named.map(|(name, path)| (format!("{name}: {:.3}", path.length()), path)).collect(),
         proof: proof.as_ref(),
         c_obstacles: &output::contours(problem.scene()),
         ..Picture::new(problem.scene(), problem.start())

@@ -141,7 +141,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let plain = methods.iter().map(|&method| {
         let planner = args.effort.put_into(Planner::named(method));
-        Entry { label: method.to_string(), options: options(args, planner, args.effort.levels()) }
+        Entry { label: method.to_string(), options: options(args, planner, args.effort.levels(&planner)) }
     });
     let plain: Vec<Entry> = plain.collect();
     if let Some(missing) = args.with.iter().find_map(super::variant::Variant::missing) {

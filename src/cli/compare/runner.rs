@@ -160,7 +160,7 @@ impl Runner<'_> {
 
 /// The planner's path of the other kind, if it has one; whoever is measured does not wait for it.
 fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>, PlanError> {
-    if !options.planner.method().has_own_path() {
+    if !options.planner.method().has_own_path() || options.planner.path_kind() == PathKind::Middles {
         return Ok(None);
     }
     let kind = if options.planner.path_kind() == PathKind::Own { PathKind::Taut } else { PathKind::Own };

@@ -56,11 +56,11 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
                 sinks::say(&format!("warning: {} is not written: {why}", path.display()));
             }
             Sink::Certificate(path) if matches!(findings.verdict, Verdict::Free) => {
-                let (start, goal) = if args.anywhere { (None, None) } else { loaded.ends(&overrides(args))? };
+                let (start, goals) = if args.anywhere { (None, Vec::new()) } else { loaded.ends(&overrides(args))? };
                 let (steps, asked) = (recorded.steps.as_deref(), (&overrides(args), &about));
                 let task = steps.map(|_| loaded.clone().task(&overrides(args))).transpose()?;
                 let steps = task.as_ref().map(|loaded| &loaded.task).zip(steps);
-                match certificate_of_recording(scene, recording, steps, asked, [start, goal]) {
+                match certificate_of_recording(scene, recording, steps, asked, [start, goals.first().copied()]) {
                     Ok(certificate) => write_whole(path, certificate.as_bytes())?,
                     Err(why) => sinks::say(&format!("warning: {} is not written: {why}", path.display())),
                 }

@@ -105,7 +105,8 @@ fn room(gap: &str) -> (ZonedGrid, Query) {
 
 fn outcome(charge: f64, gap: &str) -> Proposal {
     let laws = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(charge), saturated: false };
-    let planner = FieldPlanner { field: FieldChoice::Khatib(laws), limits: Limits::High, path: PathKind::Own };
+    let planner =
+        FieldPlanner { field: FieldChoice::Khatib(laws), limits: Limits::High, escape: None, path: PathKind::Own };
     let (space, query) = room(gap);
     planner.query(&space, &(), &query).outcome
 }

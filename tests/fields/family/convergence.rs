@@ -111,7 +111,7 @@ fn the_scan_is_best_at_the_theoretical_factor() {
     };
     let mut heard = 0;
     let measured = convergence(&setup, &mut |_| heard += 1).unwrap();
-    assert_eq!((measured.courses.len(), measured.factors.len(), measured.strengths.len(), heard), (8, 1, 2, 3));
+    assert_eq!((measured.courses.len(), measured.factors.len(), measured.strengths.len(), heard), (8, 1, 2, 4));
     let rate = jacobi_rate([20, 30], &Equation::Harmonic);
     let theory = 2.0 / (1.0 + (1.0 - rate * rate).sqrt());
     let scan = &measured.factors[0];
@@ -126,6 +126,14 @@ fn the_scan_is_best_at_the_theoretical_factor() {
     let gauss_seidel = measured.courses.iter().find(|c| c.relaxation == Relaxation::gauss_seidel(ROWS)).unwrap();
     assert_eq!((scan.points[0].at, scan.points[0].sweeps), (1.0, gauss_seidel.trace.sweeps));
     assert!(measured.strengths.iter().all(|s| s.points[0].sweeps == gauss_seidel.trace.sweeps));
+    // Jacobi's eigenvalues lie between minus the rate and the rate: a weight above 2 / (1 + rate) diverges, the best is 1 or just below.
+    let weights = &measured.weights[0];
+    let jacobi = measured.courses.iter().find(|c| c.relaxation == Relaxation::JACOBI).unwrap();
+    let at_one = weights.points.iter().find(|point| point.at == 1.0).unwrap();
+    assert_eq!((at_one.sweeps, at_one.ending), (jacobi.trace.sweeps, jacobi.trace.ending));
+    assert!((0.9..=1.0).contains(&weights.best().unwrap().at), "{:?}", weights.best());
+    assert_eq!(weights.lost_from().map(|p| p.at), Some(1.05), "the first above {}", 2.0 / (1.0 + rate));
+    assert_eq!(weights.points.len(), 12);
     let [central, upwind] = &measured.strengths[..] else { panic!("two") };
     assert_eq!(upwind.lost_from(), None);
     assert!((3.8..4.4).contains(&central.lost_from().unwrap().at), "{:?}", central.lost_from());

@@ -57,7 +57,7 @@ fn fixed(domain: &Domain, cell: usize) -> Option<f64> {
     }
 }
 
-/// Solves `lap p + <b, grad p> = 0` for a drift `b` in each cell.
+/// Solves `lap p + <b, grad p> = 0` for a drift `b` in each cell. A cell is 1 wide along axis 0 and `1 / beta` along axis 1.
 fn solve(domain: &Domain, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Vec<f64> {
     let n = domain.kinds().len();
     let mut matrix = DMatrix::zeros(n, n);
@@ -77,10 +77,11 @@ fn solve(domain: &Domain, drift: impl Fn(usize) -> [f64; 2], difference: Differe
         for axis in [0, 1] {
             let (before, here, after) =
                 (there(domain, cell, axis, -1), There::Cell(cell), there(domain, cell, axis, 1));
+            let side = [1.0, 1.0 / domain.beta()][axis];
             for (place, factor) in [(before, 1.0), (here, -2.0), (after, 1.0)] {
-                add(place, factor);
+                add(place, factor / (side * side));
             }
-            let b = drift(cell)[axis];
+            let b = drift(cell)[axis] / side;
             let (from, to, width) = match difference {
                 Difference::Central => (before, after, 2.0),
                 Difference::Upwind if b > 0.0 => (here, after, 1.0),
@@ -98,6 +99,7 @@ fn uphill(domain: &Domain, values: &[f64], cell: usize) -> [f64; 2] {
     let sign = if domain.levels().obstacle > domain.levels().goal { 0.5 } else { -0.5 };
     let slope =
         [0, 1].map(|axis| sign * (value(domain, values, cell, axis, 1) - value(domain, values, cell, axis, -1)));
+    let slope = [slope[0], slope[1] * domain.beta()];
     let length = slope[0].hypot(slope[1]);
     if length == 0.0 { slope } else { slope.map(|x| x / length) }
 }
@@ -106,9 +108,12 @@ fn uphill(domain: &Domain, values: &[f64], cell: usize) -> [f64; 2] {
 pub fn altered(domain: &Domain, published: &[f64], epsilon: &[f64], cell: usize) -> f64 {
     let [west, east] = [-1, 1].map(|step| value(domain, published, cell, 1, step));
     let [south, north] = [-1, 1].map(|step| value(domain, published, cell, 0, step));
-    let h = (north + south + west + east) / 4.0;
-    let d = (east - west).abs() / 2.0 + (north - south).abs() / 2.0;
-    h + epsilon[cell] / 4.0 * d
+    // Per unit of length: second differences over the squares of sides, slopes over sides.
+    let weight = domain.beta() * domain.beta();
+    let sum = 2.0 + 2.0 * weight;
+    let h = (north + south + weight * (west + east)) / sum;
+    let d = domain.beta() * (east - west).abs() / 2.0 + (north - south).abs() / 2.0;
+    h + epsilon[cell] / sum * d
 }
 
 /// The field that the equation describes.
@@ -129,7 +134,8 @@ pub fn solution(domain: &Domain, equation: &Equation) -> Vec<f64> {
             // Whatever the levels, in the published ones, by the slow way: all cells at once.
             let Levels { obstacle, goal, free } = domain.levels();
             let published = Levels::PUBLISHED;
-            let same = Domain::new(domain.cells(), domain.kinds().to_vec(), domain.boundaries(), published);
+            let same = Domain::new(domain.cells(), domain.kinds().to_vec(), domain.boundaries(), published)
+                .with_beta(domain.beta());
             let mut values: Vec<f64> = same.start();
             for _ in 0..20_000 {
                 let next = (0..values.len())

@@ -3,7 +3,8 @@
 use crate::common::{placed, rr};
 use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::field::{
-    Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion,
+    Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Measure, Order, Relaxation, Repulsion,
+    Stencil,
 };
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
@@ -15,20 +16,20 @@ use proptest::prelude::*;
 
 const GAUSS_SEIDEL: Relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
 
-fn scene(preferences: Vec<Preference>) -> Scene {
+pub fn scene(preferences: Vec<Preference>) -> Scene {
     let workspace =
         Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences, movers: Vec::new() };
     placed(rr([JointRange::Interval { lower: -3.0, upper: 3.0 }; 2]), workspace)
 }
 
 /// Cells of width 1; `#` is blocked.
-fn drawn(text: &str) -> Grid {
+pub fn drawn(text: &str) -> Grid {
     let rows: Vec<&str> = text.split_whitespace().collect();
     let cells = [rows.len(), rows[0].len()];
     grid(cells, [false; 2], rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect())
 }
 
-fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
+pub fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     let axis = |k: usize| match circles[k] {
         true => JointRange::Circle,
         false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 },
@@ -36,18 +37,26 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
 }
 
-fn planner(equation: EquationChoice, relaxation: Relaxation) -> FieldPlanner {
-    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-12, max_sweeps: 20_000, on: Device::Cpu };
-    FieldPlanner { field, limits: Limits::High, path: PathKind::Own }
+pub fn planner(equation: EquationChoice, relaxation: Relaxation) -> FieldPlanner {
+    let field = FieldChoice::Relaxed {
+        equation,
+        relaxation,
+        measure: Measure::GreatestRelativeChange,
+        tolerance: 1e-12,
+        max_sweeps: 20_000,
+        on: Device::Cpu,
+        stencil: Stencil::Square,
+    };
+    FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Own }
 }
 
-fn run(planner: FieldPlanner, zoned: &ZonedGrid, start: usize, goal: usize) -> Run {
+pub fn run(planner: FieldPlanner, zoned: &ZonedGrid, start: usize, goal: usize) -> Run {
     let query = Query { start: zoned.grid.center(start), goals: zoned.grid.center(goal).into() };
     planner.build(zoned);
     planner.query(zoned, &(), &query)
 }
 
-fn found(run: &Run) -> &Path {
+pub fn found(run: &Run) -> &Path {
     match &run.outcome {
         Proposal::Found(path) => path,
         other => panic!("{other:?}"),
@@ -63,7 +72,7 @@ fn is_free(grid: &Grid, q: Configuration) -> bool {
     [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].into_iter().any(beside)
 }
 
-fn reason(run: &Run) -> &str {
+pub fn reason(run: &Run) -> &str {
     match &run.outcome {
         Proposal::GaveUp(reason) => reason,
         other => panic!("{other:?}"),
@@ -175,18 +184,24 @@ fn a_field_that_is_not_finished_says_so() {
         let field = FieldChoice::Relaxed {
             equation: EquationChoice::Harmonic,
             relaxation,
+            measure: Measure::GreatestRelativeChange,
+            stencil: Stencil::Square,
             tolerance: 1e-9,
             max_sweeps,
             on: Device::Cpu,
         };
-        FieldPlanner { field, limits: Limits::High, path: PathKind::Own }
+        FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Own }
     };
     // After three sweeps nobody ten cells away has heard of the goal.
     let early = run(hasty(3), &zoned, 99, 0);
-    assert!(reason(&early).ends_with("it is not converged after 3 sweeps"), "{:?}", early.outcome);
-    // After thirty all have: without over-relaxation the field leads to the goal however early it ends.
+    assert!(reason(&early).starts_with("the field is not converged after 3 sweeps: "), "{:?}", early.outcome);
+    // After thirty all have, and the field leads to the goal. It is not the one that was asked for all the same.
     let late = run(hasty(30), &zoned, 99, 0);
-    assert!(found(&late).length() < 18.0 + 1e-9);
+    assert!(
+        reason(&late).starts_with("the field is not converged after 30 sweeps: allow more sweeps"),
+        "{:?}",
+        late.outcome
+    );
     assert!(matches!(late.note, Some(Note::Unconverged { sweeps: 30, .. })), "{:?}", late.note);
     assert_eq!(late.size, Size::Grid { cells: 100, sweeps: 30 });
 }
@@ -202,7 +217,12 @@ fn divergence_and_traps_are_reasons() {
         repulsion: Repulsion::Ranged { gain: 1.0, range: 3.0 },
         saturated: false,
     };
-    let khatib = FieldPlanner { field: FieldChoice::Khatib(laws), limits: Limits::Reflecting, path: PathKind::Own };
+    let khatib = FieldPlanner {
+        field: FieldChoice::Khatib(laws),
+        limits: Limits::Reflecting,
+        escape: None,
+        path: PathKind::Own,
+    };
     let trap = ZonedGrid::new(drawn("........\n.####...\n....#...\n....#...\n.####...\n........"), &scene(Vec::new()));
     let run = run(khatib, &trap, 2 * 8 + 2, 2 * 8 + 7);
     assert!(reason(&run).contains("local minimum at ("), "{:?}", run.outcome);

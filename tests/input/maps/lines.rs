@@ -4,7 +4,7 @@ use super::{assert_refused, folder, problem_in, world_in};
 use crate::common::{q, wall};
 use cplan::geometry::Point;
 use cplan::input::{LineMap, PreferenceMap};
-use cplan::model::{Preference, Region, Shape};
+use cplan::model::{MotionProblem, Preference, Region, Shape};
 use proptest::prelude::*;
 
 const MAP: &str = "2D-Map\nLineMinPos: -2000 -1000\nLineMaxPos: 2000 1000\nNumLines: 3\nLINES\n\
@@ -19,6 +19,12 @@ fn files(map: &str, preferences: &str, world: &str) -> tempfile::TempDir {
 
 fn point(x: f64, y: f64) -> Point {
     Point::new(x, y)
+}
+
+/// Whether segments are the same but for rounding.
+fn assert_near(found: &[[Point; 2]], expected: &[[Point; 2]]) {
+    let near = |(a, b): (&[Point; 2], &[Point; 2])| (0..2).all(|k| (a[k] - b[k]).norm() < 1e-9);
+    assert!(found.len() == expected.len() && found.iter().zip(expected).all(near), "{found:?}");
 }
 
 /// The segments of all pieces, lower end first, sorted.
@@ -101,16 +107,33 @@ fn a_world_has_the_walls_of_its_map_in_metres() {
 }
 
 #[test]
-fn the_goal_is_the_middle_of_its_rectangle_unless_the_world_has_one() {
+fn goal_rectangles_are_areas_unless_the_world_has_a_goal() {
     let low = WORLD.replace("file =", "height = [0, 3]\nfile =");
     let problem = problem_in(&files(MAP, PREFERENCES, &low)).unwrap().problem;
-    let tips: Vec<Point> = problem.goals().points().map(|q| problem.scene().arm().tip_at(q)).collect();
-    assert!(!tips.is_empty() && tips.iter().all(|tip| (tip - point(1.25, 0.8)).norm() < 1e-9), "{tips:?}");
+    let sides = |problem: &MotionProblem| -> Vec<[Point; 2]> {
+        let arm = problem.scene().arm();
+        problem.goals().pieces().iter().map(|piece| piece.ends().map(|q| arm.tip_at(q))).collect()
+    };
+    let rim = [point(1.0, 0.7), point(1.5, 0.7), point(1.5, 0.9), point(1.0, 0.9)];
+    // The upper side is nearer to the frame than the mast's radius.
+    let expected = [[rim[0], rim[1]], [rim[1], rim[2]], [rim[3], rim[0]]];
+    assert_near(&sides(&problem), &expected);
+    // Two goals: either will do, and a point is one.
+    let two = PREFERENCES
+        .replace("NumGoal: 1", "NumGoal: 2")
+        .replace("1500 700 1000 900", "1500 700 1000 900\n-1200 -800 -1200 -800");
+    let problem = problem_in(&files(MAP, &two, &low)).unwrap().problem;
+    assert_near(&sides(&problem), &[&expected[..], &[[point(-1.2, -0.8); 2]]].concat());
+    // One of them that is blocked is left out with a note.
+    let walled = two.replace("-1200 -800 -1200 -800", "500 0 500 0");
+    let loaded = problem_in(&files(MAP, &walled, &low)).unwrap();
+    assert_near(&sides(&loaded.problem), &expected);
+    assert!(loaded.notes.iter().any(|note| note.starts_with("a goal is ruled out: ")), "{:?}", loaded.notes);
     let own = format!("{low}[goal]\njoints = [-1.2, -0.4]\n");
     let problem = problem_in(&files(MAP, PREFERENCES, &own)).unwrap().problem;
     assert_eq!(*problem.goals(), q(-1.2, -0.4).into());
     // A goal that is not free is shown where the world names the file.
-    let walled = PREFERENCES.replace("1500 700 1000 900", "600 600 400 -600");
+    let walled = PREFERENCES.replace("1500 700 1000 900", "500 -400 500 400");
     assert_refused(problem_in(&files(MAP, &walled, &low)), &["world.toml: line 6", "wishes.map", "room, lines 1 to 2"]);
 }
 
@@ -159,11 +182,11 @@ fn malformed_maps_are_refused_with_their_line() {
 #[test]
 fn malformed_preferences_are_refused_with_their_line() {
     for (from, to, parts) in [
-        ("NumGoal: 1", "NumGoal: 2", &["wishes.map: line 4", "NumGoal is 2", "one goal"][..]),
+        ("NumGoal: 1", "NumGoal: 2", &["wishes.map: line 4", "NumGoal says 2, but 1 follow"][..]),
         ("NumGoal: 1", "NumGoal: 0", &["line 4", "NumGoal is 0"]),
         ("1500 700 1000 900", "1500 700", &["line 6", "expected 4 numbers, found 2"]),
         ("1500 700 1000 900", "1500 700 1000 9000", &["line 6", "outside the bounds"]),
-        ("1500 700 1000 900\n", "1500 700 1000 900\n0 0 1 1\n", &["line 7", "\"NumPoint:\""]),
+        ("1500 700 1000 900\n", "1500 700 1000 900\n0 0 1 1\n", &["line 4", "NumGoal says 1, but 2 follow"]),
         ("NumPoint: 2", "NumPoint: 3", &["line 7", "NumPoint says 3, but 2 follow"]),
         ("+100 0.5", "+100", &["line 9", "expected 5 numbers, found 4"]),
         ("+100 0.5", "+100 nan", &["line 9, column 15", "finite"]),
@@ -176,7 +199,7 @@ fn malformed_preferences_are_refused_with_their_line() {
     }
     let file = files(MAP, &PREFERENCES.replace("1500 700 1000 900", "7 8 7 8"), WORLD);
     let map = PreferenceMap::read(&file.path().join("wishes.map")).unwrap();
-    assert_eq!(map.goal, [point(7.0, 8.0); 2], "a goal may be a point");
+    assert_eq!(map.goals, [[point(7.0, 8.0); 2]], "a goal may be a point");
 }
 
 #[test]

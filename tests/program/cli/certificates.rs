@@ -315,3 +315,56 @@ fn shortest_paths_past_what_is_a_thousand_times_as_large_have_certificates_that_
         check(urdf, world, &place.read("c.json")).unwrap_or_else(|why| panic!("{number}: {why}"));
     }
 }
+
+/// Goal areas: what is found ends on a rim, what is not is proven for all of them, and the checker knows both.
+#[test]
+fn goal_areas_have_certificates_that_hold() {
+    let robot = shipped("robots/room_gantry.urdf");
+    let judged = |areas: &str, walls: &str, code: i32| {
+        let place = Place::new();
+        place.write("world.toml", format!("start.joints = [0, 0]\ngoal.areas = [{areas}]\n{walls}"));
+        let done = place.run(&[&*robot, "world.toml"], "--json --certificate c.json");
+        assert_eq!(done.code, code, "{areas}: {}{}", done.stdout, done.stderr);
+        check_files(Path::new(&robot), &place.path("world.toml"), &place.path("c.json")).unwrap();
+        done.json()
+    };
+    let post = "[[obstacle]]\npolyline = [[4, -3], [4, 3]]\nheight = [0, 3]\n";
+    let found = judged("[[5, -1], [7, 1]], [[-9, -2], [-8, 2]]", post, 0);
+    let length = found["length"].as_f64().unwrap();
+    // Past the wall's end to the lower left corner of the first area's upper side.
+    let expected = 4f64.hypot(3.15) + 1f64.hypot(2.15);
+    assert!((expected - 0.2..expected + 0.2).contains(&length), "{length} {expected}");
+    let inside = judged("[[-1, -1], [1, 1]]", post, 0);
+    assert!(inside["length"].as_f64().unwrap() < 1e-9, "{inside}");
+    let ring = "[[obstacle]]\npolyline = [[-2, -2], [2, -2], [2, 2], [-2, 2], [-2, -2]]\nheight = [0, 3]\n";
+    judged("[[5, -1], [7, 1]], [[-9, -2], [-8, 2]]", ring, 3);
+    // Only a corner of the area lies within the ring.
+    judged("[[1, 1], [7, 7]]", ring, 0);
+}
+
+#[test]
+fn goal_areas_that_are_none_are_refused_and_those_of_arms_that_turn_are_their_middles() {
+    let place = Place::new();
+    for (goal, parts) in [
+        ("areas = []", &["the goal has no area", "two opposite corners"][..]),
+        ("areas = [[[1, 2]]]", &["goal area: expected two opposite corners, found 1"]),
+        ("areas = [[[1, 2], [3]]]", &["goal area: expected two numbers, found 1"]),
+        ("areas = [[[1, 2], [3, nan]]]", &["finite"]),
+        ("areas = [[[1, 2], [3, 4]]]\ntip = [1, 1]", &["`areas` beside another goal"]),
+    ] {
+        place.write("world.toml", format!("[start]\njoints = [0, 0]\n[goal]\n{goal}\n"));
+        let gantry = shipped("robots/room_gantry.urdf");
+        place.run(&[&*gantry, "world.toml"], "").refused(1, parts);
+    }
+    place.write("world.toml", "start.joints = [0, 0]\ngoal.areas = [[[100, 2], [103, 4]]]\n");
+    let far = place.run(&[shipped("robots/room_gantry.urdf").as_str(), "world.toml"], "");
+    assert!(
+        far.code == 1 && far.stderr.contains("the goal area from (100, 2) to (103, 4) is outside the joint limits"),
+        "{}",
+        far.stderr
+    );
+    let turned =
+        place.plan(format!("{}[goal]\nareas = [[[1.0, 0.9], [1.2, 1.1]]]\n", "[start]\njoints = [-0.9, 0.4]\n"), "");
+    assert_eq!(turned.code, 0, "{}", turned.stderr);
+    assert!((turned.stdout + &turned.stderr).contains("the middle of a goal area is the goal: (1.1, 1)"));
+}

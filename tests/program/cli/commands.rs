@@ -16,7 +16,7 @@ fn wrong_command_lines_end_with_2() {
         ("--goal-tip 1,2deg", "not a number"),
         ("--clearance -1", "not negative"),
         ("--clearance nan", "number of metres"),
-        ("--margin 0", "more than 0"),
+        ("--margin -0.1", "from 0 to 0.1"),
         ("--blend 0", "more than 0"),
         ("--blend=-0.1", "more than 0"),
         ("--blend inf", "none, auto"),

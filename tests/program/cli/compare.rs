@@ -347,3 +347,38 @@ fn a_planner_with_a_gap_is_run_until_it_is_within() {
     let [_, close] = rows("shortest --gap 1e-6");
     assert!(close <= 1e-6, "{close}");
 }
+
+/// Names of variants are long; what they share is left out where there is no room, and what tells them apart stays.
+#[test]
+fn pictures_and_charts_keep_what_tells_variants_apart() {
+    let place = Place::new();
+    let oriented = |epsilon: &str, direction: &str| {
+        [
+            "--with".to_owned(),
+            format!("wavefront --search astar --space sampled --neighbors {epsilon} --cells {direction}"),
+        ]
+    };
+    let mut words = vec!["compare".to_owned()];
+    words.extend(shelf());
+    let variants = [oriented("4", "32"), oriented("8", "32"), oriented("8", "48")];
+    words.extend(variants.iter().flatten().cloned());
+    let done = place.run(&words, "--planner first --quiet --picture paths.svg --output all.html --output all.csv");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let svg = place.read("paths.svg");
+    let texts: Vec<String> = {
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        document.descendants().filter_map(|node| node.text()).map(|text| text.trim().to_owned()).collect()
+    };
+    let csv = place.read("all.csv");
+    for [_, variant] in &variants {
+        let short = variant.replace("--search astar --space sampled ", "");
+        let key = texts.iter().find(|text| text.starts_with(&format!("{short}: ")));
+        // With the length, and nothing cut off.
+        assert!(key.is_some_and(|key| key.ends_with(|c: char| c.is_ascii_digit())), "{short}: {texts:?}");
+        assert!(csv.contains(variant.as_str()), "tables have all words: {csv}");
+    }
+    let page = place.read("all.html");
+    for line in ["wavefront --neighbors 8", "--cells 32", "--cells 48"] {
+        assert!(page.contains(&format!(">{line}</text>")), "{line}");
+    }
+}

@@ -79,7 +79,15 @@ fn files_hold_one_measurement_the_same_each_time() {
     }
     let svg = roxmltree::Document::parse(&kept[2].1).unwrap();
     let titles = svg.descendants().filter(|n| n.attribute("font-size") == Some("14")).count();
-    assert_eq!(titles, 5, "three equations, factor and epsilon");
+    assert_eq!(titles, 6, "three equations, two factors and epsilon");
+    // Weighted Jacobi's factors rise to the first that does not converge.
+    for scan in json["weights"].as_array().unwrap() {
+        let points = scan["points"].as_array().unwrap();
+        let (last, before) = points.split_last().unwrap();
+        assert!(before.iter().all(|point| point["ending"] == "converged") && last["ending"] != "converged", "{scan}");
+        assert!(scan["best"]["factor"].as_f64().unwrap() >= 0.9, "{scan}");
+    }
+    assert!(lines.iter().filter(|cells| cells[0] == "weight" && cells[2] == "weighted-jacobi").count() > 30);
     assert!(!kept[2].1.contains("NaN"));
     assert!(kept[3].1.contains("<svg") || kept[3].1.contains("data:image/svg+xml"));
 }
@@ -129,15 +137,38 @@ fn regions_of_the_world_are_relaxed_too() {
     let urdf = shipped("robots/planar_2r.urdf");
     let done = place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16 --json --quiet");
     let json = done.json();
-    let bvp: Vec<&Value> =
-        json["relaxations"].as_array().unwrap().iter().filter(|entry| entry["equation"] == "bvp").collect();
-    assert_eq!(bvp.len(), 8);
-    for entry in bvp {
+    let of = |names: &[&str]| -> Vec<&Value> {
+        let all = json["relaxations"].as_array().unwrap().iter();
+        all.filter(|entry| names.contains(&entry["equation"].as_str().unwrap())).collect()
+    };
+    let two_stages = of(&["bvp", "bvp2"]);
+    assert_eq!(two_stages.len(), 16);
+    for entry in two_stages {
+        // The last sweep of the harmonic field, and the next one: its changes leap.
+        let (leap, samples) = (&entry["leap"], &entry["samples"]);
+        let at = samples["sweep"].as_array().unwrap().iter().position(|sweep| *sweep == leap["sweep"]).unwrap();
+        assert_eq!(samples["sweep"][at + 1], leap["sweep"].as_u64().unwrap() + 1);
+        assert_eq!(
+            (&samples["squared_change"][at], &samples["squared_change"][at + 1]),
+            (&leap["before"], &leap["after"])
+        );
+        assert!(leap["after"].as_f64() > leap["before"].as_f64(), "{leap}");
+        assert_eq!(leap["sweep"].as_u64().unwrap() + leap["more"].as_u64().unwrap(), entry["sweeps"].as_u64().unwrap());
         let stages: Vec<u64> =
             entry["samples"]["stage"].as_array().unwrap().iter().map(|s| s.as_u64().unwrap()).collect();
         assert!(stages.is_sorted() && stages.contains(&0) && stages.contains(&1), "{stages:?}");
         assert!(entry["samples"]["error"].as_array().unwrap().iter().all(Value::is_null));
     }
+    // Locally oriented fields have one stage, a solution to measure by, and the direction asked for.
+    let local = of(&["local, central", "local, upwind"]);
+    assert_eq!(local.len(), 16);
+    assert!(local.iter().all(|entry| entry["leap"].is_null() && entry["samples"]["error"][0].is_number()));
+    let text = place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16");
+    assert!(text.stdout.lines().all(|line| line.chars().count() <= 80), "{}", text.stdout);
+    assert!(text.stdout.contains("where preferences begin: squared changes"), "{}", text.stdout);
+    let turned =
+        place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16 --json --quiet --direction 0,-1").json();
+    assert_ne!(turned["relaxations"], json["relaxations"]);
 }
 
 #[test]

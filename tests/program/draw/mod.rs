@@ -11,7 +11,7 @@ use crate::common::placed;
 use cplan::draw::{Picture, View, svg};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
-use cplan::planner::Trace;
+use cplan::planner::{ChannelPoints, GraphKind, Trace};
 use cplan::space::{Configuration, JointRange, Path, Segment};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;
@@ -137,7 +137,7 @@ fn planned(
 #[test]
 fn a_wavefront_between_limits() {
     let text = planned("rr_wavefront", &three(), [at(-1.9, 0.6), at(1.4, -1.0)], 160, |cells, labels, _, _| {
-        Trace::Wavefront { cells: [cells.n; 2], labels: labels.to_vec(), expanded: Vec::new() }
+        Trace::Wavefront { cells: [cells.n; 2], labels: labels.to_vec(), expanded: Vec::new(), forward: false }
     });
     let words = words(&text);
     for word in ["shoulder", "elbow", "90\u{b0}", "shelf", "post <1>", "fence & gate", "steps to the goal"] {
@@ -164,7 +164,7 @@ fn a_channel_of_a_gantry() {
         let boxes = cells.free_boxes();
         let holds = |b: &Vec<Configuration>, q: &Configuration| (0..2).all(|k| b[0][k] <= q[k] && q[k] <= b[2][k]);
         let channel = (0..boxes.len()).filter(|&i| path.waypoints().iter().any(|q| holds(&boxes[i], q))).collect();
-        Trace::Channel { cells: boxes.into(), channel, expanded: Vec::new() }
+        Trace::Channel { cells: boxes.into(), channel, points: ChannelPoints::default(), expanded: Vec::new() }
     });
     let words = words(&text);
     for word in ["bridge (m)", "trolley (m)", "channel", "crate"] {
@@ -267,11 +267,16 @@ fn a_motion_that_stays_where_it_is_is_drawn() {
     let goals = [at(0.0, 0.0).into()];
     for trace in [
         Trace::Roadmap { edges: Vec::new(), whole: true },
-        Trace::Channel { cells: [].into(), channel: Vec::new(), expanded: Vec::new() },
-        Trace::Roads { edges: Vec::new(), expanded: Vec::new() },
-        Trace::Wavefront { cells: [1, 1], labels: vec![0], expanded: Vec::new() },
-        Trace::Wavefront { cells: [0, 0], labels: Vec::new(), expanded: Vec::new() },
-        Trace::Wavefront { cells: [2, 1], labels: vec![u32::MAX; 2], expanded: Vec::new() },
+        Trace::Channel {
+            cells: [].into(),
+            channel: Vec::new(),
+            points: ChannelPoints::default(),
+            expanded: Vec::new(),
+        },
+        Trace::Roads { edges: Vec::new(), expanded: Vec::new(), kind: GraphKind::Roadmap },
+        Trace::Wavefront { cells: [1, 1], labels: vec![0], expanded: Vec::new(), forward: false },
+        Trace::Wavefront { cells: [0, 0], labels: Vec::new(), expanded: Vec::new(), forward: false },
+        Trace::Wavefront { cells: [2, 1], labels: vec![u32::MAX; 2], expanded: Vec::new(), forward: false },
         Trace::Field { cells: [2, 2], potential: vec![f64::NEG_INFINITY, 0.0, -1.0, -2.0] },
         Trace::Field { cells: [0, 0], potential: Vec::new() },
     ] {

@@ -8,7 +8,7 @@ use cplan::draw::{AxesFrame, Picture, View, page};
 use cplan::geometry::Point;
 use cplan::model::Status;
 use cplan::motion::Drive;
-use cplan::planner::Trace;
+use cplan::planner::{ChannelPoints, GraphKind, Trace};
 use cplan::search::{Connectivity, connectivity};
 use cplan::space::Path;
 use nalgebra::Vector3;
@@ -101,7 +101,7 @@ fn a_wavefront_is_written_in_letters() {
     let scene = three();
     let n = 400;
     let labels: Vec<u32> = (0..n * n).map(|k| if k / n < 100 { u32::MAX } else { (k / n - 100) as u32 }).collect();
-    let trace = Trace::Wavefront { cells: [n; 2], labels, expanded: Vec::new() };
+    let trace = Trace::Wavefront { cells: [n; 2], labels, expanded: Vec::new(), forward: false };
     let picture = Picture { trace: Some(&trace), ending: Some(Status::Unknown), ..bare(&scene, &[]) };
     let value = inspected("page_wavefront", &View::of_picture(&picture));
     let seen = &value["worlds"][0]["trace"];
@@ -126,8 +126,11 @@ fn other_traces_keep_their_parts() {
     };
     let roadmap = shown(&Trace::Roadmap { edges: vec![[at(0.0, 0.5), at(1.0, -0.25)]], whole: false });
     assert_eq!(roadmap, serde_json::json!({ "kind": "roadmap", "edges": [0.0, 0.5, 1.0, -0.25], "whole": false }));
-    let roads =
-        Trace::Roads { edges: vec![[at(0.0, 0.5), at(1.0, -0.25)]], expanded: vec![at(1.0, -0.25), at(0.0, 0.5)] };
+    let roads = Trace::Roads {
+        edges: vec![[at(0.0, 0.5), at(1.0, -0.25)]],
+        expanded: vec![at(1.0, -0.25), at(0.0, 0.5)],
+        kind: GraphKind::Roadmap,
+    };
     let told =
         serde_json::json!({ "kind": "roads", "edges": [0.0, 0.5, 1.0, -0.25], "expanded": [1.0, -0.25, 0.0, 0.5] });
     assert_eq!(shown(&roads), told);
@@ -135,7 +138,12 @@ fn other_traces_keep_their_parts() {
     let svg = cplan::draw::svg(&View::of_picture(&picture));
     assert!(["roadmap", "expanded first", "expanded last"].iter().all(|key| svg.contains(key)), "{svg}");
     let cell = vec![at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)];
-    let channel = shown(&Trace::Channel { cells: vec![cell].into(), channel: vec![0], expanded: Vec::new() });
+    let channel = shown(&Trace::Channel {
+        cells: vec![cell].into(),
+        channel: vec![0],
+        points: ChannelPoints::default(),
+        expanded: Vec::new(),
+    });
     assert_eq!((&channel["cells"][0][2], &channel["channel"][0]), (&1.0.into(), &0.into()));
     assert!(channel.get("expanded").is_none(), "a search that is not to be seen: {channel}");
     let boxes = shown(&Trace::Boxes { free: vec![[at(0.0, 0.0), at(1.0, 2.0)]], stuck: vec![], mixed: vec![] });

@@ -5,7 +5,7 @@ use crate::decimal::Decimal;
 use crate::domain::{Axis, Range};
 use crate::error::CheckError;
 use crate::free::{Chain, On};
-use crate::interval::{BITS, Interval, length, minus};
+use crate::interval::{BITS, Interval, Point, length, minus};
 use crate::robot::Arm;
 use crate::world::Goal;
 use num_bigint::BigInt;
@@ -40,6 +40,17 @@ pub fn missed(what: &str, off: &BigInt) -> Result<String, CheckError> {
     }
 }
 
+/// A bound on how far a place is outside of a rectangle.
+fn outside(place: &Point, area: &Point) -> BigInt {
+    let zero = Interval::whole(0);
+    let beyond = |k: usize| {
+        let (is, range) = (&place[k], &area[k]);
+        let [below, above] = [&range.lower - &is.lower, &is.upper - &range.upper];
+        Interval::exactly(below.max(above).max(zero.lower.clone()))
+    };
+    length(&[beyond(0), beyond(1)]).upper
+}
+
 impl Arm<'_> {
     /// A bound on how far a knot is from where it is to be: joint by joint, or of the tip.
     pub fn away(&self, knot: &[Decimal], goal: &Goal) -> BigInt {
@@ -47,11 +58,19 @@ impl Arm<'_> {
         match goal {
             Goal::Joints(ranges) => (0..2).map(|k| self.off(k, at[k], &ranges[k])).max().expect("two joints"),
             Goal::Tip(place) => {
-                let tip = &self.tip.shape.points[0];
-                let is = Chain::from(self).point_at(&On::Link(1), tip, &at.map(Interval::from));
+                let is = self.tip_at(&at);
                 length(&minus(&is, &place.each_ref().map(Interval::from))).upper
             }
+            Goal::Areas(areas) => {
+                let is = self.tip_at(&at);
+                areas.iter().map(|area| outside(&is, &self.area(area))).min().expect("an area")
+            }
         }
+    }
+
+    /// Where the tip is.
+    fn tip_at(&self, at: &[&Decimal; 2]) -> Point {
+        Chain::from(self).point_at(&On::Link(1), &self.tip.shape.points[0], &at.map(Interval::from))
     }
 
     /// A bound on how far a value of a joint is from another, whole turns of a joint that turns without end not counted.

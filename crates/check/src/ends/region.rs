@@ -1,10 +1,12 @@
 //! All configurations with which motions may begin or end.
 
 use super::End;
+use crate::decimal::Decimal;
 use crate::domain::{Range, Rectangle};
 use crate::error::{CheckError, Input};
 use crate::interval::{Interval, Point};
-use crate::robot::{Arm, Body};
+use crate::polygon::Corner;
+use crate::robot::{Arm, Body, Motion};
 use crate::world::Goal;
 use std::rc::Rc;
 
@@ -22,7 +24,7 @@ impl End {
     pub fn configuration(&self, arm: &Arm) -> Result<Rectangle, CheckError> {
         match &self.at {
             Goal::Joints(values) => arm.configuration(self.what, values),
-            Goal::Tip(_) => {
+            Goal::Tip(_) | Goal::Areas(_) => {
                 let message = format!(
                     "the checker does not know proofs from a {} that is a place of the tip: give joint values",
                     self.what
@@ -40,6 +42,7 @@ impl End {
         match &self.at {
             Goal::Joints(values) => Ok(Region::Configuration(arm.configuration(self.what, values)?)),
             Goal::Tip(at) => Ok(Region::tip(arm, at.each_ref().map(Interval::from))),
+            Goal::Areas(areas) => Ok(Region::Any(areas.iter().map(|area| Region::tip(arm, arm.area(area))).collect())),
         }
     }
 }
@@ -51,6 +54,8 @@ pub enum Region {
     Configuration(Rectangle),
     /// All that put a point of the second link, such as the tip, at a place.
     Tip { tip: Rc<Body>, place: Point },
+    /// Any of several.
+    Any(Vec<Region>),
 }
 
 impl Region {
@@ -61,14 +66,30 @@ impl Region {
 
     /// What holds all of it but what is left out.
     pub fn places(&self, arm: &Arm, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
+        self.places_by(arm, most, &is_left_out)
+    }
+
+    fn places_by(&self, arm: &Arm, most: usize, is_left_out: &dyn Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
         match self {
             Self::Configuration(goal) => [goal.clone()].into_iter().filter(|goal| !is_left_out(goal)).collect(),
             Self::Tip { tip, place } => arm.places((tip, place), most, is_left_out),
+            Self::Any(regions) => regions.iter().flat_map(|r| r.places_by(arm, most, is_left_out)).collect(),
         }
     }
 }
 
 impl Arm<'_> {
+    /// The places of the tip that a rectangle stands for: all of it, of an arm that turns its middle.
+    pub fn area(&self, [a, b]: &[Corner; 2]) -> Point {
+        if self.joints.iter().any(|joint| !matches!(joint.motion, Motion::Slide(_))) {
+            return [0, 1].map(|k| Interval::from(&Decimal::middle(&a[k], &b[k])));
+        }
+        [0, 1].map(|k| {
+            let range = if a[k] <= b[k] { [a[k].clone(), b[k].clone()] } else { [b[k].clone(), a[k].clone()] };
+            Interval::around(&range)
+        })
+    }
+
     /// What encloses a configuration.
     ///
     /// # Errors

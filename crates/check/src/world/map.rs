@@ -1,4 +1,4 @@
-//! Line maps, and the goal of a preference file.
+//! Line maps, and the goals of a preference file.
 
 use super::{Goal, Obstacle, Outline, Read, Reader, Value, World, origin, point};
 use crate::decimal::Decimal;
@@ -45,7 +45,7 @@ impl Reader<'_> {
             world.obstacles.push(Obstacle { name, own: None, outline, at, turn, heights, course: None });
         }
         if let (None, Some(path), false) = (&world.goal, wishes, has_steps) {
-            world.goal = Some(Goal::Tip(goal(self.files, &path, &unit)?));
+            world.goal = Some(Goal::Areas(goals(self.files, &path, &unit)?));
         }
         Ok(())
     }
@@ -76,6 +76,11 @@ impl<'a> Text<'a> {
         }
         self.next += 1;
         Ok(())
+    }
+
+    /// Whether the next line begins with a key.
+    fn is_at(&self, key: &str) -> bool {
+        self.lines.get(self.next).is_some_and(|(_, line)| line.starts_with(key))
     }
 
     /// Numbers, after a key and a colon where there is a key.
@@ -160,19 +165,23 @@ fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec
     Ok(walls.into_iter().map(|(called, wall)| (called, outline(wall))).collect())
 }
 
-/// The middle of the goal of a preference file.
+/// The goals of a preference file.
 ///
 /// # Errors
 /// What is no preference file, up to there.
-fn goal(files: &Files, path: &Path, unit: &Unit) -> Result<Corner, CheckError> {
+fn goals(files: &Files, path: &Path, unit: &Unit) -> Result<Vec<[Corner; 2]>, CheckError> {
     let (name, content) = (path.display().to_string(), text_of(files, path)?);
     let mut text = Text::new(&name, &content);
     text.bounds()?;
     let [count] = text.numbers("NumGoal")?;
-    if count != Decimal::whole(1) {
-        return text.wrong("one goal");
-    }
     text.word("GOAL")?;
-    let [a, b, c, d] = text.numbers::<4>("")?;
-    Ok(unit.place(&[Decimal::middle(&a, &c), Decimal::middle(&b, &d)]))
+    let mut goals = Vec::new();
+    while !text.is_at("NumPoint") {
+        let [a, b, c, d] = text.numbers::<4>("")?;
+        goals.push([unit.place(&[a, b]), unit.place(&[c, d])]);
+    }
+    if goals.is_empty() || count != Decimal::whole(goals.len() as i32) {
+        return text.wrong("as many goals as NumGoal says");
+    }
+    Ok(goals)
 }

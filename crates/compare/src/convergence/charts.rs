@@ -1,7 +1,7 @@
 //! The charts: one for each equation, one for the factor, one for the drift.
 
-use super::lines::{Line, LineChart, SIZE};
-use super::{Convergence, Course, FactorScan, Point, StrengthScan, files};
+use super::lines::{self, Line, LineChart, SIZE};
+use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan, files};
 use crate::page::number;
 use cplan_fields::{Factor, Order, Sample, Scheme};
 use cplan_text::markup;
@@ -38,7 +38,7 @@ impl Convergence {
 
     fn charts(&self) -> Vec<LineChart> {
         let of_equations = self.courses.chunk_by(|a, b| a.equation == b.equation).map(errors);
-        of_equations.chain([self.by_factor(), self.by_strength()]).collect()
+        of_equations.chain([self.by_factor(), self.by_weight(), self.by_strength()]).collect()
     }
 
     fn by_factor(&self) -> LineChart {
@@ -46,7 +46,7 @@ impl Convergence {
             let marked = [&scan.formula].into_iter().chain(&scan.by_rate);
             let mut points: Vec<Point> = scan.points.iter().chain(marked).copied().collect();
             points.sort_by(|a, b| a.at.total_cmp(&b.at));
-            Line { name: scan.equation.clone(), pen: [k, 0], points: converged(&points), dots: true }
+            Line { name: scan.equation.clone(), pen: lines::pen(k), points: converged(&points), dots: true }
         };
         LineChart {
             title: format!("Sweeps of SOR ({}) by its factor", self.order),
@@ -56,10 +56,25 @@ impl Convergence {
         }
     }
 
+    fn by_weight(&self) -> LineChart {
+        let line = |(k, scan): (usize, &WeightScan)| Line {
+            name: scan.equation.clone(),
+            pen: lines::pen(k),
+            points: converged(&scan.points),
+            dots: true,
+        };
+        LineChart {
+            title: "Sweeps of weighted Jacobi by its factor".to_owned(),
+            axes: ["factor", "sweeps until it converges"],
+            lines: self.weights.iter().enumerate().map(line).collect(),
+            marks: vec![(1.0, "Jacobi")],
+        }
+    }
+
     fn by_strength(&self) -> LineChart {
         let line = |(k, scan): (usize, &StrengthScan)| Line {
             name: files::oriented(scan.difference),
-            pen: [k, 0],
+            pen: lines::pen(k),
             points: converged(&scan.points),
             dots: true,
         };
@@ -112,6 +127,7 @@ fn pen(scheme: Scheme) -> [usize; 2] {
                 Order::Lines(_) => 0,
                 Order::Corners(_) => 1,
                 Order::RedBlack => 2,
+                Order::FourColors => 3,
             };
             [1 + usize::from(factor == Factor::Formula), dashes]
         }

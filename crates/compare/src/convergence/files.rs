@@ -1,6 +1,6 @@
 //! Text, CSV and JSON.
 
-use super::{Convergence, Course, FactorScan, Point, StrengthScan};
+use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan};
 use crate::table::{Align, Column, Table, fixed, quoted};
 use cplan_fields::{Difference, Ending, Factor, Measure, Relaxation, Sample, Scheme};
 use cplan_text::plain_line;
@@ -29,6 +29,14 @@ impl Convergence {
             &format!("\nsweeps of SOR ({}) by its factor: best of a scan, by the formula for an empty\n", self.order);
         text += "rectangle, by Jacobi's measured rate\n";
         text += &self.factor_table().to_text();
+        text += "\nsweeps of weighted Jacobi by its factor: best of a scan by twentieths, at 1\n";
+        text += "(Jacobi itself), and the first factor that does not converge\n";
+        text += &self.weight_table().to_text();
+        let leaps = self.leap_table();
+        if !leaps.rows.is_empty() {
+            text += "\nwhere preferences begin: squared changes of the sweeps before and after, and\nsweeps from there on\n";
+            text += &leaps.to_text();
+        }
         let [a, b] = self.direction;
         text +=
             &format!("\nsweeps of Gauss-Seidel ({}) by epsilon, drift along ({a:.3}, {b:.3}) in cells\n", self.order);
@@ -66,6 +74,37 @@ impl Convergence {
         Table { columns, rows: self.factors.iter().map(row).collect() }
     }
 
+    /// A row an equation: the best factor of weighted Jacobi, Jacobi's own, the first that does not converge.
+    #[must_use]
+    pub fn weight_table(&self) -> Table {
+        let row = |scan: &WeightScan| {
+            let best = scan.best();
+            let jacobi = scan.points.iter().find(|point| point.at == 1.0);
+            vec![
+                Some(scan.equation.clone()),
+                best.map(|p| format!("{:.2}", p.at)),
+                best.map(|p| sweeps(p.sweeps, p.ending)),
+                jacobi.map(|p| sweeps(p.sweeps, p.ending)),
+                scan.lost_from().map(|p| format!("{:.2}", p.at)),
+            ]
+        };
+        let columns = columns(&["equation", "best", "sweeps", "at 1", "lost from"], 1);
+        Table { columns, rows: self.weights.iter().map(row).collect() }
+    }
+
+    /// A row a relaxation of two stages: how its changes leap where preferences begin.
+    #[must_use]
+    pub fn leap_table(&self) -> Table {
+        let row = |course: &Course| {
+            let leap = course.trace.leap()?;
+            let cells = [leap.sweep.to_string(), format!("{:.1e}", leap.before), format!("{:.1e}", leap.after)];
+            let names = [course.equation.clone(), course.relaxation.to_string()];
+            Some(names.into_iter().chain(cells).chain([leap.more.to_string()]).map(Some).collect())
+        };
+        let columns = columns(&["equation", "relaxation", "at sweep", "before", "after", "more"], 2);
+        Table { columns, rows: self.courses.iter().filter_map(row).collect() }
+    }
+
     /// A row for every fifth strength of the scan.
     #[must_use]
     pub fn strength_table(&self) -> Table {
@@ -80,7 +119,7 @@ impl Convergence {
         Table { columns, rows: (0..count).step_by(5).map(row).collect() }
     }
 
-    /// A line a sample, with full precision: after a sweep (`error`), of the scans over the factor (`factor`) and over the drift
+    /// A line a sample, with full precision: after a sweep (`error`), of the scans over the factor (`factor` of SOR, `weight` of weighted Jacobi) and over the drift
     /// (`epsilon`), where `sweep` is how many it took. What does not apply is empty; `ending` stands in the last line of a
     /// relaxation.
     #[must_use]
@@ -101,6 +140,12 @@ impl Convergence {
         for FactorScan { equation, points, formula, by_rate } in &self.factors {
             for Point { at, sweeps, ending } in points.iter().chain([formula]).chain(by_rate) {
                 let head = format!("factor,{},sor,{},{at}", quoted(equation), self.order);
+                text += &format!("{head},,,{sweeps},,,,{}\n", word(*ending));
+            }
+        }
+        for WeightScan { equation, points } in &self.weights {
+            for Point { at, sweeps, ending } in points {
+                let head = format!("weight,{},weighted-jacobi,,{at}", quoted(equation));
                 text += &format!("{head},,,{sweeps},,,,{}\n", word(*ending));
             }
         }
@@ -127,6 +172,9 @@ impl Convergence {
                 "sweeps": trace.sweeps,
                 "ending": word(trace.ending),
                 "rate": trace.rate(),
+                "leap": trace.leap().map(|leap| json!({
+                    "sweep": leap.sweep, "before": leap.before, "after": leap.after, "more": leap.more,
+                })),
                 "samples": {
                     "stage": list(&|s| s.stage.into()),
                     "sweep": list(&|s| s.sweep.into()),
@@ -142,6 +190,13 @@ impl Convergence {
                 "best": scan.best().map(|p| point("factor", &p)),
                 "formula": point("factor", &scan.formula),
                 "by_rate": scan.by_rate.map(|p| point("factor", &p)),
+                "points": scan.points.iter().map(|p| point("factor", p)).collect::<Vec<_>>(),
+            })
+        };
+        let weight = |scan: &WeightScan| {
+            json!({
+                "equation": scan.equation,
+                "best": scan.best().map(|p| point("factor", &p)),
                 "points": scan.points.iter().map(|p| point("factor", p)).collect::<Vec<_>>(),
             })
         };
@@ -162,6 +217,7 @@ impl Convergence {
             "direction": self.direction,
             "relaxations": self.courses.iter().map(course).collect::<Vec<_>>(),
             "factors": self.factors.iter().map(factor).collect::<Vec<_>>(),
+            "weights": self.weights.iter().map(weight).collect::<Vec<_>>(),
             "epsilons": self.strengths.iter().map(strength).collect::<Vec<_>>(),
         })
     }

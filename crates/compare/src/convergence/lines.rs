@@ -22,7 +22,12 @@ pub const SIZE: [f64; 2] = [LEFT + PLOT[0] + RIGHT, TOP + PLOT[1] + BOTTOM];
 /// Okabe and Ito's, as on the pages.
 const COLORS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#b04f88", "#a87400", "#2b90c9"];
 /// Lines of one colour differ in their dashes.
-const DASHES: [&str; 3] = ["", "7 3", "2 3"];
+const DASHES: [&str; 4] = ["", "7 3", "2 3", "7 3 2 3"];
+
+/// The pen of the line of this number: another colour for each, and other dashes once all colours are taken.
+pub fn pen(line: usize) -> [usize; 2] {
+    [line % COLORS.len(), line / COLORS.len()]
+}
 
 /// Lines over a horizontal axis.
 pub struct LineChart {

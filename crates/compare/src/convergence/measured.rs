@@ -1,6 +1,6 @@
 //! The measuring.
 
-use super::{Convergence, Course, FactorScan, Point, StrengthScan};
+use super::{Convergence, Course, FactorScan, Point, StrengthScan, WeightScan};
 use cplan_fields::{
     Cell, Difference, Direction, Domain, Ending, Equation, Factor, Lines, Order, RelaxError, Relaxation, Scan,
     Stopping, eliminated, relax, trace,
@@ -40,13 +40,18 @@ fn factors() -> Vec<f64> {
     (20..39).map(|k| f64::from(k) / 20.0).chain((95..100).map(|k| 1.0 + f64::from(k) / 100.0)).collect()
 }
 
+/// Factors of weighted Jacobi in the scan, by twentieths; lesser ones only take longer.
+fn weights() -> impl Iterator<Item = f64> {
+    (10..40).map(|k| f64::from(k) / 20.0)
+}
+
 /// Strengths of the scan, by fifths.
 fn strengths() -> Vec<f64> {
     (0..=30).map(|k| f64::from(k) / 5.0).collect()
 }
 
 /// Relaxes each equation by Jacobi, weighted Jacobi, Gauss-Seidel and SOR in each order and measures the error after each sweep;
-/// then scans the factor of SOR for each equation, and the strength of the drift by Gauss-Seidel with either discretisation.
+/// then scans the factors of SOR and of weighted Jacobi for each equation, and the strength of the drift by Gauss-Seidel with either discretisation.
 /// `progress` hears what is begun. It costs some hundred relaxations, and an elimination for each equation.
 ///
 /// # Errors
@@ -54,7 +59,7 @@ fn strengths() -> Vec<f64> {
 pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Convergence, RelaxError> {
     let Setup { domain, direction, order, stopping, .. } = setup;
     let mut courses = Vec::new();
-    let mut factor_scans = Vec::new();
+    let (mut factor_scans, mut weight_scans) = (Vec::new(), Vec::new());
     for (name, equation) in &setup.equations {
         progress(&format!("{name}: relaxations"));
         let exact = eliminated(domain, equation);
@@ -77,6 +82,8 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
             by_rate: rate.filter(|_| equation.is_monotone()).and_then(best_factor).map(at).transpose()?,
             points: factors().into_iter().map(at).collect::<Result<_, _>>()?,
         });
+        progress(&format!("{name}: factors of weighted Jacobi"));
+        weight_scans.push(weight_scan(name, domain, equation, stopping)?);
     }
     let scan = |difference: Difference| {
         let at = |epsilon: f64| {
@@ -95,9 +102,28 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
         order: *order,
         courses,
         factors: factor_scans,
+        weights: weight_scans,
         direction: direction.components(),
         strengths: [Difference::Central, Difference::Upwind].into_iter().map(scan).collect::<Result<_, _>>()?,
     })
+}
+
+/// Relaxes with one factor of weighted Jacobi after the other, until one from 1 on does not converge; lesser ones may just be slow.
+fn weight_scan(
+    name: &str,
+    domain: &Domain,
+    equation: &Equation,
+    stopping: &Stopping,
+) -> Result<WeightScan, RelaxError> {
+    let mut points: Vec<Point> = Vec::new();
+    for factor in weights() {
+        let point = point(factor, domain, equation, &Relaxation::weighted_jacobi(factor), stopping)?;
+        points.push(point);
+        if factor >= 1.0 && point.converged().is_none() {
+            break;
+        }
+    }
+    Ok(WeightScan { equation: name.to_owned(), points })
 }
 
 /// Young's, of Jacobi's rate.

@@ -35,6 +35,8 @@ pub struct Convergence {
     pub courses: Vec<Course>,
     /// Sweeps against the factor of SOR, an equation each.
     pub factors: Vec<FactorScan>,
+    /// Sweeps against the factor of weighted Jacobi, an equation each.
+    pub weights: Vec<WeightScan>,
     /// The direction of the drift in the scans over its strength, in cells; a vector of length 1.
     pub direction: [f64; 2],
     /// Sweeps of Gauss-Seidel against the strength of the drift, a discretisation each.
@@ -63,6 +65,16 @@ pub struct FactorScan {
     /// an order that is consistent, as rows and red-black are, where all eigenvalues are real (Young 1954). None where `r` is not
     /// known or not below 1, or the equation not monotone.
     pub by_rate: Option<Point>,
+    /// Factors of the scan, rising.
+    pub points: Vec<Point>,
+}
+
+/// Sweeps against the factor of weighted Jacobi, by twentieths up to the first factor from 1 on that does not converge. No greater
+/// factor converges: of each eigenvalue `m` of Jacobi's relaxation a sweep makes `1 - w (1 - m)`, whose size is convex in `w` and 1 at 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WeightScan {
+    /// The name of the equation.
+    pub equation: String,
     /// Factors of the scan, rising.
     pub points: Vec<Point>,
 }
@@ -100,17 +112,40 @@ impl FactorScan {
     /// converged.
     #[must_use]
     pub fn best(&self) -> Option<Point> {
-        let all = self.points.iter().chain([&self.formula]).chain(&self.by_rate).copied();
-        let converged = all.filter(|point| point.converged().is_some());
-        converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
+        fewest(self.points.iter().chain([&self.formula]).chain(&self.by_rate))
     }
+}
+
+impl WeightScan {
+    /// Returns the point with the fewest sweeps, and of several the one with the least factor, if any converged.
+    #[must_use]
+    pub fn best(&self) -> Option<Point> {
+        fewest(self.points.iter())
+    }
+
+    /// Returns the least factor from which on no relaxation of the scan converged, unless the last one did.
+    #[must_use]
+    pub fn lost_from(&self) -> Option<Point> {
+        lost_from(&self.points)
+    }
+}
+
+/// The first of the points after all that converged.
+fn lost_from(points: &[Point]) -> Option<Point> {
+    let after = points.iter().rposition(|point| point.converged().is_some()).map_or(0, |last| last + 1);
+    points.get(after).copied()
+}
+
+/// Of the points that converged the one with the fewest sweeps, and of several the one that comes first on the axis.
+fn fewest<'a>(points: impl Iterator<Item = &'a Point>) -> Option<Point> {
+    let converged = points.filter(|point| point.converged().is_some()).copied();
+    converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
 }
 
 impl StrengthScan {
     /// The least strength from which on no relaxation of the scan converged; none if the last one did.
     #[must_use]
     pub fn lost_from(&self) -> Option<Point> {
-        let after = self.points.iter().rposition(|point| point.converged().is_some()).map_or(0, |last| last + 1);
-        self.points.get(after).copied()
+        lost_from(&self.points)
     }
 }

@@ -1,8 +1,8 @@
 //! Box plots, a line a planner.
 
 use super::axis::Axis;
-use super::markup::{margin, number, shortened};
-use crate::{Measure, Spread, Study};
+use super::markup::{margin, name_before, number};
+use crate::{Measure, Spread, Study, labels};
 use cplan_text::{counted, markup};
 
 /// Width of a chart, pixels: about that of a phone, where charts are not made smaller then.
@@ -30,7 +30,8 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     let base = (measure == Measure::OverOptimum).then_some(1.0);
     let axis = Axis::over(values.iter().flatten().copied(), base)?;
     let height = TOP + LINE * values.len() as f64 + BOTTOM;
-    let left = margin(&study.planners());
+    let names = labels(&study.planners());
+    let left = margin(&names.iter().map(String::as_str).collect::<Vec<_>>());
     let x = |value: f64| left + (WIDTH - left - RIGHT) * axis.place(value);
     let floor = height - BOTTOM;
     let mut svg = format!(
@@ -46,12 +47,7 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     }
     for (i, (name, values)) in study.planners().into_iter().zip(&values).enumerate() {
         let middle = TOP + LINE * (i as f64 + 0.5);
-        svg += &format!(
-            "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
-            number(left - 10.0),
-            number(middle + 4.0),
-            markup(&shortened(name))
-        );
+        svg += &name_before(&names[i], left - 10.0, middle + 4.0);
         if let Some(spread) = Spread::of(values.iter().copied()) {
             svg += &format!("<g class=\"p{}\"><title>{}</title>", i % super::COLORS, markup(&described(name, &spread)));
             svg += &drawn(&spread, values, middle, &x);

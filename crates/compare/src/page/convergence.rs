@@ -18,8 +18,16 @@ impl Convergence {
             + &section("Charts", &charts)
             + &section("Relaxations", &table(&self.table()))
             + &section("Sweeps of SOR by its factor", &table(&self.factor_table()))
+            + &section("Sweeps of weighted Jacobi by its factor", &table(&self.weight_table()))
+            + &self.leaps()
             + &section("Sweeps of Gauss-Seidel by epsilon", &table(&self.strength_table()))
             + &foot(HOW)
+    }
+
+    /// Where preferences begin, if there are any.
+    fn leaps(&self) -> String {
+        let leaps = self.leap_table();
+        if leaps.rows.is_empty() { String::new() } else { section("Where preferences begin", &table(&leaps)) }
     }
 }
 

@@ -1,22 +1,42 @@
 //! Text and numbers in HTML and SVG.
 
 use crate::{Align, Table};
-use cplan_text::markup;
+use cplan_text::{markup, wrapped};
 
-/// Characters of a planner's name that a chart has room for, at the most.
+/// Characters of a planner's name that a line of it has room for in front of a chart, at the most.
 const NAME: usize = 24;
 
-/// A name that fits in front of a chart's line: of a long one its end, in which planners with options differ.
-pub fn shortened(name: &str) -> String {
-    match name.chars().count() {
-        n if n > NAME => ['\u{2026}'].into_iter().chain(name.chars().skip(n - NAME + 1)).collect(),
-        _ => name.to_owned(),
+/// Pixels between two lines of a name.
+const NAME_LINE: f64 = 13.0;
+
+/// A name in front of a chart's line, which ends at `right` about the height `middle`: in two lines if it is long. Of a longer one the
+/// second line holds the end.
+pub fn name_before(name: &str, right: f64, middle: f64) -> String {
+    let lines = name_lines(name);
+    let first = middle - NAME_LINE * 0.5 * (lines.len() - 1) as f64;
+    let line = |(k, line): (usize, &String)| {
+        let y = number(first + NAME_LINE * k as f64);
+        format!("<text class=\"name\" x=\"{}\" y=\"{y}\">{}</text>\n", number(right), markup(line))
+    };
+    lines.iter().enumerate().map(line).collect()
+}
+
+/// A name in at most two lines of [`NAME`] characters.
+fn name_lines(name: &str) -> Vec<String> {
+    let end = |text: &str| match text.chars().count() {
+        n if n > NAME => ['\u{2026}'].into_iter().chain(text.chars().skip(n - NAME + 1)).collect(),
+        _ => text.to_owned(),
+    };
+    match wrapped(name, NAME, 0).split_once('\n') {
+        Some((first, rest)) => vec![end(first), end(&rest.replace('\n', " "))],
+        None => vec![end(name)],
     }
 }
 
 /// Pixels that the longest of these names takes in front of a chart's lines.
 pub fn margin(names: &[&str]) -> f64 {
-    let longest = names.iter().map(|name| name.chars().count().min(NAME)).fold(8, usize::max);
+    let lines = names.iter().flat_map(|name| name_lines(name));
+    let longest = lines.map(|line| line.chars().count()).fold(8, usize::max);
     18.0 + 7.4 * longest as f64
 }
 
@@ -85,12 +105,17 @@ mod tests {
     }
 
     #[test]
-    fn long_names_keep_their_end() {
-        assert_eq!(shortened("subdivision"), "subdivision");
-        let long = shortened("harmonic --field oriented --epsilon 0.5");
-        assert_eq!(long, "\u{2026} oriented --epsilon 0.5");
-        assert_eq!(long.chars().count(), NAME);
-        assert_eq!(margin(&["harmonic --field oriented --epsilon 0.5"]), margin(&[long.as_str()]));
+    fn long_names_have_two_lines_and_keep_their_end() {
+        assert_eq!(name_lines("subdivision"), ["subdivision"]);
+        assert_eq!(
+            name_lines("harmonic --epsilon 0.5 --direction 0,-1"),
+            ["harmonic --epsilon 0.5", "--direction 0,-1"]
+        );
+        let long = name_lines("harmonic --field oriented --epsilon 0.5 --direction 0,-1");
+        assert_eq!(long, ["harmonic --field", "\u{2026}ilon 0.5 --direction 0,-1"]);
+        assert!(long[1].chars().count() > 8 && margin(&["wavefront"]) < margin(&["a wavefront"]));
+        let text = name_before("harmonic --epsilon 0.5 --direction 0,-1", 90.0, 20.0);
+        assert!(text.contains("y=\"13.5\"") && text.contains("y=\"26.5\""), "{text}");
     }
 
     #[test]

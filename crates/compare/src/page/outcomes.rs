@@ -1,7 +1,7 @@
 //! What became of each problem: bars, and a matrix.
 
-use super::markup::{margin, number, shortened};
-use crate::{Comparison, Measure, Row, Study};
+use super::markup::{margin, name_before, number};
+use crate::{Comparison, Measure, Row, Study, labels};
 use cplan_core::model::Status;
 use cplan_text::markup;
 
@@ -22,16 +22,12 @@ pub fn bars(study: &Study) -> String {
         number(WIDTH),
         number(height)
     );
-    let from = margin(&planners);
+    let names = labels(&planners);
+    let from = margin(&names.iter().map(String::as_str).collect::<Vec<_>>());
     let all = study.comparisons.len().max(1) as f64;
     for (i, name) in planners.iter().enumerate() {
         let top = LINE * i as f64 + 4.0;
-        svg += &format!(
-            "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
-            number(from - 10.0),
-            number(top + 15.0),
-            markup(&shortened(name))
-        );
+        svg += &name_before(&names[i], from - 10.0, top + 15.0);
         let mut left = from;
         for (outcome, count) in Status::ALL.into_iter().zip(study.tally(i)).filter(|(_, count)| *count > 0) {
             let width = (WIDTH - from) * count as f64 / all;

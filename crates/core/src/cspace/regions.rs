@@ -22,6 +22,10 @@ const COARSENESS: f64 = 2.0;
 /// union.
 const OVERLAP: f64 = 1e-3;
 
+/// Share of the arm's reach by which rounded corners of [`exact_c_obstacles`] may be larger than their arcs: invisible in
+/// pictures, and five corners a quarter of a turn for the most.
+const ARC_TOLERANCE: f64 = 1e-3;
+
 /// A simple polygon with holes: the outer contour counter-clockwise, holes clockwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
@@ -121,6 +125,38 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
     within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
 }
 
+/// Whether the C-obstacles of a scene are polygons, so that [`exact_c_obstacles`] has them: both joints slide, in directions that
+/// are not parallel.
+#[must_use]
+pub fn has_exact_polygons(scene: &Scene) -> bool {
+    translation::joint_map(scene.arm()).is_some()
+}
+
+/// The C-obstacles of a gantry as they are, by the sweep over the normals of both polygons (`B - A`), and what they prove: nothing
+/// is grown and no corner is added. None for arms that turn.
+///
+/// Corners are differences of given corners, rounded once, in joint values. Circles, capsules and a clearance round the corners of a
+/// C-obstacle; only these arcs are replaced by tangents, which lie outside of them.
+#[must_use]
+pub fn exact_c_obstacles(scene: &Scene) -> Option<(Vec<CObstacle>, Proves)> {
+    let (level, tolerance) = (scene.workspace().clearance, ARC_TOLERANCE * scene.arm().reach());
+    has_exact_polygons(scene).then(|| {
+        let radius = |pair: &Pair| scene.part(*pair).radius() + scene.piece(*pair).radius() + level;
+        let is_round = scene.pairs().iter().any(|pair| pair.link == 1 && radius(pair) > 0.0);
+        let proves = if is_round { Proves::Outer { margin: tolerance } } else { Proves::Exact };
+        (traced(scene, level, tolerance), proves)
+    })
+}
+
+/// Free space of a gantry among [`exact_c_obstacles`], over the limits of its slides. None for arms that turn.
+///
+/// Configurations on its boundary touch an obstacle.
+#[must_use]
+pub fn exact_regions(scene: &Scene) -> Option<Regions> {
+    let (obstacles, proves) = exact_c_obstacles(scene)?;
+    Some(within_window(scene, proves, window(scene, Configuration::zeros(), 0), obstacles))
+}
+
 /// Free space of a gantry, over the limits of its slides, with obstacles shrunk by at most `margin` metres: all that keeps the
 /// scene's clearance is within, and what is nearer by more than `margin` is not.
 ///
@@ -190,8 +226,11 @@ pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<Polygon>> {
 #[must_use]
 pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle> {
     assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
-    let level = scene.workspace().clearance + margin;
-    let scene = &*coarsened(scene, margin, tolerance);
+    traced(&coarsened(scene, margin, tolerance), scene.workspace().clearance + margin, tolerance)
+}
+
+/// What each pair of shapes blocks that come within `level` of each other, flattened with this tolerance.
+fn traced(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
     let slices = Contacts::new(scene);
     let map = translation::joint_map(scene.arm());
     let mut obstacles = Vec::new();

@@ -42,6 +42,7 @@ mod stroke;
 mod stuck_along;
 mod task;
 mod task_error;
+mod tip_area;
 mod workspace;
 
 pub use arm::{Arm, Plane};
@@ -74,4 +75,5 @@ pub use stroke::{Stroke, ToolJoint};
 pub use stuck_along::BlockedStretch;
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
 pub use task_error::TaskError;
+pub use tip_area::area_goals;
 pub use workspace::{Heights, Obstacle, RESTING_TOLERANCE, Shape, Workspace};

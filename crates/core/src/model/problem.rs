@@ -14,6 +14,30 @@ pub enum Goal {
     Joints(Configuration),
     /// Any configuration that puts the tip here.
     Tip(Point),
+    /// Any configuration that puts the tip into this rectangle: lower left and upper right corner. Of arms that do not slide along both
+    /// axes the middle alone ([`Goal::of_arm`]).
+    Area([Point; 2]),
+}
+
+impl Goal {
+    /// Where the tip is to be, of a rectangle its middle; none of joint values.
+    #[must_use]
+    pub fn tip(&self) -> Option<Point> {
+        match self {
+            Self::Joints(_) => None,
+            Self::Tip(tip) => Some(*tip),
+            Self::Area([low, high]) => Some(nalgebra::center(low, high)),
+        }
+    }
+
+    /// The place for the tip that is nearest to where it is; none of joint values.
+    #[must_use]
+    pub fn nearest_tip(&self, is: Point) -> Option<Point> {
+        match self {
+            Self::Area([low, high]) => Some(is.sup(low).inf(high)),
+            goal => goal.tip(),
+        }
+    }
 }
 
 /// Why a scene, a start and goals make no problem.

@@ -283,6 +283,9 @@ impl Action {
             }
             Action::Move(Goal::Joints(q)) => format!("move to joints {}", point(q[0], q[1])),
             Action::Move(Goal::Tip(tip)) => format!("move the tip to {} m", point(tip.x, tip.y)),
+            Action::Move(Goal::Area([low, high])) => {
+                format!("move the tip into {} to {} m", point(low.x, low.y), point(high.x, high.y))
+            }
         }
     }
 }

@@ -241,6 +241,9 @@ impl Gripper<'_> {
                 let is_within = values.all(|(joint, value)| joint.range.contains(*value));
                 is_within.then_some(()).ok_or_else(|| wrong(step, "it goes beyond the joint limits"))
             }
+            Action::Move(Goal::Area(_)) => {
+                Err(wrong(step, "it goes to joint values or a place of the tip, not to an area"))
+            }
             Action::Move(Goal::Tip(tip)) => {
                 let is_finite = are_small(tip.iter().copied());
                 is_finite.then_some(()).ok_or_else(|| wrong(step, "it goes to no finite place"))

@@ -138,7 +138,7 @@ pub fn along<G: Guide>(
     }
     let line = completed(grid, query, joined, line, goal);
     let line = match kind {
-        PathKind::Own => simplified(grid, &line, OFF_THE_CURVE),
+        PathKind::Own | PathKind::Middles => simplified(grid, &line, OFF_THE_CURVE),
         PathKind::Taut => shortcut::shortcut(grid, &line),
     };
     Ok(between(grid, query.start, &line, goal.0))

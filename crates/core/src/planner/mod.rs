@@ -45,7 +45,7 @@ pub use harmonic::Harmonic;
 pub use path_kind::PathKind;
 pub use roadmap::{RoadmapSearch, SearchOrder};
 pub use trapezoid::{Trapezoid, TrapezoidMap};
-pub use visibility::{Visibility, VisibilityMap};
+pub use visibility::{Visibility, VisibilityGraph, VisibilityMap};
 pub use wavefront::{GridSearch, Wavefront};
 
 use crate::space::{Configuration, GoalSet, Path};
@@ -112,6 +112,15 @@ pub enum Size {
         /// Those that were reached.
         labelled: usize,
     },
+    /// Cells of a grid as far as a search came that began anew, round by round.
+    Deepening {
+        /// How often it began.
+        rounds: usize,
+        /// How many times a cell was expanded, in all rounds together.
+        expansions: usize,
+        /// Cells that were reached.
+        labelled: usize,
+    },
     /// Nothing was built.
     Nothing,
 }
@@ -126,6 +135,9 @@ impl Size {
             Size::Grid { cells, sweeps } => vec![("cells", cells), ("sweeps", sweeps)],
             Size::Slices { slices } => vec![("rows", slices)],
             Size::Search { expanded, labelled } => vec![("cells", labelled), ("expanded", expanded)],
+            Size::Deepening { rounds, expansions, labelled } => {
+                vec![("cells", labelled), ("expanded", expansions), ("rounds", rounds)]
+            }
             Size::Nothing => Vec::new(),
         }
     }
@@ -143,9 +155,36 @@ impl std::fmt::Display for Size {
             Size::Search { expanded, labelled } => {
                 write!(f, "{} expanded of {labelled} labelled", counted(expanded, "cell"))
             }
+            Size::Deepening { rounds, expansions, labelled } => {
+                write!(
+                    f,
+                    "{}, {} of {}",
+                    counted(rounds, "round"),
+                    counted(expansions, "expansion"),
+                    counted(labelled, "cell")
+                )
+            }
             Size::Nothing => f.write_str("no space built"),
         }
     }
+}
+
+/// Points of a channel through which paths may lead.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ChannelPoints {
+    /// Centres of area of its cells, in order (`C1`, `C2`, ...).
+    pub centers: Vec<Configuration>,
+    /// Middles of the portals between them, one less (`Q1`, `Q2`, ...).
+    pub middles: Vec<Configuration>,
+}
+
+/// What a graph of straight motions is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GraphKind {
+    /// A visibility graph.
+    Visibility(VisibilityGraph),
+    /// Any other roadmap.
+    Roadmap,
 }
 
 /// What a planner saw on its way, for pictures.
@@ -169,6 +208,8 @@ pub enum Trace {
         cells: Arc<[Vec<Configuration>]>,
         /// Indices of the channel's cells.
         channel: Vec<usize>,
+        /// Where paths through the middle of the channel lead; empty where there are none of a fixed place.
+        points: ChannelPoints,
         /// Where the search came, in order, if that is to be seen.
         expanded: Vec<Configuration>,
     },
@@ -178,6 +219,8 @@ pub enum Trace {
         edges: Vec<[Configuration; 2]>,
         /// Where the search came, in order.
         expanded: Vec<Configuration>,
+        /// Which graph it is.
+        kind: GraphKind,
     },
     /// Boxes of a subdivision: lower and upper corner of each.
     Boxes {
@@ -188,7 +231,8 @@ pub enum Trace {
         /// Boxes that are neither proven free nor proven stuck.
         mixed: Vec<[Configuration; 2]>,
     },
-    /// Steps to the goal for every cell of the grid, `u32::MAX` where the wave did not come.
+    /// Steps to the goal for every cell of the grid, of a forward search steps from the start; `u32::MAX` where it did not
+    /// come.
     Wavefront {
         /// Shape of the grid.
         cells: [usize; 2],
@@ -196,6 +240,8 @@ pub enum Trace {
         labels: Vec<u32>,
         /// Cells in the order in which a search expanded them; none of the wave, which comes to all cells of a label at once.
         expanded: Vec<u32>,
+        /// Whether the search began at the start.
+        forward: bool,
     },
     /// Natural logarithm of the potential for every cell (0 at the goal, the lower the farther), minus infinity where
     /// there is none.
@@ -241,16 +287,32 @@ impl Trace {
     }
 }
 
-/// What a run that ended well has to add.
+/// What a run has to add.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Note {
-    /// The field was not relaxed to the tolerance asked for: the way through it is a way, but not the one that the
-    /// solution of its equation would show.
+    /// The field was not relaxed to the tolerance asked for. No path is followed in it.
     Unconverged {
         /// Passes over all cells, until the limit.
         sweeps: usize,
-        /// Greatest relative change of a value in the last sweep that was measured.
+        /// The measure in the last sweep.
         change: f64,
+    },
+    /// The path left local minima, which the forces alone do not leave.
+    Escaped {
+        /// How, in words.
+        how: &'static str,
+        /// Number of local minima.
+        minima: usize,
+        /// Number of moves that led out of them.
+        moves: usize,
+    },
+    /// The field was relaxed to the tolerance of its measure, which left values about the path too small to be seen by it. Then it
+    /// was relaxed to a relative tolerance.
+    Continued {
+        /// Passes over all cells until the measure was met.
+        first: usize,
+        /// Passes after that.
+        more: usize,
     },
     /// Not relaxed to the tolerance, since the precision of a GPU goes no further.
     Floor {
@@ -265,17 +327,21 @@ impl std::fmt::Display for Note {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Unconverged { sweeps, change } => {
+                write!(f, "not converged: relaxation stopped after {sweeps} sweeps, at a change of {change:.1e}")
+            }
+            Self::Continued { first, more } => {
                 write!(
                     f,
-                    "not converged: relaxation stopped after {sweeps} sweeps, at a relative change of {change:.1e}"
+                    "the measure was met after {first} sweeps; {more} more, by relative change, for the small values about the \
+                     path"
                 )
             }
+            Self::Escaped { how, minima, moves } => {
+                let minima = if *minima == 1 { "a local minimum".to_owned() } else { format!("{minima} local minima") };
+                write!(f, "escaped from {minima} {how}: {} that the forces do not make", counted(*moves, "move"))
+            }
             Self::Floor { sweeps, change } => {
-                write!(
-                    f,
-                    "not converged: after {sweeps} sweeps single precision goes no further, at a relative change of \
-                     {change:.1e}"
-                )
+                write!(f, "after {sweeps} sweeps single precision goes no further, at a change of {change:.1e}")
             }
         }
     }

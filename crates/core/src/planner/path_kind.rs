@@ -1,9 +1,9 @@
-//! Which of a planner's two paths is wanted.
+//! Which of a planner's paths is wanted.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A path of a planner that has two.
+/// A path of a planner that has several.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PathKind {
@@ -13,11 +13,17 @@ pub enum PathKind {
     /// That one pulled taut as far as the planner's cells allow: shorter and nearer to obstacles, and no longer what the
     /// planner's method says of its path.
     Taut,
+    /// Of the trapezoidal decomposition: through the middles of the portals alone, and through a cell's centre only where the portals
+    /// before and after it lie on one vertical.
+    Middles,
 }
 
 impl PathKind {
-    /// Both kinds, in the order of the command line's help.
+    /// The two kinds of every planner that has a path of its own.
     pub const ALL: [Self; 2] = [Self::Own, Self::Taut];
+
+    /// These and the one of the trapezoidal decomposition alone, in the order of the command line's help.
+    pub const CHOICES: [Self; 3] = [Self::Own, Self::Taut, Self::Middles];
 
     /// Name on the command line and in results.
     #[must_use]
@@ -25,6 +31,7 @@ impl PathKind {
         match self {
             Self::Own => "own",
             Self::Taut => "taut",
+            Self::Middles => "middles",
         }
     }
 }

@@ -6,7 +6,7 @@ use super::channel::{Adjacency, Channel};
 use super::decomposition::{CellPortal, Decomposition};
 use super::roadmap::RoadmapSearch;
 use super::terminals::Terminals;
-use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use super::{ChannelPoints, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::space::funnel::{Turn, turns};
 use crate::space::{Configuration, Measure, Metric, Path, Portal, Segment, nearest_end};
@@ -24,7 +24,8 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Trapezoid {
     /// [`PathKind::Taut`] is pulled within the channel, so that it may touch obstacles; [`PathKind::Own`] leads through the
-    /// middles of its portals and the centres of its cells: start, `Q1`, `C2`, `Q2`, ..., goal (Latombe).
+    /// middles of its portals and the centres of its cells: start, `Q1`, `C2`, `Q2`, ..., goal (Latombe); [`PathKind::Middles`]
+    /// leaves out the centres of cells that it crosses from one side to the other.
     pub path: PathKind,
     /// How the adjacency of cells is searched.
     pub search: RoadmapSearch,
@@ -63,6 +64,7 @@ impl Planner for Trapezoid {
 
     fn query(&self, space: &Regions, map: &TrapezoidMap, query: &Query) -> Run {
         let parts_of = |segment: &Segment| map.decomposition.parts_of(&map.boundary, segment);
+        let mut points = ChannelPoints::default();
         let (outcome, channel, expanded) = match Terminals::new(space, query, parts_of) {
             Err(reason) => (Proposal::GaveUp(reason), Vec::new(), Vec::new()),
             Ok(terminals) => {
@@ -74,9 +76,11 @@ impl Planner for Trapezoid {
                     Some(channel) => {
                         let waypoints = match self.path {
                             PathKind::Taut => map.taut_path(&channel),
-                            PathKind::Own => map.middle_path(&channel),
+                            PathKind::Own => map.middle_path(&channel, false),
+                            PathKind::Middles => map.middle_path(&channel, true),
                         };
                         let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
+                        points = map.points(&channel);
                         (Proposal::Found(path), channel.cells, expanded)
                     }
                 }
@@ -86,7 +90,7 @@ impl Planner for Trapezoid {
         let expanded = if self.search.is_usual() { Vec::new() } else { expanded };
         Run {
             outcome,
-            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel, expanded },
+            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel, points, expanded },
             size: Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.portals.len() },
             note: None,
         }
@@ -94,14 +98,25 @@ impl Planner for Trapezoid {
 }
 
 impl TrapezoidMap {
-    /// Through the middles of the portals, and the centres of the cells between them.
-    fn middle_path(&self, channel: &Channel) -> Vec<Point> {
+    /// Centres and middles along a channel.
+    fn points(&self, channel: &Channel) -> ChannelPoints {
+        let all = |points: &[Point], numbers: &[usize]| numbers.iter().map(|&number| points[number].coords).collect();
+        ChannelPoints {
+            centers: all(&self.adjacency.centers, &channel.cells),
+            middles: all(&self.adjacency.middles, &channel.portals),
+        }
+    }
+
+    /// Through the middles of the portals, and the centres of the cells between them; `sparing`, only of those cells that are left by
+    /// the side that they are entered by: straight on would be along that side.
+    fn middle_path(&self, channel: &Channel, sparing: bool) -> Vec<Point> {
         let mut waypoints = vec![channel.start];
         for (k, &cell_portal) in channel.portals.iter().enumerate() {
-            if k > 0 {
+            let middle = self.adjacency.middles[cell_portal];
+            if k > 0 && (!sparing || waypoints[waypoints.len() - 1].x == middle.x) {
                 waypoints.push(self.adjacency.centers[channel.cells[k]]);
             }
-            waypoints.push(self.adjacency.middles[cell_portal]);
+            waypoints.push(middle);
         }
         let last = waypoints[waypoints.len() - 1];
         waypoints.push(Point::from(channel.goals.nearest(Measure::from(Metric::Euclidean), last.coords)));

@@ -7,17 +7,45 @@
 //! matter (Polyanya). Other searches than that have the whole graph made. One search serves all metrics: shortest paths in any norm turn at the same corners, only lengths
 //! and bounds differ ([`crate::space::Measure`]).
 
+mod full;
+
 use super::mesh::{Cone, Mesh, Tangency};
 use super::polyanya::Polyanya;
 use super::roadmap::{Asked, Roadmap, RoadmapSearch};
 use super::terminals::Terminals;
-use super::{Planner, Proposal, Query, Run, Size, Trace};
+use super::{GraphKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::space::{Configuration, Measure, Metric, Path, Segment};
 use cplan_geometry::Point;
 use cplan_geometry::planar::Boundary;
 use cplan_interrupt::checkpoint;
 use petgraph::graph::NodeIndex;
+use serde::{Deserialize, Serialize};
+
+/// Which arcs a visibility graph has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum VisibilityGraph {
+    /// Between convex corners of C-obstacles, those that are tangent at both ends: enough for shortest paths.
+    #[default]
+    Reduced,
+    /// By definition: between all corners of free space that see each other.
+    Full,
+}
+
+impl VisibilityGraph {
+    /// Both, in the order of the command line's help.
+    pub const ALL: [Self; 2] = [Self::Reduced, Self::Full];
+
+    /// Name on the command line and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Reduced => "reduced",
+            Self::Full => "full",
+        }
+    }
+}
 
 /// The *reduced visibility graph* and A* over it: finds the shortest path in closed free space.
 ///
@@ -36,6 +64,8 @@ pub struct Visibility {
     pub metric: Metric,
     /// How the graph is searched. The usual search makes no more of it than it needs; any other has it made as a whole.
     pub search: RoadmapSearch,
+    /// Which arcs it has. The full graph is made as a whole.
+    pub graph: VisibilityGraph,
 }
 
 /// Triangulated free space, from which the visibility graph is read.
@@ -66,7 +96,7 @@ impl Planner for Visibility {
                 };
             }
         };
-        if !self.search.is_usual() {
+        if !self.search.is_usual() || self.graph == VisibilityGraph::Full {
             return self.whole(map, &terminals);
         }
         let mut search = Polyanya::new(&map.mesh, Measure::from(self.metric), &terminals);
@@ -119,14 +149,22 @@ impl VisibilityMap {
 impl Visibility {
     /// A search of the whole graph.
     fn whole(&self, map: &VisibilityMap, terminals: &Terminals) -> Run {
-        let asked = map.asked(Measure::from(self.metric), terminals);
+        let measure = Measure::from(self.metric);
+        let asked = match self.graph {
+            VisibilityGraph::Reduced => Ok(map.asked(measure, terminals)),
+            VisibilityGraph::Full => map.full(measure, terminals),
+        };
+        let asked = match asked {
+            Ok(asked) => asked,
+            Err(reason) => return super::roadmap::run(Proposal::GaveUp(reason), None, Vec::new()),
+        };
         let (way, expanded) = asked.search(self.search, terminals);
         let outcome = match way {
             Some(way) => Proposal::Found(Path::new(way.into_iter().map(|node| asked.at(node).coords).collect())),
             None => Proposal::NoPath,
         };
         let [nodes, edges] = asked.size();
-        let trace = Trace::Roads { edges: asked.edges(), expanded };
+        let trace = Trace::Roads { edges: asked.edges(), expanded, kind: GraphKind::Visibility(self.graph) };
         Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
     }
 }

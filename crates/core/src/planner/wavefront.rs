@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// How the cells of a grid are searched. All begin at the goal, like the wave, so that a label counts the moves to it.
+/// How the cells of a grid are searched. All begin at the goal, like the wave, so that a label counts the moves to it; all
+/// but the wave can begin at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSearch {
@@ -27,12 +28,21 @@ pub enum GridSearch {
     AStar,
     /// The cell nearest to the start: some path, found soon.
     Greedy,
+    /// Depth first within a limit of moves, which grows until the start is met: fewest moves.
+    IterativeDeepening,
 }
 
 impl GridSearch {
     /// All, in the order of the command line's help.
-    pub const ALL: [Self; 6] =
-        [Self::Wave, Self::BreadthFirst, Self::DepthFirst, Self::Dijkstra, Self::AStar, Self::Greedy];
+    pub const ALL: [Self; 7] = [
+        Self::Wave,
+        Self::BreadthFirst,
+        Self::DepthFirst,
+        Self::Dijkstra,
+        Self::AStar,
+        Self::Greedy,
+        Self::IterativeDeepening,
+    ];
 
     /// Name on the command line.
     #[must_use]
@@ -44,18 +54,20 @@ impl GridSearch {
             Self::Dijkstra => "dijkstra",
             Self::AStar => "astar",
             Self::Greedy => "greedy",
+            Self::IterativeDeepening => "deepening",
         }
     }
 
     /// The order in which cells are expanded one by one; none for the wave, which has no need of one.
-    fn order(self) -> Option<Order> {
+    fn order(self, ties: Ties) -> Option<Order> {
         match self {
             Self::Wave => None,
             Self::BreadthFirst => Some(Order::BreadthFirst),
             Self::DepthFirst => Some(Order::DepthFirst),
             Self::Dijkstra => Some(Order::Dijkstra),
-            Self::AStar => Some(Order::AStar(Ties::Farthest)),
+            Self::AStar => Some(Order::AStar(ties)),
             Self::Greedy => Some(Order::Greedy),
+            Self::IterativeDeepening => Some(Order::IterativeDeepening),
         }
     }
 }
@@ -81,13 +93,17 @@ impl FromStr for GridSearch {
 /// and goes from the start down the labels until a goal is reached. With the default settings that is a path of cells
 /// shortest in the `L1` metric (Latombe 1991, the navigation function in that metric).
 ///
-/// Linear in the number of cells; Dijkstra and A\* times a logarithm, of as many cells as they look at. Complete on the
-/// grid whatever the search: no path is found only if there is none between the cells. A diagonal move needs both cells beside
+/// Linear in the number of cells; Dijkstra and A\* times a logarithm, of as many cells as they look at; iterative deepening
+/// times the number of moves. Complete on the grid whatever the search: no path is found only if there is none between the cells. A diagonal move needs both cells beside
 /// it free, so eight neighbours connect no more cells than four.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wavefront {
     /// How cells are searched.
     pub search: GridSearch,
+    /// Which of equally promising cells A\* expands.
+    pub ties: Ties,
+    /// From the start to a goal, rather than from the goals to the start; the wave has no choice.
+    pub forward: bool,
     /// To which cells a move leads.
     pub neighborhood: Neighborhood,
     /// [`PathKind::Own`] is the staircase from cell to cell.
@@ -96,7 +112,13 @@ pub struct Wavefront {
 
 impl Default for Wavefront {
     fn default() -> Self {
-        Self { search: GridSearch::Wave, neighborhood: Neighborhood::Four, path: PathKind::Taut }
+        Self {
+            search: GridSearch::Wave,
+            ties: Ties::default(),
+            forward: false,
+            neighborhood: Neighborhood::Four,
+            path: PathKind::Taut,
+        }
     }
 }
 
@@ -116,7 +138,7 @@ impl Planner for Wavefront {
                 let labels = vec![UNREACHED; space.blocked.len()];
                 return Run {
                     outcome: Proposal::GaveUp(reason),
-                    trace: Trace::Wavefront { cells: space.cells, labels, expanded: Vec::new() },
+                    trace: Trace::Wavefront { cells: space.cells, labels, expanded: Vec::new(), forward: self.forward },
                     size: Size::Grid { cells: 0, sweeps: 0 },
                     note: None,
                 };
@@ -133,19 +155,51 @@ impl Wavefront {
     /// cells were looked at.
     fn cells(&self, map: &FreeCells, joined: &Joined) -> (Option<Vec<usize>>, Trace, Size) {
         let sources = joined.sources();
-        let Some(order) = self.search.order() else {
+        let Some(order) = self.search.order(self.ties) else {
             let wave = StepLabels::new(map, &sources, self.neighborhood);
             let cells = joined.start.cells.iter().find_map(|&cell| wave.descend(map, cell));
             let size = Size::Grid { cells: wave.reached(), sweeps: wave.levels() };
-            let trace = Trace::Wavefront { cells: map.cells(), labels: wave.into_labels(), expanded: Vec::new() };
+            let (labels, expanded) = (wave.into_labels(), Vec::new());
+            let trace = Trace::Wavefront { cells: map.cells(), labels, expanded, forward: false };
             return (cells, trace, size);
         };
+        let (cells, search) = if self.forward {
+            self.search_forward(map, joined, order)
+        } else {
+            self.search_backward(map, joined, order)
+        };
+        let labelled = search.labelled;
+        let size = match self.search {
+            GridSearch::IterativeDeepening => {
+                Size::Deepening { rounds: search.rounds, expansions: search.expansions, labelled }
+            }
+            _ => Size::Search { expanded: search.expanded.len(), labelled },
+        };
+        let (labels, expanded) = (search.labels(), search.expanded);
+        let trace = Trace::Wavefront { cells: map.cells(), labels, expanded, forward: self.forward };
+        (cells, trace, size)
+    }
+
+    /// The cells found by a search that begins at the goals.
+    fn search_backward(&self, map: &FreeCells, joined: &Joined, order: Order) -> (Option<Vec<usize>>, Search) {
         // A search that does not meet its target has labelled all that is connected with a goal, other cells of
         // the start among them.
-        let search = Search::new(map, self.neighborhood, order, &sources, joined.start.cells[0]);
-        let cells = joined.start.cells.iter().find_map(|&cell| search.way_back(cell));
-        let size = Size::Search { expanded: search.expanded.len(), labelled: search.labelled };
-        let trace = Trace::Wavefront { cells: map.cells(), labels: search.labels(), expanded: search.expanded };
-        (cells, trace, size)
+        let search = Search::new(map, self.neighborhood, order, &joined.sources(), joined.start.cells[0]);
+        (joined.start.cells.iter().find_map(|&cell| search.way_back(cell)), search)
+    }
+
+    /// The cells found by a search that begins at the nearest of the start's cells that is connected with a goal; of the
+    /// nearest if no cell is connected.
+    fn search_forward(&self, map: &FreeCells, joined: &Joined, order: Order) -> (Option<Vec<usize>>, Search) {
+        let goals = joined.sources();
+        let from = |&cell: &usize| Search::to_any(map, self.neighborhood, order, &[cell], &goals);
+        let first = from(&joined.start.cells[0]);
+        let others = joined.start.cells[1..].iter().filter(|&&cell| first.cost(cell).is_none());
+        let search = match first.met {
+            None => others.map(from).find(|search| search.met.is_some()).unwrap_or(first),
+            Some(_) => first,
+        };
+        let cells = search.met.and_then(|goal| search.way_back(goal));
+        (cells.map(|cells| cells.into_iter().rev().collect()), search)
     }
 }

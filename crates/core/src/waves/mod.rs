@@ -3,6 +3,7 @@
 //! A wave goes over rows where free cells come in long runs (`run_wave`), over tiles of 8 x 8 cells, a bit each, in mazes
 //! and noise (`tile_wave`), cell by cell where diagonal moves count (`queue_wave`).
 
+mod deepening;
 mod free_cells;
 mod lattice;
 mod queue_wave;

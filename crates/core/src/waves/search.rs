@@ -3,11 +3,13 @@
 //! Own ones, not petgraph's: numbers of cells expanded, ties and exact costs are what they are there to show, and cells are
 //! places in arrays where petgraph keeps a hash table. The tests compare their costs with petgraph's.
 
+use super::deepening::deepen;
 use super::{FreeCells, Neighborhood, UNREACHED};
 use cplan_geometry::{OpenList, Ordered};
 use cplan_interrupt::checkpoint;
+use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::f64::consts::SQRT_2;
 
 /// In which order cells are expanded. All are one algorithm with a different list of cells that wait.
@@ -24,16 +26,37 @@ pub enum Order {
     AStar(Ties),
     /// The cell of least estimated rest, and of equals the one that came last: some path.
     Greedy,
+    /// Depth first, but no deeper than a limit; then again from the beginning with a limit of one move more, until a target
+    /// is met: fewest moves.
+    IterativeDeepening,
 }
 
 /// Which of several cells with the same estimate is expanded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Ties {
     /// The one that has come farther, and of equals the one that came last: goes straight ahead.
     #[default]
     Farthest,
     /// The one that came first: all that are equally promising are expanded in rounds, one step at a time.
     First,
+}
+
+impl Ties {
+    /// Whether it is the default.
+    #[must_use]
+    pub fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Farthest => "farthest",
+            Self::First => "first",
+        }
+    }
 }
 
 /// What a way from cell to cell costs: 1 for a straight move and the square root of 2 for a diagonal one, in cells,
@@ -59,7 +82,7 @@ impl Cost {
         self.straight + self.diagonal
     }
 
-    fn and(self, other: Cost) -> Cost {
+    pub(super) fn and(self, other: Cost) -> Cost {
         Cost { straight: self.straight + other.straight, diagonal: self.diagonal + other.diagonal }
     }
 }
@@ -67,17 +90,23 @@ impl Cost {
 /// What a search found out, cell by cell of the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Search {
-    costs: Vec<Cost>,
+    pub(super) costs: Vec<Cost>,
     /// The cell from which a cell was labelled, itself for sources; [`UNREACHED`] for cells without a label.
-    parents: Vec<u32>,
-    /// Cells that were taken off the list, in that order.
+    pub(super) parents: Vec<u32>,
+    /// Cells that were expanded, each once, in the order in which that happened first.
     pub expanded: Vec<u32>,
     /// Cells that were put on the list, sources included.
     pub labelled: usize,
+    /// The target that ended the search, if it met one.
+    pub met: Option<usize>,
+    /// Number of rounds: 1, except for iterative deepening.
+    pub rounds: usize,
+    /// How many times a cell was expanded in all rounds together.
+    pub expansions: usize,
 }
 
 /// So many cells are expanded in less than a millisecond.
-const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
+pub(super) const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl Search {
     /// Searches from all free cells among `sources` at once until `target` is expanded, or all that can be reached.
@@ -87,21 +116,35 @@ impl Search {
     /// the tables is linear in the size of the grid.
     #[must_use]
     pub fn new(free: &FreeCells, neighborhood: Neighborhood, order: Order, sources: &[usize], target: usize) -> Self {
-        let [rows, columns] = free.cells();
-        let size = rows * columns;
-        let costs = vec![Cost::default(); size];
-        let mut search = Self { costs, parents: vec![UNREACHED; size], expanded: Vec::new(), labelled: 0 };
+        Self::to_any(free, neighborhood, order, sources, &[target])
+    }
+
+    /// The same until one of several targets is expanded. An estimate is that of the nearest target, and takes time in
+    /// proportion to their number.
+    #[must_use]
+    pub fn to_any(
+        free: &FreeCells,
+        neighborhood: Neighborhood,
+        order: Order,
+        sources: &[usize],
+        targets: &[usize],
+    ) -> Self {
+        let targets: BTreeSet<usize> = targets.iter().copied().collect();
+        let (mut search, sources) = Self::begun(free, sources);
+        if order == Order::IterativeDeepening {
+            deepen(&mut search, free, neighborhood, &sources, &targets);
+            return search;
+        }
         let mut open = Open::new(order);
         let estimate = |cell: usize| match order {
-            Order::AStar(_) | Order::Greedy => straight_cost(free, neighborhood, cell, target),
+            Order::AStar(_) | Order::Greedy => {
+                let costs = targets.iter().map(|&target| straight_cost(free, neighborhood, cell, target));
+                costs.min_by(|a, b| a.value().total_cmp(&b.value())).unwrap_or_default()
+            }
             _ => Cost::default(),
         };
-        for &source in sources {
-            if free.is_free(source) && search.parents[source] == UNREACHED {
-                search.parents[source] = source as u32;
-                search.labelled += 1;
-                open.push(source, Cost::default(), estimate(source));
-            }
+        for source in sources {
+            open.push(source, Cost::default(), estimate(source));
         }
         while let Some((cell, cost)) = open.pop() {
             // An entry that a lower cost has outdated.
@@ -112,7 +155,8 @@ impl Search {
             if search.expanded.len().is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
                 checkpoint();
             }
-            if cell == target {
+            if targets.contains(&cell) {
+                search.met = Some(cell);
                 break;
             }
             for next in free.moves(cell, neighborhood) {
@@ -127,7 +171,24 @@ impl Search {
                 }
             }
         }
+        search.expansions = search.expanded.len();
         search
+    }
+
+    /// A search that has labelled its sources, and these: the free ones, each once.
+    fn begun(free: &FreeCells, sources: &[usize]) -> (Self, Vec<usize>) {
+        let [rows, columns] = free.cells();
+        let size = rows * columns;
+        let (costs, mut parents) = (vec![Cost::default(); size], vec![UNREACHED; size]);
+        let mut begins = Vec::new();
+        for &source in sources {
+            if free.is_free(source) && parents[source] == UNREACHED {
+                parents[source] = source as u32;
+                begins.push(source);
+            }
+        }
+        let labelled = begins.len();
+        (Self { costs, parents, expanded: Vec::new(), labelled, met: None, rounds: 1, expansions: 0 }, begins)
     }
 
     /// Cost of the way by which `cell` was reached, if it was: that of a shortest one for cells that Dijkstra or A\* have
@@ -192,7 +253,8 @@ impl Open {
     fn new(order: Order) -> Self {
         match order {
             Order::BreadthFirst => Self::Queue(VecDeque::new()),
-            Order::DepthFirst => Self::Stack(Vec::new()),
+            // Each round of iterative deepening is depth first.
+            Order::DepthFirst | Order::IterativeDeepening => Self::Stack(Vec::new()),
             Order::Dijkstra => Self::Least(OpenList::default(), Ties::First, 0),
             Order::AStar(ties) => Self::Least(OpenList::default(), ties, 0),
             Order::Greedy => Self::Nearest(OpenList::default(), 0),

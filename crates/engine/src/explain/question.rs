@@ -3,7 +3,7 @@
 use super::element::{Element, Side, widened};
 use crate::{Verdict, decide};
 use cplan_core::check::{CertifiedPath, CheckedProof};
-use cplan_core::model::{Arm, Goal, JointType, MotionProblem, Scene, Workspace, inverse};
+use cplan_core::model::{Arm, Goal, JointType, MotionProblem, Scene, Workspace, area_goals, inverse};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::{Convex, Point};
 use cplan_interrupt::{Instant, Interrupt};
@@ -27,12 +27,19 @@ pub enum Target {
     Tip(Point),
 }
 
-impl From<Goal> for Target {
-    fn from(goal: Goal) -> Self {
-        match goal {
-            Goal::Joints(q) => Self::Goals(q.into()),
-            Goal::Tip(tip) => Self::Tip(tip),
+impl Target {
+    /// Any of some goals of an arm.
+    fn of_goals(goals: &[Goal], arm: &Arm, start: Configuration) -> Self {
+        let goals: Vec<Goal> = goals.iter().map(|goal| goal.of_arm(arm)).collect();
+        if let [Goal::Tip(tip)] = goals[..] {
+            return Self::Tip(tip);
         }
+        let pieces = goals.into_iter().flat_map(|goal| match goal {
+            Goal::Joints(q) => vec![Segment::point(q)],
+            Goal::Tip(tip) => inverse(arm, tip, start).solutions(arm),
+            Goal::Area(area) => area_goals(arm, area, start).pieces().to_vec(),
+        });
+        Self::Goals(pieces.collect())
     }
 }
 
@@ -87,6 +94,13 @@ impl Question {
         let kept = asked.with_clearance(asked.scene.workspace().clearance.max(hardly_any));
         let keeps = kept.is_free(start) == asked.is_free(start) && kept.goals() == asked.goals();
         Self { least_clearance: if keeps { hardly_any } else { 0.0 }, ..asked }
+    }
+
+    /// A motion from a start to any of some goals. None needs to be free.
+    #[must_use]
+    pub fn of_goals(scene: Scene, start: Configuration, goals: &[Goal]) -> Self {
+        let target = Target::of_goals(goals, scene.arm(), start);
+        Self::new(scene, start, target)
     }
 
     /// The same question, explained in at most this time, whose clock starts when it is known whether there is a motion. What is not decided by then

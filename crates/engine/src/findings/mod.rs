@@ -58,8 +58,8 @@ fn judge_motion(
         );
     }
     let scene = &loaded.scene;
-    let (start, goal) = if anywhere { (None, None) } else { loaded.ends(overrides)? };
-    notes.push(match (start.is_some(), goal.is_some()) {
+    let (start, goals) = if anywhere { (None, Vec::new()) } else { loaded.ends(overrides)? };
+    notes.push(match (start.is_some(), !goals.is_empty()) {
         (true, true) => format!("from the start to the goal: both are met within {ENDS_WITHIN}, or that is a fault"),
         (true, false) => {
             format!("from the start, which is met within {ENDS_WITHIN}, or that is a fault; there is no goal")
@@ -90,7 +90,7 @@ fn judge_motion(
     broken.extend(torques_kept(scene, recording));
     let broken = Broken::new(&scene.arm().joints, &broken, &loaded.robot.assumed);
     let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);
-    let misses = ends_kept(scene.arm(), recording, start, goal);
+    let misses = ends_kept(scene.arm(), recording, start, &goals);
     let false_claims = claims_kept(scene, recording, claims, &collision_check);
     let findings = findings.but(Verdict::Undecided, untold.into_iter().flatten().collect());
     Ok(findings.but(Verdict::Ends, misses).but(Verdict::Claims, false_claims))

@@ -12,6 +12,7 @@ use super::moving::Timing;
 use super::task::MessageError;
 use cplan_core::check::{CertifiedCurve, CheckedProof};
 use cplan_core::model::{AssumedLimits, Joint, RobotJoints, Status};
+use cplan_core::planner::VisibilityGraph;
 use cplan_core::space::Metric;
 use cplan_motion::{Blends, Fastest, FieldReport, Optimum, SearchUsed, Trajectory, interpolation};
 use std::collections::BTreeMap;
@@ -205,10 +206,17 @@ impl From<Bound> for Optimum {
 /// How a planner searches its grid, or its roadmap if that is not by the usual search.
 #[must_use]
 pub fn search_used(planner: &Planner) -> Option<SearchUsed> {
-    if let Planner::Wavefront { search, neighborhood, .. } = planner {
-        let neighbors = Some(neighborhood.count());
-        return Some(SearchUsed { search: search.name(), neighbors, backward: None });
+    if let Planner::Wavefront { search, ties, forward, neighborhood, .. } = planner {
+        return Some(SearchUsed {
+            search: search.name(),
+            ties: (!ties.is_usual()).then(|| ties.name()),
+            neighbors: Some(neighborhood.count()),
+            backward: forward.then_some(false),
+            graph: None,
+        });
     }
-    let search = planner.search().filter(|search| !search.is_usual())?;
-    Some(SearchUsed { search: search.order.name(), neighbors: None, backward: Some(search.backward) })
+    let graph = planner.graph().filter(|graph| *graph == VisibilityGraph::Full).map(VisibilityGraph::name);
+    let search = planner.search().filter(|search| !search.is_usual() || graph.is_some())?;
+    let backward = Some(search.backward);
+    Some(SearchUsed { search: search.order.name(), ties: None, neighbors: None, backward, graph })
 }

@@ -36,5 +36,10 @@ pub(super) fn goal_ik_solutions(arm: &Arm, goal: &Goal, preferred: Configuration
     match goal {
         Goal::Joints(q) => IkSolutions { configurations: vec![*q], all: true },
         Goal::Tip(tip) => ik_solutions(arm, arm.tip, *tip, preferred),
+        Goal::Area([low, high]) => {
+            // A task that is checked has none.
+            let middle = ik_solutions(arm, arm.tip, nalgebra::center(low, high), preferred);
+            IkSolutions { all: false, ..middle }
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Attraction and repulsion as a guide for the way between the cells.
 
-use super::{ForceField, Trap};
+use super::{Escape, ForceField, Trap};
 use cplan_harmonic::{Guide, Place};
 use std::collections::BTreeSet;
 
@@ -12,12 +12,52 @@ pub struct Downforce<'a, F> {
     visited: BTreeSet<usize>,
     /// The free cell at a place; none for others, and beyond limits.
     at: F,
+    /// Method of leaving local minima. Without one they end the path.
+    escape: Option<Escape>,
+    escaped: Escaped,
+}
+
+/// The local minima that a way has left.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Escaped {
+    /// How many there were.
+    pub minima: usize,
+    /// Moves from cell to cell on the ways out of them.
+    pub moves: usize,
 }
 
 impl<'a, F: Fn(Place) -> Option<usize>> Downforce<'a, F> {
     /// `at` tells the free cell at a place of the lattice.
     pub fn new(field: &'a ForceField<'a>, goals: &[usize], at: F) -> Self {
-        Self { field, goals: goals.iter().copied().collect(), visited: BTreeSet::new(), at }
+        let goals = goals.iter().copied().collect();
+        Self { field, goals, visited: BTreeSet::new(), at, escape: None, escaped: Escaped::default() }
+    }
+
+    /// The same that leaves local minima. Saturated forces have none: where they trap the way, it ends.
+    #[must_use]
+    pub fn with_escape(self, escape: Option<Escape>) -> Self {
+        Self { escape, ..self }
+    }
+
+    /// The local minima that have been left so far.
+    pub fn escaped(&self) -> Escaped {
+        self.escaped
+    }
+
+    /// The cells that lead from a local minimum to a better one.
+    fn out_of(&mut self, trap: Trap) -> Result<Vec<usize>, Trap> {
+        let by = self.escape.filter(|_| trap.minimum).ok_or(trap)?;
+        let number = self.escaped.minima as u64;
+        let way = self.field.escape(trap.cell, by, number, |cell| self.goals.contains(&cell)).ok_or(trap)?;
+        self.escaped.minima += 1;
+        self.escaped.moves += way.len() - 1;
+        Ok(way[1..].to_vec())
+    }
+
+    /// The place of a neighbouring cell. On a circle of two cells one is a neighbour both ways.
+    fn place_beside(&self, from: Place, cell: usize) -> Option<Place> {
+        let mut around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [from[0] + i, from[1] + j]));
+        around.find(|&place| (self.at)(place) == Some(cell))
     }
 }
 
@@ -46,12 +86,14 @@ impl<F: Fn(Place) -> Option<usize>> Guide for Downforce<'_, F> {
     fn onward(&mut self, from: Place) -> Result<Vec<Place>, Trap> {
         let cell = (self.at)(from).unwrap_or_else(|| unreachable!("a way stays in free cells"));
         self.visited.insert(cell);
-        let next = self.field.next(cell, |cell| self.visited.contains(&cell))?;
-        self.visited.insert(next);
-        let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [from[0] + i, from[1] + j]));
-        let mut around: Vec<Place> = around.filter(|&place| (self.at)(place) == Some(next)).collect();
-        // On a circle of two cells one is a neighbour both ways.
-        around.truncate(1);
-        Ok(around)
+        let next = self.field.next(cell, |cell| self.visited.contains(&cell));
+        let way = next.map_or_else(|trap| self.out_of(trap), |next| Ok(vec![next]))?;
+        self.visited.extend(&way);
+        let mut places: Vec<Place> = Vec::with_capacity(way.len());
+        for cell in way {
+            let last = places.last().copied().unwrap_or(from);
+            places.extend(self.place_beside(last, cell));
+        }
+        Ok(places)
     }
 }

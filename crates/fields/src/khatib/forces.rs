@@ -254,7 +254,7 @@ impl<'a> ForceField<'a> {
 
     /// Free neighbours with a side or a corner in common, and the displacements to them; corners only between two free
     /// cells.
-    fn neighbors(&self, at: usize) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
+    pub(super) fn neighbors(&self, at: usize) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
         const AROUND: [[i64; 2]; 8] = [[-1, 0], [1, 0], [0, -1], [0, 1], [-1, -1], [-1, 1], [1, -1], [1, 1]];
         let step = self.grid.step();
         AROUND.into_iter().filter_map(move |[i, j]| {

@@ -3,10 +3,12 @@
 mod charges;
 mod descent;
 mod distance;
+mod escape;
 mod forces;
 
-pub use descent::Downforce;
+pub use descent::{Downforce, Escaped};
 pub use distance::nearest_obstacles;
+pub use escape::Escape;
 pub use forces::{Attraction, ForceField, Khatib, Repulsion, Trap};
 
 use super::Limits;

@@ -86,8 +86,9 @@ pub fn by_multigrid_in(
         let stage = Convergence { sweeps: 0, change: 0.0, converged: true };
         return Ok(Relaxed { values: Vec::new(), stages: vec![stage] });
     }
-    let has_drift = *equation != Equation::Harmonic;
-    let system = System::new(domain, has_drift.then_some(|cell| sides(drift(cell), difference)));
+    // Whether the equation is another one than that of the preconditioner.
+    let has_drift = *equation != Equation::Harmonic || domain.beta() != 1.0;
+    let system = System::new(domain, has_drift.then_some(|cell| sides(domain.beta(), drift(cell), difference)));
     let mut values = begun(domain, start)?;
     let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: false };
     let mut preconditioner = None;

@@ -138,7 +138,8 @@ impl<F: Fn(Place) -> Option<usize>> Guide for Slope<'_, F> {
         });
         // Where an equation is not monotone a value may be beyond the obstacles', and has no logarithm.
         let scale = if here > 0.0 { 2.0 * here } else { 1.0 };
-        Some([(up - down) / scale, (right - left) / scale])
+        // As a displacement in cells: steepest in the lengths of cells, which along axis 2 are shorter by `beta`.
+        Some([(up - down) / scale, domain.beta() * domain.beta() * (right - left) / scale])
     }
 
     fn is_goal(&self, place: Place) -> bool {

@@ -74,14 +74,43 @@ pub enum Neighbor {
     Mirror,
 }
 
+/// Whether an equation sees that cells are not square.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stencil {
+    /// All four neighbours weigh the same, whatever the sides of a cell.
+    #[default]
+    Square,
+    /// The neighbours along axis 2 weigh `beta^2` as much as those along axis 1, `beta` the width of a cell along axis 1 over that
+    /// along axis 2: Laplace's equation in the lengths of joint space.
+    Anisotropic,
+}
+
+impl Stencil {
+    /// Whether cells count as square.
+    #[must_use]
+    pub fn is_square(&self) -> bool {
+        *self == Self::Square
+    }
+
+    /// `beta` on the cells of a grid.
+    #[must_use]
+    pub fn beta(self, grid: &Grid) -> f64 {
+        let [dx, dy] = grid.step();
+        if self.is_square() { 1.0 } else { dx / dy }
+    }
+}
+
 /// A rectangle of cells, row by row (index `i * cells[1] + j`), with values given on obstacles and goals. Lengths are
-/// measured in cells: the mesh is square, of width 1.
+/// measured in cells: a cell is 1 wide along axis 1 and `1 / beta` along axis 2, `beta` being 1 unless
+/// [`Domain::with_beta`] says otherwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
     cells: [usize; 2],
     kinds: Vec<Cell>,
     boundaries: [Boundary; 2],
     levels: Levels,
+    beta: f64,
 }
 
 impl Domain {
@@ -93,7 +122,23 @@ impl Domain {
     pub fn new(cells: [usize; 2], kinds: Vec<Cell>, boundaries: [Boundary; 2], levels: Levels) -> Self {
         assert_eq!(cells[0].checked_mul(cells[1]), Some(kinds.len()), "one kind a cell");
         assert!(u32::try_from(kinds.len()).is_ok_and(|n| n < u32::MAX), "positions are counted in 32 bits");
-        Self { cells, kinds, boundaries, levels }
+        Self { cells, kinds, boundaries, levels, beta: 1.0 }
+    }
+
+    /// The same with cells that are not square: 1 wide along axis 1, `1 / beta` along axis 2 (`beta = dx / dy`).
+    ///
+    /// # Panics
+    /// If `beta` is not a positive finite number.
+    #[must_use]
+    pub fn with_beta(self, beta: f64) -> Self {
+        assert!(beta > 0.0 && beta.is_finite(), "cells have positive sides");
+        Self { beta, ..self }
+    }
+
+    /// Width of a cell along axis 1 over that along axis 2; 1 where cells count as square.
+    #[must_use]
+    pub fn beta(&self) -> f64 {
+        self.beta
     }
 
     /// A grid with goals (indices of cells). Free cells without a chain of free neighbours to a goal count as obstacles:

@@ -153,14 +153,25 @@ impl Equation {
     /// Then no value leaves the range of the fixed ones, and the goals are the only minima.
     #[must_use]
     pub fn is_monotone(&self) -> bool {
-        let small = |epsilon: f64| epsilon.abs() < 2.0;
+        self.is_monotone_with(1.0)
+    }
+
+    /// The same on the cells of a domain, which need not be square.
+    #[must_use]
+    pub fn is_monotone_on(&self, domain: &Domain) -> bool {
+        self.is_monotone_with(domain.beta())
+    }
+
+    fn is_monotone_with(&self, beta: f64) -> bool {
+        let is_small = |[first, second]: [f64; 2]| first.abs() < 2.0 && second.abs() < 2.0 * beta;
+        let small = |epsilon: f64| is_small([epsilon; 2]);
         match self {
             Self::Harmonic => true,
             Self::Oriented { difference: Difference::Upwind, .. }
             | Self::LocallyOriented { difference: Difference::Upwind, .. }
             | Self::Preference { difference: Difference::Upwind, .. } => true,
-            Self::Oriented { direction, epsilon, .. } => direction.drift(*epsilon).into_iter().all(small),
-            Self::LocallyOriented { drift, .. } => drift.iter().flatten().copied().all(small),
+            Self::Oriented { direction, epsilon, .. } => is_small(direction.drift(*epsilon)),
+            Self::LocallyOriented { drift, .. } => drift.iter().copied().all(is_small),
             Self::Preference { epsilon, .. } | Self::AlteredPreference { epsilon } => {
                 epsilon.iter().copied().all(small)
             }

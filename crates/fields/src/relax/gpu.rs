@@ -88,6 +88,9 @@ impl Stages for Field<'_> {
     }
 
     fn altered(&mut self, strengths: Vec<f64>) -> Result<(), RelaxError> {
+        if self.domain.beta() != 1.0 {
+            return Err(RelaxError::Refused("altered preferences on cells that are not square are for the CPU".into()));
+        }
         self.stage(Stencil::Altered(strengths))
     }
 
@@ -123,7 +126,7 @@ impl Field<'_> {
     fn error(&self, error: GpuError) -> RelaxError {
         match error {
             GpuError::Diverged { sweeps, cell, value } => {
-                let hint = hint(self.equation, self.settings.factor);
+                let hint = hint(self.domain, self.equation, self.settings.factor);
                 RelaxError::Diverged { sweeps: sweeps as usize, cell, value, hint }
             }
             error => RelaxError::Refused(error.to_string()),

@@ -16,6 +16,9 @@ pub struct Relaxation {
     pub clamp: Option<[f64; 2]>,
     /// How new values are kept.
     pub precision: Precision,
+    /// Whether over-relaxation stays on the free side of the obstacles' value: see [`Relaxation::guarded`].
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub guarded: bool,
 }
 
 /// With how many digits values are kept from one update to the next. Updates themselves are reckoned in doubles.
@@ -87,6 +90,9 @@ pub enum Order {
     /// All cells whose indices have an even sum, then the others. On circles of odd length neighbours across the seam
     /// have the same colour; they go one after the other all the same.
     RedBlack,
+    /// Four colours: cells whose row and column are both even, then those of even row, those of even column, the others. No two
+    /// cells of one colour share a side or a corner.
+    FourColors,
 }
 
 /// What a line is.
@@ -122,7 +128,7 @@ impl Relaxation {
     /// Jacobi's with a factor.
     #[must_use]
     pub const fn weighted_jacobi(factor: f64) -> Self {
-        Self { scheme: Scheme::Simultaneous { factor }, clamp: None, precision: Precision::Double }
+        Self { scheme: Scheme::Simultaneous { factor }, clamp: None, precision: Precision::Double, guarded: false }
     }
 
     /// Gauss and Seidel's.
@@ -134,7 +140,7 @@ impl Relaxation {
     /// Successive over-relaxation with this factor, cells in this order.
     #[must_use]
     pub const fn sor(factor: Factor, order: Order) -> Self {
-        Self { scheme: Scheme::Successive { factor, order }, clamp: None, precision: Precision::Double }
+        Self { scheme: Scheme::Successive { factor, order }, clamp: None, precision: Precision::Double, guarded: false }
     }
 
     /// The same with new values brought into a range.
@@ -147,6 +153,19 @@ impl Relaxation {
     #[must_use]
     pub const fn kept(self, precision: Precision) -> Self {
         Self { precision, ..self }
+    }
+
+    /// The same for values that span many orders of magnitude, on the CPU. Over-relaxation carries the rounding errors of large
+    /// values to cells whose values are smaller than these errors. There signs flip, and relative changes never settle. So:
+    ///
+    /// - A cell that would pass the obstacles' value takes what its neighbours ask for, without the factor. Where equations
+    ///   are monotone no value passes that of obstacles.
+    /// - Under [`Measure::GreatestRelativeChange`](super::Measure) the factor becomes 1 when no value changes by more than `1e-13` of
+    ///   the distance between the obstacles' and the goals' value. What is left is relaxed by Gauss and Seidel's sweeps, which keep
+    ///   relative errors small.
+    #[must_use]
+    pub const fn guarded(self) -> Self {
+        Self { guarded: true, ..self }
     }
 
     /// The factor on a domain of so many cells.
@@ -182,6 +201,7 @@ impl fmt::Display for Order {
             Self::Lines(Scan { lines: Lines::Columns, .. }) => "columns",
             Self::Corners(_) => "corners",
             Self::RedBlack => "red-black",
+            Self::FourColors => "four-color",
         })
     }
 }
@@ -223,6 +243,7 @@ impl Order {
                 from.into()
             }
             Self::RedBlack => vec![sorted(&|[i, j]| [(i + j) % 2, 0])],
+            Self::FourColors => vec![sorted(&|[i, j]| [i % 2, j % 2])],
         }
     }
 }
@@ -250,6 +271,7 @@ mod tests {
             [[0, 3, 1, 4, 2, 5], [3, 0, 4, 1, 5, 2], [2, 5, 1, 4, 0, 3], [5, 2, 4, 1, 3, 0]]
         );
         assert_eq!(ways(Order::RedBlack), [[0, 2, 4, 1, 3, 5]]);
+        assert_eq!(ways(Order::FourColors), [[0, 2, 1, 3, 5, 4]]);
     }
 
     #[test]

@@ -48,7 +48,7 @@ impl Stencil for Weighted {
 /// The weights of a cell's neighbours for a drift: `lap p + <b, grad p>` is the weighted sum of their values, less the sum of the weights
 /// times its own.
 pub(super) fn weights(domain: &Domain, cell: usize, drift: [f64; 2], difference: Difference) -> [f64; 4] {
-    let mut weights = sides(drift, difference);
+    let mut weights = sides(domain.beta(), drift, difference);
     for (weight, neighbor) in weights.iter_mut().zip(domain.neighbors(cell)) {
         if neighbor == Neighbor::Mirror {
             *weight = 0.0;
@@ -57,26 +57,34 @@ pub(super) fn weights(domain: &Domain, cell: usize, drift: [f64; 2], difference:
     weights
 }
 
-/// The same where no neighbour is the cell itself.
-pub(super) fn sides(drift: [f64; 2], difference: Difference) -> [f64; 4] {
-    let side = |b: f64| match difference {
-        Difference::Central => 1.0 + 0.5 * b,
-        Difference::Upwind => 1.0 + b.max(0.0),
+/// The same where no neighbour is the cell itself. Along axis 2 second differences weigh `beta^2` and first ones `beta`.
+pub(super) fn sides(beta: f64, drift: [f64; 2], difference: Difference) -> [f64; 4] {
+    let side = |beta: f64, b: f64| match difference {
+        Difference::Central => beta * (beta + 0.5 * b),
+        Difference::Upwind => beta * (beta + b.max(0.0)),
     };
-    [side(-drift[0]), side(drift[0]), side(-drift[1]), side(drift[1])]
+    [side(1.0, -drift[0]), side(1.0, drift[0]), side(beta, -drift[1]), side(beta, drift[1])]
 }
 
 /// The altered preferences: `h + strength d`, `strength` being `epsilon / 4` with the sign that the levels ask for. Beyond
-/// a reflecting limit there is the cell's own value as it is.
+/// a reflecting limit there is the cell's own value as it is. Where cells are not square `h` is the weighted mean, the slope along
+/// axis 2 counts `beta` times, and 4 becomes the sum of the weights, `2 + 2 beta^2`.
 pub(super) struct Altered {
-    /// One a position.
+    /// `epsilon / 4`, one a position.
     pub strength: Vec<f64>,
+    /// Width of a cell along axis 1 over that along axis 2.
+    pub beta: f64,
 }
 
 impl Stencil for Altered {
     fn asked(&self, position: usize, own: f64, around: [f64; 4]) -> f64 {
         let [a, b, c, d] = around;
-        let slope = 0.5 * ((b - a).abs() + (d - c).abs());
-        Mean.asked(position, own, around) + self.strength[position] * slope
+        if self.beta == 1.0 {
+            let slope = 0.5 * ((b - a).abs() + (d - c).abs());
+            return Mean.asked(position, own, around) + self.strength[position] * slope;
+        }
+        let (square, sum) = (self.beta * self.beta, 2.0 + 2.0 * self.beta * self.beta);
+        let slope = 0.5 * ((b - a).abs() + self.beta * (d - c).abs());
+        ((a + b) + square * (c + d) + 4.0 * self.strength[position] * slope) / sum
     }
 }

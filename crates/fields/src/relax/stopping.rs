@@ -1,7 +1,10 @@
 //! When a relaxation ends.
 
+use serde::{Deserialize, Serialize};
+
 /// What is measured in a sweep; `change` is the difference between a value after and before it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// Sum of `|change|`.
     SumOfChange,
@@ -13,7 +16,16 @@ pub enum Measure {
     /// The greatest `|change|` of any cell.
     GreatestChange,
     /// Greatest `|change| / |value after|`: the only one that sees what happens where values are small.
+    #[default]
     GreatestRelativeChange,
+}
+
+impl Measure {
+    /// Whether it is [`Measure::GreatestRelativeChange`].
+    #[must_use]
+    pub fn is_relative(&self) -> bool {
+        *self == Self::GreatestRelativeChange
+    }
 }
 
 /// When a relaxation ends.

@@ -75,6 +75,10 @@ impl std::error::Error for RelaxError {}
 /// on the way against it by `exp(b / 2)` a cell, which may be many orders of magnitude, and converges all the same.
 const BEYOND: f64 = 1e100;
 
+/// A guarded relaxation goes on without its factor when no value changes by more than this part of the distance between
+/// the obstacles' and the goals' value: some hundred roundings of the greatest values, which is what over-relaxation makes of one.
+const OVER_RELAXED_TO: f64 = 1e-13;
+
 /// Every so many sweeps values are looked at for divergence.
 const LOOKED_AT: usize = 16;
 
@@ -204,8 +208,8 @@ pub(super) fn strengths(domain: &Domain, epsilon: &[f64]) -> Vec<f64> {
 }
 
 /// What may be the reason of a divergence, and what to do.
-pub(super) fn hint(equation: &Equation, factor: f64) -> String {
-    if equation.is_monotone() {
+pub(super) fn hint(domain: &Domain, equation: &Equation, factor: f64) -> String {
+    if equation.is_monotone_on(domain) {
         format!("the factor {factor:.4} is too great for this equation")
     } else if matches!(equation, Equation::AlteredPreference { .. }) {
         "the altered equation is monotone only for an |epsilon| of less than 2 a cell: take a smaller one".into()
@@ -229,7 +233,8 @@ pub(super) fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 
             Neighbor::Limit => levels.obstacle,
             Neighbor::Mirror => values[cell],
         });
-        Direction::of([b - a, d - c].map(|rise| levels.orientation() * rise)).map_or([0.0; 2], Direction::components)
+        let rises = [b - a, domain.beta() * (d - c)];
+        Direction::of(rises.map(|rise| levels.orientation() * rise)).map_or([0.0; 2], Direction::components)
     };
     (0..domain.kinds().len()).map(at).collect()
 }
@@ -254,7 +259,7 @@ struct Engine<'a> {
 
 impl Stages for Engine<'_> {
     fn harmonic(&mut self) -> Result<(), RelaxError> {
-        if self.has_mirrors() { self.linear(|_| [0.0; 2], Difference::Central) } else { self.run(&Mean) }
+        if self.is_weighted() { self.linear(|_| [0.0; 2], Difference::Central) } else { self.run(&Mean) }
     }
 
     fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError> {
@@ -264,7 +269,7 @@ impl Stages for Engine<'_> {
 
     fn altered(&mut self, strengths: Vec<f64>) -> Result<(), RelaxError> {
         let strength = self.unknowns.iter().map(|&cell| strengths[cell as usize]).collect();
-        self.run(&Altered { strength })
+        self.run(&Altered { strength, beta: self.domain.beta() })
     }
 
     fn values(&self) -> &[f64] {
@@ -287,8 +292,10 @@ impl<'a> Engine<'a> {
         Self { domain, equation, relaxation, stopping, values, greatest, unknowns, around, stages: Vec::new(), watch }
     }
 
-    fn has_mirrors(&self) -> bool {
-        self.domain.boundaries().contains(&Boundary::Reflecting) || self.domain.cells().contains(&1)
+    /// Whether the neighbours of some cell weigh differently without a drift.
+    fn is_weighted(&self) -> bool {
+        let has_mirrors = self.domain.boundaries().contains(&Boundary::Reflecting) || self.domain.cells().contains(&1);
+        has_mirrors || self.domain.beta() != 1.0
     }
 
     /// Relaxes one stage, with the norm that the stopping rule asks for.
@@ -308,14 +315,18 @@ impl<'a> Engine<'a> {
             Scheme::Simultaneous { .. } => Vec::new(),
             Scheme::Successive { order, .. } => order.passes(self.domain.cells(), &self.unknowns),
         };
-        let step = Step { stencil, factor, clamp: relaxation.clamp, precision: relaxation.precision };
+        let levels = self.domain.levels();
+        let floor = OVER_RELAXED_TO * (levels.obstacle - levels.goal).abs();
+        let has_floor = relaxation.guarded && factor > 1.0 && stopping.measure.is_relative();
+        let guard = relaxation.guarded.then_some([levels.orientation(), levels.obstacle]);
+        let mut step = Step { stencil, factor, guard, clamp: relaxation.clamp, precision: relaxation.precision };
         let mut next = vec![0.0; if passes.is_empty() { self.unknowns.len() } else { 0 }];
         let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: self.unknowns.is_empty() };
         let mut before = f64::INFINITY;
         self.show(0);
         while !stage.converged && stage.sweeps < stopping.max_sweeps {
             checkpoint();
-            let total = match passes.len() {
+            let Changes { total, greatest } = match passes.len() {
                 0 => self.at_once::<S, T>(&step, &mut next),
                 count => self.in_turn::<S, T>(&step, &passes[stage.sweeps % count]),
             };
@@ -324,6 +335,9 @@ impl<'a> Engine<'a> {
             stage.change = if stopping.measure == Measure::DifferenceOfSums { (total - before).abs() } else { total };
             before = total;
             stage.converged = stage.change < stopping.below || total == 0.0;
+            if has_floor && greatest < floor {
+                step.factor = 1.0;
+            }
             if stage.sweeps.is_multiple_of(LOOKED_AT) || stage.converged || stage.sweeps == stopping.max_sweeps {
                 self.look_for_divergence(stage.sweeps)?;
             }
@@ -338,30 +352,30 @@ impl<'a> Engine<'a> {
         (self.watch)(Watched { stage: self.stages.len(), sweep, values });
     }
 
-    fn at_once<S: Stencil, T: Tally>(&mut self, step: &Step<S>, next: &mut [f64]) -> f64 {
-        let mut total = 0.0;
+    fn at_once<S: Stencil, T: Tally>(&mut self, step: &Step<S>, next: &mut [f64]) -> Changes {
+        let mut changes = Changes::default();
         for (k, next) in next.iter_mut().enumerate() {
             let old = self.values[self.unknowns[k] as usize];
             *next = step.new_value(k, old, self.around[k].map(|n| self.values[n as usize]));
-            total = T::add(total, old, *next);
+            changes.add::<T>(old, *next);
         }
         for (&cell, &new) in self.unknowns.iter().zip(&*next) {
             self.values[cell as usize] = new;
         }
-        total
+        changes
     }
 
-    fn in_turn<S: Stencil, T: Tally>(&mut self, step: &Step<S>, pass: &[u32]) -> f64 {
-        let mut total = 0.0;
+    fn in_turn<S: Stencil, T: Tally>(&mut self, step: &Step<S>, pass: &[u32]) -> Changes {
+        let mut changes = Changes::default();
         for &k in pass {
             let k = k as usize;
             let cell = self.unknowns[k] as usize;
             let old = self.values[cell];
             let new = step.new_value(k, old, self.around[k].map(|n| self.values[n as usize]));
             self.values[cell] = new;
-            total = T::add(total, old, new);
+            changes.add::<T>(old, new);
         }
-        total
+        changes
     }
 
     fn look_for_divergence(&self, sweeps: usize) -> Result<(), RelaxError> {
@@ -371,8 +385,24 @@ impl<'a> Engine<'a> {
         };
         let Some(&cell) = self.unknowns.iter().find(lost) else { return Ok(()) };
         let (cell, columns) = (cell as usize, self.domain.cells()[1]);
-        let hint = hint(self.equation, self.relaxation.factor(self.domain.cells()));
+        let hint = hint(self.domain, self.equation, self.relaxation.factor(self.domain.cells()));
         Err(RelaxError::Diverged { sweeps, cell: [cell / columns, cell % columns], value: self.values[cell], hint })
+    }
+}
+
+/// What changed in a sweep.
+#[derive(Default)]
+struct Changes {
+    /// What the stopping rule measures.
+    total: f64,
+    /// The greatest `|change|`.
+    greatest: f64,
+}
+
+impl Changes {
+    fn add<T: Tally>(&mut self, old: f64, new: f64) {
+        self.total = T::add(self.total, old, new);
+        self.greatest = self.greatest.max((new - old).abs());
     }
 }
 
@@ -380,6 +410,8 @@ impl<'a> Engine<'a> {
 struct Step<'a, S> {
     stencil: &'a S,
     factor: f64,
+    /// 1 or -1 as obstacles are high or low, and their value, where no value may pass it.
+    guard: Option<[f64; 2]>,
     clamp: Option<[f64; 2]>,
     precision: Precision,
 }
@@ -389,6 +421,10 @@ impl<S: Stencil> Step<'_, S> {
         let asked = self.stencil.asked(position, old, around);
         // With factor 1 exactly what is asked, without the rounding of a detour.
         let new = if self.factor == 1.0 { asked } else { old + self.factor * (asked - old) };
+        let new = match self.guard {
+            Some([orientation, obstacle]) if orientation * (new - obstacle) > 0.0 => asked,
+            _ => new,
+        };
         // Not `clamp`: the bounds are checked once, for all cells.
         let new = self.clamp.map_or(new, |[low, high]| new.max(low).min(high));
         match self.precision {

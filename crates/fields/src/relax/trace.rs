@@ -32,13 +32,27 @@ pub struct Sample {
 /// A relaxation from its start to its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// After every sweep up to the hundredth, from there on after each that is later by a hundredth part, and after the last.
+    /// After every sweep up to the hundredth, from there on after each that is later by a hundredth part, and after the first and the
+    /// last of each stage.
     /// Sweeps after which squares or error are no finite numbers are left out.
     pub samples: Vec<Sample>,
     /// Passes over all cells, of all stages.
     pub sweeps: usize,
     /// How it ended.
     pub ending: Ending,
+}
+
+/// Where the second stage begins: preferences, added to the harmonic field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leap {
+    /// Sweeps of the first stage.
+    pub sweep: usize,
+    /// Squared changes of its last sweep.
+    pub before: f64,
+    /// Squared changes of the next sweep.
+    pub after: f64,
+    /// Sweeps of the second stage.
+    pub more: usize,
 }
 
 /// The share of a sweep's number by which the next sample is later.
@@ -106,6 +120,17 @@ impl Trace {
         (end > begin + 1).then(|| (last / first).powf(1.0 / (end - begin) as f64))
     }
 
+    /// Returns the leap of the changes where preferences begin, if the equation has a second stage.
+    #[must_use]
+    pub fn leap(&self) -> Option<Leap> {
+        let [last, first] = self.samples.windows(2).find_map(|pair| match pair {
+            [a, b] if a.stage < b.stage => Some([a, b]),
+            _ => None,
+        })?;
+        let (before, after) = (last.squares, first.squares);
+        Some(Leap { sweep: last.sweep, before, after, more: self.sweeps - last.sweep })
+    }
+
     /// The last error that was measured.
     #[must_use]
     pub fn error(&self) -> Option<f64> {
@@ -138,8 +163,8 @@ impl Observer<'_> {
             (self.earlier, self.before) = (self.sweeps, seen.values.to_vec());
             if seen.stage == 0 {
                 self.first = self.exact.map_or(0.0, |exact| greatest_error(exact, seen.values));
-                self.next = 1;
             }
+            self.next = self.sweeps + 1;
             return;
         }
         self.sweeps = self.earlier + seen.sweep;

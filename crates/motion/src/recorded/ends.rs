@@ -2,7 +2,6 @@
 
 use cplan_core::model::{Arm, Goal};
 use cplan_core::space::{Configuration, Recording};
-use cplan_geometry::Point;
 use thiserror::Error;
 
 /// By how much a motion may miss its start or goal, radians or metres: what six printed decimals make of a tip some metres
@@ -42,20 +41,25 @@ pub enum Miss {
     },
 }
 
-/// Where a motion misses its start and its goal by more than [`ENDS_WITHIN`], if it has them; whole turns of joints on circles aside.
+/// Where a motion misses its start and all of its goals by more than [`ENDS_WITHIN`], if it has any; whole turns of joints on circles aside.
+/// Of several goals the miss of the first is told.
 #[must_use]
-pub fn ends_kept(arm: &Arm, recording: &Recording, start: Option<Goal>, goal: Option<Goal>) -> Vec<Miss> {
+pub fn ends_kept(arm: &Arm, recording: &Recording, start: Option<Goal>, goals: &[Goal]) -> Vec<Miss> {
     let positions = recording.positions();
     let (first, last) = (positions[0], positions[positions.len() - 1]);
     let misses = |a: Configuration, b: Configuration| arm.topology().displacement(a, b).amax() > ENDS_WITHIN;
-    let tip_off = |q: Configuration, tip: Point| Some((arm.tip_at(q) - tip).norm()).filter(|off| *off > ENDS_WITHIN);
+    let tip_off = |q: Configuration, goal: Goal| {
+        let is = arm.tip_at(q);
+        Some((is - goal.nearest_tip(is)?).norm()).filter(|off| *off > ENDS_WITHIN)
+    };
     let start = start.and_then(|start| match start {
         Goal::Joints(start) => misses(first, start).then_some(Miss::Start { is: first, start }),
-        Goal::Tip(tip) => tip_off(first, tip).map(|off| Miss::TipAtStart { off }),
+        place => tip_off(first, place).map(|off| Miss::TipAtStart { off }),
     });
-    let goal = goal.and_then(|goal| match goal {
+    let missed = |goal: &Goal| match goal.of_arm(arm) {
         Goal::Joints(goal) => misses(last, goal).then_some(Miss::Goal { is: last, goal }),
-        Goal::Tip(tip) => tip_off(last, tip).map(|off| Miss::Tip { off }),
-    });
-    start.into_iter().chain(goal).collect()
+        place => tip_off(last, place).map(|off| Miss::Tip { off }),
+    };
+    let all: Option<Vec<Miss>> = goals.iter().map(missed).collect();
+    start.into_iter().chain(all.and_then(|misses| misses.first().copied())).collect()
 }

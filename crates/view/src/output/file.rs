@@ -36,17 +36,19 @@ pub enum SaveError {
     /// The file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The format holds nothing but a trajectory, and there is none.
-    #[error("{file} is not written: there is no trajectory to put into it")]
+    /// The format holds nothing but a trajectory, or a grid, and there is none.
+    #[error("{file} is not written: there is no {content} to put into it")]
     Empty {
         /// The name as given.
         file: String,
+        /// What the format holds.
+        content: &'static str,
     },
 }
 
 impl FileFormat {
     /// The format that a file's extension stands for: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.gif`, `.html` or `.geojson`; but
-    /// `cspace.json` and what ends in `.cspace.json` is the configuration space.
+    /// `cspace.json`, `cspace.csv` and what ends in `.cspace.json` or `.cspace.csv` is the configuration space.
     ///
     /// # Errors
     /// Any other extension, and those that this build of the program does not have.
@@ -62,17 +64,17 @@ impl FileFormat {
     }
 }
 
-/// The plan as a file of this format holds it; none if the format holds nothing but a trajectory and there is none. All but
-/// MCAP, PNG and GIF are text in UTF-8.
+/// The plan as a file of this format holds it; none if the format holds nothing but a trajectory, or a grid, and there is none. All
+/// except MCAP, PNG and GIF are text in UTF-8.
 ///
 /// # Errors
-/// A picture that cannot be plan of pixels.
+/// A picture that cannot be made of pixels.
 pub fn bytes(plan: &Plan, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
     match format {
         #[cfg(feature = "mcap")]
         FileFormat::Result(Format::Mcap) => Ok(stage(plan).and_then(|stage| plan.report().recording(Some(&stage)))),
         FileFormat::Result(format) => Ok(plan.report().bytes(format)),
-        FileFormat::CSpace(format) => Ok(Some(format.text(&cspaces(plan)).into_bytes())),
+        FileFormat::CSpace(format) => Ok(format.text(&cspaces(plan)).map(String::into_bytes)),
         FileFormat::Picture(format) if format.plays() => format.bytes(&view_with_replay(plan)).map(Some),
         FileFormat::Picture(format) => format.bytes(&view(plan)).map(Some),
     }
@@ -81,10 +83,12 @@ pub fn bytes(plan: &Plan, format: FileFormat) -> Result<Option<Vec<u8>>, DrawErr
 /// Writes the plan into a file, whole or not at all; the extension says what it holds, see [`FileFormat::from_path`].
 ///
 /// # Errors
-/// An extension that is none of ours, a trajectory that is not there, a picture that cannot be plan, I/O.
+/// An unknown extension, a missing trajectory or grid, a picture that cannot be made, I/O.
 pub fn save(plan: &Plan, path: &Path) -> Result<(), SaveError> {
-    let Some(contents) = bytes(plan, FileFormat::from_path(path)?)? else {
-        return Err(SaveError::Empty { file: path.display().to_string() });
+    let format = FileFormat::from_path(path)?;
+    let Some(contents) = bytes(plan, format)? else {
+        let content = if let FileFormat::CSpace(_) = format { "grid" } else { "trajectory" };
+        return Err(SaveError::Empty { file: path.display().to_string(), content });
     };
     Ok(write_whole(path, &contents)?)
 }

@@ -3,9 +3,10 @@
 use super::summary::{Line, Told, configuration, field, goal_lines, non_empty, torque};
 use cplan_core::check::CertifiedCurve;
 use cplan_core::model::{Arm, Scene};
+use cplan_core::planner::Proposal;
 use cplan_core::space::{Configuration, Metric};
 use cplan_engine::explain::{BlockingSet, Question, blocking_set};
-use cplan_engine::{Bound, MotionPlan, Plan, Timing, Verdict, Wait};
+use cplan_engine::{Answer, Bound, MotionPlan, Plan, Space, Timing, Verdict, Wait};
 use cplan_motion::Fastest;
 use cplan_text::{at_least, counted, percent};
 
@@ -57,13 +58,43 @@ fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
         lines.push(("clearance", clearance(problem.scene(), curve)));
         lines.extend(timing.iter().flat_map(|timing| among_movers(whole.arm(), timing)));
     }
-    let search = report.search.as_ref().map(|used| format!(" ({used})"));
+    let graph = whole.options().planner.graph().map(|graph| format!("{} graph", graph.name()));
+    let search: Vec<String> = report.search.iter().map(ToString::to_string).chain(graph).collect();
+    let search = (!search.is_empty()).then(|| format!(" ({})", search.join(", ")));
     let space = report.space.map(|space| format!(", {space}"));
     let how = search.unwrap_or_default() + &space.unwrap_or_default();
     lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
+    lines.extend(cells(whole, answer));
+    lines.extend(exact(whole, answer));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
     lines.extend(field(whole.options()));
     lines
+}
+
+/// How many cells there are, if they are not those that were asked for.
+fn cells(whole: &Plan, answer: &Answer) -> Option<Line> {
+    let Space::Grid(grid) = &answer.space else { return None };
+    let asked = whole.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
+    let [used, asked] = [grid.cells, asked.0].map(|[a, b]| format!("{a} x {b}"));
+    Some(("cells", format!("{used}: {asked} show no certified path")))
+}
+
+/// What became of the attempt among exact polygons.
+fn exact(whole: &Plan, answer: &Answer) -> Option<Line> {
+    let Space::Regions(_) = &answer.space else { return None };
+    let is_found = matches!(answer.verdict, Verdict::Found(_));
+    let Proposal::Found(path) = &answer.run.outcome else { return None };
+    (whole.options().planner.is_exact() && is_found).then(|| {
+        let length = path.length();
+        let told = match answer.history[..] {
+            [] => "the path lies among the exact polygons and touches none".to_owned(),
+            _ => format!(
+                "length {length:.4} among the exact polygons, but that path touches them, which is contact; the certified one keeps clear \
+                 of polygons grown by a little"
+            ),
+        };
+        ("exact", told)
+    })
 }
 
 /// Boxes that are looked at for each decision on what is in the way: what takes more is left to `cplan explain`.

@@ -2,9 +2,9 @@
 
 use super::summary::facts;
 use crate::{DrawError, Moments, Picture, TaskPicture, View};
-use cplan_core::cspace::{CObstacle, c_obstacles};
+use cplan_core::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
 use cplan_core::model::{Scene, Status};
-use cplan_engine::{Kind, MotionPlan, Plan, TaskPlan, Verdict};
+use cplan_engine::{Kind, MotionPlan, Options, Plan, TaskPlan, Verdict};
 use cplan_text::{at_least, counted};
 use std::path::Path;
 use thiserror::Error;
@@ -127,7 +127,7 @@ impl PictureFormat {
 /// What pictures and pages of it show.
 #[must_use]
 pub fn view(plan: &Plan) -> View {
-    view_with(plan, contours)
+    view_with(plan, contours_of(plan.options()))
 }
 
 /// The same with how the planner came to its answer, for pictures and pages that play.
@@ -200,7 +200,7 @@ fn task_picture<'a>(plan: &'a Plan, made: &'a TaskPlan) -> TaskPicture<'a> {
         facts: facts(plan),
         task,
         answer,
-        c_obstacles: contours,
+        c_obstacles: contours_of(plan.options()),
         in_time: contours_in_time,
     }
 }
@@ -248,6 +248,16 @@ fn contours_in_time(scene: &Scene, [from, to]: [f64; 2], most: usize) -> Moments
         (time, all)
     };
     (0..=count as usize).map(|k| moment(k as f64)).collect()
+}
+
+/// How the C-obstacles of a plan are traced for its pictures.
+fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
+    if options.planner.is_exact() { exact_contours } else { contours }
+}
+
+/// Exact C-obstacles for pictures, where the arm has any.
+fn exact_contours(scene: &Scene) -> Vec<CObstacle> {
+    exact_c_obstacles(scene).map_or_else(|| contours(scene), |(exact, _)| exact)
 }
 
 /// C-obstacles for pictures.

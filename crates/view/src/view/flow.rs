@@ -7,6 +7,8 @@ use cplan_core::space::Topology;
 const BEGINNINGS: usize = 16;
 /// Length of a step, in cells.
 const STEP: f64 = 0.5;
+/// The least one: on a ridge long steps lead down its other side, short ones along it.
+const SHORT_STEP: f64 = 0.03;
 /// Steps of a line at the most, in widths of the grid: lines that wind for longer add nothing to see.
 const WIDTHS: f64 = 4.0;
 /// Every so many steps a point of the line is kept.
@@ -23,7 +25,11 @@ pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     if size.iter().any(|&n| n < 2) {
         return Vec::new();
     }
-    let begin = |k: usize, i: usize| (i as f64 + 0.5) / BEGINNINGS as f64 * (size[k] - 1) as f64;
+    let Some(extent) = extent(samples) else { return Vec::new() };
+    let begin = |k: usize, i: usize| {
+        let [low, high] = extent[k].map(|at| at as f64);
+        low + (i as f64 + 0.5) / BEGINNINGS as f64 * (high - low)
+    };
     let beginnings = (0..BEGINNINGS).flat_map(|i| (0..BEGINNINGS).map(move |j| [i, j]));
     let lines = beginnings.map(|[i, j]| line(samples, [begin(0, i), begin(1, j)]));
     let domain = topology.ranges.map(|axis| axis.domain());
@@ -31,23 +37,41 @@ pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     lines.filter(|line| line.len() > 2).map(|line| line.into_iter().map(clamp).collect()).collect()
 }
 
+/// First and last place along each axis at which there are values; none where there are none.
+fn extent(samples: &Samples) -> Option<[[usize; 2]; 2]> {
+    let columns = samples.y.len();
+    let known = || samples.values.iter().enumerate().filter(|(_, value)| value.is_finite()).map(|(at, _)| at);
+    let along = |place: fn(usize, usize) -> usize| {
+        let places = || known().map(|at| place(at, columns));
+        Some([places().min()?, places().max()?])
+    };
+    Some([along(|at, columns| at / columns)?, along(|at, columns| at % columns)?])
+}
+
 fn line(samples: &Samples, begin: Spot) -> Vec<[f64; 2]> {
     let steps = (WIDTHS * samples.x.len().max(samples.y.len()) as f64 / STEP) as usize;
     let mut points = Vec::new();
-    let mut at = begin;
-    let mut value = f64::NEG_INFINITY;
-    for step in 0..steps {
-        let Some((here, direction)) = slope(samples, at) else { break };
-        // On a plateau or at the top: every step from there leads down again.
-        if here <= value {
-            break;
-        }
-        if step % KEPT == 0 {
+    let Some((mut here, mut direction)) = slope(samples, begin) else { return points };
+    let (mut at, mut length) = (begin, STEP);
+    for taken in 0..steps {
+        if taken % KEPT == 0 {
             points.push(place(samples, at));
         }
-        let middle = [0, 1].map(|k| at[k] + STEP / 2.0 * direction[k]);
-        let direction = slope(samples, middle).map_or(direction, |(_, middle)| middle);
-        (at, value) = ([0, 1].map(|k| at[k] + STEP * direction[k]), here);
+        // On a plateau or at the top no step leads up.
+        let Some(next) = (loop {
+            let middle = [0, 1].map(|k| at[k] + length / 2.0 * direction[k]);
+            let along = slope(samples, middle).map_or(direction, |(_, middle)| middle);
+            let next = [0, 1].map(|k| at[k] + length * along[k]);
+            match slope(samples, next).filter(|(there, _)| *there > here) {
+                Some((there, onwards)) => break Some((next, there, onwards)),
+                None if length > SHORT_STEP => length /= 2.0,
+                None => break None,
+            }
+        }) else {
+            break;
+        };
+        (at, here, direction) = next;
+        length = (2.0 * length).min(STEP);
     }
     points
 }

@@ -39,10 +39,11 @@ pub(super) use numbers::{Chain, Grain};
 use replay::{MotionReplayView, PhaseView};
 pub(super) use states::ranges;
 pub(super) use steps::Row;
-pub(super) use trace::{ScaleView, TraceView};
+pub(super) use trace::{LevelView, ScaleView, TraceView};
 pub(super) use waves::{LEVELS, Waves};
 pub(super) use world::{ContourView, NAMED, ObstacleView, PayloadView, RegionView, WorldView};
 
+use super::flow::FieldLines;
 use super::legend::{self, KeyView};
 use super::reach::ReachView;
 use super::stuck::Stuck;
@@ -119,6 +120,8 @@ pub(super) struct FrameView {
 pub(super) struct Still {
     /// None of an arm alone.
     pub panels: Vec<PanelView>,
+    /// What is drawn of a field.
+    pub field_lines: FieldLines,
     /// Objects where they are put, each place once.
     pub placed: Vec<ObstacleView>,
     /// Where the tip can get.
@@ -159,6 +162,13 @@ impl View {
     /// What the planner saw on its way to each motion of a task, as far as that is told.
     pub(super) fn traces_of_steps(&self) -> impl Iterator<Item = &TraceView> {
         self.replays.iter().filter_map(|replay| replay.trace.as_ref())
+    }
+
+    /// The same with these lines of a field in pictures; pages show and hide each kind.
+    #[must_use]
+    pub fn with_field_lines(mut self, lines: FieldLines) -> Self {
+        self.still.field_lines = lines;
+        self
     }
 
     /// The same with the places that the tip can get to.

@@ -257,7 +257,7 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
         }
         (_, TraceView::Roadmap { edges: all, .. }) => *all = begun(all, 2, edges()),
         (_, TraceView::Slices { free }) => *free = begun(free, 2, shown(|shows| *shows == ShowsView::Slices)),
-        (_, TraceView::Channel { cells, channel, expanded, sweep }) => {
+        (_, TraceView::Channel { cells, channel, centers, middles, expanded, sweep }) => {
             // Those that are not there yet keep their places.
             let count = count(cells.len(), shown(|shows| matches!(shows, ShowsView::Cells { .. })));
             cells[count..].iter_mut().for_each(|cell| cell.0.clear());
@@ -266,13 +266,15 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
                 _ => None,
             };
             channel.truncate(self::count(channel.len(), shown(|shows| *shows == ShowsView::Channel)));
+            centers.0.truncate(channel.len());
+            middles.0.truncate(channel.len().saturating_sub(1));
             *expanded = begun(expanded, 1, expanded_part());
         }
-        (ShowsView::Nodes, TraceView::Roads { edges, expanded }) => {
+        (ShowsView::Nodes, TraceView::Roads { edges, expanded, .. }) => {
             *expanded = begun(&Chain(edges.0.chunks_exact(2).map(|ends| ends[0]).collect()), 1, part);
             edges.0.clear();
         }
-        (_, TraceView::Roads { edges: all, expanded }) => {
+        (_, TraceView::Roads { edges: all, expanded, .. }) => {
             (*all, *expanded) = (begun(all, 2, edges()), begun(expanded, 1, expanded_part()));
         }
         (ShowsView::Boxes { order }, trace @ TraceView::Boxes { .. }) => {

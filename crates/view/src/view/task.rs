@@ -7,7 +7,7 @@ use super::states::{PayloadState, describe, payload_states, rounds};
 use super::steps::{Order, rows, words};
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use super::{PanelView, Still, View, extent};
-use crate::color;
+use crate::{FieldLines, color};
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Object, Obstacle, Scene, Status, Task};
 use cplan_engine::task::{Event, Impossible, Leg, Sequence, TaskAnswer};
@@ -94,6 +94,7 @@ impl View {
             now: None,
             reach: None,
             stuck: None,
+            field_lines: FieldLines::default(),
             panels: panels(picture, &order, &paths, world, grain),
             placed: placed.collect(),
             // What was let go of at the end lies there.

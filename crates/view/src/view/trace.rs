@@ -4,7 +4,7 @@ use super::flow;
 use super::numbers::{Chain, Grain, number};
 use super::slope::Slope;
 use super::waves::Waves;
-use cplan_core::planner::Trace;
+use cplan_core::planner::{GraphKind, Trace};
 use cplan_core::space::{Configuration, Topology};
 use serde::Serialize;
 
@@ -38,6 +38,11 @@ pub enum TraceView {
     Channel {
         cells: Vec<Chain>,
         channel: Vec<usize>,
+        /// Centres of the channel's cells, and middles of the doors between them.
+        #[serde(skip_serializing_if = "Chain::is_empty")]
+        centers: Chain,
+        #[serde(skip_serializing_if = "Chain::is_empty")]
+        middles: Chain,
         /// Where the search came, in order.
         #[serde(skip_serializing_if = "Chain::is_empty")]
         expanded: Chain,
@@ -46,7 +51,13 @@ pub enum TraceView {
         sweep: Option<f64>,
     },
     /// A roadmap: both ends of each edge, and where the search came, in order.
-    Roads { edges: Chain, expanded: Chain },
+    Roads {
+        edges: Chain,
+        expanded: Chain,
+        /// Which visibility graph it is, if it is one.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        visibility: Option<&'static str>,
+    },
     /// Boxes of a subdivision: least and greatest values of each.
     Boxes {
         free: Chain,
@@ -78,7 +89,8 @@ impl TraceView {
         let whole = |value: f64| format!("{value:.0}").replace('-', "\u{2212}").replace("\u{2212}0", "0");
         let (title, ends, soft) = match self {
             Self::Wavefront(waves) if waves.levels().any(|level| level.is_some()) => {
-                ("steps to the goal", [waves.farthest.to_string(), "0".to_owned()], true)
+                let title = if waves.from_start { "steps from the start" } else { "steps to the goal" };
+                (title, [waves.farthest.to_string(), "0".to_owned()], true)
             }
             Self::Field { logarithmic: true, span, .. } => ("ln of the potential", span.map(whole), false),
             Self::Field { span, .. } => ("potential", span.map(|value| format!("{value:.2}")), false),
@@ -95,19 +107,30 @@ impl TraceView {
             // Without a path there are none that it passes.
             Trace::Slices { free } if free.is_empty() => return None,
             Trace::Slices { free } => Self::Slices { free: pairs(free) },
-            Trace::Channel { cells, channel, expanded } => Self::Channel {
+            Trace::Channel { cells, channel, points, expanded } => Self::Channel {
                 cells: cells.iter().map(|cell| grain.configurations(cell)).collect(),
                 channel: channel.clone(),
+                centers: grain.configurations(&points.centers),
+                middles: grain.configurations(&points.middles),
                 expanded: grain.configurations(expanded),
                 sweep: None,
             },
-            Trace::Roads { edges, expanded } => {
-                Self::Roads { edges: pairs(edges), expanded: grain.configurations(expanded) }
-            }
+            Trace::Roads { edges, expanded, kind } => Self::Roads {
+                edges: pairs(edges),
+                expanded: grain.configurations(expanded),
+                visibility: match kind {
+                    GraphKind::Visibility(graph) => Some(graph.name()),
+                    GraphKind::Roadmap => None,
+                },
+            },
             Trace::Boxes { free, stuck, mixed } => {
                 Self::Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed), rest: Chain::default() }
             }
-            Trace::Wavefront { cells, labels, expanded } => Self::Wavefront(Waves::new(*cells, labels, expanded)?),
+            Trace::Wavefront { cells, labels, expanded, forward } => {
+                let mut waves = Waves::new(*cells, labels, expanded)?;
+                waves.from_start = *forward;
+                Self::Wavefront(waves)
+            }
             Trace::Field { .. } | Trace::Harmonic { .. } | Trace::Potential { .. } => {
                 let slope = Slope::new(trace, topology)?;
                 let chain =

@@ -1,12 +1,15 @@
 //! Wavefronts, coarse enough to be drawn and short enough to be sent.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Cells along an axis that a wavefront is coarsened to: nearly a pixel and a half each.
 const CELLS: usize = 192;
 /// Levels are written as letters, one a block of cells: so many of them, and one for none.
 const LETTERS: &[u8; LEVELS] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 const NONE: char = '.';
+
+/// Cells along either axis up to which each has its number.
+const NUMBERED: usize = 32;
 
 /// How many distances to the goal are told apart.
 pub const LEVELS: usize = 64;
@@ -25,6 +28,17 @@ pub struct Waves {
     order: String,
     /// The greatest label.
     pub farthest: u32,
+    /// Whether distances are those from the start.
+    #[serde(skip)]
+    pub from_start: bool,
+    /// The label of each cell of a grid that is coarse enough for it to be read; none, in JSON -1, where the wave did not come.
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "labels_or_minus_one")]
+    pub numbers: Vec<Option<u32>>,
+}
+
+/// Labels, and -1 where there is none.
+fn labels_or_minus_one<S: Serializer>(numbers: &[Option<u32>], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(numbers.iter().map(|number| number.map_or(-1, i64::from)))
 }
 
 impl Waves {
@@ -48,6 +62,7 @@ impl Waves {
                 .map(|value| letter((value < u32::MAX).then(|| f64::from(value) / f64::from(greatest.max(1)))))
                 .collect()
         };
+        let numbers = labels.iter().map(|&label| (label != u32::MAX).then_some(label)).collect();
         let places = expanded.iter().zip(0..).map(|(&cell, place)| (cell as usize, place));
         Some(Self {
             blocks,
@@ -55,12 +70,22 @@ impl Waves {
             levels: coarse(&mut labels.iter().copied().enumerate(), farthest),
             order: if expanded.is_empty() { String::new() } else { coarse(&mut { places }, expanded.len() as u32 - 1) },
             farthest,
+            from_start: false,
+            numbers: if cells.iter().all(|&n| n <= NUMBERED) { numbers } else { Vec::new() },
         })
     }
 
     /// Blocks of these levels, written as letters, over the whole of both axes.
     pub fn of_levels(blocks: [usize; 2], levels: String) -> Self {
-        Self { blocks, extent: [1.0; 2], levels, order: String::new(), farthest: 0 }
+        Self {
+            blocks,
+            extent: [1.0; 2],
+            levels,
+            order: String::new(),
+            farthest: 0,
+            from_start: false,
+            numbers: Vec::new(),
+        }
     }
 
     /// The same as far as this part of the levels, or of the order of expansion, goes.
@@ -70,7 +95,8 @@ impl Waves {
         let there = |letter: u8| LETTERS.iter().position(|&l| l == letter).is_some_and(|level| level < last);
         let levels =
             self.levels.chars().zip(order.bytes()).map(|(level, place)| if there(place) { level } else { NONE });
-        Self { levels: levels.collect(), ..self.clone() }
+        let numbers = self.numbers.iter().zip(order.bytes()).map(|(number, place)| number.filter(|_| there(place)));
+        Self { levels: levels.collect(), numbers: numbers.collect(), ..self.clone() }
     }
 
     /// The level of each block, below [`LEVELS`]; none where the wave did not come.

@@ -67,6 +67,16 @@ impl Mesh {
         (0..self.triangles() as u32).filter_map(part).collect()
     }
 
+    /// All corners of free space, each once, in order of abscissae.
+    pub fn vertices(&self) -> &[Point] {
+        &self.vertices
+    }
+
+    /// The number of the vertex at which a half-edge begins.
+    pub fn vertex(&self, half_edge: u32) -> u32 {
+        self.edges.origin[half_edge as usize]
+    }
+
     /// The point at which a half-edge begins.
     pub fn origin(&self, half_edge: u32) -> Point {
         self.vertices[self.edges.origin[half_edge as usize] as usize]

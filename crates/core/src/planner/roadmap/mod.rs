@@ -11,7 +11,7 @@ pub use search::{Question, Searched, search};
 pub use search::{RoadmapSearch, SearchOrder};
 
 use super::terminals::Terminals;
-use super::{Proposal, Run, Size, Trace};
+use super::{GraphKind, Proposal, Run, Size, Trace};
 use crate::space::{Configuration, Measure};
 use cplan_geometry::Point;
 use petgraph::graph::{NodeIndex, UnGraph};
@@ -68,7 +68,8 @@ impl Roadmap {
 /// What a search of a roadmap came to; without one where it was given up before.
 pub fn run(outcome: Proposal, asked: Option<&Asked>, expanded: Vec<Configuration>) -> Run {
     let [nodes, edges] = asked.map_or([0; 2], Asked::size);
-    let trace = Trace::Roads { edges: asked.map_or_else(Vec::new, Asked::edges), expanded };
+    let drawn = asked.map_or_else(Vec::new, Asked::edges);
+    let trace = Trace::Roads { edges: drawn, expanded, kind: GraphKind::Roadmap };
     Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
 }
 

@@ -275,8 +275,9 @@ fn same(task: &Task, a: Configuration, b: Configuration) -> bool {
 fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
     match goal {
         Goal::Joints(target) => (!same(task, q, *target)).then_some(Fault::Joints { is: q, target: *target }),
-        Goal::Tip(target) => {
-            let off = (task.arm.tip_at(q) - target).norm();
+        Goal::Tip(_) | Goal::Area(_) => {
+            let is = task.arm.tip_at(q);
+            let off = (is - goal.nearest_tip(is)?).norm();
             (off > AT).then_some(Fault::Tip { off })
         }
     }

@@ -10,27 +10,33 @@ pub enum CSpaceFormat {
     Json,
     /// What has coordinates, as features.
     GeoJson,
+    /// The values of a grid as a matrix.
+    Csv,
 }
 
 impl CSpaceFormat {
-    /// The format that a file's name stands for, in upper or lower case: `cspace.json`, what ends in `.cspace.json`, and what
-    /// ends in `.geojson`. None of other names.
+    /// The format that a file's name stands for, in upper or lower case: `cspace.json` and `cspace.csv`, what ends in
+    /// `.cspace.json` or `.cspace.csv`, and what ends in `.geojson`. None of other names.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
-        if name == "cspace.json" || name.ends_with(".cspace.json") {
+        let is = |end: &str| name.strip_suffix(end).is_some_and(|before| before.is_empty() || before.ends_with('.'));
+        if is("cspace.json") {
             Some(Self::Json)
+        } else if is("cspace.csv") {
+            Some(Self::Csv)
         } else {
             path.extension()?.eq_ignore_ascii_case("geojson").then_some(Self::GeoJson)
         }
     }
 
-    /// The file's text.
+    /// Returns the file's text; nothing for a matrix if there is no grid.
     #[must_use]
-    pub fn text(self, spaces: &CSpaces) -> String {
+    pub fn text(self, spaces: &CSpaces) -> Option<String> {
         match self {
-            Self::Json => spaces.json(),
-            Self::GeoJson => spaces.geojson(),
+            Self::Json => Some(spaces.json()),
+            Self::GeoJson => Some(spaces.geojson()),
+            Self::Csv => spaces.csv(),
         }
     }
 }

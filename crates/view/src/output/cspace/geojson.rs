@@ -40,6 +40,12 @@ fn features(number: usize, space: &CSpace) -> Vec<Value> {
             feature("cell", geometry("Polygon", [ring]), json!({ "channel": place(cell) }))
         }));
     }
+    let points = space.cells.iter().flat_map(|cells| [("center", &cells.centers), ("middle", &cells.middles)]);
+    features.extend(
+        points
+            .filter(|(_, points)| !points.is_empty())
+            .map(|(kind, points)| feature(kind, geometry("MultiPoint", points), none())),
+    );
     if let Some(boxes) = &space.boxes {
         let kinds = [("free_box", &boxes.free), ("stuck_box", &boxes.stuck), ("mixed_box", &boxes.mixed)];
         features.extend(kinds.map(|(kind, boxes)| feature(kind, rectangles(boxes), none())));
@@ -47,7 +53,12 @@ fn features(number: usize, space: &CSpace) -> Vec<Value> {
     if let Some(roadmap) = &space.roadmap {
         let ends = roadmap.edges.iter().map(|edge| edge.map(|vertex| roadmap.vertices[vertex]));
         let lines = geometry("MultiLineString", ends.collect::<Vec<_>>());
-        features.push(feature("roadmap", lines, json!({ "whole": roadmap.whole })));
+        let kind = roadmap.visibility.map_or_else(none, |graph| json!({ "visibility": graph }));
+        let mut more = json!({ "whole": roadmap.whole });
+        if let (Some(more), Value::Object(kind)) = (more.as_object_mut(), kind) {
+            more.extend(kind);
+        }
+        features.push(feature("roadmap", lines, more));
     }
     let lists = [
         ("rows", geometry("MultiLineString", &space.rows), space.rows.is_empty()),

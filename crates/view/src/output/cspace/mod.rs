@@ -2,22 +2,24 @@
 
 mod format;
 mod geojson;
+mod matrix;
+mod seen;
 
 pub use format::CSpaceFormat;
+pub use seen::{Boxes, Cells, FieldGrid, Roadmap};
 
 use super::picture::{PICTURE_TOLERANCE, contours};
 use cplan_core::check::{CertifiedCurve, CheckedProof};
 use cplan_core::cspace::{self, Polygon, Proves};
 use cplan_core::model::{Joint, Scene, Status};
-use cplan_core::planner::Trace;
+use cplan_core::planner::{GraphKind, Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Path};
 use cplan_engine::{Kind, MotionPlan, Plan, Space, TaskPlan};
 use cplan_geometry::Point;
 use cplan_motion::line_a_field;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
-use serde::{Serialize, Serializer};
-use std::collections::HashMap;
+use serde::Serialize;
 use std::sync::Arc;
 
 /// A pair of joint values, base to tip; radians or metres.
@@ -60,7 +62,7 @@ pub struct Axis {
 pub struct CSpace {
     /// What is carried, of a task; else empty.
     pub payload: String,
-    /// What blocked proves in `c_obstacles`, besides the clearance asked for.
+    /// What blocked proves in `c_obstacles`, besides the clearance asked for: `exact` for the polygons of gantries with `--margin 0`.
     pub proves: Proves,
     /// By obstacle, in the world's order.
     pub c_obstacles: Vec<ObstacleRegion>,
@@ -131,64 +133,6 @@ pub struct FreeRegion {
     pub polygons: Polygons,
 }
 
-/// A graph of straight motions.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Roadmap {
-    /// Each once.
-    pub vertices: Vec<Values>,
-    /// Numbers of two vertices.
-    pub edges: Vec<[usize; 2]>,
-    /// Whether it is all of the graph, or what of it was looked at.
-    pub whole: bool,
-}
-
-/// Cells of free space.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Cells {
-    /// Corners of each, counter-clockwise.
-    pub corners: Vec<Vec<Values>>,
-    /// Numbers of those that the path passes, in order.
-    pub channel: Vec<usize>,
-}
-
-/// Boxes: least and greatest values of each.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Boxes {
-    /// No collision anywhere in them.
-    pub free: Vec<[Values; 2]>,
-    /// Collision everywhere in them.
-    pub stuck: Vec<[Values; 2]>,
-    /// Neither is proven.
-    pub mixed: Vec<[Values; 2]>,
-}
-
-/// Cells in rows of joint 2: cell `(i, j)` is number `i * shape[1] + j`, and its least values are `lower + (i, j) * size`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct FieldGrid {
-    /// Number of cells along each axis.
-    pub shape: [usize; 2],
-    /// Least values of the first cell.
-    pub lower: Values,
-    /// Sides of a cell.
-    pub size: Values,
-    /// What free and blocked prove of a cell.
-    pub proves: Proves,
-    /// One a cell: 1 where it is blocked, else 0.
-    #[serde(serialize_with = "bits")]
-    #[schemars(with = "Vec<u8>")]
-    pub blocked: Vec<bool>,
-    /// What `values` are: `steps` to the goal, `ln_potential` (natural logarithm, 0 at the goal, the lower the farther), or
-    /// `height` (descended by the path).
-    pub quantity: &'static str,
-    /// One a cell; infinite, in JSON null, where there is none. Empty where there is no field.
-    #[schemars(with = "Vec<Option<f64>>")]
-    pub values: Vec<f64>,
-}
-
-fn bits<S: Serializer>(flags: &[bool], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(flags.iter().map(|&flag| u8::from(flag)))
-}
-
 /// The schema of [`CSpaces`] as JSON, JSON Schema draft 2020-12.
 #[must_use]
 pub fn cspace_schema() -> serde_json::Value {
@@ -202,10 +146,11 @@ pub fn cspace_schema() -> serde_json::Value {
 /// that it takes for a picture.
 #[must_use]
 pub fn cspaces(plan: &Plan) -> CSpaces {
+    let is_exact = plan.options().planner.is_exact();
     let axes = plan.arm().joints.each_ref().map(Axis::of);
     let spaces = match plan.made() {
-        Kind::Motion(made) => vec![CSpace::of_motion(made)],
-        Kind::Task(made) => spaces_of_task(made),
+        Kind::Motion(made) => vec![CSpace::of_motion(made, is_exact)],
+        Kind::Task(made) => spaces_of_task(made, is_exact),
     };
     CSpaces {
         name: plan.problem().scene().workspace().name.clone(),
@@ -221,6 +166,12 @@ impl CSpaces {
     #[must_use]
     pub fn json(&self) -> String {
         line_a_field(self)
+    }
+
+    /// Returns the values of the first grid as a matrix in CSV, if there is a grid.
+    #[must_use]
+    pub fn csv(&self) -> Option<String> {
+        self.spaces.iter().find_map(|space| space.grid.as_ref()).map(FieldGrid::matrix)
     }
 
     /// As a GeoJSON `FeatureCollection`, whose coordinates are joint values.
@@ -247,14 +198,20 @@ impl Axis {
 
 impl CSpace {
     /// Obstacles alone.
-    fn of_scene(scene: &Scene, start: Configuration) -> Self {
+    fn of_scene(scene: &Scene, start: Configuration, is_exact: bool) -> Self {
         let numbers = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
         let names = numbers.map(|number| scene.obstacle(number).name.clone());
-        let united = cspace::united(scene, &contours(scene));
+        let grown = || {
+            let margin = MARGIN * PICTURE_TOLERANCE * scene.arm().reach();
+            (contours(scene), Proves::Outer { margin })
+        };
+        let exact = if is_exact { cspace::exact_c_obstacles(scene) } else { None };
+        let (contours, proves) = exact.unwrap_or_else(grown);
+        let united = cspace::united(scene, &contours);
         let region = |(obstacle, all): (String, Vec<Polygon>)| ObstacleRegion { obstacle, polygons: polygons(&all) };
         Self {
             payload: scene.payload().map(|payload| payload.object.clone()).unwrap_or_default(),
-            proves: Proves::Outer { margin: MARGIN * PICTURE_TOLERANCE * scene.arm().reach() },
+            proves,
             c_obstacles: names.zip(united).map(region).collect(),
             start: start.into(),
             goals: Vec::new(),
@@ -270,7 +227,7 @@ impl CSpace {
         }
     }
 
-    fn of_motion(plan: &MotionPlan) -> Self {
+    fn of_motion(plan: &MotionPlan, is_exact: bool) -> Self {
         let MotionPlan { problem, answer, curve, .. } = plan;
         let scene = problem.scene();
         let free = match &answer.space {
@@ -286,7 +243,7 @@ impl CSpace {
             paths: curve.iter().map(|curve| Way::of(answer.method.to_string(), curve)).collect(),
             free,
             proof: answer.verdict.proof().map(boxes_of).unwrap_or_default(),
-            ..Self::of_scene(scene, problem.start())
+            ..Self::of_scene(scene, problem.start(), is_exact)
         };
         space.with_trace(&answer.drawn(), &answer.space)
     }
@@ -294,22 +251,35 @@ impl CSpace {
     fn with_trace(self, trace: &Trace, space: &Space) -> Self {
         let grid = |quantity, values: &[f64]| FieldGrid::of(space, quantity, values);
         match trace {
-            Trace::Roadmap { edges, whole } => Self { roadmap: Some(Roadmap::of(edges, *whole)), ..self },
-            Trace::Roads { edges, expanded } => {
-                Self { roadmap: Some(Roadmap::of(edges, true)), expanded: all(expanded), ..self }
+            Trace::Roadmap { edges, whole } => {
+                let reduced = Some(VisibilityGraph::Reduced.name());
+                Self { roadmap: Some(Roadmap::of(edges, *whole, reduced)), ..self }
+            }
+            Trace::Roads { edges, expanded, kind } => {
+                let visibility = match kind {
+                    GraphKind::Visibility(graph) => Some(graph.name()),
+                    GraphKind::Roadmap => None,
+                };
+                Self { roadmap: Some(Roadmap::of(edges, true, visibility)), expanded: all(expanded), ..self }
             }
             Trace::Slices { free } => Self { rows: pairs(free), ..self },
-            Trace::Channel { cells, channel, expanded } => {
-                let corners = cells.iter().map(|cell| all(cell)).collect();
-                Self { cells: Some(Cells { corners, channel: channel.clone() }), expanded: all(expanded), ..self }
+            Trace::Channel { cells, channel, points, expanded } => {
+                let cells = Cells {
+                    corners: cells.iter().map(|cell| all(cell)).collect(),
+                    channel: channel.clone(),
+                    centers: all(&points.centers),
+                    middles: all(&points.middles),
+                };
+                Self { cells: Some(cells), expanded: all(expanded), ..self }
             }
             Trace::Boxes { free, stuck, mixed } => {
                 let boxes = Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed) };
                 Self { boxes: Some(boxes), ..self }
             }
-            Trace::Wavefront { labels, .. } => {
+            Trace::Wavefront { labels, forward, .. } => {
                 let steps = |&label: &u32| if label == u32::MAX { f64::INFINITY } else { f64::from(label) };
-                Self { grid: grid("steps", &labels.iter().map(steps).collect::<Vec<_>>()), ..self }
+                let quantity = if *forward { "steps_from_start" } else { "steps" };
+                Self { grid: grid(quantity, &labels.iter().map(steps).collect::<Vec<_>>()), ..self }
             }
             Trace::Potential { heights, .. } => Self { grid: grid("height", heights), ..self },
             // Guessed for pictures.
@@ -334,41 +304,8 @@ impl Way {
     }
 }
 
-impl Roadmap {
-    /// Vertices in the order in which edges name them first.
-    fn of(edges: &[[Configuration; 2]], whole: bool) -> Self {
-        let mut numbers: HashMap<[u64; 2], usize> = HashMap::new();
-        let mut vertices = Vec::new();
-        let mut number = |q: &Configuration| {
-            *numbers.entry([q[0].to_bits(), q[1].to_bits()]).or_insert_with(|| {
-                vertices.push(Values::from(*q));
-                vertices.len() - 1
-            })
-        };
-        let edges = edges.iter().map(|edge| edge.each_ref().map(&mut number)).collect();
-        Self { edges, vertices, whole }
-    }
-}
-
-impl FieldGrid {
-    /// The planner's grid with values for all of its cells, or for none.
-    fn of(space: &Space, quantity: &'static str, values: &[f64]) -> Option<Self> {
-        let Space::Grid(grid) = space else { return None };
-        let has_values = values.len() == grid.blocked.len();
-        Some(Self {
-            shape: grid.cells,
-            lower: grid.topology.ranges.map(|range| range.domain().0),
-            size: grid.step(),
-            proves: grid.proves,
-            blocked: grid.blocked.clone(),
-            quantity,
-            values: if has_values { values.to_vec() } else { Vec::new() },
-        })
-    }
-}
-
 /// A space for each world, in the order in which the arm moves in them; that of the step that fails comes last.
-fn spaces_of_task(plan: &TaskPlan) -> Vec<CSpace> {
+fn spaces_of_task(plan: &TaskPlan, is_exact: bool) -> Vec<CSpace> {
     let TaskPlan { task, answer } = plan;
     let mut scenes: Vec<&Arc<Scene>> = Vec::new();
     let mut spaces: Vec<CSpace> = Vec::new();
@@ -378,7 +315,7 @@ fn spaces_of_task(plan: &TaskPlan) -> Vec<CSpace> {
         let known = scenes.iter().position(|scene| Arc::ptr_eq(scene, &leg.scene) || **scene == leg.scene);
         let number = known.unwrap_or_else(|| {
             scenes.push(&leg.scene);
-            spaces.push(CSpace::of_scene(&leg.scene, path.start()));
+            spaces.push(CSpace::of_scene(&leg.scene, path.start(), is_exact));
             spaces.len() - 1
         });
         let name = format!("{}. {}", leg.step.number, leg.step.action.describe(&task.objects));
@@ -390,7 +327,7 @@ fn spaces_of_task(plan: &TaskPlan) -> Vec<CSpace> {
         spaces.push(CSpace {
             goals: fails.ik_solutions.iter().map(|to| [to.ik_solution.into(); 2]).collect(),
             proof: proofs.flat_map(boxes_of).collect(),
-            ..CSpace::of_scene(&fails.scene, fails.from)
+            ..CSpace::of_scene(&fails.scene, fails.from, is_exact)
         });
     }
     spaces

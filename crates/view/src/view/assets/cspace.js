@@ -6,7 +6,7 @@ const CSpace = (() => {
 
   /** More obstacles than this are a crowd. */
   const CROWD = 100;
-  /** The sides of cells that are narrower are not drawn, pixels. */
+  /** The sides of cells that are narrower are finer, pixels. */
   const NARROW = 5;
 
   function bounds(flat) {
@@ -167,9 +167,13 @@ const CSpace = (() => {
       context.stroke();
     }
     if (seen.kind === 'channel' && view.shows('cells')) {
-      context.beginPath();
-      for (const cell of seen.cells) if (isWide(panel, cell)) shifted(context, panel, cell, circles(view), true);
-      context.stroke();
+      for (const wide of [false, true]) {
+        context.lineWidth = wide ? 0.8 : 0.3;
+        context.beginPath();
+        for (const cell of seen.cells) if (isWide(panel, cell) === wide) shifted(context, panel, cell, circles(view), true);
+        context.stroke();
+      }
+      context.lineWidth = 0.8;
     }
     if (seen.kind === 'boxes' && view.shows('boxes')) {
       context.beginPath();
@@ -184,11 +188,51 @@ const CSpace = (() => {
       const [x] = panel.at([seen.sweep, 0]);
       line(context, [[x, panel.rect.y], [x, panel.rect.y + panel.rect.height]]);
     }
+    if (seen.numbers && view.shows('wavefront')) numbers(context, panel, seen);
     if (seen.expanded && view.shows('expanded')) expanded(context, panel, view, seen.expanded);
     if (seen.kind === 'field') field(context, panel, view, seen);
   }
 
-  /** Whether the sides of a cell are drawn: those of narrow ones together make a moire. */
+  /** The number of each cell that a wave came to, if there is room for it. */
+  function numbers(context, panel, { blocks, numbers: all }) {
+    const [nx, ny] = blocks;
+    const [[x0, y0], [x1, y1]] = [panel.at(panel.whole.map((side) => side[0])), panel.at(panel.whole.map((side) => side[1]))];
+    const [width, height] = [(x1 - x0) / nx, (y0 - y1) / ny];
+    const digits = `${Math.max(...all)}`.length;
+    const size = Math.min(width / (0.6 * digits), 0.75 * height, 13);
+    if (size < 5) return;
+    context.font = `${size}px sans-serif`;
+    context.textAlign = 'center';
+    context.textBaseline = 'middle';
+    context.lineWidth = 2;
+    context.strokeStyle = panel.theme.paper;
+    context.fillStyle = panel.theme.ink;
+    all.forEach((number, k) => {
+      if (number < 0) return;
+      const at = [x0 + (Math.floor(k / ny) + 0.5) * width, y0 - ((k % ny) + 0.5) * height];
+      context.strokeText(number, ...at);
+      context.fillText(number, ...at);
+    });
+  }
+
+  /** Centres of the channel's cells (discs), and middles of the doors between them (rings). */
+  function channelPoints(context, panel, view, { centers = [], middles = [] }) {
+    const { theme } = panel;
+    for (const [flat, inside, edge] of [[centers, theme.ink, theme.paper], [middles, theme.paper, theme.ink]]) {
+      context.fillStyle = inside;
+      context.strokeStyle = edge;
+      context.lineWidth = 1;
+      for (let i = 0; i + 1 < flat.length; i += 2) {
+        const [x, y] = place(view, panel, [flat[i], flat[i + 1]]);
+        context.beginPath();
+        context.arc(x, y, 3, 0, 2 * Math.PI);
+        context.fill();
+        context.stroke();
+      }
+    }
+  }
+
+  /** Whether a cell is wide: the sides of narrow ones together would make a moire. */
   function isWide(panel, cell) {
     const [[low, high]] = bounds(cell);
     return (high - low) * panel.pixels >= NARROW;
@@ -327,6 +371,7 @@ const CSpace = (() => {
         });
       }
     }
+    if (seen?.kind === 'channel' && view.shows('channel')) channelPoints(context, panel, view, seen);
     goalLines(context, panel, view);
     if (view.model.stuck?.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
     view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));

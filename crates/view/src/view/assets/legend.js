@@ -17,6 +17,8 @@ const Legend = (() => {
     },
     shade: (theme, { part }) => `<path ${SQUARE} fill="${theme.scale(part)}" stroke="${theme.grey}"/>`,
     dashed: (theme, { color }) => `<path ${SQUARE} fill="none" stroke="${theme.tint(color)}" stroke-width="1.4" stroke-dasharray="5 3"/>`,
+    center: () => '<circle cx="18" cy="8" r="3" fill="var(--ink)" stroke="var(--paper)" stroke-width="0.8"/>',
+    middle: () => '<circle cx="18" cy="8" r="3" fill="var(--paper)" stroke="var(--ink)" stroke-width="1.4"/>',
     hatched: (theme) => `<path d="M6 7l5-5M6 14l12-12M13 14l9-9M20 14l2-2" stroke="${theme.proof}" stroke-width="1.6"/><path ${SQUARE} fill="none" stroke="${theme.proof}" stroke-width="1.1"/>`,
   };
 

@@ -73,7 +73,9 @@ const Think = (() => {
   function upTo(seen, share) {
     const order = seen.order ?? seen.levels;
     const there = new Set([...LETTERS.slice(0, Math.floor(share * LETTERS.length))]);
-    return { ...seen, levels: [...seen.levels].map((level, k) => (there.has(order[k]) ? level : '.')).join('') };
+    const less = { ...seen, levels: [...seen.levels].map((level, k) => (there.has(order[k]) ? level : '.')).join('') };
+    if (seen.numbers) less.numbers = seen.numbers.map((number, k) => (there.has(order[k]) ? number : -1));
+    return less;
   }
 
   /** What is there of what the planner saw. */
@@ -98,6 +100,8 @@ const Think = (() => {
     if (trace.kind === 'channel') {
       less.cells = trace.cells.slice(0, count(trace.cells.length, of('cells')));
       less.channel = trace.channel.slice(0, count(trace.channel.length, of('channel')));
+      if (trace.centers) less.centers = trace.centers.slice(0, 2 * less.channel.length);
+      if (trace.middles) less.middles = trace.middles.slice(0, 2 * Math.max(less.channel.length - 1, 0));
       const last = less.cells[less.cells.length - 1];
       if (phase.kind === 'cells' && phase.swept && last) less.sweep = Math.min(...last.filter((_, k) => k % 2 === 0));
     }

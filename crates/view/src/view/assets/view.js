@@ -17,7 +17,7 @@ const LAYERS = [
   ['c-obstacles', 'C-obstacles', true],
   ['access', 'where the tip can get', true],
   ['path', 'path', true],
-  ['roadmap', 'visibility graph', true],
+  ['roadmap', 'reduced visibility graph', true],
   ['roads', 'roadmap', true],
   ['rows', 'slices that the path passes', true],
   ['channel', 'channel', true],

@@ -1,0 +1,63 @@
+//! Names of planners for charts and legends, which have no room for all of their options.
+
+/// Shortens names so that they still tell rows apart: leaves out the options that all rows of a planner with options share. A name
+/// stays whole if its short form would be that of another row.
+#[must_use]
+pub fn labels(names: &[&str]) -> Vec<String> {
+    let parts: Vec<(&str, Vec<String>)> = names.iter().map(|name| options(name)).collect();
+    let short = |(planner, options): &(&str, Vec<String>)| {
+        let alike = || parts.iter().filter(|(other, theirs)| other == planner && !theirs.is_empty());
+        let is_common = |option: &String| alike().count() > 1 && alike().all(|(_, theirs)| theirs.contains(option));
+        let kept = options.iter().filter(|option| !is_common(option));
+        kept.fold((*planner).to_owned(), |name, option| format!("{name} {option}"))
+    };
+    let shorts: Vec<String> = parts.iter().map(short).collect();
+    let is_taken = |short: &String| shorts.iter().filter(|other| *other == short).count() > 1;
+    names
+        .iter()
+        .zip(&shorts)
+        .map(|(name, short)| if is_taken(short) { (*name).to_owned() } else { short.clone() })
+        .collect()
+}
+
+/// The planner of a name, and each of its options with the values that follow it.
+fn options(name: &str) -> (&str, Vec<String>) {
+    let mut words = name.split_whitespace();
+    let planner = words.next().unwrap_or(name);
+    let mut options: Vec<String> = Vec::new();
+    for word in words {
+        match options.last_mut() {
+            Some(option) if !word.starts_with("--") => *option += &format!(" {word}"),
+            _ => options.push(word.to_owned()),
+        }
+    }
+    (planner, options)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::labels;
+
+    #[test]
+    fn what_all_variants_of_a_planner_share_is_left_out() {
+        let names = [
+            "shortest",
+            "harmonic",
+            "harmonic --field oriented --epsilon 0.5 --direction 0,-1",
+            "harmonic --field oriented --epsilon 1 --direction 0,-1",
+            "wavefront --search astar",
+        ];
+        let short =
+            ["shortest", "harmonic", "harmonic --epsilon 0.5", "harmonic --epsilon 1", "wavefront --search astar"];
+        assert_eq!(labels(&names), short);
+    }
+
+    #[test]
+    fn no_two_rows_get_one_name() {
+        // Without what both have the first would be called as the planner itself.
+        let names = ["prm", "prm --seed 1", "prm --seed 1 --nearest 4"];
+        assert_eq!(labels(&names), ["prm", "prm --seed 1", "prm --nearest 4"]);
+        assert_eq!(labels(&["prm --seed 1", "prm --seed 1"]), ["prm --seed 1"; 2]);
+        assert_eq!(labels(&[]), Vec::<String>::new());
+    }
+}

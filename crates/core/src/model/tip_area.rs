@@ -1,0 +1,42 @@
+//! Goals of the tip that are rectangles.
+
+use super::inverse;
+use super::{Arm, Goal, JointType};
+use crate::space::{Configuration, GoalSet, Segment};
+use cplan_geometry::Point;
+
+impl Goal {
+    /// The same as an arm takes it: a rectangle without extent is a place, and so is one for an arm that does not slide along both axes, whose
+    /// tip goes to its middle.
+    #[must_use]
+    pub fn of_arm(self, arm: &Arm) -> Self {
+        match self {
+            Self::Area([low, high]) if low == high || !slides(arm) => Self::Tip(nalgebra::center(&low, &high)),
+            goal => goal,
+        }
+    }
+}
+
+/// Whether both joints slide, along different lines: then a rectangle of the tip is a parallelogram of configurations.
+fn slides(arm: &Arm) -> bool {
+    match arm.joints.each_ref().map(|joint| joint.joint_type) {
+        [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.perp(&b) != 0.0,
+        _ => false,
+    }
+}
+
+/// What is to be reached for the tip to come to a rectangle, of an arm that slides along both axes: the rim as far as it lies within the
+/// limits, since no path comes inside but through it; and the start, if the tip is inside already.
+#[must_use]
+pub fn area_goals(arm: &Arm, [low, high]: [Point; 2], start: Configuration) -> GoalSet {
+    let corners = [low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)];
+    let places: Vec<Configuration> =
+        corners.iter().filter_map(|&corner| inverse(arm, corner, start).branches.first().copied()).collect();
+    let [first, second] = arm.joints.each_ref().map(|joint| joint.range.domain());
+    let (lower, upper) = ([first.0, second.0], [first.1, second.1]);
+    let sides = (0..places.len()).map(|k| Segment::new(places[k], places[(k + 1) % places.len()]));
+    let rim = sides.filter_map(|side| side.within(lower, upper));
+    let tip = arm.tip_at(start);
+    let is_inside = (0..2).all(|k| (low[k]..=high[k]).contains(&tip[k]));
+    rim.chain(is_inside.then(|| Segment::point(start))).collect()
+}

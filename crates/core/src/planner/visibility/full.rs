@@ -1,0 +1,92 @@
+//! The visibility graph by its definition: an arc between any two corners that see each other.
+
+use super::VisibilityMap;
+use crate::planner::mesh::{Cone, Mesh};
+use crate::planner::roadmap::{Asked, Roadmap};
+use crate::planner::terminals::Terminals;
+use crate::space::{Measure, Segment};
+use cplan_geometry::{Orientation, Point};
+use cplan_interrupt::checkpoint;
+use petgraph::graph::NodeIndex;
+
+/// Corners of free space up to which the whole graph is made: it may have as many arcs as half the square of their number.
+const MOST_VERTICES: usize = 1500;
+
+impl VisibilityMap {
+    /// The graph of all corners of free space, those at joint limits too, the start and the goals. Two are joined where the segment
+    /// between them is a side of free space, or lies in free space and touches no corner between its ends (Latombe, *Robot Motion
+    /// Planning*, 1991, section 4.1).
+    ///
+    /// Time in the number of triangles that lines of sight cross; exact.
+    ///
+    /// # Errors
+    /// More corners than the graph is made for.
+    pub(super) fn full(&self, measure: Measure, terminals: &Terminals) -> Result<Asked, String> {
+        let mesh = &self.mesh;
+        let vertices = mesh.vertices();
+        if vertices.len() > MOST_VERTICES {
+            let count = vertices.len();
+            return Err(format!(
+                "the full visibility graph is made of up to {MOST_VERTICES} corners, and free space has {count}; use --graph reduced, or a \
+                 greater --margin"
+            ));
+        }
+        let mut roadmap = Roadmap::new(measure);
+        let nodes: Vec<NodeIndex> = vertices.iter().map(|&at| roadmap.add(at)).collect();
+        let mut asked = roadmap.asked(terminals.start);
+        let start = asked.start;
+        for (&root, node) in vertices.iter().zip(&nodes).chain([(&terminals.start, &start)]) {
+            checkpoint();
+            let sight = Sight { mesh, terminals, root };
+            let (mut seen, mut goals) = (Vec::new(), Vec::new());
+            sight.look(&mut seen, &mut goals);
+            // Each arc is found from both ends.
+            let joined = seen.into_iter().map(|vertex| nodes[vertex as usize]).filter(|other| other < node);
+            joined.for_each(|other| asked.join(*node, other));
+            for part in goals {
+                let goal = asked.goal(Point::from(part.nearest(measure, root.coords)));
+                asked.join(*node, goal);
+            }
+        }
+        Ok(asked)
+    }
+}
+
+/// A place that looks around.
+struct Sight<'a> {
+    mesh: &'a Mesh,
+    terminals: &'a Terminals,
+    root: Point,
+}
+
+impl Sight<'_> {
+    /// Adds the numbers of the vertices that it sees, and the parts of goals.
+    fn look(&self, seen: &mut Vec<u32>, goals: &mut Vec<Segment>) {
+        let Self { mesh, terminals, root } = *self;
+        for triangle in mesh.triangles_at(root) {
+            goals.extend(terminals.parts_in(triangle).map(|(_, part)| *part));
+            for successor in mesh.successors_within(triangle, root) {
+                seen.extend(successor.seen.into_iter().flatten().map(|half_edge| mesh.vertex(half_edge)));
+                mesh.look(root, successor.cone, |crossing, cone| {
+                    let ahead = crossing.seen.filter(|&half_edge| is_within(cone, mesh.origin(half_edge)));
+                    seen.extend(ahead.map(|half_edge| mesh.vertex(half_edge)));
+                    let parts = terminals.parts_in(crossing.entry / 3).filter_map(|(_, part)| cone.part(part));
+                    goals.extend(parts.filter(|part| !part.is_point() || is_seen(cone, part.corners()[0])));
+                });
+            }
+        }
+        seen.retain(|&vertex| mesh.vertices()[vertex as usize] != root);
+        seen.sort_unstable();
+        seen.dedup();
+    }
+}
+
+/// Whether a place lies strictly between the bounds of a cone. On one of them a corner lies before it, which the line of sight touches.
+fn is_within(cone: &Cone, p: Point) -> bool {
+    cone.right.side(p) == Orientation::CounterClockwise && cone.left.side(p) == Orientation::Clockwise
+}
+
+/// The same, or whether it is such a corner itself.
+fn is_seen(cone: &Cone, p: Point) -> bool {
+    is_within(cone, p) || [cone.right.to, cone.left.to].contains(&p)
+}

@@ -1,0 +1,65 @@
+//! Iterative deepening (Korf 1985): depth first within a limit, again and again with a greater one.
+//!
+//! The textbook's search keeps no table and expands a cell once for each path that leads there. On a grid that never
+//! ends. Here each round expands a cell once, at its least number of moves, which the rounds before have found.
+
+use super::search::{CELLS_BETWEEN_CHECKPOINTS, Cost, Search};
+use super::{FreeCells, Neighborhood, UNREACHED};
+use cplan_interrupt::checkpoint;
+use std::collections::BTreeSet;
+
+/// Searches from `sources`, which are labelled already, until a round expands a target or labels no cell.
+///
+/// The round of limit `d` expands the cells within `d` moves, each once, so it is linear in their number: all rounds
+/// together take as long as the number of cells times the number of moves to the target.
+pub(super) fn deepen(
+    search: &mut Search,
+    free: &FreeCells,
+    neighborhood: Neighborhood,
+    sources: &[usize],
+    targets: &BTreeSet<usize>,
+) {
+    // The limit of the last round that has put a cell on the stack, and one.
+    let mut seen = vec![0_u32; search.parents.len()];
+    let mut stack: Vec<usize> = Vec::new();
+    for limit in 0.. {
+        search.rounds = limit as usize + 1;
+        let labelled = search.labelled;
+        stack.extend(sources.iter().rev());
+        sources.iter().for_each(|&source| seen[source] = limit + 1);
+        while let Some(cell) = stack.pop() {
+            search.expansions += 1;
+            if search.expansions.is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
+                checkpoint();
+            }
+            let depth = search.costs[cell].moves();
+            // Cells at the limit are expanded for the first time: nearer cells were expanded in the round before.
+            if depth == limit {
+                search.expanded.push(cell as u32);
+            }
+            if targets.contains(&cell) {
+                search.met = Some(cell);
+                return;
+            }
+            if depth == limit {
+                continue;
+            }
+            for next in free.moves(cell, neighborhood) {
+                let is_new = search.parents[next.to] == UNREACHED;
+                if is_new {
+                    let (straight, diagonal) = (u32::from(!next.is_diagonal), u32::from(next.is_diagonal));
+                    search.labelled += 1;
+                    search.parents[next.to] = cell as u32;
+                    search.costs[next.to] = search.costs[cell].and(Cost { straight, diagonal });
+                }
+                if seen[next.to] <= limit && search.costs[next.to].moves() == depth + 1 {
+                    seen[next.to] = limit + 1;
+                    stack.push(next.to);
+                }
+            }
+        }
+        if search.labelled == labelled && limit > 0 {
+            return;
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Out of a local minimum of attraction and repulsion, which forces alone never leave.
+//!
+//! Either method is Barraquand and Latombe's (*Robot motion planning: a distributed representation approach*, 1991): random
+//! walks, and a search that fills the basin of the minimum.
+
+use super::ForceField;
+use cplan_core::space::Draws;
+use cplan_geometry::OpenList;
+use cplan_interrupt::checkpoint;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// Method of leaving a local minimum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Escape {
+    /// By random walks from it, each followed by a descent, until one comes to a lower cell. It may find none.
+    Walk {
+        /// Seed of the random numbers: the same seed gives the same walks.
+        seed: u64,
+    },
+    /// By a wave that fills its basin from the bottom, the lowest cell at the edge first, until it runs over into a lower
+    /// cell. It finds the goal if the cells are connected with it.
+    Wave,
+}
+
+impl Escape {
+    /// Returns how it leaves a minimum, in words.
+    #[must_use]
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Walk { .. } => "by random walks",
+            Self::Wave => "by a wave over the basin",
+        }
+    }
+}
+
+/// As on the command line.
+impl fmt::Display for Escape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Walk { seed } => write!(f, "walk:{seed}"),
+            Self::Wave => f.write_str("wave"),
+        }
+    }
+}
+
+/// Random walks from one minimum at the most.
+const WALKS: usize = 256;
+
+/// Steps of the first walk; each later one has as many more.
+const STEPS: usize = 16;
+
+impl ForceField<'_> {
+    /// Returns the cells from a local minimum to a lower cell or a goal: neighbours, the minimum first. `number` counts the minima of
+    /// one path, so that each has walks of its own. Returns nothing if no lower cell is found.
+    pub(super) fn escape(
+        &self,
+        minimum: usize,
+        by: Escape,
+        number: u64,
+        is_goal: impl Fn(usize) -> bool,
+    ) -> Option<Vec<usize>> {
+        let bottom = self.potential(minimum);
+        let is_out = |cell: usize| is_goal(cell) || self.potential(cell) < bottom;
+        match by {
+            Escape::Wave => self.fill(minimum, is_out),
+            Escape::Walk { seed } => {
+                let mut draws = Draws::nth(seed, number);
+                (1..=WALKS).find_map(|walk| self.walk(minimum, STEPS * walk, &mut draws, is_out))
+            }
+        }
+    }
+
+    /// Fills the basin about a cell until a cell is out of it. `O(n log n)` in the cells that are filled.
+    fn fill(&self, from: usize, is_out: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
+        let mut parents = BTreeMap::from([(from, from)]);
+        let mut edge = OpenList::default();
+        edge.push(self.potential(from), from);
+        while let Some((_, cell)) = edge.pop() {
+            checkpoint();
+            if is_out(cell) {
+                let back = std::iter::successors(Some(cell), |at| parents.get(at).copied().filter(|next| next != at));
+                let mut way: Vec<usize> = back.collect();
+                way.reverse();
+                return Some(way);
+            }
+            for (next, _) in self.neighbors(cell) {
+                parents.entry(next).or_insert_with(|| {
+                    edge.push(self.potential(next), next);
+                    cell
+                });
+            }
+        }
+        None
+    }
+
+    /// Walks at random for so many steps and then descends; the way without its loops, if it comes out of the basin.
+    fn walk(&self, from: usize, steps: usize, draws: &mut Draws, is_out: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
+        checkpoint();
+        let (mut way, mut at) = (vec![from], from);
+        for _ in 0..steps {
+            let around: Vec<usize> = self.neighbors(at).map(|(next, _)| next).collect();
+            at = *around.get((draws.unit() * around.len() as f64) as usize)?;
+            way.push(at);
+            if is_out(at) {
+                return Some(without_loops(way));
+            }
+        }
+        while let Ok(next) = self.next(at, |_| false) {
+            at = next;
+            way.push(at);
+            if is_out(at) {
+                return Some(without_loops(way));
+            }
+        }
+        None
+    }
+}
+
+/// Removes the loops of a walk, so that it comes to no cell twice.
+fn without_loops(way: Vec<usize>) -> Vec<usize> {
+    let mut kept: Vec<usize> = Vec::new();
+    let mut places: BTreeMap<usize, usize> = BTreeMap::new();
+    for cell in way {
+        if let Some(&place) = places.get(&cell) {
+            kept.drain(place + 1..).for_each(|left_out| {
+                places.remove(&left_out);
+            });
+        } else {
+            places.insert(cell, kept.len());
+            kept.push(cell);
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_loops;
+
+    #[test]
+    fn loops_are_left_out() {
+        assert_eq!(without_loops(vec![1, 2, 3, 2, 4, 1, 5]), [1, 5]);
+        assert_eq!(without_loops(vec![1, 2, 3, 2, 4]), [1, 2, 4]);
+        assert_eq!(without_loops(vec![7]), [7]);
+    }
+}

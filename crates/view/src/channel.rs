@@ -1,0 +1,99 @@
+//! The channel of a decomposition, and the points that paths through its middle lead by.
+
+use super::chart::Chart;
+use super::color::{CHANNEL, EDGE, INK, WHITE};
+use super::figure::{Anchor, Item, Rect, Spot, Style, label, text_width};
+use super::legend::{Key, Sign};
+use super::view::Chain;
+
+/// Cells that are narrower than this have finer sides, pixels: those of all together would make a moire.
+const NARROW: f64 = 5.0;
+/// Radius of a point, pixels.
+const RADIUS: f64 = 3.0;
+/// Height of the names of points, pixels.
+const SIZE: f64 = 11.0;
+/// Cells of a channel up to which its points have names.
+const NAMED: usize = 24;
+
+/// The surface of the channel.
+pub fn surface(cells: &[Chain], channel: &[usize], chart: &Chart) -> Item {
+    let steps = channel.iter().filter_map(|&i| cells.get(i)).flat_map(|cell| chart.polygon(cell)).collect();
+    Item::Outline(steps, Style::fill(CHANNEL).faded(0.75))
+}
+
+/// The sides of all cells, and those of the channel over them.
+pub fn sides(cells: &[Chain], channel: &[usize], chart: &Chart) -> Vec<Item> {
+    let of = |cells: &[&Chain]| cells.iter().flat_map(|cell| chart.polygon(cell)).collect();
+    let (wide, narrow): (Vec<&Chain>, Vec<&Chain>) = cells.iter().partition(|cell| is_wide(cell, chart));
+    let passed: Vec<&Chain> =
+        channel.iter().filter_map(|&i| cells.get(i)).filter(|cell| is_wide(cell, chart)).collect();
+    vec![
+        Item::Outline(of(&narrow), Style::line(EDGE, 0.3).faded(0.7)),
+        Item::Outline(of(&wide), Style::line(EDGE, 0.7).faded(0.7)),
+        Item::Outline(of(&passed), Style::line(EDGE.darker(0.3), 1.1)),
+    ]
+}
+
+fn is_wide(Chain(corners): &Chain, chart: &Chart) -> bool {
+    let columns = corners.iter().map(|q| chart.frame.at(q[0], q[1])[0]);
+    let (low, high) = columns.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    high - low >= NARROW
+}
+
+/// Centres (discs) and middles of doors (rings), `C1`, `Q1`, `C2` and so on; names of few, where they cover nothing that is marked.
+pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
+    let places = |points: &Chain| points.0.iter().map(|&q| chart.place(q)).collect::<Vec<Spot>>();
+    let (centers, middles) = (places(centers), places(middles));
+    let mut items: Vec<Item> = centers.iter().map(|&at| disc(at)).chain(middles.iter().map(|&at| ring(at))).collect();
+    if centers.len() > NAMED {
+        return items;
+    }
+    let mut taken: Vec<Rect> = centers.iter().chain(&middles).map(|&at| about(at, [2.0 * RADIUS; 2])).collect();
+    let named = |letter: char, places: &[Spot]| -> Vec<(String, Spot)> {
+        places.iter().enumerate().map(|(k, &at)| (format!("{letter}{}", k + 1), at)).collect()
+    };
+    for (name, at) in named('Q', &middles).into_iter().chain(named('C', &centers)) {
+        let size = [text_width(&name, SIZE) + 2.0, SIZE + 1.0];
+        let around = [[1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [-1.0, 1.0]];
+        let beside = |[x, y]: [f64; 2]| {
+            about([at[0] + x * (size[0] / 2.0 + RADIUS), at[1] + y * (size[1] / 2.0 + RADIUS)], size)
+        };
+        let is_free = |place: &Rect| within(place, &chart.frame.rect) && !taken.iter().any(|other| meet(place, other));
+        let Some(place) = around.map(beside).into_iter().find(is_free) else { continue };
+        items.push(label([place.x + 1.0, place.bottom() - 2.0], name, SIZE, Anchor::Start, INK));
+        taken.push(place);
+    }
+    items
+}
+
+fn disc(at: Spot) -> Item {
+    Item::Disc(at, RADIUS, Style::line(WHITE, 0.8).filled(INK))
+}
+
+fn ring(at: Spot) -> Item {
+    Item::Disc(at, RADIUS, Style::line(INK, 1.4).filled(WHITE))
+}
+
+fn about([x, y]: Spot, [width, height]: [f64; 2]) -> Rect {
+    Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
+}
+
+fn meet(a: &Rect, b: &Rect) -> bool {
+    a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom()
+}
+
+fn within(place: &Rect, page: &Rect) -> bool {
+    place.x >= page.x && place.right() <= page.right() && place.y >= page.y && place.bottom() <= page.bottom()
+}
+
+/// Where a point of the legend is drawn.
+pub fn sign(at: Spot, is_middle: bool) -> Item {
+    if is_middle { ring(at) } else { disc(at) }
+}
+
+/// What the points are.
+pub fn keys([centers, middles]: [&Chain; 2]) -> Vec<Key> {
+    let center = (!centers.is_empty()).then(|| (Sign::Point { middle: false }, "centres of cells (C)".to_owned()));
+    let middle = (!middles.is_empty()).then(|| (Sign::Point { middle: true }, "middles of doors (Q)".to_owned()));
+    center.into_iter().chain(middle).collect()
+}

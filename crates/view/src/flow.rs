@@ -1,0 +1,63 @@
+//! Lines of a field in pictures.
+
+use super::chart::Chart;
+use super::color::{self, ACCENT, PALE};
+use super::figure::{Item, Pen, Spot, Step, Style, chain};
+use super::legend::{Key, Sign};
+use super::view::{Chain, LevelView};
+
+/// What pictures show of a field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FieldLines {
+    /// Lines of equal potential.
+    #[default]
+    Equipotentials,
+    /// Lines of steepest ascent, with an arrow each.
+    Flow,
+    /// Both.
+    Both,
+}
+
+impl FieldLines {
+    fn has_levels(self) -> bool {
+        self != Self::Flow
+    }
+
+    fn has_flow(self) -> bool {
+        self != Self::Equipotentials
+    }
+
+    /// What the lines mean.
+    pub fn keys(self) -> Vec<Key> {
+        let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });
+        let levels = self.has_levels().then(|| (line(color::scale(0.5)), "equipotentials".to_owned()));
+        let flow = self.has_flow().then(|| (line(ACCENT), "flow lines".to_owned()));
+        levels.into_iter().chain(flow).collect()
+    }
+
+    /// The lines of a field.
+    pub fn items(self, levels: &[LevelView], flow: &[Chain], chart: &Chart) -> Vec<Item> {
+        let line = |Chain(line): &Chain| chain(line.iter().map(|q| chart.frame.at(q[0], q[1])), false);
+        let mut items = Vec::new();
+        if self.has_levels() {
+            let style = |part| Style::line(color::scale(part).mixed(PALE.darker(0.4), 0.15), 1.1);
+            let set = |set: &LevelView| Item::Outline(set.lines.iter().flat_map(line).collect(), style(set.part));
+            items.extend(levels.iter().map(set));
+        }
+        if self.has_flow() {
+            items.push(Item::Outline(flow.iter().flat_map(line).collect(), Style::line(ACCENT, 0.8).faded(0.8)));
+            items.push(Item::Outline(flow.iter().flat_map(|line| arrow(line, chart)).collect(), Style::fill(ACCENT)));
+        }
+        items
+    }
+}
+
+/// A head a little after the beginning of a line of flow.
+fn arrow(Chain(line): &Chain, chart: &Chart) -> Vec<Step> {
+    let Some(at) = line.len().checked_sub(2).map(|last| last.min(3)) else { return Vec::new() };
+    let [a, b]: [Spot; 2] = [line[at], line[at + 1]].map(|q| chart.frame.at(q[0], q[1]));
+    let angle = (b[1] - a[1]).atan2(b[0] - a[0]);
+    let corner = |(r, turn): (f64, f64)| [b[0] + r * (angle + turn).cos(), b[1] + r * (angle + turn).sin()];
+    let [tip, left, right] = [(6.0, 0.0), (4.0, 2.5), (4.0, -2.5)].map(corner);
+    vec![Step::Move(tip), Step::Line(left), Step::Line(right), Step::Close]
+}

@@ -1,0 +1,18 @@
+//! The values of a grid as a matrix.
+
+use super::FieldGrid;
+
+impl FieldGrid {
+    /// Returns the values as they lie in a picture, separated by commas: joint 1 from left to right, joint 2 from the last line to the
+    /// first. `inf` for blocked cells, `nan` for free ones without a value.
+    pub(super) fn matrix(&self) -> String {
+        let [columns, rows] = self.shape;
+        let value = |cell: usize| match self.values.get(cell) {
+            _ if self.blocked[cell] => "inf".to_owned(),
+            Some(value) if value.is_finite() => value.to_string(),
+            _ => "nan".to_owned(),
+        };
+        let line = |row: usize| (0..columns).map(|column| value(column * rows + row)).collect::<Vec<_>>().join(",");
+        (0..rows).rev().map(|row| line(row) + "\n").collect()
+    }
+}

@@ -1,0 +1,76 @@
+//! The controller of a differential drive of R. F. Gonçalves da Silva, *Trabalho Prático 1*, equation 5: it follows a point that moves along
+//! a line, such as the cells of a wavefront or of A\*.
+
+use super::robot::Robot;
+use super::tanh::{AHEAD, CYCLE, PASSED, speeds};
+use cplan::Point;
+use cplan::nalgebra::Vector2;
+
+/// The controller's constants.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tracking {
+    /// What pulls the controlled point to the desired one, 1/s (`k`; 1 in the source).
+    pub gain: f64,
+    /// How fast the desired point moves, m/s. The source does not say.
+    pub speed: f64,
+}
+
+impl Tracking {
+    /// The velocity that the controlled point is to have: `k (xd - x) + xd'`. So the distance to the desired point falls by
+    /// `exp(-k t)`, however that point moves.
+    pub fn velocity(&self, point: Point, desired: Desired) -> Vector2<f64> {
+        self.gain * (desired.at - point) + desired.velocity
+    }
+}
+
+/// Where the desired point is, and how it moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Desired {
+    /// Metres.
+    pub at: Point,
+    /// Metres a second.
+    pub velocity: Vector2<f64>,
+}
+
+/// The point that moves along a line of at least one corner, and rests at its end.
+pub fn desired(corners: &[[f64; 2]], speed: f64, time: f64) -> Desired {
+    let mut left = speed * time;
+    for pair in corners.windows(2) {
+        let [a, b] = [0, 1].map(|k| Point::from(pair[k]));
+        let length = (b - a).norm();
+        if left < length {
+            let along = (b - a) / length;
+            return Desired { at: a + along * left, velocity: along * speed };
+        }
+        left -= length;
+    }
+    Desired { at: corners.last().map_or(Point::origin(), |&end| end.into()), velocity: Vector2::zeros() }
+}
+
+/// What became of a drive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tracked {
+    /// Whether the controlled point has come to the end of the line.
+    pub arrived: bool,
+    /// The greatest distance between the controlled point and the desired one, metres.
+    pub farthest: f64,
+}
+
+/// Follows a line to its end, or until so many seconds are over.
+pub fn track(robot: &mut Robot, law: &Tracking, corners: &[[f64; 2]], seconds: f64) -> Tracked {
+    let begun = robot.time;
+    let mut tracked = Tracked { arrived: false, farthest: 0.0 };
+    while robot.time - begun < seconds {
+        let point = robot.pose.ahead(AHEAD);
+        let desired = desired(corners, law.speed, robot.time - begun);
+        let distance = (desired.at - point).norm();
+        tracked.farthest = tracked.farthest.max(distance);
+        if desired.velocity == Vector2::zeros() && distance <= PASSED {
+            tracked.arrived = true;
+            break;
+        }
+        let [ahead, about] = speeds(law.velocity(point, desired), robot.pose.heading);
+        robot.drive(ahead, about, CYCLE);
+    }
+    tracked
+}

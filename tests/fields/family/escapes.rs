@@ -1,0 +1,113 @@
+//! Ways out of the local minima of attraction and repulsion.
+
+use super::planner::{drawn, found, grid, reason, run, scene};
+use cplan::cspace::{Grid, ZonedGrid};
+use cplan::field::{Attraction, Escape, FreeCells, Khatib, Limits, Neighborhood, Repulsion, StepLabels, UNREACHED};
+use cplan::planner::{FieldChoice, FieldPlanner, Note, PathKind, Run};
+use proptest::prelude::*;
+
+/// Open on the left; the goal lies to the right of its bottom.
+const U: &str = "
+    ....................
+    ....................
+    ....................
+    ...#########........
+    ...........#........
+    ...........#........
+    ...........#........
+    ...........#........
+    ...........#........
+    ...#########........
+    ....................
+    ....................
+    ....................";
+
+fn by(escape: Option<Escape>) -> FieldPlanner {
+    let laws = Khatib {
+        attraction: Attraction::Linear(0.7),
+        repulsion: Repulsion::Ranged { gain: 2.0, range: 3.0 },
+        saturated: false,
+    };
+    FieldPlanner { field: FieldChoice::Khatib(laws), limits: Limits::Reflecting, escape, path: PathKind::Own }
+}
+
+fn escaped(run: &Run) -> (&'static str, usize, usize) {
+    match run.note {
+        Some(Note::Escaped { how, minima, moves }) => (how, minima, moves),
+        note => panic!("{note:?}"),
+    }
+}
+
+/// Every point of a path, densely, is in a free cell; on a side between two either may be the free one.
+fn stays_free(grid: &Grid, run: &Run) {
+    for (a, b) in found(run).segments() {
+        for k in 0..=40 {
+            let q = a + (b - a) * (f64::from(k) / 40.0);
+            let near = [1e-7, -1e-7].into_iter().flat_map(|x| [1e-7, -1e-7].map(|y| [q[0] + x, q[1] + y]));
+            let is_free = |p: [f64; 2]| grid.topology.contains(p.into()) && !grid.blocked[grid.locate(p.into())];
+            assert!(near.into_iter().any(is_free), "{q:?}");
+        }
+    }
+}
+
+#[test]
+fn a_wave_and_a_walk_lead_out_of_the_u_and_say_so() {
+    let zoned = ZonedGrid::new(drawn(U), &scene(Vec::new()));
+    let (start, goal) = (6 * 20 + 5, 6 * 20 + 17);
+    assert!(reason(&run(by(None), &zoned, start, goal)).contains("local minimum at ("));
+    for escape in [Escape::Wave, Escape::Walk { seed: 1 }, Escape::Walk { seed: 2 }] {
+        let out = run(by(Some(escape)), &zoned, start, goal);
+        stays_free(&zoned.grid, &out);
+        assert_eq!(found(&out).goal(), zoned.grid.center(goal));
+        let (how, minima, moves) = escaped(&out);
+        // Out of the U are seven cells at the least, and back along its side.
+        assert!(
+            how == escape.description() && minima >= 1 && moves >= 10,
+            "{escape:?}: {minima} minima, {moves} moves"
+        );
+        assert_eq!(run(by(Some(escape)), &zoned, start, goal), out, "{escape:?} is the same each time");
+        let text = out.note.unwrap().to_string();
+        let method = if escape == Escape::Wave { "by a wave over the basin" } else { "by random walks" };
+        assert!(text.starts_with("escaped from ") && text.contains(method), "{text}");
+    }
+    let [one, two] = [1, 2].map(|seed| found(&run(by(Some(Escape::Walk { seed })), &zoned, start, goal)).clone());
+    assert!(one != two, "another seed walks another way");
+}
+
+#[test]
+fn a_way_that_meets_no_minimum_is_the_same_and_nothing_is_said() {
+    let zoned = ZonedGrid::new(
+        drawn("..............\n......##......\n......###.....\n..............\n.............."),
+        &scene(Vec::new()),
+    );
+    let (start, goal) = (4 * 14, 13);
+    let plain = run(by(None), &zoned, start, goal);
+    for escape in [Escape::Wave, Escape::Walk { seed: 5 }] {
+        let same = run(by(Some(escape)), &zoned, start, goal);
+        assert_eq!((found(&same), same.note), (found(&plain), None));
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::common::random::cases(150))]
+
+    /// With a wave the planner finds a path exactly if the cells have one, on circles, too.
+    #[test]
+    fn with_a_wave_the_goal_is_found_wherever_it_is_connected(
+        rows in 2..14_usize, columns in 2..14_usize, circles in any::<[bool; 2]>(), density in 0.0..0.5_f64,
+        cells in proptest::collection::vec(0.0..1.0_f64, 196), ends in any::<[proptest::sample::Index; 2]>(),
+    ) {
+        let n = rows * columns;
+        let blocked: Vec<bool> = cells[..n].iter().map(|&draw| draw < density).collect();
+        let [start, goal] = ends.map(|end| end.index(n));
+        prop_assume!(!blocked[start] && !blocked[goal]);
+        let zoned = ZonedGrid::new(grid([rows, columns], circles, blocked), &scene(Vec::new()));
+        let labels = StepLabels::new(&FreeCells::new(&zoned.grid), &[goal], Neighborhood::Four).into_labels();
+        let out = run(by(Some(Escape::Wave)), &zoned, start, goal);
+        let is_found = matches!(out.outcome, cplan::planner::Proposal::Found(_));
+        prop_assert_eq!(is_found, labels[start] != UNREACHED, "{:?}", out.outcome);
+        if is_found {
+            stays_free(&zoned.grid, &out);
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! `--margin 0`: C-obstacles of gantries as they are, and `--graph full`.
+
+use super::*;
+use serde_json::{Value, json};
+
+fn maze() -> [String; 2] {
+    [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")]
+}
+
+fn space(place: &Place, options: &str) -> Value {
+    let done = place.run(&maze(), &format!("{options} --quiet --output cspace.json"));
+    assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+    let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    spaces["spaces"][0].clone()
+}
+
+/// The corners of the outer ring of an obstacle's only polygon, in ascending order.
+fn corners(space: &Value, obstacle: &str) -> Vec<[f64; 2]> {
+    let all = space["c_obstacles"].as_array().unwrap();
+    let polygons = &all.iter().find(|o| o["obstacle"] == obstacle).unwrap()["polygons"];
+    assert_eq!(polygons.as_array().unwrap().len(), 1, "{obstacle}");
+    let ring: Vec<[f64; 2]> = serde_json::from_value(polygons[0][0].clone()).unwrap();
+    let mut corners = ring[1..].to_vec();
+    corners.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    corners
+}
+
+fn near(found: &[[f64; 2]], expected: &[[f64; 2]]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (a, b) in found.iter().zip(expected) {
+        assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12, "{found:?}, not {expected:?}");
+    }
+}
+
+/// A head of 0.1 m x 0.1 m beside walls: all sides are parallel, so that `B - A` has four corners, too.
+#[test]
+fn margin_0_writes_the_c_obstacles_of_a_gantry_as_the_sweep_gives_them() {
+    let place = Place::new();
+    for options in ["--margin 0", "--margin 0 --planner trapezoid", "--margin 0 --planner visibility --graph full"] {
+        let exact = space(&place, options);
+        assert_eq!(exact["proves"], json!({ "kind": "exact" }), "{options}");
+        near(&corners(&exact, "first wall"), &[[0.3, 0.0], [0.3, 1.2], [0.45, 0.0], [0.45, 1.2]]);
+        near(&corners(&exact, "dead end"), &[[0.35, 0.65], [0.35, 0.8], [0.57, 0.65], [0.57, 0.8]]);
+        assert_eq!(exact["free"]["proves"], json!({ "kind": "exact" }), "{options}");
+    }
+    let grown = space(&place, "");
+    assert_eq!(grown["proves"]["kind"], "outer");
+    assert!((corners(&grown, "dead end")[0][0] - 0.35).abs() > 1e-4);
+}
+
+/// A head that is a disc and a wall at an angle: only the arcs are replaced, by tangents outside of them.
+#[test]
+fn margin_0_keeps_flat_sides_where_corners_are_round() {
+    let place = Place::new();
+    let world = "clearance = 0.02\n[start]\njoints = [0.15, 0.15]\n[goal]\njoints = [1.85, 1.35]\n\
+                 [[obstacle]]\nname = \"wedge\"\npolygon = [[0.8, 0.4], [1.2, 0.7], [0.8, 1.0]]\nheight = [0.0, 0.3]\n";
+    place.write("world.toml", world);
+    let files = [shipped("robots/gantry.urdf"), "world.toml".into()];
+    let done = place.run(&files, "--margin 0 --quiet --output cspace.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let space = &spaces["spaces"][0];
+    assert_eq!(space["proves"]["kind"], "outer");
+    let found = corners(space, "wedge");
+    let left = found[0][0];
+    // Half of the head, and the clearance.
+    assert!((left - 0.73).abs() < 1e-12, "{left}");
+    assert!(found.len() > 8, "{found:?}");
+}
+
+#[test]
+fn a_path_that_touches_exact_polygons_is_not_what_is_certified() {
+    let place = Place::new();
+    for planner in ["shortest", "visibility", "visibility --graph full"] {
+        let done = place.run(&maze(), &format!("--margin 0 --planner {planner}"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let told: Vec<&str> = done.stdout.lines().filter(|line| line.starts_with("exact")).collect();
+        assert!(
+            told.len() == 1 && told[0].contains("among the exact polygons, but that path touches"),
+            "{}",
+            done.stdout
+        );
+        let exact: f64 = told[0].split_whitespace().nth(2).unwrap().parse().unwrap();
+        let result = place.run(&maze(), &format!("--margin 0 --planner {planner} --json --quiet")).json();
+        let (length, clearance) = (result["length"].as_f64().unwrap(), result["clearance"].as_f64().unwrap());
+        assert!(result["certified"] == true && clearance > 0.0, "{clearance}");
+        assert!(length > exact - 1e-4 && length < exact * (1.0 + 1e-3), "{length} {exact}");
+    }
+    let own = place.run(&maze(), "--margin 0 --planner trapezoid --path own");
+    assert!(own.stdout.contains("the path lies among the exact polygons and touches none"), "{}", own.stdout);
+}
+
+#[test]
+fn margin_0_is_for_what_has_exact_polygons() {
+    let place = Place::new();
+    place
+        .run(&shelf(), "--margin 0")
+        .refused(1, &["--margin 0 takes C-obstacles that are polygons", "(RR) turns", "--margin 1e-5"]);
+    place
+        .run(&maze(), "--margin 0 --planner wavefront")
+        .refused(2, &["--margin 0 needs --planner shortest", "no polygons"]);
+    place.run(&maze(), "--margin=-0.1").refused(2, &["from 0 to 0.1"]);
+    place.run(&maze(), "--graph full").refused(2, &["--graph needs --planner visibility"]);
+}
+
+/// 64 arcs by an independent count, of which the reduced graph has 11.
+#[test]
+fn the_full_visibility_graph_of_the_maze_has_all_arcs() {
+    let place = Place::new();
+    let of = |options: &str| {
+        let space = space(&place, &format!("--planner visibility {options}"));
+        let roadmap = space["roadmap"].clone();
+        (roadmap["edges"].as_array().unwrap().len(), roadmap["visibility"].as_str().unwrap().to_owned())
+    };
+    assert_eq!(of(""), (11, "reduced".to_owned()));
+    assert_eq!(of("--search dijkstra").1, "reduced");
+    assert_eq!(of("--graph full"), (64, "full".to_owned()));
+    let done = place.run(&maze(), "--planner visibility --graph full --picture graph.svg");
+    assert!(done.stdout.contains("visibility (astar, full graph): 26 nodes, 64 edges"), "{}", done.stdout);
+    assert!(place.read("graph.svg").contains("full visibility graph"));
+    place.run(&maze(), "--planner visibility --picture graph.svg");
+    assert!(place.read("graph.svg").contains("reduced visibility graph"));
+}

@@ -1,0 +1,143 @@
+//! Pictures as the sources draw them: trapezoids, numbers of waves, flow lines.
+
+use super::*;
+use serde_json::Value;
+
+fn maze() -> [String; 2] {
+    [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")]
+}
+
+fn drawn(place: &Place, files: &[String; 2], options: &str) -> String {
+    let done = place.run(files, &format!("{options} --picture picture.svg --output cspace.json"));
+    assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+    place.read("picture.svg")
+}
+
+/// What is written in a picture.
+fn texts(picture: &str) -> Vec<&str> {
+    let texts = picture.split("<text").skip(1).filter_map(|text| text.split_once('>')?.1.split_once("</text>"));
+    texts.map(|(text, _)| text.trim()).collect()
+}
+
+fn space(place: &Place) -> Value {
+    let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    spaces["spaces"][0].clone()
+}
+
+fn values(list: &Value) -> Vec<[f64; 2]> {
+    serde_json::from_value(list.clone()).unwrap()
+}
+
+/// Figures 6.11 and 6.12 of the course: before, only cells wider than five pixels had sides.
+#[test]
+fn all_trapezoids_are_outlined_and_the_channels_points_are_marked() {
+    let place = Place::new();
+    let picture = drawn(&place, &shelf(), "--planner trapezoid --path own");
+    let cells = space(&place)["cells"]["corners"].as_array().unwrap().len();
+    // Closed pieces of the outlines in the colour of cells.
+    let of = |path: &&str| path.contains("stroke=\"#7d8fa6\"");
+    let closed: usize = picture.split("<path").filter(of).map(|path| path.matches('Z').count()).sum();
+    assert!(cells > 100 && closed >= cells, "{closed} of {cells}");
+
+    let picture = drawn(&place, &maze(), "--planner trapezoid --path own");
+    for text in ["Q1", "C2", "Q2", "centres of cells (C)", "middles of doors (Q)"] {
+        assert!(texts(&picture).contains(&text), "{text}");
+    }
+    let space = space(&place);
+    let [centers, middles] = ["centers", "middles"].map(|key| values(&space["cells"][key]));
+    assert_eq!(
+        (centers.len(), middles.len() + 1),
+        (space["cells"]["channel"].as_array().unwrap().len(), centers.len())
+    );
+}
+
+/// The simpler path of the course, section 6.3.2: all middles of doors, and the centre of a cell only between doors on one line.
+#[test]
+fn the_path_of_middles_has_a_centre_only_between_collinear_doors() {
+    let place = Place::new();
+    drawn(&place, &maze(), "--planner trapezoid --path middles");
+    let space = space(&place);
+    let [centers, middles] = ["centers", "middles"].map(|key| values(&space["cells"][key]));
+    let mut expected = values(&serde_json::json!([space["start"]]));
+    let mut spared = 0;
+    for (k, &middle) in middles.iter().enumerate() {
+        if k > 0 && middles[k - 1][0] == middle[0] {
+            expected.push(centers[k]);
+        } else {
+            spared += usize::from(k > 0);
+        }
+        expected.push(middle);
+    }
+    expected.push(values(&space["goals"][0])[0]);
+    assert_eq!(values(&space["paths"][0]["waypoints"]), expected);
+    assert!(spared > 0);
+    let result = place.run(&maze(), "--planner trapezoid --path middles --json --quiet").json();
+    assert_eq!((&result["path_kind"], &result["certified"]), (&"middles".into(), &true.into()));
+    place.run(&maze(), "--planner triangles --path middles").refused(2, &["--path middles needs --planner trapezoid"]);
+}
+
+/// A recess below the start of two walls: the channel enters a cell and leaves it by the same vertical.
+#[test]
+fn doors_on_one_vertical_have_the_centre_of_their_cell_between_them() {
+    let place = Place::new();
+    let world = "[start]\njoints = [0.2, 0.2]\n[goal]\njoints = [0.2, 1.3]\n\
+                 [[obstacle]]\nname = \"bar\"\npolygon = [[-0.2, 0.7], [1.0, 0.7], [1.0, 0.8], [-0.2, 0.8]]\nheight = [0.0, 0.3]\n";
+    place.write("world.toml", world);
+    let files = [shipped("robots/gantry.urdf"), "world.toml".to_owned()];
+    drawn(&place, &files, "--margin 0 --planner trapezoid --path middles");
+    let waypoints = values(&space(&place)["paths"][0]["waypoints"]);
+    assert_eq!(waypoints.len(), 5, "{waypoints:?}");
+    assert!(waypoints[1][0] == waypoints[3][0] && waypoints[2][0] > waypoints[1][0], "{waypoints:?}");
+}
+
+/// Figure 6.14 of the course.
+#[test]
+fn cells_of_a_coarse_grid_have_the_numbers_of_the_wave() {
+    let place = Place::new();
+    let picture = drawn(&place, &maze(), "--planner wavefront --cells 16 --path own");
+    let space = space(&place);
+    assert_eq!(space["grid"]["shape"], serde_json::json!([16, 16]));
+    let steps: Vec<Option<f64>> = serde_json::from_value(space["grid"]["values"].clone()).unwrap();
+    for step in steps.iter().flatten() {
+        let count = |value: f64| steps.iter().flatten().filter(|&&s| s == value).count();
+        let shown = texts(&picture).iter().filter(|text| **text == step.to_string()).count();
+        assert!(shown >= count(*step), "{step}: {shown}");
+    }
+    let fine = drawn(&place, &maze(), "--planner wavefront --cells 64 --path own");
+    assert!(!texts(&fine).contains(&"37"));
+}
+
+/// The grid of so many cells is the one that was asked for, or there is none, and the reason says so.
+#[test]
+fn coarse_grids_are_kept_or_refused_with_the_reason() {
+    let place = Place::new();
+    let done = place.run(&shelf(), "--planner wavefront --cells 16 --quiet --json --output cspace.json");
+    assert_eq!(done.code, 4, "{}", done.stderr);
+    assert_eq!(space(&place)["grid"]["shape"], serde_json::json!([16, 16]));
+    let reason = done.json()["reason"].as_str().unwrap().to_owned();
+    assert!(reason.contains("16 x 16 cells") && reason.ends_with("more --cells or --levels may show one"), "{reason}");
+    let more = place.run(&shelf(), "--planner wavefront --cells 16 --levels 6");
+    assert_eq!(more.code, 0, "{}", more.stderr);
+    assert!(more.stdout.contains("32 x 32: 16 x 16 show no certified path"), "{}", more.stdout);
+    // Planners without cells go on as they were.
+    assert_eq!(place.run(&shelf(), "--planner visibility --cells 16 --quiet").code, 0);
+}
+
+/// Figures 34 and 35 of Deicu's text.
+#[test]
+fn flow_lines_are_drawn_where_they_are_asked_for() {
+    let place = Place::new();
+    let of = |lines: &str| drawn(&place, &shelf(), &format!("--planner harmonic --cells 48 {lines}"));
+    let usual = of("");
+    assert_eq!(usual, of("--field-lines equipotentials"));
+    let [flow, both] = ["flow", "both"].map(|lines| of(&format!("--field-lines {lines}")));
+    let has = |picture: &str| ["equipotentials", "flow lines"].map(|text| texts(picture).contains(&text));
+    assert_eq!([has(&usual), has(&flow), has(&both)], [[true, false], [false, true], [true, true]]);
+    // Lines from 16 x 16 places, but for those within obstacles, each with its head.
+    let heads = flow
+        .split("<path")
+        .filter(|path| path.contains("fill=\"#0072b2\""))
+        .map(|path| path.matches('Z').count())
+        .sum::<usize>();
+    assert!((100..=256).contains(&heads), "{heads}");
+}
