@@ -55,8 +55,8 @@ fn shipped_worlds_are_valid() {
     }
 }
 
-/// A world that has every key, in two files because goals and steps exclude each other.
-const FULL: [&str; 2] = [
+/// A world that has every key, in several files because kinds of goals, and goals and steps, exclude each other.
+const FULL: [&str; 3] = [
     r#"
 name = "full"
 clearance = 0.01
@@ -187,6 +187,10 @@ step = 0.05
 noise = 0.01
 seed = 7
 cell = 0.05
+"#,
+    r#"
+[goal]
+areas = [[[0.3, 0.4], [0.5, 0.6]]]
 "#,
 ];
 

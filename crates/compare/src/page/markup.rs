@@ -112,7 +112,7 @@ mod tests {
             ["harmonic --epsilon 0.5", "--direction 0,-1"]
         );
         let long = name_lines("harmonic --field oriented --epsilon 0.5 --direction 0,-1");
-        assert_eq!(long, ["harmonic --field", "\u{2026}ilon 0.5 --direction 0,-1"]);
+        assert_eq!(long, ["harmonic --field", "\u{2026}on 0.5 --direction 0,-1"]);
         assert!(long[1].chars().count() > 8 && margin(&["wavefront"]) < margin(&["a wavefront"]));
         let text = name_before("harmonic --epsilon 0.5 --direction 0,-1", 90.0, 20.0);
         assert!(text.contains("y=\"13.5\"") && text.contains("y=\"26.5\""), "{text}");
