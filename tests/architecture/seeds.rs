@@ -58,8 +58,7 @@ fn no_random_test_is_left_to_chance() {
     }
     assert!(
         wrong.is_empty(),
-        "begin with #![proptest_config(cplan_cases::cases(100))], in src and crates with crate::random::cases, and use no \
-         other source of chance:\n{}",
+        "begin with #![proptest_config(cplan_cases::cases(100))], and use no other source of chance:\n{}",
         wrong.join("\n")
     );
     assert!(blocks > 50, "only {blocks} random tests were found: the test reads the wrong files");

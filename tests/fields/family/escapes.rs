@@ -89,7 +89,7 @@ fn a_way_that_meets_no_minimum_is_the_same_and_nothing_is_said() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(150))]
+    #![proptest_config(cplan_cases::cases(150))]
 
     /// With a wave the planner finds a path exactly if the cells have one, on circles, too.
     #[test]
