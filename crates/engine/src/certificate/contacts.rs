@@ -30,11 +30,6 @@ impl<'a> Contacts<'a> {
         Self { scene, shapes: vec![], parts: vec![], shape_numbers: BTreeMap::new(), part_numbers: BTreeMap::new() }
     }
 
-    /// The same in another scene of the same world.
-    pub fn among<'b>(self, scene: &'b Scene) -> Contacts<'b> {
-        Contacts { shapes: self.shapes, parts: self.parts, ..Contacts::new(scene) }
-    }
-
     /// The lists as they are written; nothing if nothing is named.
     pub fn named(&self) -> Evidence {
         let lists = [("shapes", &self.shapes), ("parts", &self.parts)].map(|(name, list)| (name, lines(list)));
@@ -58,14 +53,8 @@ impl<'a> Contacts<'a> {
     }
 }
 
-/// A part of a link by its URDF link and its number among the shapes there. A bar is the last of a link's parts. A piece of what is carried by
-/// its corners.
+/// A part of a link by its URDF link and its number among the shapes there. A bar is the last of a link's parts.
 fn shape(scene: &Scene, pair: Pair) -> Value {
-    if let Some(piece) = scene.payload_piece(pair) {
-        // A disc is all there is of its object.
-        let corners = if piece.radius() > 0.0 { Vec::new() } else { corners(piece) };
-        return json!({ "carried": corners });
-    }
     let link = scene.link(pair);
     let Part { body, number, is_visual, heights, .. } = &link.parts[pair.part];
     if link.source == OutlineSource::Bar && pair.part + 1 == scene.own_parts(pair.link.min(1)).len() {

@@ -30,16 +30,12 @@ pub enum NoCertificate {
     /// Neither a motion nor a proof.
     #[error("the answer is \"{}\", which claims nothing", .0.name())]
     Answer(Status),
-    /// A proof that a task cannot be done, of a kind that the checker does not know.
-    #[error(
-        "the proof that the task cannot be done is of a kind that has no certificate: it is about a later time that a step is done, about how an \
-         object lies that the arm has turned on a way of several steps, or about where the arm is all but stretched"
-    )]
+    /// An infeasible task.
+    #[error("an infeasible task has no certificate: the result states the step that fails, and why")]
     Task,
     /// Something rests that a checker refuses to move the corners of.
     #[error(
-        "object \"{0}\" rests on something, and is too fine, touches itself, or has corners all but on a line: they cannot all be moved inwards by what it may \
-         press in"
+        "object \"{0}\" rests on something, and is too fine or touches itself: its corners cannot all be moved inwards by what it may press in"
     )]
     Outline(String),
     /// A motion without times in a world in which something moves.
@@ -92,20 +88,15 @@ impl Plan {
         asked: &Overrides,
         files: Option<&Digests>,
     ) -> Result<String, NoCertificate> {
-        task::checkable(task, matches!(answer.verdict, TaskVerdict::Infeasible(_)))?;
+        if matches!(answer.verdict, TaskVerdict::Infeasible(_)) {
+            return Err(NoCertificate::Task);
+        }
+        task::checkable(task)?;
         let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
         let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
         let said = about(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
-        match (&answer.verdict, self.trajectory(), &self.report().task) {
-            // What passes out of reach anybody sees.
-            (TaskVerdict::Infeasible(_), ..) if task.moving_at_first().next().is_some() => {
-                Ok(written("infeasible", said, [("cases", lines(&[(); 0]))]))
-            }
-            (TaskVerdict::Infeasible(impossible), ..) => {
-                let evidence = task::cases(task, impossible.step.number).ok_or(NoCertificate::Task)?;
-                Ok(written("infeasible", said, evidence))
-            }
-            (_, Some(trajectory), Some(figures)) => {
+        match (self.trajectory(), &self.report().task) {
+            (Some(trajectory), Some(figures)) => {
                 let evidence = [motion::evidence(&task.arm, trajectory), task::steps(&figures.steps)];
                 Ok(written("found", said, evidence))
             }

@@ -37,7 +37,7 @@ pub fn recorded(
     if recording.times().is_none() && !scene.workspace().movers.is_empty() {
         return Err(NoCertificate::Untimed);
     }
-    steps.map_or(Ok(()), |(task, _)| checkable(task, false))?;
+    steps.map_or(Ok(()), |(task, _)| checkable(task))?;
     let topology = &scene.arm().topology();
     let q = recording.positions();
     let own = [q[0], q[q.len() - 1]];

@@ -222,16 +222,6 @@ impl State {
         Candidates { step, ways, all: reach.all && !turns }
     }
 
-    /// Whether what is carried goes to a place that asks for an angle.
-    pub fn may_turn(&self, task: &Task) -> bool {
-        let place = match (task.items.get(self.progress.item), self.progress.half) {
-            (Some(Item::AnyOrder(pairs)), Some(pair)) => Some(&pairs[pair][1]),
-            (Some(_), _) => following_place(task, self.progress.item),
-            (None, _) => None,
-        };
-        place.is_some_and(|place| matches!(place.action, Action::Place { angle: Some(_), .. }))
-    }
-
     /// The state after a candidate's step, with the arm at `q`, and what is to be renewed before the next step renewed.
     pub fn after(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
         self.left(task, candidate, q).settled(task)
