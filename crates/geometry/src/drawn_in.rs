@@ -37,14 +37,6 @@ pub fn can_be_drawn_in(pieces: &[Convex], distance: f64) -> bool {
     !together.touches && !together.leaves
 }
 
-/// Whether each piece, cut from corner to corner, is drawn in to one convex shape, so that its corners name that, and no corner is all but on a line.
-#[must_use]
-pub fn stays_convex(pieces: &[Convex], distance: f64) -> bool {
-    let (all, together) = within(pieces, distance);
-    let is_one = |piece: &Convex| together.of(piece.core()).is_some_and(|left| left.len() == 1);
-    !together.is_straight && all.iter().flatten().filter(is_sharp).all(is_one)
-}
-
 /// Pieces cut from corner to corner, and where their corners go within them.
 fn within(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, Moved) {
     let all = corner_to_corner(pieces);
@@ -67,8 +59,7 @@ fn is_sharp(piece: &&Convex) -> bool {
 }
 
 /// Each piece cut so that where pieces adjoin no corner of one is between those of a side of another. No new corners.
-#[must_use]
-pub fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
+fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
     let has_sides = |piece: &&Convex| is_sharp(piece) && piece.core().len() > 2;
     let mut corners: Vec<Point> = pieces.iter().filter(has_sides).flat_map(Convex::core).copied().collect();
     corners.sort_by(|p, q| p.x.total_cmp(&q.x));
@@ -143,8 +134,6 @@ struct Moved {
     leaves: bool,
     /// Whether a corner of the union is that of several rings, or twice one of the same.
     touches: bool,
-    /// Whether corners of the union do not bend.
-    is_straight: bool,
 }
 
 /// A corner of the union, between the side that begins there and the one that ends there.
@@ -228,7 +217,7 @@ impl Moved {
         let mut places: Vec<Key> = corners.iter().map(|corner| key(corner.at)).collect();
         places.sort_unstable();
         let touches = places.windows(2).any(|pair| pair[0] == pair[1]);
-        Self { to, leaves: false, touches, is_straight: corners.iter().any(Corner::is_straight) }
+        Self { to, leaves: false, touches }
     }
 
     fn ring(&self, ring: &[Point]) -> Vec<Point> {
@@ -321,7 +310,6 @@ mod tests {
         let outer = points(&[[1.34375, 0.0], [-0.58984375, 1.0224609375], [-0.818359375, -1.4169921875]]);
         let hole = points(&[[0.2, 0.0], [0.14, 0.14], [0.0, 0.6982421875], [-0.14, 0.14], [-0.2, 0.0], [0.0, -0.2]]);
         let pieces = Polygon::new(outer, vec![hole]).unwrap().convex_pieces();
-        assert!(stays_convex(&pieces, 0.005) && !stays_convex(&pieces, 0.01));
         assert!(can_be_drawn_in(&pieces, 0.01) && !can_be_drawn_in(&pieces, 0.019));
         let is_in = |corner: &Point| covers(std::slice::from_ref(&pieces), *corner);
         assert!(drawn_in(&pieces, 0.019).iter().flatten().flat_map(Convex::core).all(is_in));

@@ -44,7 +44,7 @@ pub use box_tree::{Bounds, BoxTree};
 pub use convex::reach;
 pub use convex::{Convex, ConvexError};
 pub use decompose::{MOST_CORNERS, decompose};
-pub use drawn_in::{can_be_drawn_in, corner_to_corner, drawn_in, stays_convex};
+pub use drawn_in::{can_be_drawn_in, drawn_in};
 pub use galloping::farthest;
 pub use hull::hull;
 pub use inset::{common, inset};

@@ -61,7 +61,6 @@ pub use mover::{Course, CourseError, Drift, LATEST, Leg, Mover, Stop};
 pub use obstruction::Obstruction;
 pub use outcome::{Outcome, Status};
 pub use payload::{Grip, Payload};
-pub use payload_parts::taken_off;
 pub use preference::{Preference, Region};
 pub use problem::{Goal, MotionProblem, MotionProblemError};
 pub use record::{BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedStep, RecordedTurn, StepClaims, TaskClaims};

@@ -8,16 +8,7 @@ use std::ops::Range;
 
 /// Which share of what a payload may press into its supports its corners are moved by: a little less, so that a checker that moves them farther
 /// has room.
-pub(super) const AT_MOST: f64 = 1.0 - 1e-3;
-
-/// The same for evidence that it presses deeper.
-pub(super) const SURELY: f64 = 1.0 + 1e-6;
-
-/// How much smaller what consists of pieces is taken in evidence that has room for how it lies and hangs, metres: at least a share of its depth,
-/// for rounding.
-pub fn taken_off(pieces: &[Convex], room: f64) -> f64 {
-    room.max(1e-6 * pieces.iter().map(Convex::depth).fold(0.0, f64::max))
-}
+const AT_MOST: f64 = 1.0 - 1e-3;
 
 /// What a payload's part can meet.
 #[derive(Clone, Copy, PartialEq)]
@@ -95,16 +86,14 @@ impl Payload {
         let mut parts: Vec<_> =
             self.pieces.iter().enumerate().map(|(number, piece)| (number, piece.clone(), Meets::Others)).collect();
         if !self.supports.is_empty() {
-            let left = drawn_in(&self.pieces, reading.pressed * Self::penetration_allowance(arm)).into_iter();
+            let left = drawn_in(&self.pieces, AT_MOST * Self::penetration_allowance(arm)).into_iter();
             let of_piece = |(number, left): (usize, Vec<Convex>)| {
                 left.into_iter().map(move |shape| (number, shape, Meets::Supports))
             };
             parts.extend(left.enumerate().flat_map(of_piece));
         }
         parts.retain(|(number, ..)| !reading.takes_for_nothing(&self.pieces[*number]));
-        let Some(room) = reading.room else { return parts };
-        let off = taken_off(&self.pieces, room);
-        parts.into_iter().filter_map(|(number, shape, kind)| Some((number, shape.eroded(off)?, kind))).collect()
+        parts
     }
 
     /// Whether its parts of that kind can meet an obstacle.

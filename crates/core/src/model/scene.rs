@@ -1,6 +1,5 @@
 //! The arm among its obstacles.
 
-use super::payload_parts::{AT_MOST, SURELY, taken_off};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{
@@ -83,22 +82,17 @@ impl Meet {
 pub(super) struct Reading {
     /// Which heights can meet.
     meet: Meet,
-    /// By which share of what a payload may press into its supports its corners are moved.
-    pub pressed: f64,
-    /// By how much a payload is smaller at least, all round each piece, metres, as it is not known better how it hangs; none: it is as large
-    /// as it is.
-    pub room: Option<f64>,
     /// Pieces of what stands that are farther from joint 1 are no part of a pair, metres.
     farthest: f64,
 }
 
 impl Reading {
     /// What may meet does, and nothing is left out.
-    pub const ALL: Self = Self { meet: Meet::Perhaps, pressed: AT_MOST, room: None, farthest: f64::INFINITY };
+    pub const ALL: Self = Self { meet: Meet::Perhaps, farthest: f64::INFINITY };
 
     /// Whether what is hit proves something.
     pub fn is_evidence(&self) -> bool {
-        self.meet == Meet::Surely || self.room.is_some()
+        self.meet == Meet::Surely
     }
 
     /// Whether a piece is perhaps nothing without rounding, and so no evidence.
@@ -276,21 +270,6 @@ impl Scene {
             obstacle.heights = heights(&obstacle.name, obstacle.heights);
         }
         Self::assembled(arm, workspace, payload, &allowed_contacts, self.reading)
-    }
-
-    /// The same scene for evidence that a payload is in the way, or presses too deep into its supports, where the obstacles from `first` on are
-    /// objects: these and the payload are smaller by `room`, all round each piece, so that it holds wherever they lie and hang within that.
-    #[must_use]
-    pub fn certain(self, first: usize, room: f64) -> Self {
-        let mut number = 0..;
-        let smaller = |obstacle: &Obstacle| match number.next() {
-            Some(number) if number >= first => {
-                let off = taken_off(&obstacle.pieces, room);
-                obstacle.pieces.iter().filter_map(|piece| piece.eroded(off)).collect()
-            }
-            _ => obstacle.pieces.clone(),
-        };
-        self.remade(|_| (), smaller, Reading { pressed: SURELY, room: Some(room), ..self.reading })
     }
 
     /// The same scene without the pairs with what stands farther from joint 1 than anything of the arm gets, clearance included; none where these are
@@ -490,13 +469,6 @@ impl Scene {
     #[must_use]
     pub fn is_payload(&self, pair: Pair) -> bool {
         pair.link > 0 && pair.part >= self.own_parts
-    }
-
-    /// Which of the payload's pieces a pair is about, be it by what is made of that for supports; none if it is about the arm itself.
-    #[must_use]
-    pub fn payload_piece(&self, pair: Pair) -> Option<&Convex> {
-        let payload = self.payload.as_ref().filter(|_| self.is_payload(pair))?;
-        Some(&payload.pieces[self.arm.links[1].parts[pair.part].number])
     }
 
     /// The piece of the obstacle that a pair is about, in its place, whatever is made of it for a payload.
