@@ -172,13 +172,8 @@ impl Arm<'_> {
     /// Rectangles that hold all configurations that put the tip at a place, but what is left out. The domain is cut in four, again and again;
     /// parts are dropped that are left out, or in whose middle the tip is farther from the place than it can move within. Parts that touch
     /// are put together; what a cut makes more of than `most` is not cut.
-    pub fn places(
-        &self,
-        (tip, place): (&Body, &Point),
-        most: usize,
-        is_left_out: impl Fn(&Rectangle) -> bool,
-    ) -> Vec<Rectangle> {
-        let mover = Mover::new(self, tip);
+    pub fn places(&self, place: &Point, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
+        let mover = Mover::new(self, &self.tip);
         let is_far = |rectangle: &Rectangle| {
             let cell = Cell::from(rectangle);
             let at = &mover.placed(&cell).points[0];

@@ -6,7 +6,7 @@
 
 use crate::arm::{self, Mover};
 use crate::certificate::{Bound, Certificate, Metric, Wall, rectangles};
-use crate::contacts::{Among, Contacts, Pair};
+use crate::contacts::{Contacts, Pair};
 use crate::decimal::Decimal;
 use crate::domain::{Axis, Rectangle, within};
 use crate::ends::{End, FEW_PARTS};
@@ -52,8 +52,7 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     let axes = arm.joints.each_ref().map(|joint| &joint.axis);
     let plane = Plane::new(bound, axes, &start.configuration(arm)?, &goals)?;
     plane.legs_are_long(&plane.corners(bound, axes)?)?;
-    let among = Among::all(world);
-    let contacts = Contacts::new(arm, &among, certificate, certificate.clearance(world)?).complete()?;
+    let contacts = Contacts::new(arm, world, certificate, certificate.clearance(world)?)?;
     contacts.hold(arm, stuck, &boxes)?;
     for (number, wall) in bound.walls.iter().enumerate() {
         if !closes(arm, wall, &contacts.pair(wall.shape, wall.part, || format!("wall {number}"))?) {
@@ -71,10 +70,10 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
 /// Whether a shape and a part are seen to overlap all along a wall: it is halved until each piece is, as a box, or there were too many looks.
 ///
 /// A shape that only slides along the wall overlaps another at a convex set of places: then its ends are enough.
-fn closes(arm: &Arm, wall: &Wall, Pair { body, part, beside }: &Pair) -> bool {
+fn closes(arm: &Arm, wall: &Wall, &Pair { body, part, beside }: &Pair) -> bool {
     let [from, to] = [&wall.from, &wall.to].map(|end| end.each_ref().map(Interval::from));
     let along = minus(&to, &from);
-    let cell = |from, along, k, cuts| arm::Cell::of_segment(from, along, k, cuts).beside(*beside);
+    let cell = |from, along, k, cuts| arm::Cell::of_segment(from, along, k, cuts).beside(beside);
     let mover = Mover::new(arm, body);
     let turns = |k: usize| wall.from[k] != wall.to[k] && matches!(arm.joints[k].motion, Motion::Turn(_));
     if !(0..=body.link).any(turns) {

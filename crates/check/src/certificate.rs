@@ -8,13 +8,14 @@ mod tasks;
 pub use bound::{Bound, Metric, Wall};
 pub use boxes::{PartName, ShapeName, StuckBox, rectangles};
 pub use motion::{Interpolation, Motion};
-pub use tasks::{Case, Done};
+pub use tasks::Done;
 
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
 use crate::polygon::Corner;
 use crate::world::World;
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 
 /// What certificates of this form begin with.
@@ -51,8 +52,6 @@ pub struct Certificate {
     pub parts: Vec<PartName>,
     /// That there is no motion; or what is no goal of a bound, because it is not free.
     pub boxes: Option<Vec<StuckBox>>,
-    /// That a task cannot be done.
-    pub cases: Option<Vec<Case>>,
     /// That none is shorter.
     pub bound: Option<Bound>,
 }
@@ -87,12 +86,25 @@ struct Containing<'a> {
     certificate: &'a RawValue,
 }
 
+/// A proof that a task is infeasible, which earlier versions of cplan wrote.
+#[derive(Deserialize)]
+struct TaskProof {
+    #[serde(rename = "cases")]
+    _cases: IgnoredAny,
+}
+
 /// Reads a certificate, or the one in a result of cplan.
 ///
 /// # Errors
-/// What is none, or of another form.
+/// What is none, or of another form; a proof that a task is infeasible.
 pub fn read(text: &str) -> Result<Certificate, CheckError> {
     let text = serde_json::from_str::<Containing>(text).map_or(text, |result| result.certificate.get());
+    // Such a proof has keys elsewhere, too, that are unknown by now.
+    if serde_json::from_str::<TaskProof>(text).is_ok() {
+        let message = "it has \"cases\" that prove a task infeasible: the checker does not judge proofs about tasks; \
+                       the result of cplan states the reason";
+        return Err(CheckError::in_file(Input::Certificate, message));
+    }
     let read: Result<Certificate, _> = serde_json::from_str(text);
     let certificate = read.map_err(|error| {
         let message = format!("this is no certificate: {error}");
@@ -102,19 +114,16 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
         let message = format!("its format is \"{}\": the checker knows \"{FORMAT}\"", certificate.format);
         return Err(CheckError::in_file(Input::Certificate, message));
     }
-    let Certificate { answer, motion, steps, boxes, cases, bound, .. } = &certificate;
+    let Certificate { answer, motion, steps, boxes, bound, .. } = &certificate;
     let evidence = [motion.is_some(), boxes.is_some(), bound.is_some()];
-    let has_cases = cases.is_some();
     let is_to_the_goal = bound.as_ref().is_some_and(|bound| bound.to.is_none());
     let fits = match answer {
-        Answer::Found => !has_cases && evidence[0] && (is_to_the_goal || !evidence[1]),
-        Answer::Infeasible => steps.is_none() && evidence == [false, !has_cases, false],
-        Answer::NoShorter => {
-            steps.is_none() && !has_cases && !evidence[0] && evidence[2] && (is_to_the_goal || !evidence[1])
-        }
+        Answer::Found => evidence[0] && (is_to_the_goal || !evidence[1]),
+        Answer::Infeasible => steps.is_none() && evidence == [false, true, false],
+        Answer::NoShorter => steps.is_none() && !evidence[0] && evidence[2] && (is_to_the_goal || !evidence[1]),
     };
     if !fits {
-        let message = "\"found\" has a motion, and may have steps or a bound; \"infeasible\" has boxes, of a task cases; \"no_shorter\" a bound; \
+        let message = "\"found\" has a motion, and may have steps or a bound; \"infeasible\" has boxes; \"no_shorter\" a bound; \
                        with a bound there are boxes only if it does not say \"to\" where";
         return Err(CheckError::in_file(Input::Certificate, message));
     }

@@ -10,7 +10,7 @@ mod missed;
 mod region;
 
 pub use missed::missed;
-pub use region::{FEW_PARTS, MOST_PARTS, Region};
+pub use region::{FEW_PARTS, MOST_PARTS};
 
 /// The start or the goal.
 pub struct End {

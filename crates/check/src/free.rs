@@ -241,7 +241,7 @@ impl Chain {
     }
 
     /// A point of the plane as it is seen from the second link's joint at a configuration.
-    pub fn seen_at(&self, p: &Point, values: &Point) -> Point {
+    fn seen_at(&self, p: &Point, values: &Point) -> Point {
         self.still(&self.seen(1, p), values)
     }
 
@@ -333,7 +333,7 @@ impl<'a> Posture<'a> {
         }
     }
 
-    /// A point by Taylor's formula about the middle: `docs/certificates.md` has the bound.
+    /// A point by Taylor's formula about the middle: `docs/certificate_checks.md` has the bound.
     fn moving(&self, terms: &[Term]) -> Moving {
         let zero = || [0, 0].map(Interval::whole);
         let mut moving = Moving { at: zero(), rates: [zero(), zero()], bend: Interval::whole(0) };

@@ -1,7 +1,7 @@
 //! Certificates that there is no motion: "infeasible".
 
 use crate::certificate::{Certificate, rectangles};
-use crate::contacts::{Among, Contacts};
+use crate::contacts::Contacts;
 use crate::ends::{End, MOST_PARTS};
 use crate::error::CheckError;
 use crate::robot::Arm;
@@ -20,7 +20,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     if !goal.region(arm)?.places(arm, MOST_PARTS, |part| !reached.meets(part)).is_empty() {
         return CheckError::fails("the boxes do not separate the goal from the start");
     }
-    Contacts::new(arm, &Among::all(world), certificate, clearance).complete()?.hold(arm, stuck, &boxes)?;
+    Contacts::new(arm, world, certificate, clearance)?.hold(arm, stuck, &boxes)?;
     let [first, second] = arm.joints.each_ref().map(|joint| &joint.name);
     let [start, goal] = [start, goal].map(|end| end.named(arm));
     Ok(format!(

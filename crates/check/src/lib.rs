@@ -2,8 +2,8 @@
 //!
 //! [`check`] reads a URDF, a world and a certificate, and says whether the certificate proves its answer, in exact arithmetic:
 //! decimals are taken as they are written, roots, sines and cosines are enclosed by numbers below and above. It shares no code
-//! with the planner. `docs/certificates.md` in cplan's repository has the format, what each part of it means, and why what is
-//! checked suffices.
+//! with the planner. In cplan's repository, `docs/certificate_format.md` has the format and the meaning of each key, and
+//! `docs/certificate_checks.md` the conditions that are checked and why they suffice.
 //!
 //! ```
 //! let urdf = r#"<robot name="bar">
@@ -43,7 +43,6 @@ mod ends;
 mod error;
 mod files;
 mod free;
-mod impossible;
 mod infeasible;
 mod interval;
 mod motion;
@@ -101,13 +100,12 @@ fn judged([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) ->
     })?;
     let mut arm = Arm::read(&document, &world, &files, certificate.joints.as_ref())?;
     arm.ignore(&certificate)?;
-    let proven = match (&certificate.answer, &certificate.steps, &certificate.cases) {
-        (Answer::Found, Some(steps), _) => task::found(&arm, &world, &certificate, steps),
-        (Answer::Found, None, _) if certificate.bound.is_some() => {
+    let proven = match (&certificate.answer, &certificate.steps) {
+        (Answer::Found, Some(steps)) => task::found(&arm, &world, &certificate, steps),
+        (Answer::Found, None) if certificate.bound.is_some() => {
             Ok(motion::found(&arm, &world, &certificate)? + "; " + &bound::no_shorter(&arm, &world, &certificate)?)
         }
-        (Answer::Found, None, _) => motion::found(&arm, &world, &certificate),
-        (Answer::Infeasible, _, Some(cases)) => impossible::infeasible(&arm, &world, &certificate, cases),
+        (Answer::Found, None) => motion::found(&arm, &world, &certificate),
         (Answer::Infeasible, ..) => infeasible::infeasible(&arm, &world, &certificate),
         (Answer::NoShorter, ..) => bound::no_shorter(&arm, &world, &certificate),
     };

@@ -8,7 +8,7 @@ use std::process::Command;
 fn the_certificate_of_the_page_holds() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let read = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
-    let page = read("docs/certificates.md");
+    let page = read("docs/certificate_format.md");
     let code = page.split("```python\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
     let code = code.replace("open(\"by_hand.json\", \"w\")", "open(1, \"w\")");
     let done = match Command::new("python3").args(["-c", &code]).output() {

@@ -362,6 +362,21 @@ fn bad_input_is_named() {
     }
 }
 
+/// Earlier versions of cplan wrote proofs that a task is infeasible, case by case: by themselves, or within a result.
+#[test]
+fn proofs_about_tasks_are_not_judged() {
+    let old = r#"{"format": "cplan certificate 1", "answer": "infeasible", "joints": ["a", "b"],
+        "shapes": [{"carried": [[-0.1, -0.1], [0.1, -0.1], [0, 0.1]]}], "parts": [{"obstacle": 0}],
+        "cases": [{"step": 2, "from": [[0, 1], [0, 1]],
+                   "boxes": [{"lower": [-0.1, -3], "upper": [0.1, 3], "shape": 0, "part": 0}]}]}"#;
+    let within = format!(r#"{{"outcome": "infeasible", "certificate": {old}}}"#);
+    for certificate in [old, &within] {
+        let why = check(&robot("revolute", "revolute"), &world(WALL), certificate).unwrap_err();
+        let CheckError::Input { input: Input::Certificate, message, .. } = why else { panic!("{why:?}") };
+        assert!(message.contains("does not judge proofs about tasks"), "{message}");
+    }
+}
+
 /// A wall of boxes that all are as wide as they may be. Whatever is done to one of them opens a way or makes a box too large: what
 /// is falsified is refused.
 #[test]

@@ -167,58 +167,6 @@ fn picks_of_what_moves() {
     fails(both("5"), "obstacle 1");
 }
 
-/// The tip gets at most 18 m from the origin, as far as two slides of 9 m tell, and a grasp is half a metre off.
-#[test]
-fn what_never_comes_within_reach() {
-    let judged = |motion: &str, pick: &str| {
-        let object = format!(
-            "[[object]]\nname = \"bottle\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [30, 0]\ngrasp = [0.3, 0.4]\nmotion = {motion}\n"
-        );
-        let world = format!("start.joints = [1, 1]\n{object}[[step]]\npick = \"bottle\"\n{pick}\n");
-        let nothing = r#"{"format": "cplan certificate 1", "answer": "infeasible", "cases": []}"#;
-        match check(GANTRY, &world, nothing) {
-            Ok(said) => {
-                assert!(said.contains("never within reach"), "{said}");
-                true
-            }
-            Err(CheckError::Input { input: Input::World, message, .. }) => {
-                assert!(message.contains("an object moves"), "{message}");
-                false
-            }
-            Err(why) => panic!("{motion}, {pick}: {why}"),
-        }
-    };
-    for (motion, pick, is_out) in [
-        // Away, along a tangent, past by a hair, and in time.
-        ("{ velocity = [1, 0] }", "", true),
-        ("{ velocity = [0, -1] }", "", true),
-        ("{ velocity = [-1, 0] }", "", false),
-        ("{ velocity = [-3, 2.36] }", "", true),
-        ("{ velocity = [-3, 2.34] }", "", false),
-        ("{ velocity = [-1, 0] }", "window = [0, 11.4]", true),
-        ("{ velocity = [-1, 0] }", "window = [0, 11.6]", false),
-        ("{ velocity = [-1, 0] }", "window = [48.6, 50]", true),
-        ("{ velocity = [-1, 0] }", "window = [48.4, 50]", false),
-        // There and back between stops, where it waits at first and in the end.
-        ("{ stops = [{ time = 5 }, { time = 6, at = [3, 0] }, { time = 7, at = [30, 0] }] }", "window = [0, 5]", true),
-        ("{ stops = [{ time = 5 }, { time = 6, at = [3, 0] }, { time = 7, at = [30, 0] }] }", "window = [7, 99]", true),
-        (
-            "{ stops = [{ time = 5 }, { time = 6, at = [3, 0] }, { time = 7, at = [30, 0] }] }",
-            "window = [5.3, 6.7]",
-            false,
-        ),
-        ("{ stops = [{ time = 5 }, { time = 6, at = [3, 0] }, { time = 7, at = [30, 0] }] }", "", false),
-        ("{ stops = [{ time = 0 }, { time = 9, at = [-30, 70] }] }", "", true),
-        // Where it is to be then.
-        ("{ velocity = [-1, 0] }", "at = [18.6, 0]", true),
-        ("{ velocity = [-1, 0] }", "at = [18.4, 0]", false),
-        // Picked once more it may be elsewhere.
-        ("{ velocity = [1, 0] }", "[[step]]\nplace = { at = [1, 1] }\n[[step]]\npick = \"bottle\"", false),
-    ] {
-        assert_eq!(judged(motion, pick), is_out, "{motion} {pick}");
-    }
-}
-
 #[test]
 fn courses_that_are_none() {
     let refused = |motion: &str| match judged(&cart(motion), DRIVEN) {

@@ -370,29 +370,3 @@ fn what_is_carried_stays_off_the_upper_arm() {
     holds(carried(0.32, 2.2, ""));
     holds(carried(0.32, 2.2, &format!("{level}\nown_body = false")));
 }
-
-/// Proofs about a task may name what is carried against the upper arm if it is held rigidly.
-#[test]
-fn proofs_put_what_is_held_rigidly_beside_the_upper_arm() {
-    let tip = |elbow: f64| [0.5 + 0.45 * elbow.cos(), 0.45 * elbow.sin()];
-    let proof = |payload: &str, wide: f64| {
-        let world = format!(
-            "[robot]\nlimits = {{ a = [-0.5, 0.5], b = [-1, 2.9] }}\n{payload}\n[start]\njoints = [0, 0]\n\
-             [[object]]\nname = \"block\"\nat = {:?}\nheight = [0.31, 0.4]\n\
-             polygon = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]\n\
-             [[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = {:?} }}\n",
-            tip(1.0),
-            tip(2.8)
-        );
-        let certificate = format!(
-            r#"{{"format": "cplan certificate 1", "answer": "infeasible", "parts": [{UPPER}],
-            "shapes": [{{"carried": [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]}}],
-            "cases": [{{"step": 2, "from": [[-0.0001, 0.0001], [0.9999, 1.0001]],
-            "boxes": [{{"lower": [-0.6, 2.64], "upper": [0.6, 2.66], "shape": 0, "part": 0}}]}}]}}"#
-        );
-        told(check(&turning(0.46, wide), &world, &certificate))
-    };
-    holds(proof("", 0.5));
-    fails(proof("", 0.3), &["can come off"]);
-    fails(proof("payload = \"level\"\nwrist = { velocity = 1 }", 0.5), &["turns beside link \"upper\""]);
-}

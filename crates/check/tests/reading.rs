@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Lines that an answer about one motion may rest on. Until layers and links had names in certificates as parts it was 3 000, and until
-/// links that joint 1 carries had, 3 150.
-const MOST: usize = 3170;
+/// Greatest number of lines that an answer about one motion may rest on: as much as can be read in a few days.
+const MOST: usize = 3130;
 
 /// Lines of code of a file, without comments and tests.
 fn lines(path: &Path) -> usize {
@@ -32,7 +31,7 @@ fn sources(folder: &Path, root: &Path) -> BTreeSet<String> {
 #[test]
 fn the_page_says_how_much_there_is_to_read() {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let page = std::fs::read_to_string(own.join("../../docs/certificates.md")).unwrap();
+    let page = std::fs::read_to_string(own.join("../../docs/certificate_checks.md")).unwrap();
     let table = page.split("## How much there is to read").nth(1).unwrap().split("\n## ").next().unwrap();
     let rows: Vec<Vec<&str>> =
         table.lines().filter(|line| line.starts_with("| ")).skip(1).map(|line| line.split('|').collect()).collect();
@@ -53,7 +52,7 @@ fn the_page_says_how_much_there_is_to_read() {
     assert!(left.is_empty(), "the page does not name {left:?}");
     // What it says of sums is of the same rows, and no answer about one motion grows beyond what the page says.
     let below: usize = sums[..4].iter().sum();
-    let answers = [(sums[4], "on 2 720 lines"), (sums[5], "on 2 933"), (sums[4] + sums[6], "on 3 162")];
+    let answers = [(sums[4], "on 2 683 lines"), (sums[5], "on 2 977"), (sums[4] + sums[6], "on 3 124")];
     for (answer, said) in answers {
         let digits: usize = said.chars().filter(char::is_ascii_digit).collect::<String>().parse().unwrap();
         assert!(table.contains(said) && (below + answer).abs_diff(digits) < 10 && digits <= MOST, "{said}");

@@ -6,18 +6,16 @@ use crate::error::CheckError;
 use crate::polygon::Corner;
 use serde::Deserialize;
 
-/// A shape of the URDF, by its number among those of its kind that the link has, or of what is carried.
+/// A shape of the URDF, by its number among those of its kind that the link has.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ShapeName {
-    pub link: Option<String>,
+    pub link: String,
     pub collision: Option<usize>,
     pub visual: Option<usize>,
     pub bar: Option<usize>,
     /// A height in the layer, if the shape has several.
     pub height: Option<Decimal>,
-    /// Corners of a convex part of what is carried, in its own frame; none of a disc.
-    pub carried: Option<Vec<Corner>>,
 }
 
 /// A convex part of an obstacle, or a shape of a link that stands still.

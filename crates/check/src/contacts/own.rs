@@ -1,6 +1,6 @@
 //! Parts of proofs that are links of the robot.
 
-use super::{Evident, PART, Whole};
+use super::{Evident, PART};
 use crate::certificate::PartName;
 use crate::error::{CheckError, Input};
 use crate::robot::{Arm, Outline, named};
@@ -17,5 +17,5 @@ pub fn part(arm: &Arm, name: &PartName) -> Result<Evident, CheckError> {
     };
     let own = named(&arm.bases, (link, kind, number), name.height.as_ref())?;
     let within = &own.within;
-    Ok((Whole::Link(own.owner()), within.shape.clone(), within.kept(Outline::Within)))
+    Ok((Some(own.owner()), within.shape.clone(), within.kept(Outline::Within)))
 }

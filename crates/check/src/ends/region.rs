@@ -6,9 +6,8 @@ use crate::domain::{Range, Rectangle};
 use crate::error::{CheckError, Input};
 use crate::interval::{Interval, Point};
 use crate::polygon::Corner;
-use crate::robot::{Arm, Body, Motion};
+use crate::robot::{Arm, Motion};
 use crate::world::Goal;
-use std::rc::Rc;
 
 /// Parts of the domain in which the tip may be at a place, at the most, if it is to be shut off there, ...
 pub const MOST_PARTS: usize = 2000;
@@ -41,29 +40,23 @@ impl End {
     pub fn region(&self, arm: &Arm) -> Result<Region, CheckError> {
         match &self.at {
             Goal::Joints(values) => Ok(Region::Configuration(arm.configuration(self.what, values)?)),
-            Goal::Tip(at) => Ok(Region::tip(arm, at.each_ref().map(Interval::from))),
-            Goal::Areas(areas) => Ok(Region::Any(areas.iter().map(|area| Region::tip(arm, arm.area(area))).collect())),
+            Goal::Tip(at) => Ok(Region::Tip(at.each_ref().map(Interval::from))),
+            Goal::Areas(areas) => Ok(Region::Any(areas.iter().map(|area| Region::Tip(arm.area(area))).collect())),
         }
     }
 }
 
 /// The configurations that are to be reached.
-#[derive(Clone)]
 pub enum Region {
     /// What encloses one.
     Configuration(Rectangle),
-    /// All that put a point of the second link, such as the tip, at a place.
-    Tip { tip: Rc<Body>, place: Point },
+    /// All that put the tip at a place.
+    Tip(Point),
     /// Any of several.
     Any(Vec<Region>),
 }
 
 impl Region {
-    /// All that put the tip at a place.
-    pub fn tip(arm: &Arm, place: Point) -> Self {
-        Self::Tip { tip: Rc::new(arm.tip.clone()), place }
-    }
-
     /// What holds all of it but what is left out.
     pub fn places(&self, arm: &Arm, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
         self.places_by(arm, most, &is_left_out)
@@ -72,7 +65,7 @@ impl Region {
     fn places_by(&self, arm: &Arm, most: usize, is_left_out: &dyn Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
         match self {
             Self::Configuration(goal) => [goal.clone()].into_iter().filter(|goal| !is_left_out(goal)).collect(),
-            Self::Tip { tip, place } => arm.places((tip, place), most, is_left_out),
+            Self::Tip(place) => arm.places(place, most, is_left_out),
             Self::Any(regions) => regions.iter().flat_map(|r| r.places_by(arm, most, is_left_out)).collect(),
         }
     }

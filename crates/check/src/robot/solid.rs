@@ -8,7 +8,6 @@ use crate::decimal::Decimal;
 use crate::domain::Range;
 use crate::interval::{Interval, Point, length, minus, sum};
 use crate::overlap::{Shape, hull};
-use crate::world::task::RESTING;
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
@@ -194,12 +193,6 @@ impl Body {
     /// Whether its heights and these are known to have some in common.
     pub fn is_at(&self, heights: Option<&Range>) -> bool {
         self.beside(heights).is_none_or(|(own, [low, high])| own[0].upper <= high.lower && low.upper <= own[1].lower)
-    }
-
-    /// Whether an object with its heights is known to reach deeper below the end of these than one that rests there.
-    pub fn is_below_top(&self, heights: Option<&Range>) -> bool {
-        let into = Interval::from(&Decimal::power_of_ten(RESTING));
-        self.beside(heights).is_none_or(|(own, [_, high])| (&own[0] + &into).upper < high.lower)
     }
 
     /// Whether its heights and these are known to have none in common.

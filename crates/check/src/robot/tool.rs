@@ -3,9 +3,8 @@
 use super::pose::{cross, size};
 use super::shapes::Counted;
 use super::tree::{Read, child, moves};
-use super::{Arm, Body, Joint, Motion};
+use super::{Arm, Body};
 use crate::decimal::Decimal;
-use crate::domain::Axis;
 use crate::error::{CheckError, Input};
 use crate::interval::{BITS, Interval, Point, length, minus, sum};
 use crate::overlap::{Shape, overlap_by_more_than};
@@ -118,16 +117,6 @@ impl<'a> Arm<'a> {
             self.tree.order.iter().find(|name| if is_bar { **name == self.tip_link } else { **name == shape.link });
         let above = link.map_or(Ok(Vec::new()), |link| self.tree.above(link))?;
         Ok(above.iter().any(|node| node.attribute("name") == Some(joint)))
-    }
-
-    /// How far from the first joint's origin the tip gets at most.
-    pub fn tip_reach(&self) -> BigInt {
-        let slide = |joint: &Joint| match (&joint.motion, &joint.axis) {
-            (Motion::Slide(_), Axis::Line(range)) => Interval::around(range).magnitude(),
-            _ => BigInt::ZERO,
-        };
-        let links = &length(&self.offset) + &length(&self.tip.shape.points[0]);
-        self.joints.iter().map(slide).sum::<BigInt>() + links.upper
     }
 
     /// By how much objects may press into what supports them: a share of how far the arm reaches, from the first joint to the second, and on

@@ -2,7 +2,7 @@
 
 use super::{Obstacle, Read, Reader, Value, point};
 use crate::decimal::Decimal;
-use crate::interval::{Interval, Point, dot, length, minus, sum, times, turned};
+use crate::interval::{Interval, Point, length, minus, sum, times, turned};
 use crate::overlap::Shape;
 use num_bigint::{BigInt, Sign};
 use std::borrow::Cow;
@@ -43,16 +43,6 @@ impl Course {
         [at, angle.sin_cos()]
     }
 
-    /// A bound on how near the frame's origin comes to a place between two times, or from one on.
-    pub fn nearest(&self, place: &Point, from: &Decimal, to: Option<&Decimal>) -> BigInt {
-        let stops = self.stops.iter().map(|stop| &stop.time);
-        let inner = stops.filter(|time| from < *time && to.is_none_or(|to| *time < to));
-        let at: Vec<Point> = [from].into_iter().chain(inner).chain(to).map(|time| self.pose(time).0).collect();
-        let legs = at.windows(2).map(|leg| apart(place, &leg[0], &minus(&leg[1], &leg[0]), false));
-        let ever = || apart(place, &at[at.len() - 1], &self.velocity, true);
-        legs.chain(to.is_none().then(ever)).min().unwrap_or_else(|| length(&minus(place, &at[0])).lower)
-    }
-
     /// What holds a shape of the frame all over a span of time: it in the middle, wider by as far as it gets from there. How far a point is
     /// from there is, between stops, at most a convex function of time, so that it is at most what it is at the span's ends and at stops.
     pub fn during(&self, shape: &Shape, [from, to]: [&Decimal; 2]) -> Shape {
@@ -71,25 +61,6 @@ impl Course {
             points: shape.points.iter().map(|p| sum(&at, &turned(p, &turn))).collect(),
             radius: &shape.radius + &Interval::exactly(away),
         }
-    }
-}
-
-/// A bound on the distance of a place from a way along a vector, which may go on for ever.
-fn apart(place: &Point, from: &Point, along: &Point, is_endless: bool) -> BigInt {
-    let way = minus(place, from);
-    let (share, square) = (dot(&way, along), dot(along, along));
-    if share.upper.sign() != Sign::Plus {
-        return length(&way).lower;
-    }
-    if !is_endless && share.lower >= square.upper {
-        return length(&minus(&way, along)).lower;
-    }
-    // No nearer than the whole line; what may stand still is no nearer than where it begins but for the way.
-    let (across, size) = (dot(&way, &[-&along[1], along[0].clone()]).abs(), length(along));
-    match size.lower.sign() {
-        Sign::Plus => across.divided(&size).lower,
-        _ if is_endless => BigInt::ZERO,
-        _ => (&length(&way) - &size).lower,
     }
 }
 

@@ -1,6 +1,6 @@
 //! What of an object keeps off others while it hangs on the arm.
 
-use super::obstacle::{Outline, nearest};
+use super::obstacle::Outline;
 use super::{Obstacle, Read, point};
 use crate::decimal::Decimal;
 use crate::error::{CheckError, Input};
@@ -56,16 +56,6 @@ impl Obstacle {
             }
         };
         Ok(Self { outline, ..self.clone() })
-    }
-
-    /// Where the corners of it that are nearest to these are in what is pressed of it.
-    pub fn moved_corners(&self, pressed: &Self, given: &[Corner]) -> Vec<Corner> {
-        let (Outline::Polygon(rings), Outline::Polygon(smaller)) = (&self.outline, &pressed.outline) else {
-            return given.to_vec();
-        };
-        let own: Vec<Point> = rings.iter().flat_map(|ring| bent(ring)).map(|corner| point(&corner)).collect();
-        let moved = |at: &Corner| smaller.iter().flatten().nth(nearest(&own, &point(at))?).cloned();
-        given.iter().filter_map(moved).collect()
     }
 
     fn hull(&self, corners: &[Corner]) -> Shape {

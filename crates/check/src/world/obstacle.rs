@@ -150,7 +150,7 @@ impl Obstacle {
 }
 
 /// Which of the places is nearest, as the middles of their enclosures have it.
-pub(super) fn nearest(places: &[Point], to: &Point) -> Option<usize> {
+fn nearest(places: &[Point], to: &Point) -> Option<usize> {
     let distance = |place: &Point| {
         let [x, y] = [0, 1].map(|k| (&place[k] - &to[k]).middle().0);
         &x * &x + &y * &y

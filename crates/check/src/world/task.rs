@@ -111,19 +111,12 @@ pub struct Carrying {
 }
 
 impl Task {
-    /// Of an object that is picked from supports, and placed by one of some steps.
-    pub fn carrying<'s>(
-        &self,
-        object: usize,
-        supports: &[usize],
-        placing: impl IntoIterator<Item = &'s Step>,
-    ) -> Carrying {
+    /// Of an object that is picked from supports, and placed by a step if that follows.
+    pub fn carrying(&self, object: usize, supports: &[usize], placing: Option<&Step>) -> Carrying {
         let mut carrying = Carrying { supports: supports.to_vec(), may_turn: false };
-        for step in placing {
-            if let Action::Place { angle, supports, .. } = &step.action {
-                carrying.supports.extend(supports.as_ref().unwrap_or(&self.objects[object].supports));
-                carrying.may_turn |= self.wrist.is_some() && angle.is_some();
-            }
+        if let Some(Action::Place { angle, supports, .. }) = placing.map(|step| &step.action) {
+            carrying.supports.extend(supports.as_ref().unwrap_or(&self.objects[object].supports));
+            carrying.may_turn = self.wrist.is_some() && angle.is_some();
         }
         carrying
     }
