@@ -60,6 +60,7 @@ use cplan_parallel as parallel;
 pub use cplan_proofs as search;
 #[cfg(feature = "study")]
 pub use cplan_study as study;
+#[cfg(feature = "program")]
 use cplan_text as text;
 pub use cplan_view as draw;
 pub use cplan_view::output;

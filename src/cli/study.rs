@@ -39,7 +39,7 @@ not in the world is refused, but for overlap = true.
 
 Examples:
   cplan study workspaces/studies/base.toml
-  cplan study workspaces/studies/base.toml --output base.csv --output base.parquet --output base.html
+  cplan study workspaces/studies/base.toml --output base.csv --output base.html
   cplan study workspaces/studies/base.toml --output best.toml
   cplan study workspaces/studies/base.toml --layout 17 --output layout_17.toml
 
@@ -48,8 +48,8 @@ pub struct StudyArgs {
     /// The study, TOML.
     #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
     pub study: PathBuf,
-    /// Write the table (.csv, .parquet), a page with maps, trade-offs and pictures (.html), the summary (.json), or the best layout's
-    /// world (.toml) and robot (.urdf). Can be repeated.
+    /// Write the table (.csv, or .parquet in a program with the feature parquet), a page with maps, trade-offs and pictures (.html),
+    /// the summary (.json), or the best layout's world (.toml) and robot (.urdf). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Vec<PathBuf>,
     /// Write the world (.toml) and the robot (.urdf) of this layout, and plan nothing.
@@ -72,6 +72,7 @@ pub struct StudyArgs {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Content {
     Csv,
+    #[cfg(feature = "parquet")]
     Parquet,
     Page,
     Summary,
@@ -151,17 +152,34 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
 /// What the names of the outputs ask for, checked before any work is done.
 fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Content)>, Failure> {
     let layout = [("toml", Content::World), ("urdf", Content::Robot)];
-    let whole =
-        [("csv", Content::Csv), ("parquet", Content::Parquet), ("html", Content::Page), ("json", Content::Summary)];
+    let whole = [
+        ("csv", Content::Csv),
+        #[cfg(feature = "parquet")]
+        ("parquet", Content::Parquet),
+        ("html", Content::Page),
+        ("json", Content::Summary),
+    ];
     let contents = match is_layout {
         true => sinks::outputs(outputs, &layout, "a layout is written as .toml (world) or .urdf")?,
         false => {
+            #[cfg(not(feature = "parquet"))]
+            refuse_parquet(outputs)?;
             let told = "a study's name must end in .csv, .parquet, .html or .json, a layout's in .toml or .urdf";
             sinks::outputs(outputs, &[&whole[..], &layout].concat(), told)?
         }
     };
     sinks::distinct(contents.iter().map(|(path, _)| path.as_path()))?;
     Ok(contents)
+}
+
+/// Refuses names of Parquet files, which this program cannot write.
+#[cfg(not(feature = "parquet"))]
+fn refuse_parquet(outputs: &[PathBuf]) -> Result<(), Failure> {
+    let is_parquet = |path: &&PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet"));
+    outputs.iter().find(is_parquet).map_or(Ok(()), |path| {
+        let told = "this program was built without Parquet; use .csv, or build with --features parquet";
+        Err(Failure::Option(format!("{}: {told}", path.display())))
+    })
 }
 
 /// Where rows are kept while a study runs.
@@ -212,6 +230,7 @@ fn bytes(
     };
     Ok(match content {
         Content::Csv => Some(study.csv(rows).into_bytes()),
+        #[cfg(feature = "parquet")]
         Content::Parquet => Some(study.parquet(rows).map_err(|error| Failure::Option(format!("Parquet: {error}")))?),
         Content::Page => Some(study.html(rows, &pictures(study, rows)).into_bytes()),
         Content::Summary => Some(sinks::pretty(&summary.to_json())?.into_bytes()),

@@ -10,7 +10,7 @@ use cplan_core::cspace::has_exact_polygons;
 use cplan_core::model::{MotionProblem, Scene};
 use cplan_core::planner::{Harmonic, Note, Proposal, Query, Run, Trapezoid, Visibility, Wavefront};
 use cplan_core::space::{Metric, Path, Segment};
-use cplan_fields::FieldPlanner;
+use cplan_fields::{FieldChoice, FieldPlanner};
 use cplan_interrupt::Instant;
 use cplan_roadmaps::{Prm, Triangles, Voronoi};
 use cplan_text::percent;
@@ -109,7 +109,7 @@ where
     let mut history = Vec::new();
     let mut last: Option<(Run, P::Space)> = None;
     let mut known = None;
-    let mut finest = "its finest resolution";
+    let mut sweeps_end = false;
     let keeps_first = options.planner.is_exact() && has_exact_polygons(problem.scene());
     for level in 0..options.levels.max(1) {
         let clock = Instant::now();
@@ -144,7 +144,7 @@ where
             }
         }
         if takes_more {
-            finest = "the resolution that its sweeps allow";
+            sweeps_end = true;
             break;
         }
     }
@@ -155,12 +155,11 @@ where
     }
     let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
     let why = || history.last().cloned().unwrap_or_default();
-    let hint = if options.planner.cells().is_some() && history.len() == options.levels && finest.ends_with("resolution")
-    {
-        "; more --cells or --levels may show one"
-    } else {
-        ""
-    };
+    // Local minima of forces stay on finer grids.
+    let has_minima = options.planner.field().is_some_and(|planner| matches!(planner.field, FieldChoice::Khatib(_)));
+    let is_coarse = options.planner.cells().is_some() && history.len() == options.levels && !has_minima;
+    let hint = if is_coarse && !sweeps_end { "; more --cells or --levels may show one" } else { "" };
+    let finest = if sweeps_end { "the resolution that its sweeps allow" } else { "its finest resolution" };
     let unknown = || format!("{method} found no certified path at {finest} ({}){hint}", why());
     let (verdict, witness) = match (path, known) {
         (Some(path), _) => (Verdict::Found(path), None),

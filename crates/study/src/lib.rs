@@ -6,7 +6,7 @@
 //! threads, machines and interruptions.
 //!
 //! ```text
-//! study.toml -> Study -> Row, Row, ... -> Table -> CSV, Parquet
+//! study.toml -> Study -> Row, Row, ... -> Table -> CSV; Parquet with the feature `parquet`
 //!                 |        (journal)        |
 //!               search                    Summary, page
 //! ```
@@ -18,6 +18,8 @@ mod measure;
 mod overlap;
 mod page;
 mod parameter;
+#[cfg(feature = "parquet")]
+mod parquet_table;
 mod pictures;
 mod row;
 mod schema;
