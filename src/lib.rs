@@ -64,7 +64,6 @@ pub use cplan_study as study;
 use cplan_text as text;
 pub use cplan_view as draw;
 pub use cplan_view::output;
-pub use cplan_world as input;
 pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
 pub use geometry::Point;
 pub use input::InputError;
@@ -78,6 +77,17 @@ pub mod check {
     pub use cplan_core::check::*;
     pub use cplan_motion::recorded::*;
     pub use cplan_proofs::bound::*;
+}
+
+/// Files to problems: robots, worlds, maps and recordings, and errors with file, line and help.
+pub mod input {
+    pub use cplan_robot::{
+        AngleOrLength, BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry,
+        LARGEST, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry, Position, Quantity,
+        RateEntry, RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere,
+        read_bytes, read_from,
+    };
+    pub use cplan_world::*;
 }
 
 /// Planners: pure functions from a space and a query to a run.

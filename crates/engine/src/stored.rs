@@ -11,7 +11,7 @@ use super::options::Options;
 use super::plan::{Plan, plan};
 use super::problem::{Asked, Problem};
 use cplan_core::model::{Driver, MotionProblem, RobotJoints, Scene, Task, TaskError, ToolJoint};
-use cplan_world::RobotReport;
+use cplan_robot::RobotReport;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;

@@ -3,7 +3,8 @@
 use super::protocol::{About, AnswerReply, BlockedReply, HitReply};
 use cplan_core::model::{Goal, Obstruction, Scene, inverse};
 use cplan_core::space::{Configuration, Segment};
-use cplan_world::{Diagnostic, DiagnosticKind, InputError, LoadedScene};
+use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
+use cplan_world::LoadedScene;
 
 /// More configurations are not drawn: they would hide each other.
 const MOST_SHOWN: usize = 4;

@@ -161,7 +161,8 @@ impl Gallery {
 mod tests {
     use super::*;
     use cplan_engine::{MotionPlan, Options, Plan, Problem, plan};
-    use cplan_world::{Overrides, Source, scene_from};
+    use cplan_robot::Source;
+    use cplan_world::{Overrides, scene_from};
     use std::collections::BTreeSet;
 
     /// A way to solve each puzzle: what is found in the world, and what is put there.

@@ -48,7 +48,8 @@ pub use options::Options;
 pub use page::{page, page_alone};
 pub use protocol::{Ask, Files, Message, Reply, Request};
 
-use cplan_world::{LoadedScene, Source, scene_from};
+use cplan_robot::Source;
+use cplan_world::{LoadedScene, scene_from};
 use document::Document;
 use std::collections::BTreeSet;
 use std::time::Duration;

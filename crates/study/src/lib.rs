@@ -39,7 +39,8 @@ pub use summary::Summary;
 
 use cplan_engine::{Options, Plan, Problem, plan, solve};
 use cplan_parallel::{caught, in_order};
-use cplan_world::{InputError, LoadedScene, Overrides, Source};
+use cplan_robot::{InputError, Source};
+use cplan_world::{LoadedScene, Overrides};
 use file::Named;
 use overlap::overlap;
 use parameter::Design;
@@ -80,7 +81,7 @@ pub struct Study {
 }
 
 impl Study {
-    /// What may surprise about the robot, and what is assumed of it: [`cplan_world::RobotReport::remarks`].
+    /// What may surprise about the robot, and what is assumed of it: [`cplan_robot::RobotReport::remarks`].
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         self.base.robot.remarks(self.base.scene.arm())

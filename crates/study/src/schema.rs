@@ -1,6 +1,7 @@
 //! What a study file may say: its tables, and their schema.
 
-use cplan_world::{AngleOrLength, Quantity, toml_schema};
+use cplan_robot::{AngleOrLength, Quantity};
+use cplan_world::toml_schema;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;

@@ -1,7 +1,7 @@
 //! A text with numbers that differ from layout to layout.
 
 use super::address::{Found, Step, all_in_urdf, all_in_world, in_urdf, in_world, nearest, steps, written_out};
-use cplan_world::Source;
+use cplan_robot::Source;
 use std::fmt::Write;
 use std::ops::Range;
 

@@ -1,11 +1,10 @@
 //! `motion` of the world file's `[[obstacle]]` and `[[object]]`: how it moves while the arm does.
 
-use super::error::Diagnostic;
-use super::quantity::Written;
-use super::schema::{AngleOrLength, NotNegative, Two};
-use super::world::{Number, Numbers, Reader};
+use super::reader::Reader;
+use super::schema::NotNegative;
 use cplan_core::model::{Course, CourseError, Stop};
 use cplan_geometry::{Point, Pose, Vector};
+use cplan_robot::{AngleOrLength, Diagnostic, Number, Numbers, Two, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;

@@ -1,8 +1,6 @@
 //! Digests of the files that a problem was read from.
 
-use super::identity::{FileIdentity, files_read};
-use super::source::read_bytes;
-use super::{Diagnostic, InputError, RobotFile};
+use cplan_robot::{FileIdentity, InputError, RobotFile, files_read, read_bytes};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -38,7 +36,7 @@ impl Digests {
     }
 }
 
-fn digest(path: &Path) -> Result<String, Diagnostic> {
+fn digest(path: &Path) -> Result<String, InputError> {
     Ok(digest_of(&read_bytes(path)?))
 }
 

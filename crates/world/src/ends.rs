@@ -1,8 +1,8 @@
 //! Where a motion is to begin and to end, if that is said anywhere.
 
-use super::error::InputError;
 use super::{LoadedScene, Overrides};
 use cplan_core::model::Goal;
+use cplan_robot::InputError;
 
 impl LoadedScene {
     /// Start and goals, any of which will do: the command line's, else the world file's, else none. Whether they are free and within the limits is not

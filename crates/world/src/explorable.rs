@@ -1,9 +1,9 @@
 //! What an exploration is of: the start, and a goal if there is one.
 
-use super::error::{DiagnosticKind, InputError};
-use super::{LoadedScene, Overrides, RobotReport};
+use super::{LoadedScene, Overrides};
 use cplan_core::model::{Scene, Sensor};
 use cplan_core::space::{Configuration, GoalSet};
+use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 
 /// A world to explore and how it was read.
 #[derive(Debug, Clone)]

@@ -1,4 +1,4 @@
-//! Files and options to a planning problem or a task: URDF, world TOML, and errors that name the place and what to do about it.
+//! Files and options to a planning problem or a task: world TOML, maps, objects, steps, and anyone's trajectories.
 //!
 //! ```text
 //! .map, .yaml with .pgm or .png
@@ -12,19 +12,17 @@
 //! motion.json, .csv, .yaml ---> Recording
 //! ```
 //!
-//! [`load`] reads both files, finds the plane and the two joints, projects the geometry of all that each joint moves,
-//! decomposes polygons into convex pieces, and checks start and goal. Out comes a problem, or every diagnostic at once.
+//! [`load`] reads both files, has `cplan-robot` make the arm, decomposes polygons into convex pieces, and checks start and goal.
+//! Out comes a problem, or every diagnostic at once.
 //! [`load_recording`] makes a recording of anyone's motion, and of a result of a task its steps, too.
 
 mod course;
 mod help;
 mod digest;
 mod ends;
-mod error;
 mod explorable;
 mod group;
-mod identity;
-mod inspection;
+mod joint_pair;
 mod line_map;
 mod map_text;
 mod nearness;
@@ -33,99 +31,44 @@ mod object;
 mod obstacle;
 mod occupancy;
 mod pallet;
+mod parsers;
 mod polygon;
+mod reader;
 mod reasons;
 mod preference;
 mod preference_map;
 mod problem;
-mod quantity;
 mod query;
 mod requirement;
-mod robot_file;
 mod schema;
 mod sensor;
 mod sequence;
-mod source;
 mod start;
 mod step;
-mod stroke;
 mod suite;
 mod table;
 mod task;
 mod trajectory;
-mod urdf;
 mod values;
 mod world;
 mod world_map;
-mod wrist;
 
 pub use digest::Digests;
-pub use error::{Diagnostic, DiagnosticKind, InputError};
 pub use explorable::Explorable;
-pub use identity::{FileIdentity, read_from};
-pub use inspection::{
-    BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
-    RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry,
-};
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
-pub use quantity::Quantity;
 pub use query::Query;
-pub use robot_file::RobotFile;
-pub use schema::world_schema;
-pub use schema::{AngleOrLength, toml_schema};
-pub use source::{Position, Source};
+pub use schema::{toml_schema, world_schema};
 pub use suite::{Asked, LeftOut, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording, load_topic, read_recording};
 pub use values::{JointValues, Overrides, TipPoint};
-use world::RobotTable;
-pub use world::in_toml_words;
-pub use world::{LARGEST, World};
+pub use world::{World, in_toml_words};
 
-use cplan_core::model::{Arm, AssumedLimits, Goal, HeldJoint, MotionProblem, RobotJoints, Scene};
-use serde::{Deserialize, Serialize};
+use cplan_core::model::{Arm, Goal, MotionProblem, RobotJoints, Scene};
+use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::Path;
-
-/// What the user should know of how the robot was read.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RobotReport {
-    /// What is made of the robot: the plane, the tip, the outline of each link.
-    pub geometry: Vec<String>,
-    /// What was taken for granted: joints held still, defaults, outlines of what is not meant for it, things ignored.
-    pub notes: Vec<String>,
-    /// What may surprise: links that cannot collide, meshes that a bar stands in for.
-    pub warnings: Vec<String>,
-    /// Limits that nobody gives.
-    pub assumed: AssumedLimits,
-    /// Joints that could move but are held, and whose value matters to the arm: names and values, radians or metres.
-    pub held: Vec<(String, f64)>,
-    /// The same joints with what they would do if they moved.
-    #[serde(default)]
-    pub held_joints: Vec<HeldJoint>,
-    /// All joints that can move, for messages that name them.
-    pub joints: RobotJoints,
-    /// Why torques are not known, unless they are.
-    #[serde(default)]
-    pub no_dynamics: Option<String>,
-}
-
-impl RobotReport {
-    /// What may surprise and what is assumed, for programs that print no summary: lines that begin with `warning:` or `note:`.
-    #[must_use]
-    pub fn remarks(&self, arm: &Arm) -> Vec<String> {
-        let warnings = self.warnings.iter().map(|warning| format!("warning: {warning}"));
-        warnings.chain(self.assumptions(arm).iter().map(|assumption| format!("note: {assumption}"))).collect()
-    }
-
-    /// Limits of an arm that nobody gives, in words: the same wherever they matter.
-    #[must_use]
-    pub fn assumptions(&self, arm: &Arm) -> Vec<String> {
-        self.assumed.notes(arm.joints.each_ref().map(|joint| (joint.name.as_str(), joint.unit())))
-    }
-}
 
 /// Arm, obstacles and objects as the files have them, without start, goal and steps.
 #[derive(Debug, Clone)]
@@ -198,14 +141,6 @@ pub fn world_from(world: Source) -> Result<World, InputError> {
     world::read(world)
 }
 
-/// A file's content.
-///
-/// # Errors
-/// I/O, and a file larger than 256 MiB.
-pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
-    Ok(source::read_bytes(path)?)
-}
-
 impl LoadedScene {
     /// Start and (first) goal as the world gives them, whether or not anything is wrong with them.
     #[must_use]
@@ -234,7 +169,7 @@ impl LoadedScene {
 
 /// The arm in its world.
 fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
-    let (arm, mut robot) = urdf::load(urdf, &world)?;
+    let (arm, mut robot) = cplan_robot::load(urdf, world.robot_settings())?;
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
     }
@@ -261,8 +196,13 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
             World::silent()
         }
     };
-    let mut inspection =
-        Inspection { world: world.map(|p| p.display().to_string()), ..urdf::survey(&robot.into(), &file) };
+    let inspection = cplan_robot::survey(&robot.into(), file.robot_settings());
+    let in_world = |alone: Scene| Scene::trusted(standing(alone.arm(), &file), file.at_first());
+    let mut inspection = Inspection {
+        world: world.map(|p| p.display().to_string()),
+        scene: inspection.scene.map(in_world),
+        ..inspection
+    };
     if let Some(error) = unread {
         inspection.errors.insert(0, error);
     }
@@ -282,12 +222,6 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
         }
     }
     inspection
-}
-
-/// The meshes that a robot finds where it is, but not if its text were the file `other`.
-#[must_use]
-pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
-    urdf::meshes_elsewhere(robot, other)
 }
 
 /// Reads a planning problem: [`load_scene`], then [`LoadedScene::problem`].

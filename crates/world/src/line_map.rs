@@ -11,9 +11,9 @@
 //! DATA
 //! ```
 
-use super::error::InputError;
 use super::map_text::MapText;
 use cplan_geometry::Point;
+use cplan_robot::InputError;
 use std::collections::VecDeque;
 use std::path::Path;
 

@@ -1,8 +1,7 @@
 //! The text that line maps and preference files have in common: `2D-Map`, bounds, counted lists of numbers.
 
-use super::error::{Diagnostic, InputError};
-use super::source::Source;
 use cplan_geometry::Point;
+use cplan_robot::{Diagnostic, InputError, Source};
 use std::ops::Range;
 use std::path::Path;
 
@@ -30,7 +29,7 @@ impl MapText {
         let source = Source::read(path)?;
         let mut lines = Vec::new();
         let mut start = 0;
-        for line in source.text.split_inclusive('\n') {
+        for line in source.text().split_inclusive('\n') {
             let said = line.trim();
             if !said.is_empty() && !said.starts_with('#') {
                 let from = start + (line.len() - line.trim_start().len());
@@ -45,13 +44,13 @@ impl MapText {
 
     fn line(&self) -> Option<(&str, Range<usize>)> {
         let at = self.lines.get(self.next)?;
-        Some((&self.source.text[at.clone()], at.clone()))
+        Some((&self.source.text()[at.clone()], at.clone()))
     }
 
     /// The next line, which must be there.
     fn expected(&self, what: &str) -> Result<(&str, Range<usize>), Diagnostic> {
         self.line().ok_or_else(|| {
-            let end = self.source.text.trim_end().len();
+            let end = self.source.text().trim_end().len();
             let message = format!("the file ends where {what} should come");
             self.source.diagnostic_at(end..end, message).help("write what is missing, or export the map again")
         })
@@ -177,7 +176,7 @@ impl MapText {
 
     /// Exactly `N` finite numbers.
     fn parsed<const N: usize>(&self, at: Range<usize>, what: &str) -> Result<[f64; N], Diagnostic> {
-        let text = &self.source.text[at.clone()];
+        let text = &self.source.text()[at.clone()];
         let mut values = [0.0; N];
         let mut found = 0;
         for word in text.split_whitespace() {

@@ -1,15 +1,14 @@
 //! The world file's `[[object]]`.
 
 use super::course::CourseTable;
-use super::error::{Diagnostic, quoted};
 use super::obstacle::{CircleTable, circle};
 use super::pallet::Pallets;
 use super::polygon::{Ring, polygon};
-use super::quantity::Written;
-use super::schema::{AngleOrLength, HeldAs, NotNegative, Rings, Two};
-use super::world::{Number, Numbers, Reader};
+use super::reader::Reader;
+use super::schema::{NotNegative, Rings};
 use cplan_core::model::{Course, Holding, Mover, Object, Obstacle};
 use cplan_geometry::{Point, Pose};
+use cplan_robot::{AngleOrLength, Diagnostic, HeldAs, Number, Numbers, Two, Written, quoted};
 use nalgebra::{Isometry2, Translation2};
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -1,14 +1,13 @@
 //! The world file's `[[obstacle]]`.
 
 use super::course::CourseTable;
-use super::error::{Diagnostic, InputError};
 use super::occupancy::OccupancyMap;
 use super::polygon::{Ring, polygon, polyline};
-use super::quantity::Written;
-use super::schema::{AngleOrLength, Corners, Positive, Rings, Two, UnknownAs};
-use super::world::{Number, Numbers, Reader};
+use super::reader::Reader;
+use super::schema::{Corners, Rings, UnknownAs};
 use cplan_core::model::{Mover, Obstacle, Shape};
 use cplan_geometry::{Convex, Pose};
+use cplan_robot::{AngleOrLength, Diagnostic, InputError, Number, Numbers, Positive, Two, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -171,7 +170,7 @@ fn image(
 /// A disc.
 pub(super) fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Diagnostic> {
     let center = reader.point(&circle.center, &format!("{what}, center"))?;
-    let radius = reader.finite(&circle.radius, &format!("{what}, radius"))?;
+    let radius = reader.source.finite(&circle.radius, &format!("{what}, radius"))?;
     if radius <= 0.0 {
         let message = format!("{what}: the radius must be positive, is {radius}");
         return Err(reader

@@ -1,10 +1,8 @@
 //! The world file's `[[pallet]]`: places in rows and columns.
 
-use super::error::{Diagnostic, quoted};
-use super::quantity::Written;
-use super::schema::{AngleOrLength, Two};
-use super::world::{Numbers, Reader};
+use super::reader::Reader;
 use cplan_geometry::{Point, Pose};
+use cplan_robot::{AngleOrLength, Diagnostic, Numbers, Two, Written, quoted};
 use nalgebra::{Isometry2, Point2, Translation2};
 use schemars::JsonSchema;
 use serde::Deserialize;

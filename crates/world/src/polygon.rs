@@ -1,9 +1,9 @@
 //! Polygons and polylines of the world file, as people and exporters write them.
 
-use super::error::Diagnostic;
-use super::world::{Number, Reader};
+use super::reader::Reader;
 use cplan_core::model::Shape;
 use cplan_geometry::{Convex, Point, Polygon, Pose, RingError, SimplePolygon};
+use cplan_robot::{Diagnostic, Number};
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
@@ -181,7 +181,7 @@ fn point(reader: &Reader, given: &Ring, what: &str) -> Result<Point, Diagnostic>
         reader.source.diagnostic_at(given.span(), message).help("write a point as [x, y], metres")
     };
     let number = |coordinate: &Ring| match coordinate.get_ref() {
-        Coordinates::Number(value) => reader.finite(&Number::new(coordinate.span(), *value), what),
+        Coordinates::Number(value) => reader.source.finite(&Number::new(coordinate.span(), *value), what),
         Coordinates::List(_) => Err(wrong("a list".into())),
     };
     match given.get_ref() {

@@ -1,11 +1,11 @@
 //! The world file's `[[preference]]`.
 
-use super::error::Diagnostic;
 use super::polygon::{Ring, simple_polygon};
-use super::schema::{Corners, Two};
-use super::world::{Number, Numbers, Reader};
+use super::reader::Reader;
+use super::schema::Corners;
 use cplan_core::model::{Preference, Region};
 use cplan_geometry::SimplePolygon;
+use cplan_robot::{Diagnostic, Number, Numbers, Two};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -46,7 +46,7 @@ impl PreferenceTable {
         let given = table.get_ref();
         let name = given.name.clone().unwrap_or_else(|| format!("preference {}", index + 1));
         let what = format!("preference \"{name}\"");
-        let epsilon = reader.finite(&given.epsilon, &format!("{what}, epsilon"))?;
+        let epsilon = reader.source.finite(&given.epsilon, &format!("{what}, epsilon"))?;
         let direction = given.direction.as_ref().map(|d| direction(reader, d, &what)).transpose()?;
         let region = match (&given.configurations, &given.polygon) {
             (Some(corners), None) => Region::Configurations(configurations(reader, corners, &what)?),

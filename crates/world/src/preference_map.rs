@@ -13,9 +13,9 @@
 //! END
 //! ```
 
-use super::error::InputError;
 use super::map_text::MapText;
 use cplan_geometry::Point;
+use cplan_robot::InputError;
 use std::path::Path;
 
 /// A preference file in its own unit, by custom the millimetre.

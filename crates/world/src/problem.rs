@@ -1,6 +1,5 @@
 //! Start and goal: within the limits, free, and for a goal of the tip every IK solution that reaches it.
 
-use super::error::{Diagnostic, DiagnosticKind, InputError};
 use super::reasons::{
     HELP_FOR_LIMITS, beyond_limits, describe, describe_segment, help_at, help_for_ik_solutions, help_for_reach,
     obstructions, out_of_reach, within_limits,
@@ -9,6 +8,7 @@ use super::{Loaded, LoadedScene, Overrides};
 use cplan_core::model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::Point;
+use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::{first_lines, listed};
 use std::ops::Range;
 

@@ -1,9 +1,9 @@
 //! What is asked, also where start or goal is not free: for explaining why.
 
-use super::error::{DiagnosticKind, InputError};
-use super::{LoadedScene, Overrides, RobotReport};
+use super::{LoadedScene, Overrides};
 use cplan_core::model::{Goal, Scene};
 use cplan_core::space::Configuration;
+use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 
 /// Scene, start and goal, and how they were read.
 #[derive(Debug, Clone)]

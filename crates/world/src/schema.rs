@@ -1,11 +1,11 @@
 //! The JSON schema of world files, for editors: derived from the types that read them.
 
 use super::world::WorldFile;
+use cplan_robot::stands_for;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::{JsonSchema, Schema};
 use serde_json::Value;
-use std::borrow::Cow;
 
 /// The schema of the world file, JSON Schema draft 7 (what editors of TOML read). It has every key with its meaning and
 /// unit, and refuses unknown keys, missing ones and all but exactly one shape, region or kind of goal.
@@ -55,39 +55,6 @@ impl Transform for AsToml {
     }
 }
 
-/// Two numbers.
-pub(super) type Two = [f64; 2];
-
-/// A type that stands for what a field may hold.
-macro_rules! stands_for {
-    ($(#[$doc:meta])* $name:ident, $schema:tt) => {
-        $(#[$doc])*
-        pub struct $name;
-
-        impl JsonSchema for $name {
-            fn inline_schema() -> bool {
-                true
-            }
-
-            fn schema_name() -> Cow<'static, str> {
-                stringify!($name).into()
-            }
-
-            fn json_schema(_: &mut SchemaGenerator) -> Schema {
-                json_schema!($schema)
-            }
-        }
-    };
-}
-
-stands_for! {
-    /// A number above 0.
-    Positive, { "type": "number", "exclusiveMinimum": 0 }
-}
-stands_for! {
-    /// An angle or a length.
-    AngleOrLength, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *deg *$" }
-}
 stands_for! {
     /// A number of 0 or more.
     NotNegative, { "type": "number", "minimum": 0 }
@@ -123,10 +90,6 @@ stands_for! {
             }
         ]
     }
-}
-stands_for! {
-    /// How objects are held.
-    HeldAs, { "type": "string", "enum": ["rigid", "level"] }
 }
 stands_for! {
     /// What unknown cells of an image are.

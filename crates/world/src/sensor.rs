@@ -1,11 +1,10 @@
 //! The range sensor in the world file's `[sensor]`.
 
 use super::LoadedScene;
-use super::error::Diagnostic;
-use super::quantity::Written;
-use super::schema::{AngleOrLength, NotNegative, Positive, SensorOn};
-use super::world::{Number, Reader};
+use super::reader::Reader;
+use super::schema::{NotNegative, SensorOn};
 use cplan_core::model::{Mount, Sensor};
+use cplan_robot::{AngleOrLength, Diagnostic, Number, Positive, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::f64::consts::TAU;
@@ -83,7 +82,7 @@ impl SensorTable {
             }
         };
         let positive = |number: &Option<Number>, what: &str| {
-            let read = |number: &Number| match reader.finite(number, what)? {
+            let read = |number: &Number| match reader.source.finite(number, what)? {
                 value if value > 0.0 => Ok(value),
                 value => {
                     let message = format!("{what} must be positive, is {value}");
@@ -92,7 +91,7 @@ impl SensorTable {
             };
             number.as_ref().map(read).transpose()
         };
-        let step = |number: &Number| match reader.finite(number, "sensor step")? {
+        let step = |number: &Number| match reader.source.finite(number, "sensor step")? {
             value if value >= SHORTEST_STEP => Ok(value),
             value => {
                 let message = format!("sensor step must be at least {SHORTEST_STEP}, is {value}");

@@ -1,13 +1,13 @@
 //! Steps written out: repetitions one by one, and what is carried and where it lies after each of them.
 
-use super::error::Diagnostic;
 use super::group::{Body, Group, Leaf, LeafAction, Node, When};
 use super::object::{Movable, Names, Supports, rests_on_itself};
 
+use super::reader::Reader;
 use super::requirement::{Required, Requirement, Requirements};
-use super::world::Reader;
 use cplan_core::model::{Action, Goal, Holding, Item, Step};
 use cplan_geometry::Point;
+use cplan_robot::Diagnostic;
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 use std::ops::Range;

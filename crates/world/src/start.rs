@@ -1,12 +1,12 @@
 //! Where the arm is at first: joint values, or the only IK solution that puts the tip somewhere.
 
-use super::error::{Diagnostic, DiagnosticKind, InputError};
 use super::problem::Place;
 use super::reasons::{describe, help_for_ik_solutions, help_for_reach, obstructions, out_of_reach, within_limits};
 use super::{LoadedScene, Overrides};
 use cplan_core::model::{Goal, inverse};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
+use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::listed;
 
 /// Values beyond a limit by no more than this, radians or metres, are the limit: what is left of it after it was written

@@ -1,16 +1,15 @@
 //! The world file's `[[step]]` and `[task]`: which steps there are, and in which groups.
 
-use super::error::Diagnostic;
 use super::group::{Body, Group, Leaf, LeafAction, Node, When};
 use super::object::{Movable, NameList, Names};
 use super::pallet::Pallets;
-use super::quantity::Written;
-use super::schema::{AngleOrLength, DoneIn, NotNegative, Share, Two};
-use super::source::Cursor;
+use super::reader::Reader;
+use super::schema::{DoneIn, NotNegative, Share};
 use super::table::Table;
-use super::world::{GoalTable, Number, Numbers, Reader};
+use super::world::GoalTable;
 use cplan_core::model::{LATEST, Object};
 use cplan_geometry::Pose;
+use cplan_robot::{AngleOrLength, Cursor, Diagnostic, Number, Numbers, Two, Written};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -431,7 +430,7 @@ impl<'a> StepReader<'a> {
     fn pace(&self, default: Pace, speed: Option<&Number>, dwell: Option<&Number>) -> Result<Pace, Diagnostic> {
         let mut pace = default;
         if let Some(number) = speed {
-            pace.speed = self.reader.finite(number, "speed")?;
+            pace.speed = self.reader.source.finite(number, "speed")?;
             if !(pace.speed > 0.0 && pace.speed <= 1.0) {
                 let message = format!("speed must be more than 0 and at most 1, is {}", pace.speed);
                 let help = "it is a share of the joints' top speeds";

@@ -1,9 +1,8 @@
 //! Many problems: those that a manifest lists, or all worlds of a folder with one robot.
 
-use super::error::{Diagnostic, InputError};
-use super::source::Source;
 use super::world::in_toml_words;
 use super::{Loaded, LoadedScene, Overrides, RobotFile, load_scene};
+use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -101,7 +100,7 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
         return Err(Diagnostic::new(place.display().to_string(), message).help(help).into());
     }
     let source = Source::read(&manifest)?;
-    let file: ManifestFile = toml::from_str(&source.text).map_err(|error| {
+    let file: ManifestFile = toml::from_str(source.text()).map_err(|error| {
         let message = in_toml_words(error.message());
         match error.span() {
             Some(span) => source.diagnostic_at(span, message),

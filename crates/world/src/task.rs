@@ -1,12 +1,12 @@
 //! The steps of a world as a task for its arm.
 
-use super::error::{Diagnostic, DiagnosticKind, InputError};
 use super::reasons::{HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, help_for_reach, out_of_reach, within_limits};
 use super::requirement::{Required, Requirement};
-use super::{LoadedScene, Overrides, RobotReport, World};
+use super::{LoadedScene, Overrides, World};
 use cplan_core::model::{Payload, Scene, Stroke, Task, Workspace, inverse};
 use cplan_core::space::{Configuration, JointRange};
 use cplan_geometry::Point;
+use cplan_robot::{Diagnostic, DiagnosticKind, InputError, RobotReport};
 use cplan_text::listed;
 
 /// A task and how it was read.

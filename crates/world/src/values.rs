@@ -1,11 +1,10 @@
 //! Joint values and points given on the command line.
 
 use super::LoadedScene;
-use super::error::{Diagnostic, InputError};
-use super::world::LARGEST;
 use cplan_core::model::{Joint, SceneError};
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
+use cplan_robot::{Diagnostic, InputError, LARGEST};
 use std::str::FromStr;
 
 /// What the command line says over the world file.

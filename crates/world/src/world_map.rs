@@ -1,13 +1,12 @@
 //! The world file's `[map]`: a line map and a preference file, brought to metres.
 
-use super::error::InputError;
 use super::line_map::LineMap;
 use super::obstacle::MOST_PIECES;
 use super::preference_map::{PreferenceMap, PreferenceRectangle};
-use super::schema::{Positive, Two};
-use super::world::{LARGEST, Number, Numbers, Reader};
+use super::reader::Reader;
 use cplan_core::model::{Goal, Obstacle, Preference, Region, Shape};
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector};
+use cplan_robot::{InputError, LARGEST, Number, Numbers, Positive, Two};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
@@ -127,7 +126,7 @@ fn stem(path: &Path) -> String {
 
 /// Metres a unit.
 fn scale(reader: &Reader, number: &Number) -> Result<f64, InputError> {
-    let scale = reader.finite(number, "map scale")?;
+    let scale = reader.source.finite(number, "map scale")?;
     if scale > 0.0 {
         return Ok(scale);
     }

@@ -15,7 +15,8 @@ use cplan_core::space::Recording;
 use cplan_motion::recorded::{
     ENDS_WITHIN, check_collision, check_collision_with, claims_kept, ends_kept, limits_kept, replay, torques_kept,
 };
-use cplan_world::{InputError, LoadedRecording, LoadedScene, LoadedTask, Overrides};
+use cplan_robot::InputError;
+use cplan_world::{LoadedRecording, LoadedScene, LoadedTask, Overrides};
 
 /// Judges what was recorded: a motion from the world's start to its goal, or those of `overrides`; `anywhere` it may begin and end
 /// where it does. A recording with steps is judged as the world's task.

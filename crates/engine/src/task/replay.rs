@@ -69,7 +69,8 @@ impl MotionReplay {
 mod tests {
     use super::*;
     use crate::{Plan, Problem, Verdict, plan};
-    use cplan_world::{Overrides, Source, scene_from};
+    use cplan_robot::Source;
+    use cplan_world::{Overrides, scene_from};
 
     fn planned(urdf: &str, world: &str, options: &Options) -> Plan {
         let read = |file: &str| {

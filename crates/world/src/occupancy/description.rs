@@ -2,9 +2,8 @@
 
 use super::Occupancy;
 use super::picture::Shade;
-use crate::error::{Diagnostic, quoted};
-use crate::source::Source;
-use crate::world::LARGEST;
+use crate::parsers::yaml_diagnostic;
+use cplan_robot::{Diagnostic, LARGEST, Source, quoted};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_saphyr::Spanned;
@@ -52,12 +51,11 @@ pub(super) struct Description {
 
 impl Description {
     pub fn read(source: &Source) -> Result<Self, Diagnostic> {
-        let file: File = serde_saphyr::from_str(&source.text).map_err(|error| {
-            source
-                .yaml_diagnostic(&error)
+        let file: File = serde_saphyr::from_str(source.text()).map_err(|error| {
+            yaml_diagnostic(source, &error)
                 .help("a map of ROS's map server needs image, resolution, origin, negate, occupied_thresh, free_thresh")
         })?;
-        let keys: BTreeMap<String, IgnoredAny> = serde_saphyr::from_str(&source.text).unwrap_or_default();
+        let keys: BTreeMap<String, IgnoredAny> = serde_saphyr::from_str(source.text()).unwrap_or_default();
         let unused = keys.into_keys().filter(|key| !KEYS.contains(&key.as_str())).collect();
         let resolution = file.resolution.value;
         if !(resolution > 0.0 && resolution <= LARGEST) {

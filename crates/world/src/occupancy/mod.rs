@@ -17,10 +17,8 @@ mod rectangles;
 
 pub use rectangles::{PixelRectangle, rectangles};
 
-use super::error::{Diagnostic, InputError};
-use super::source::{Source, read_bounded};
-use super::world::LARGEST;
 use cplan_geometry::{Convex, Point, Pose};
+use cplan_robot::{Diagnostic, InputError, LARGEST, Source, read_bounded};
 use description::Description;
 use nalgebra::{Isometry2, Vector2};
 use picture::Broken;

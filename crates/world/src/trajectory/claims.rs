@@ -1,9 +1,9 @@
 //! What a result of cplan's says besides its samples.
 
-use crate::error::{Diagnostic, InputError, without_place};
-use crate::source::Source;
+use crate::parsers::json_diagnostic;
 use cplan_core::model::{BlendsClaim, Claims, EventClaim, OptimumClaim, StepClaims, TaskClaims};
 use cplan_core::space::Configuration;
+use cplan_robot::{Diagnostic, InputError, Source};
 use serde::{Deserialize, Deserializer};
 
 /// Numbers beyond this are a mistake.
@@ -107,10 +107,7 @@ fn said<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Resu
 /// # Errors
 /// Members that are none: of another type, numbers that are too large, or paths of other joints.
 pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, InputError> {
-    let wrong = |error: serde_json::Error| {
-        let message = without_place(&error.to_string());
-        source.diagnostic_at_position(error.line(), error.column(), message).help("verify a result as cplan writes it")
-    };
+    let wrong = |error: serde_json::Error| json_diagnostic(source, &error).help("verify a result as cplan writes it");
     let members: serde_json::Map<String, serde_json::Value> = serde_json::from_str(source.text()).map_err(wrong)?;
     if !members.contains_key("status") {
         return Ok(None);

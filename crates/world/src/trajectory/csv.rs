@@ -5,13 +5,12 @@ use super::columns::{Meaning, Quantity, meanings};
 use super::records::{Field, Records};
 use super::units::{self, Dimension, Unit};
 use super::{Names, Samples, Series};
-use crate::error::{Diagnostic, InputError, quoted};
-use crate::source::Source;
+use cplan_robot::{Diagnostic, InputError, Source, quoted};
 
 /// Reads a table. See [`super::load_recording`] for the names of columns.
 pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError> {
-    let separator = separator(&source.text, names);
-    let mut records = Records::new(&source.text, separator);
+    let separator = separator(source.text(), names);
+    let mut records = Records::new(source.text(), separator);
     // A comment may be the header.
     let header = records.find(|record| !is_comment(record) || names_joints(record, names));
     let header = header.ok_or_else(|| {

@@ -1,9 +1,9 @@
 //! Joint values as a structured document: cplan's JSON, or a ROS 2 message in YAML or JSON.
 
 use super::{Samples, Series};
-use crate::error::{Diagnostic, InputError, without_place};
-use crate::source::Source;
+use crate::parsers::{json_diagnostic, yaml_diagnostic};
 use cplan_core::space::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
+use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
@@ -73,14 +73,13 @@ impl Stamp {
 pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
     let help = "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
     // A list would be taken for the members of an object in their order.
-    let begins = source.text.len() - source.text.trim_start().len();
-    if source.text[begins..].starts_with('[') {
+    let begins = source.text().len() - source.text().trim_start().len();
+    if source.text()[begins..].starts_with('[') {
         let message = "is a list: an object { ... } is expected";
         return Err(source.diagnostic_at(begins..begins + 1, message).help(help).into());
     }
-    let document: Document = serde_json::from_str(&source.text).map_err(|error| {
-        source.diagnostic_at_position(error.line(), error.column(), without_place(&error.to_string())).help(help)
-    })?;
+    let document: Document =
+        serde_json::from_str(source.text()).map_err(|error| json_diagnostic(source, &error).help(help))?;
     Ok(samples(source, document)?)
 }
 
@@ -89,16 +88,16 @@ pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
     let mut options = serde_saphyr::Options::default();
     // The file is in memory already, and its size is bounded: so are the events and nodes that it can make.
     if let Some(budget) = &mut options.budget {
-        budget.max_events = source.text.len().max(budget.max_events);
-        budget.max_nodes = source.text.len().max(budget.max_nodes);
-        budget.max_total_scalar_bytes = source.text.len().max(budget.max_total_scalar_bytes);
+        budget.max_events = source.text().len().max(budget.max_events);
+        budget.max_nodes = source.text().len().max(budget.max_nodes);
+        budget.max_total_scalar_bytes = source.text().len().max(budget.max_total_scalar_bytes);
     }
     // `ros2 topic echo` ends a message with a line of three dashes.
-    let text = source.text.trim_end();
+    let text = source.text().trim_end();
     let text = text.strip_suffix("\n---").unwrap_or(text);
     let document: Document = serde_saphyr::from_str_with_options(text, options).map_err(|error| {
         let help = "one trajectory_msgs/msg/JointTrajectory is expected, with joint_names and points";
-        source.yaml_diagnostic(&error).help(help)
+        yaml_diagnostic(source, &error).help(help)
     })?;
     Ok(samples(source, document)?)
 }

@@ -15,10 +15,9 @@ mod steps;
 mod units;
 
 use super::LoadedScene;
-use super::error::{Diagnostic, InputError, quoted};
-use super::source::Source;
 use cplan_core::model::{Claims, HeldJoint, HeldMotion, JointType, RecordedStep};
 use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
+use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
@@ -122,7 +121,7 @@ fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedR
 /// As for [`load_recording`].
 pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let names = Names::of(scene);
-    let extension = source.path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let extension = source.path().extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let (samples, steps, claims) = match extension.as_deref() {
         Some("csv") => (csv::read(source, &names)?, None, None),
         Some("yaml" | "yml") => (document::yaml(source)?, None, None),
@@ -138,7 +137,7 @@ pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedReco
 /// A recording of topics.
 #[cfg(feature = "mcap")]
 fn recorded(path: &Path, topic: Option<&str>, names: &Names) -> Result<LoadedRecording, InputError> {
-    let bytes = super::source::read_recorded(path)?;
+    let bytes = cplan_robot::read_recorded(path)?;
     let source = Source::in_memory(path, "");
     Ok(names.recording(&source, mcap::read(&source, &bytes, topic, names)?)?)
 }

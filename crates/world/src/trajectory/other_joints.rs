@@ -1,10 +1,9 @@
 //! What a recording says of joints beside the arm's two.
 
 use super::{Names, Samples, Series, misplaced};
-use crate::error::Diagnostic;
-use crate::source::Source;
 use cplan_core::model::{HeldEffect, HeldJoint, HeldMotion, OutlineSource, Scene};
 use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
+use cplan_robot::{Diagnostic, Source};
 
 /// By how much a held joint's recorded value may differ from the value that it is held at, radians or metres: more than
 /// a controller's jitter or six printed digits, less than what could matter to a collision.

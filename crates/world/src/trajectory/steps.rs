@@ -1,9 +1,9 @@
 //! The steps in a result of a task.
 
 use super::Samples;
-use crate::error::{Diagnostic, InputError, without_place};
-use crate::source::Source;
+use crate::parsers::json_diagnostic;
 use cplan_core::model::{RecordedStep, RecordedTurn};
+use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 
 /// Angles and seconds beyond this are a mistake, as they are in recordings; doubles near it still resolve a nanoradian.
@@ -38,9 +38,9 @@ struct TurnMember {
 /// Steps that are none: members that are missing or no numbers, samples that the file does not have, and steps beside
 /// samples without times and velocities.
 pub(super) fn json(source: &Source, samples: &Samples) -> Result<Option<Vec<RecordedStep>>, InputError> {
-    let document: Document = serde_json::from_str(&source.text).map_err(|error| {
+    let document: Document = serde_json::from_str(source.text()).map_err(|error| {
         let help = "steps are those of a task's result as cplan writes it: step, cycle, first_sample and last_sample";
-        source.diagnostic_at_position(error.line(), error.column(), without_place(&error.to_string())).help(help)
+        json_diagnostic(source, &error).help(help)
     })?;
     let Some(steps) = document.steps else { return Ok(None) };
     let count = samples.joints.first().map_or(0, |joint| joint.position.len());

@@ -6,9 +6,8 @@ mod message;
 mod topics;
 
 use super::{Names, Samples, Series};
-use crate::error::{Diagnostic, InputError, quoted};
-use crate::source::Source;
 use cplan_core::space::Interpolation;
+use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use message::{Kind, Message, Row};
 use topics::Topic;
 

@@ -2,8 +2,7 @@
 
 use super::file::each_message;
 use super::message::{Kind, Message};
-use crate::error::{Diagnostic, quoted};
-use crate::source::Source;
+use cplan_robot::{Diagnostic, Source, quoted};
 use mcap::{McapError, McapResult};
 use std::collections::BTreeMap;
 use std::rc::Rc;

@@ -1,0 +1,161 @@
+//! Errors in what the user wrote: where, what, and what to do about it.
+
+use super::source::Position;
+use cplan_text::{plain, plain_line};
+use std::fmt;
+use thiserror::Error;
+
+/// What a diagnostic is about, for scripts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DiagnosticKind {
+    /// A file or an option.
+    #[default]
+    Input,
+    /// The start: missing, outside the limits, or not free.
+    Start,
+    /// The goal: missing, outside the limits, out of reach, or not free.
+    Goal,
+}
+
+/// One thing that is wrong with the input.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// The file, or the command-line option, that it is in.
+    pub origin: String,
+    /// Where in the file, if that is known.
+    pub position: Option<Position>,
+    /// The line of the file with a caret below the place.
+    pub excerpt: Option<Box<str>>,
+    /// What is wrong, naming the joint, link or obstacle.
+    pub message: String,
+    /// What to do about it; each diagnostic that reaches the user has one.
+    pub help: Option<String>,
+    /// What it is about.
+    pub kind: DiagnosticKind,
+}
+
+impl Diagnostic {
+    /// A diagnostic of a whole file or option.
+    #[must_use]
+    pub fn new(origin: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            origin: origin.into(),
+            position: None,
+            excerpt: None,
+            message: message.into(),
+            help: None,
+            kind: DiagnosticKind::Input,
+        }
+    }
+
+    /// The same with help.
+    #[must_use]
+    pub fn help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
+    }
+
+    /// The same about something else.
+    #[must_use]
+    pub fn about(self, kind: DiagnosticKind) -> Self {
+        Self { kind, ..self }
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", plain_line(&self.origin))?;
+        if let Some(Position { line, column }) = self.position {
+            write!(f, ": line {line}, column {column}")?;
+        }
+        write!(f, ": {}", plain_line(&self.message))?;
+        if let Some(excerpt) = &self.excerpt {
+            write!(f, "\n{excerpt}")?;
+        }
+        if let Some(help) = &self.help {
+            write!(f, "\n  cure: {}", plain(help))?;
+        }
+        Ok(())
+    }
+}
+
+/// Input that cannot be used. Displays every diagnostic with its file, line and column, the source line, and what to do about it.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}", listed(.diagnostics))]
+pub struct InputError {
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl InputError {
+    /// What is wrong: at least one diagnostic, in the order of the file where that makes sense.
+    #[must_use]
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+
+    /// The same for a command that has an option under another name.
+    pub fn with_option(mut self, name: &str, called: &str) -> Self {
+        for Diagnostic { origin, message, help, .. } in &mut self.diagnostics {
+            [Some(origin), Some(message), help.as_mut()]
+                .into_iter()
+                .flatten()
+                .for_each(|text| *text = text.replace(name, called));
+        }
+        self
+    }
+
+    /// The same about something else.
+    #[must_use]
+    pub fn about(self, kind: DiagnosticKind) -> Self {
+        Self { diagnostics: self.diagnostics.into_iter().map(|diagnostic| diagnostic.about(kind)).collect() }
+    }
+
+    /// Makes an error of these diagnostics. There must be at least one, and each needs help.
+    #[must_use]
+    pub fn of(diagnostics: Vec<Diagnostic>) -> Self {
+        debug_assert!(!diagnostics.is_empty(), "an error without a diagnostic");
+        debug_assert!(
+            diagnostics.iter().all(|diagnostic| diagnostic.help.is_some()),
+            "a diagnostic without help: {diagnostics:?}"
+        );
+        Self { diagnostics }
+    }
+
+    /// Returns `Ok` when there are no diagnostics.
+    ///
+    /// # Errors
+    /// All of them.
+    pub fn check(diagnostics: Vec<Diagnostic>) -> Result<(), Self> {
+        if diagnostics.is_empty() { Ok(()) } else { Err(Self::of(diagnostics)) }
+    }
+}
+
+impl From<Diagnostic> for InputError {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self::of(vec![diagnostic])
+    }
+}
+
+/// More diagnostics than this are counted, not shown: the first ones usually cause the rest.
+const SHOWN: usize = 8;
+
+fn listed(diagnostics: &[Diagnostic]) -> String {
+    let mut lines: Vec<String> = diagnostics.iter().take(SHOWN).map(ToString::to_string).collect();
+    if diagnostics.len() > SHOWN {
+        lines.push(format!("... and {} more", diagnostics.len() - SHOWN));
+    }
+    lines.join("\n")
+}
+
+/// More names than this are counted, not listed: nobody reads them, and each diagnostic may have its own list.
+const NAMED: usize = 64;
+
+/// Writes names in quotes, separated by commas, for messages.
+pub fn quoted<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> String {
+    let mut all = names.into_iter();
+    let mut names: Vec<String> = all.by_ref().take(NAMED).map(|n| format!("\"{}\"", n.as_ref())).collect();
+    let more = all.count();
+    if more > 0 {
+        names.push(format!("... and {more} more"));
+    }
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}

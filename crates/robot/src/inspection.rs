@@ -1,0 +1,276 @@
+//! What there is to say of a robot, whether it can be planned with or not.
+
+use super::error::InputError;
+use cplan_core::model::{OutlineSource, Scene};
+use cplan_geometry::Point;
+use nalgebra::Vector3;
+use serde::Serialize;
+
+/// The report on a robot. What could not be found out for the diagnostics of the file is empty or none.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Inspection {
+    /// The path of the URDF, as it was given.
+    pub urdf: String,
+    /// The world file, if one was given.
+    pub world: Option<String>,
+    /// The robot's name.
+    pub robot: Option<String>,
+    /// The link that everything hangs from; none if the links form no tree.
+    pub root: Option<String>,
+    /// In the order of the file.
+    pub links: Vec<LinkEntry>,
+    /// In the order of the file.
+    pub joints: Vec<JointEntry>,
+    /// Every two joints of a chain that move on their own, and whether they form a planar arm; base first.
+    pub pairs: Vec<PairEntry>,
+    /// The two joints that the rest of the report is about, base to tip.
+    pub chosen: Option<[String; 2]>,
+    /// Whether nobody chose them: they are the first pair of joints that forms a planar arm.
+    pub assumed: bool,
+    /// Link whose origin is the tip.
+    pub tip: Option<String>,
+    /// The plane of motion.
+    pub plane: Option<PlaneEntry>,
+    /// Outlines of the two links, if they could be made.
+    pub outlines: Vec<OutlineEntry>,
+    /// Links of the robot that its other links can hit.
+    pub self_obstacles: Vec<SelfObstacleEntry>,
+    /// How far the arm reaches.
+    pub reach: Option<ReachEntry>,
+    /// What was not taken into account, and why.
+    pub ignored: Vec<String>,
+    /// What may surprise.
+    pub warnings: Vec<String>,
+    /// A `[robot]` table for the world file with which the robot loads, where that is all that is missing. Ranges, speeds
+    /// and radii in it are placeholders.
+    #[serde(rename = "remedy")]
+    pub help: Option<String>,
+    /// What prevents planning, in the order of the stages; the first is what planning would report.
+    #[serde(skip)]
+    pub errors: Vec<InputError>,
+    /// The arm among the world's obstacles, for a picture: ranges and outlines that are missing are stood in for.
+    #[serde(skip)]
+    pub scene: Option<Scene>,
+    /// Frames of the two joints' links and of the tip's link at the zero configuration.
+    #[serde(skip)]
+    pub frames: Vec<Frame>,
+}
+
+impl Inspection {
+    /// Whether the robot can be planned with as it is.
+    #[must_use]
+    pub fn is_plannable(&self) -> bool {
+        self.errors.is_empty()
+    }
+}
+
+/// A URDF link.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LinkEntry {
+    /// The link's name in the URDF.
+    pub name: String,
+    /// The joint above it; none for the root.
+    pub above: Option<String>,
+    /// Number of collision shapes.
+    pub collision: usize,
+    /// Number of visual shapes.
+    pub visual: usize,
+}
+
+/// What a joint is to the arm.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// One of the two.
+    Moves,
+    /// On the chain or carried by it, and held still.
+    Held,
+    /// Carried by the arm and held where its mimic puts it.
+    Follows,
+    /// Can move, but the arm does not depend on it.
+    Ignored,
+    /// Of type fixed, or another that has no single value.
+    Rigid,
+    /// Not known: no two joints could be chosen.
+    Undecided,
+}
+
+/// A URDF joint.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointEntry {
+    /// The joint's name in the URDF.
+    pub name: String,
+    /// Its type in the file's words.
+    #[serde(rename = "type")]
+    pub kind: String,
+    /// Line of the URDF.
+    pub line: usize,
+    /// The link that carries the joint.
+    pub parent: String,
+    /// The link that the joint carries.
+    pub child: String,
+    /// Of a joint that can move: its axis in its own frame, of unit length.
+    pub axis: Option<[f64; 3]>,
+    /// The same in the root frame, the chosen joints at zero and the others where they are held.
+    pub direction: Option<[f64; 3]>,
+    /// The joint that it mimics.
+    pub mimics: Option<String>,
+    /// What it is to the arm.
+    pub role: Role,
+    /// Where it stands in the arm's zero configuration, radians or metres; none for rigid joints.
+    pub value: Option<f64>,
+    /// Of a joint that can move: its range.
+    pub limits: Option<LimitEntry>,
+    /// Of a joint that can move: its top speed, per second; none if it has none.
+    pub velocity: Option<RateEntry>,
+    /// Of a joint that can move and has a top speed: its acceleration, per second squared.
+    pub acceleration: Option<RateEntry>,
+    /// Of a joint that can move and has a limit of it: its jerk, per second cubed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jerk: Option<RateEntry>,
+}
+
+/// Where a range comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LimitSource {
+    /// The URDF's `<limit>`.
+    Urdf,
+    /// The URDF's `<limit>`, narrowed by the soft limits of the `<safety_controller>`.
+    Soft,
+    /// `[robot] limits` of the world file.
+    World,
+    /// The joint turns without end.
+    Continuous,
+    /// There is none that could be planned in.
+    Unset,
+}
+
+/// A joint's range, radians or metres.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LimitEntry {
+    /// Where it comes from.
+    pub source: LimitSource,
+    /// Both ends; none if it is continuous or unset.
+    pub range: Option<[f64; 2]>,
+}
+
+/// Where a rate comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RateSource {
+    /// The URDF's `<limit>`.
+    Urdf,
+    /// The world file.
+    World,
+    /// Nobody says; taken in proportion to the top speed.
+    Default,
+}
+
+/// A top speed, acceleration or jerk.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RateEntry {
+    /// Per second, per second squared or cubed; radians or metres.
+    pub value: f64,
+    /// Where it comes from.
+    pub source: RateSource,
+}
+
+/// Two joints of one chain.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairEntry {
+    /// Base to tip.
+    pub joints: [String; 2],
+    /// `RR`, `RP`, `PR` or `PP`.
+    pub kind: String,
+    /// Whether they form a planar arm.
+    pub planar: bool,
+    /// The plane if they do, else why not.
+    pub reason: String,
+}
+
+/// The plane of motion, in the root frame.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlaneEntry {
+    /// First coordinate's direction.
+    pub u: [f64; 3],
+    /// Second coordinate's direction.
+    pub v: [f64; 3],
+    /// Direction of heights.
+    pub normal: [f64; 3],
+    /// The same in words.
+    pub words: String,
+}
+
+/// A link's outline.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OutlineEntry {
+    /// The link that the joint carries.
+    pub link: String,
+    /// `collision`, `visual`, `bar` or `none`.
+    pub source: &'static str,
+    /// Number of convex parts.
+    pub parts: usize,
+    /// Sum of the parts' areas, square metres; what two parts share counts twice.
+    pub area: f64,
+    /// Extent along the plane's normal, metres; none without parts.
+    pub heights: Option<[f64; 2]>,
+    /// The URDF links that the parts belong to.
+    pub bodies: Vec<BodyEntry>,
+}
+
+/// What a URDF link gives to an outline.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BodyEntry {
+    /// The URDF link.
+    pub link: String,
+    /// Number of convex parts.
+    pub parts: usize,
+    /// Sum of their areas, square metres.
+    pub area: f64,
+}
+
+/// A link of the robot, or a layer of it, that links further along the chain can hit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SelfObstacleEntry {
+    /// The URDF link.
+    pub link: String,
+    /// Whether joint 1 carries it; else it stands still.
+    pub moves: bool,
+    /// Extent along the plane's normal, metres.
+    pub heights: [f64; 2],
+    /// URDF links further along the chain that are free to meet it.
+    pub ignored: Vec<String>,
+}
+
+/// How far the arm reaches.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReachEntry {
+    /// The tip at the zero configuration, plane coordinates, metres.
+    pub tip: [f64; 2],
+    /// Least and greatest distance of the tip from joint 1 whatever the limits, if both joints turn; metres.
+    pub distances: Option<[f64; 2]>,
+    /// Bound on the distance of any part of the arm from joint 1 with sliding joints at zero, metres.
+    pub outline: f64,
+}
+
+/// A frame as the plane sees it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Of the joint, or of the tip's link.
+    pub name: String,
+    /// Origin, plane coordinates.
+    pub at: Point,
+    /// Directions of x, y and z: along `u`, `v` and the normal.
+    pub axes: [Vector3<f64>; 3],
+}
+
+/// The word for an outline's source.
+pub(crate) fn source_name(source: OutlineSource) -> &'static str {
+    match source {
+        OutlineSource::Collision => "collision",
+        OutlineSource::Visual => "visual",
+        OutlineSource::Bar => "bar",
+        OutlineSource::None => "none",
+    }
+}

@@ -1,0 +1,43 @@
+//! The reader of a robot: URDF or xacro to a planar two-joint arm, and errors with file, line and what to do about it.
+//!
+//! ```text
+//! arm.xacro --> RobotFile --> Source (URDF text) --+--> load -----> Arm, RobotReport
+//!                                                  |
+//! [robot] of a world file --> RobotSettings -------+--> survey ---> Inspection
+//! ```
+//!
+//! [`load`] stops at the first stage that fails; [`survey`] reports all stages. The other readers use the same errors
+//! ([`InputError`], [`Diagnostic`]), files ([`Source`]) and numbers ([`Quantity`]).
+//!
+//! To read the code: `error` and `source`, then `robot_table` and `quantity`, then `urdf`, whose first page lists the stages.
+
+mod error;
+mod identity;
+mod inspection;
+mod quantity;
+mod report;
+mod robot_file;
+mod robot_table;
+mod schema;
+mod settings;
+mod source;
+mod stroke;
+mod urdf;
+mod wrist;
+
+pub use error::{Diagnostic, DiagnosticKind, InputError, quoted};
+pub use identity::{FileIdentity, files_read, read_from};
+pub use inspection::{
+    BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
+    RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry,
+};
+pub use quantity::{LARGEST, Number, Numbers, PerJoint, Quantity, Written};
+pub use report::RobotReport;
+pub use robot_file::RobotFile;
+pub use robot_table::RobotTable;
+pub use schema::{AngleOrLength, HeldAs, Positive, Two};
+pub use settings::RobotSettings;
+pub use source::{Cursor, Position, Source, read_bounded, read_bytes, read_recorded};
+pub use stroke::StrokeTable;
+pub use urdf::{load, meshes_elsewhere, survey};
+pub use wrist::WristTable;

@@ -1,0 +1,87 @@
+//! Numbers, and values of joints and angles, as the world file has them: `0.5`, or `"30deg"`.
+
+use super::error::Diagnostic;
+use super::source::Source;
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::collections::BTreeMap;
+use std::fmt;
+use toml::Spanned;
+
+/// A joint's value or an angle: in radians or metres, whether it was written so or in degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quantity {
+    /// Radians or metres.
+    pub value: f64,
+    /// Written in degrees, so that it is no length.
+    pub in_degrees: bool,
+}
+
+/// A value and where it stands.
+pub type Written = Spanned<Quantity>;
+
+/// A number and where it stands.
+pub type Number = Spanned<f64>;
+
+/// Several numbers, and where they and each of them stand.
+pub type Numbers = Spanned<Vec<Number>>;
+
+/// Values by joint name, with the place of both.
+pub type PerJoint<T> = BTreeMap<Spanned<String>, T>;
+
+/// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
+/// that large.
+pub const LARGEST: f64 = 1e6;
+
+impl<'de> Deserialize<'de> for Quantity {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(QuantityVisitor)
+    }
+}
+
+struct QuantityVisitor;
+
+impl Visitor<'_> for QuantityVisitor {
+    type Value = Quantity;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a number, or an angle such as \"30deg\"")
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Quantity, E> {
+        Ok(Quantity { value, in_degrees: false })
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Quantity, E> {
+        Ok(Quantity { value: value as f64, in_degrees: false })
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Quantity, E> {
+        let wrong = || E::custom(format!("expected a number, or an angle such as \"30deg\", found \"{text}\""));
+        let degrees = text.trim().strip_suffix("deg").ok_or_else(wrong)?;
+        let degrees: f64 = degrees.trim_end().parse().map_err(|_| wrong())?;
+        Ok(Quantity { value: degrees.to_radians(), in_degrees: true })
+    }
+}
+
+impl Source {
+    /// Returns the value of a number of this file; `what` names it in the message.
+    ///
+    /// # Errors
+    /// When it is not finite, or beyond [`LARGEST`].
+    pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
+        let value = *number.get_ref();
+        if !value.is_finite() {
+            let diagnostic = self.diagnostic_at(number.span(), format!("{what}: {value} is not a finite number"));
+            return Err(diagnostic.help("write a number"));
+        }
+        if value.abs() > LARGEST {
+            let message = format!("{what}: {value} is too large (at most {LARGEST:e})");
+            let help = format!(
+                "lengths are in metres, angles in radians, from -{LARGEST:e} to {LARGEST:e}: put the origin of all coordinates near the arm"
+            );
+            return Err(self.diagnostic_at(number.span(), message).help(help));
+        }
+        Ok(value)
+    }
+}

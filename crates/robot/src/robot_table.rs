@@ -1,0 +1,95 @@
+//! The world file's `[robot]` table.
+
+use crate::quantity::{Number, Numbers, PerJoint, Written};
+use crate::schema::{AngleOrLength, HeldAs, Positive, Two};
+use crate::stroke::StrokeTable;
+use crate::wrist::WristTable;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Spanned;
+
+/// What the URDF leaves open, and what goes over it. All keys are optional.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "robot")]
+pub struct RobotTable {
+    /// Where the robot stands: the place of its root frame's origin in the world, m; by default [0, 0].
+    #[schemars(with = "Option<Two>")]
+    pub at: Option<Numbers>,
+    /// How its root frame is turned, rad; by default 0.
+    #[schemars(with = "Option<AngleOrLength>")]
+    pub angle: Option<Written>,
+    /// The two joints that move, from the base to the tip; needed only if the URDF has more than two that can.
+    #[schemars(with = "Option<[String; 2]>")]
+    pub joints: Option<Spanned<Vec<Spanned<String>>>>,
+    /// Link whose origin is the tip; by default the end of the chain.
+    #[schemars(with = "Option<String>")]
+    pub tip: Option<Spanned<String>>,
+    /// Values of the other movable joints, by name, rad or m; by default 0, clamped into their limits.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, AngleOrLength>")]
+    pub fixed: PerJoint<Written>,
+    /// Least and greatest value of a joint, by name, rad or m, in place of the URDF's.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, [AngleOrLength; 2]>")]
+    pub limits: PerJoint<Spanned<Vec<Written>>>,
+    /// Top speed of a joint, by name, rad/s or m/s, in place of the URDF's.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
+    pub velocity: PerJoint<Number>,
+    /// Greatest acceleration of a joint, by name, rad/s2 or m/s2; by default top speed is reached in 0.25 s.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
+    pub acceleration: PerJoint<Number>,
+    /// Greatest jerk of a joint, by name, rad/s3 or m/s3; a joint without has no such limit.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
+    pub jerk: PerJoint<Number>,
+    /// Greatest torque or force of a joint, by name, N m or N, in place of the URDF's.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
+    pub effort: PerJoint<Number>,
+    /// Whether motions keep within the joints' efforts, by the masses that the URDF gives.
+    #[serde(default)]
+    pub dynamics: bool,
+    /// Acceleration of free fall in the robot's root frame, m/s2; by default [0, 0, -9.81].
+    #[schemars(with = "Option<[f64; 3]>")]
+    pub gravity: Option<Numbers>,
+    /// Whether links of the robot are in the way of its other links; by default true.
+    pub(crate) own_body: Option<bool>,
+    /// Pairs of the robot's links that may touch each other.
+    #[schemars(with = "Option<Vec<[String; 2]>>")]
+    pub ignore_contact: Option<Vec<Spanned<Vec<Spanned<String>>>>>,
+    /// Radius of the capsule that stands in for a link without geometry, m.
+    #[schemars(with = "Option<Positive>")]
+    pub bar: Option<Number>,
+    /// The wrist that keeps or turns what is carried with payload "level".
+    pub wrist: Option<WristTable>,
+    /// How the tool is lowered and raised at picks and places; by default it is not.
+    #[schemars(with = "Option<StrokeTable>")]
+    pub stroke: Option<StrokeTable>,
+    /// How objects are held that do not say it; by default "rigid".
+    #[schemars(with = "Option<HeldAs>")]
+    pub payload: Option<Spanned<String>>,
+}
+
+impl RobotTable {
+    /// Returns the same table for a robot that stands in the origin. This is all that the URDF is read by.
+    #[must_use]
+    pub fn unplaced(&self) -> Self {
+        Self { at: None, angle: None, ..self.clone() }
+    }
+
+    /// Returns the joint of the wrist, if it is named.
+    #[must_use]
+    pub fn wrist_joint(&self) -> Option<&Spanned<String>> {
+        self.wrist.as_ref()?.joint.as_ref()
+    }
+
+    /// Returns whether links of the robot are in the way of its other links. This is the default.
+    #[must_use]
+    pub fn own_body_is_obstacle(&self) -> bool {
+        self.own_body != Some(false)
+    }
+}

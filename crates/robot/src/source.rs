@@ -1,0 +1,340 @@
+//! A text file and positions in it.
+
+use super::error::{Diagnostic, InputError};
+use super::identity::note_read;
+use cplan_xacro::Expansion;
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+/// A place in a text file, counted from 1; columns count characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// The number of the line.
+    pub line: usize,
+    /// The number of the character in the line.
+    pub column: usize,
+}
+
+/// The text of an input, read from a file or made by the program. As data it is the text with its name: nothing is read again.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Source {
+    /// The file, or the name of a text that is none.
+    path: PathBuf,
+    text: String,
+    /// Whether there is such a file, beside which others may lie.
+    is_file: bool,
+    /// The xacro files that the text was expanded from. Places in the text are reported as places in them.
+    #[serde(skip)]
+    expansion: Option<Arc<Expansion>>,
+    /// The position of every [`MILE`]th byte, once it is asked for.
+    #[serde(skip)]
+    milestones: OnceLock<Vec<Position>>,
+}
+
+/// What was asked of a text makes no difference.
+impl PartialEq for Source {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.path, &self.text, self.is_file) == (&other.path, &other.text, other.is_file)
+    }
+}
+
+impl Eq for Source {}
+
+/// Finds positions of ascending byte offsets in one pass over the text.
+#[derive(Debug)]
+pub struct Cursor<'a> {
+    bytes: &'a [u8],
+    read: usize,
+    at: Position,
+}
+
+impl Cursor<'_> {
+    /// Line and column of a byte offset, the text's end beyond it. Starts anew for an offset before the last one.
+    pub fn position(&mut self, offset: usize) -> Position {
+        let offset = offset.min(self.bytes.len());
+        if offset < self.read {
+            (self.read, self.at) = (0, Position { line: 1, column: 1 });
+        }
+        for byte in &self.bytes[self.read..offset] {
+            match byte {
+                b'\n' => self.at = Position { line: self.at.line + 1, column: 1 },
+                // Bytes that continue a character are no columns of their own.
+                byte if byte & 0xc0 != 0x80 => self.at.column += 1,
+                _ => {}
+            }
+        }
+        self.read = offset;
+        self.at
+    }
+}
+
+/// Bytes of the largest file that is read. Real ones, meshes included, stay far below; a device that never ends does not.
+const LARGEST_FILE: u64 = 256 << 20;
+
+/// A file's content, with the error of the system.
+///
+/// # Errors
+/// I/O, and a file larger than 256 MiB.
+pub fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+    read_at_most(path, LARGEST_FILE)
+}
+
+fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    note_read(path);
+    File::open(path)?.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let message = format!("it is larger than {} MiB", most >> 20);
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+    }
+    Ok(bytes)
+}
+
+/// Bytes of the largest recording that is read: cplan itself writes hours at a thousand samples a second in as many. Its values take up to
+/// three times as much memory.
+const LARGEST_RECORDING: u64 = 2 << 30;
+
+/// Bytes from one place whose line and column are known to the next.
+const MILE: usize = 4096;
+
+/// A file's content.
+///
+/// # Errors
+/// I/O, and a file larger than 256 MiB.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
+    read_bounded(path).map_err(|error| {
+        unreadable(path, &error, "it is larger than what it should be: look whether it is the right file").into()
+    })
+}
+
+/// The content of a recording, which may be larger than other files.
+///
+/// # Errors
+/// I/O, and a recording larger than 2 GiB.
+pub fn read_recorded(path: &Path) -> Result<Vec<u8>, InputError> {
+    let help = "record fewer samples (cplan's --step SECONDS sets the time between them), or cut the recording into parts and verify \
+                each with --anywhere";
+    read_at_most(path, LARGEST_RECORDING).map_err(|error| unreadable(path, &error, help).into())
+}
+
+fn unreadable(path: &Path, error: &io::Error, too_large: &str) -> Diagnostic {
+    let is_too_large = error.kind() == io::ErrorKind::FileTooLarge;
+    Diagnostic::new(path.display().to_string(), format!("cannot be read: {error}")).help(if is_too_large {
+        too_large
+    } else {
+        "check the path and the file's permissions"
+    })
+}
+
+/// Characters of a long source line that an excerpt shows on either side of the place.
+const EXCERPT_REACH: usize = 60;
+
+impl Source {
+    /// A text that is no file: `name` is for messages, and a world's name if it has none of its own. It cannot refer to
+    /// other files (meshes, maps), so nothing is ever read for it.
+    #[must_use]
+    pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
+        Self { path: name.into(), text: text.into(), is_file: false, expansion: None, milestones: OnceLock::new() }
+    }
+
+    /// The file, or the name of a text that is none.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The whole text of the file.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The same with another text, as an editor holds one in place of a file's: what it refers to is looked for beside the
+    /// same file.
+    #[must_use]
+    pub fn with_text(&self, text: impl Into<String>) -> Self {
+        Self { is_file: self.is_file, ..Self::in_memory(self.path.clone(), text) }
+    }
+
+    /// The same with the URDF that its xacro expands to.
+    pub(crate) fn expanded(&self, expansion: Expansion) -> Self {
+        Self { expansion: Some(Arc::new(expansion.clone())), ..self.with_text(expansion.text) }
+    }
+
+    /// Whether the text is what xacro was expanded to.
+    #[must_use]
+    pub fn is_expanded(&self) -> bool {
+        self.expansion.is_some()
+    }
+
+    /// The xacro file and the part of it that a byte of the text comes from.
+    fn origin(&self, offset: usize) -> Option<(Self, Range<usize>)> {
+        let expansion = self.expansion.as_ref()?;
+        let place = expansion.place(offset)?;
+        let file = &expansion.files[place.file];
+        Some((Self::in_memory(file.path.clone(), &*file.text), place.range.clone()))
+    }
+
+    /// Reads a file as UTF-8, without a byte order mark.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is larger than 256 MiB, or is no UTF-8.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        Self::decoded(path, read_bytes(path)?)
+    }
+
+    /// Reads a recording as UTF-8.
+    ///
+    /// # Errors
+    /// As [`Source::read`], but up to 2 GiB.
+    pub fn read_recording(path: &Path) -> Result<Self, InputError> {
+        Self::decoded(path, read_recorded(path)?)
+    }
+
+    fn decoded(path: &Path, bytes: Vec<u8>) -> Result<Self, InputError> {
+        let text = String::from_utf8(bytes).map_err(|error| {
+            Diagnostic::new(
+                path.display().to_string(),
+                format!("is not UTF-8 text (byte {})", error.utf8_error().valid_up_to()),
+            )
+            .help("save it as UTF-8")
+        })?;
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        Ok(Self { is_file: true, ..Self::in_memory(path, text) })
+    }
+
+    /// The path against which the names of other files are resolved.
+    ///
+    /// # Errors
+    /// In words, for a text that is no file.
+    pub fn anchor(&self) -> Result<&Path, &'static str> {
+        if self.is_file { Ok(&self.path) } else { Err("this text is no file, so there are no files beside it") }
+    }
+
+    /// The path, for messages.
+    pub fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    /// The file's name without its ending.
+    pub fn stem(&self) -> Option<String> {
+        self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned())
+    }
+
+    /// Line and column of a byte offset, in the xacro file that it comes from, if any. `O(1)` but for the first, which takes note of places on the way through the text.
+    #[must_use]
+    pub fn position(&self, offset: usize) -> Position {
+        if let Some((file, range)) = self.origin(offset) {
+            return file.position(range.start);
+        }
+        let offset = offset.min(self.text.len());
+        let milestones = self.milestones.get_or_init(|| {
+            let mut cursor = self.cursor();
+            (0..=self.text.len()).step_by(MILE).map(|at| cursor.position(at)).collect()
+        });
+        let passed = offset / MILE;
+        let mut cursor = Cursor { bytes: self.text.as_bytes(), read: passed * MILE, at: milestones[passed] };
+        cursor.position(offset)
+    }
+
+    /// Returns a cursor at the beginning of the text, for the positions of many offsets.
+    #[must_use]
+    pub fn cursor(&self) -> Cursor<'_> {
+        Cursor { bytes: self.text.as_bytes(), read: 0, at: Position { line: 1, column: 1 } }
+    }
+
+    /// A diagnostic of the file as a whole.
+    pub fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(self.name(), message)
+    }
+
+    /// A diagnostic at a range of bytes, with the source line and carets below it.
+    pub fn diagnostic_at(&self, range: Range<usize>, message: impl Into<String>) -> Diagnostic {
+        if let Some((file, range)) = self.origin(range.start) {
+            return file.diagnostic_at(range, message);
+        }
+        let position = self.position(range.start);
+        Diagnostic {
+            position: Some(position),
+            excerpt: Some(self.excerpt(position, range).into()),
+            ..Diagnostic::new(self.name(), message)
+        }
+    }
+
+    /// A diagnostic at a line and column, both counted from 1, as parsers name places; 0 is unknown.
+    pub fn diagnostic_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Diagnostic {
+        if line == 0 {
+            return self.diagnostic(message);
+        }
+        let mut lines = self.text.split_inclusive('\n');
+        let before: usize = lines.by_ref().take(line - 1).map(str::len).sum();
+        let inside = lines.next().unwrap_or("");
+        let at = inside.char_indices().nth(column.saturating_sub(1)).map_or(inside.trim_end().len(), |(i, _)| i);
+        self.diagnostic_at(before + at..before + at + 1, message)
+    }
+
+    /// As much of the line as is near a place in it, with carets below the place.
+    fn excerpt(&self, position: Position, range: Range<usize>) -> String {
+        let start = (0..=range.start.min(self.text.len())).rev().find(|&i| self.text.is_char_boundary(i)).unwrap_or(0);
+        let (before, after) = self.text.split_at(start);
+        let shown = |c: char| if c.is_control() { ' ' } else { c };
+        let before: Vec<char> =
+            before.chars().rev().take_while(|&c| c != '\n').take(EXCERPT_REACH).map(shown).collect();
+        let room = 2 * EXCERPT_REACH - before.len();
+        let after: String = after.chars().take_while(|&c| c != '\n').take(room).map(shown).collect();
+        let length = self.text.get(range).map_or(1, |text| text.chars().take(room).count());
+        let carets = "^".repeat(length.clamp(1, after.chars().count().max(1)));
+        let number = position.line.to_string();
+        let margin = " ".repeat(number.len());
+        let gap = " ".repeat(before.len());
+        let line: String = before.into_iter().rev().chain(after.chars()).collect();
+        format!("  {number} | {}\n  {margin} | {gap}{carets}", line.trim_end())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(text: &str) -> Source {
+        Source::in_memory("a.toml", text)
+    }
+
+    #[test]
+    fn positions_count_characters_from_one() {
+        let s = source("ab\nçd = 1\n");
+        assert_eq!(s.position(0), Position { line: 1, column: 1 });
+        assert_eq!(s.position(5), Position { line: 2, column: 2 });
+        assert_eq!(s.position(999), Position { line: 3, column: 1 });
+        let mut cursor = s.cursor();
+        for offset in [0, 2, 5, 5, 999, 3] {
+            assert_eq!(cursor.position(offset), s.position(offset));
+        }
+    }
+
+    #[test]
+    fn the_caret_stands_below_the_place() {
+        let s = source("first\n  radius = -1\n");
+        let shown = s.diagnostic_at(17..19, "bad").to_string();
+        assert_eq!(shown, "a.toml: line 2, column 12: bad\n  2 |   radius = -1\n    |            ^^");
+    }
+
+    #[test]
+    fn carets_count_characters() {
+        let shown = source("\"\u{e4}\" = 1\n").diagnostic_at(0..4, "bad").to_string();
+        assert!(shown.ends_with("| ^^^"), "{shown}");
+    }
+
+    #[test]
+    fn a_long_line_is_cut_around_the_place() {
+        let s = source(&format!("{}X{}", "a".repeat(500), "b".repeat(500)));
+        let shown = s.diagnostic_at(500..501, "bad").to_string();
+        let lines: Vec<&str> = shown.lines().collect();
+        assert!(lines[1].len() < 140);
+        assert_eq!(lines[1].find('X'), lines[2].find('^'));
+    }
+}

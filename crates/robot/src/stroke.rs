@@ -1,0 +1,27 @@
+//! The stroke in the world file's `[robot]`.
+
+use super::quantity::Number;
+use super::schema::Positive;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// How the tool is lowered and raised at picks and places.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "stroke")]
+pub struct StrokeTable {
+    /// The joint that lowers the tool: it slides along the plane's normal, beyond the two that move. While the arm moves it stays at
+    /// its `fixed` value.
+    #[schemars(with = "String")]
+    pub joint: Spanned<String>,
+    /// How far it lowers the tool, m; by default as far as the object is lifted.
+    #[schemars(with = "Option<f64>")]
+    pub travel: Option<Number>,
+    /// Top speed, m/s; by default the joint's.
+    #[schemars(with = "Option<Positive>")]
+    pub velocity: Option<Number>,
+    /// Greatest acceleration, m/s2; by default the joint's, or else top speed is reached in 0.25 s.
+    #[schemars(with = "Option<Positive>")]
+    pub acceleration: Option<Number>,
+}

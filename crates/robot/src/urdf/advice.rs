@@ -1,0 +1,113 @@
+//! What of a robot is hardly meant, with a hint: other units, placeholders, axes that nobody gives.
+
+use super::limits::{find, key};
+use super::reduction::Reduction;
+use cplan_core::model::{Arm, Joint};
+use cplan_core::space::JointRange;
+use cplan_geometry::Point;
+use cplan_text::{counted, short};
+
+/// Top speed of a joint that turns, rad/s, from which on it is hardly meant: the fastest axes of robots turn at 45 rad/s.
+const FASTEST_TURN: f64 = 60.0;
+
+/// The same of a joint that slides, m/s.
+const FASTEST_SLIDE: f64 = 20.0;
+
+/// Arms, slides and shapes longer than this, metres, are hardly meant: only cranes are.
+const LONGEST: f64 = 50.0;
+
+/// Shapes of an arm that reach so many times its length are hardly meant.
+const MOST_OUTREACH: f64 = 20.0;
+
+/// Shapes that reach less than this, metres, are not compared with the arm's length: joints may be all but in one place.
+const USUAL_OUTREACH: f64 = 5.0;
+
+/// Hints about an arm, each in a line.
+pub(super) fn warnings(reduction: &Reduction, arm: &Arm) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (&index, joint) in reduction.chain.joints.iter().zip(&arm.joints) {
+        warnings.extend(missing_axis(reduction, index));
+        warnings.extend(speed(reduction, index, joint));
+        warnings.extend(slide(joint));
+    }
+    warnings.extend(length(arm).or_else(|| outreach(arm)));
+    warnings
+}
+
+/// What to say of a joint without an axis.
+pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String> {
+    let name = &reduction.document.robot.joints[index].name;
+    reduction.document.joints[index].axis.is_none().then(|| {
+        format!(
+            "joint \"{name}\" has no <axis>, which means the x axis of its frame: write <axis xyz=\"0 0 1\"/> if it is about z"
+        )
+    })
+}
+
+/// A top speed of the URDF that no drive has.
+fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
+    let Reduction { document, settings, .. } = reduction;
+    let name = &joint.name;
+    let tag = document.joints[index].limit.clone().and_then(|at| document.source.text().get(at))?;
+    if !tag.contains("velocity") || find(&settings.table.velocity, name).is_some() {
+        return None;
+    }
+    let velocity = document.robot.joints[index].limit.velocity;
+    let (fastest, unit, example) =
+        if joint.joint_type.is_revolute() { (FASTEST_TURN, "rad", "2.0") } else { (FASTEST_SLIDE, "m", "0.5") };
+    let given = format!("joint \"{name}\": velocity=\"{velocity}\" in the URDF");
+    let help = format!("[robot] velocity = {{ {} = {example} }} in the world file gives its top speed", key(name));
+    if velocity == 0.0 {
+        return Some(format!("{given} is taken as not given: {help}"));
+    }
+    let degrees = if unit == "rad" { format!(" ({} deg/s)", short(velocity.to_degrees())) } else { String::new() };
+    (velocity > fastest)
+        .then(|| format!("{given} is {velocity} {unit}/s{degrees}, faster than any drive: times are too short; {help}"))
+}
+
+/// A slide as long as if its limits were in millimetres.
+fn slide(joint: &Joint) -> Option<String> {
+    let JointRange::Interval { lower, upper } = joint.range else { return None };
+    (!joint.joint_type.is_revolute() && upper - lower > 2.0 * LONGEST).then(|| {
+        format!(
+            "joint \"{}\" slides from {lower} to {upper} m: limits in millimetres are to be divided by 1000",
+            joint.name
+        )
+    })
+}
+
+/// An arm as long as if its lengths were in millimetres.
+fn length(arm: &Arm) -> Option<String> {
+    let [first, second] = lengths(arm);
+    (first + second > LONGEST).then(|| {
+        format!(
+            "the arm is {} m and {} m long, joint to joint and joint to tip: URDF has lengths in metres, those in millimetres are to be \
+             divided by 1000",
+            short(first),
+            short(second)
+        )
+    })
+}
+
+/// Shapes that reach far beyond the arm's joints.
+fn outreach(arm: &Arm) -> Option<String> {
+    let usual = (MOST_OUTREACH * lengths(arm).iter().sum::<f64>()).max(USUAL_OUTREACH);
+    let reach = |part: &cplan_core::model::Part| part.shape.reach_from(Point::origin());
+    let parts: Vec<_> = arm.links.iter().flat_map(|link| &link.parts).filter(|part| reach(part) > usual).collect();
+    let first = parts.first()?;
+    let farthest = parts.iter().map(|part| reach(part)).fold(0.0, f64::max);
+    let mut bodies: Vec<&str> = parts.iter().map(|part| part.body.as_str()).collect();
+    bodies.dedup();
+    let others = if bodies.len() > 1 { format!(" (and {})", counted(bodies.len() - 1, "link")) } else { String::new() };
+    Some(format!(
+        "the shape of link \"{}\"{others} reaches {} m from its joint, far beyond the arm's own length: a mesh in millimetres needs \
+         scale=\"0.001 0.001 0.001\", other sizes are to be in metres",
+        first.body,
+        short(farthest)
+    ))
+}
+
+/// From joint to joint, and from the second to the tip, metres.
+fn lengths(arm: &Arm) -> [f64; 2] {
+    [arm.offset.norm(), arm.tip.coords.norm()]
+}

@@ -1,0 +1,290 @@
+//! The outlines of the two arm links: which of the URDF's geometry makes them up.
+
+use super::chain::Chain;
+use super::document::Document;
+use super::plane::project;
+use super::self_collision::{Group, SelfCollision, group};
+use super::shapes::{Gathered, PlacedShape};
+use super::solid::capsule;
+use super::tree::Tree;
+use crate::error::{Diagnostic, InputError, quoted};
+use crate::settings::RobotSettings;
+use cplan_core::model::{Heights, Link, OutlineSource, Part, Plane, SelfObstacle};
+use cplan_geometry::{Convex, Point, Vector, separation};
+use cplan_text::counted;
+use nalgebra::{Isometry3, Translation2};
+use std::collections::BTreeSet;
+
+/// Corners of the largest outline that stays one shape: what is asked of it takes time that grows with them.
+const MOST_CORNERS: usize = 1024;
+
+/// Everything that the outlines are made from.
+pub(super) struct Bodies<'a> {
+    pub document: &'a Document,
+    pub tree: &'a Tree,
+    pub chain: &'a Chain,
+    pub settings: RobotSettings<'a>,
+    pub plane: &'a Plane,
+    /// Poses of all links in the root frame, the two joints at 0.
+    pub poses: &'a [Isometry3<f64>],
+}
+
+/// What a shape covers, whichever way it is turned about a point, and what it covers at all angles; none if that is nothing. `certain` is what is within
+/// the shape.
+fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, Option<Convex>)> {
+    let is_disc = |convex: &Convex| convex.core().len() == 1 && (convex.core()[0] - axis).norm() <= OFF_AXIS;
+    if is_disc(shape) && is_disc(certain) {
+        return Some((shape.clone(), (certain != shape).then(|| certain.clone())));
+    }
+    let within = -separation(&Convex::point(axis), certain).distance * (1.0 - OFF_AXIS);
+    let disc = |radius: f64| Convex::trusted(vec![axis], radius);
+    (within > 0.0).then(|| (disc(shape.reach_from(axis)), Some(disc(within))))
+}
+
+/// How far from its axis a disc may be that is about it, metres; and a share of what is known of others.
+const OFF_AXIS: f64 = 1e-9;
+
+/// Two links, those that are in their way, and what the user should know of them.
+pub(super) struct Outlines {
+    pub links: [Link; 2],
+    pub self_obstacles: Vec<SelfObstacle>,
+    pub geometry: Vec<String>,
+    pub notes: Vec<String>,
+    pub warnings: Vec<String>,
+}
+
+/// What is said of a link whose mesh cannot be read and that is planned without it.
+fn left_out(unread: &Diagnostic) -> String {
+    format!("{}; the link is left out, and the arm may hit it", unread.message)
+}
+
+/// Names the URDF links of an arm link whose visual geometry is used, if others have collision geometry.
+fn visual_links(link: &Link) -> Option<String> {
+    let mut names: Vec<&str> = link.parts.iter().filter(|part| part.is_visual).map(|part| part.body.as_str()).collect();
+    names.dedup();
+    let named =
+        || format!("outline from the visual geometry, since there is no collision geometry: {}", quoted(names.iter()));
+    (!names.is_empty()).then(named)
+}
+
+impl Bodies<'_> {
+    /// Both links' outlines, in their frames: origin at the joint; and the links that stand still as obstacles for them.
+    ///
+    /// # Errors
+    /// When a mesh cannot be used and the world asks for no bar instead, when neither link has an outline, or when the world names
+    /// links that the robot does not have.
+    pub fn outlines(&self) -> Result<Outlines, InputError> {
+        let bar = self.bar()?;
+        let (mut notes, mut warnings) = (Vec::new(), Vec::new());
+        let mut gathered = [0, 1].map(|index| self.gather(self.bodies(index)));
+        let mut fixed = self.gather(self.fixed_links());
+        let mut all = std::mem::take(&mut fixed.shapes);
+        all.extend(gathered.iter_mut().flat_map(|of_link| std::mem::take(&mut of_link.shapes)));
+        let mut solid: BTreeSet<usize> = all.iter().map(|shape| shape.link).collect();
+        for (index, of_link) in gathered.iter().enumerate().filter(|_| bar.is_some()) {
+            let links = self.bodies(index);
+            if !of_link.unread.is_empty() || !links.iter().any(|link| solid.contains(link)) {
+                solid.insert(self.tree.child[self.chain.joints[index]]);
+            }
+        }
+        let own = SelfCollision::new(self, solid)?;
+        let mut links = Vec::new();
+        for (index, gathered) in gathered.into_iter().enumerate() {
+            let mut parts = Vec::new();
+            for shape in all.iter().filter(|shape| self.bodies(index).contains(&shape.link)) {
+                parts.extend(self.parts(index, shape, &own.cuts(shape.link, &all))?);
+            }
+            links.push(self.link(index, parts, gathered, bar, &mut notes, &mut warnings)?);
+        }
+        let links: [Link; 2] = links.try_into().expect("two links");
+        if links.iter().all(|l| l.source == OutlineSource::None) {
+            let message = format!(
+                "neither link \"{}\" nor link \"{}\" has collision or visual geometry: nothing of the arm can be hit",
+                links[0].name, links[1].name
+            );
+            let help = "add <collision> geometry to the URDF, or let bars between the joints stand in for the links, in the \
+                        world file: [robot] bar = 0.05 (their radius in metres)";
+            return Err(self.document.source.diagnostic(message).help(help).into());
+        }
+        let geometry = links.iter().enumerate().map(|(index, link)| self.described(index, link)).collect();
+        let self_obstacles = own.obstacles(&all);
+        if self.settings.table.own_body_is_obstacle() {
+            warnings.extend(fixed.unread.iter().chain(&fixed.unseen).map(left_out));
+            notes.extend(own.notes());
+        }
+        Ok(Outlines { links, self_obstacles, geometry, notes, warnings })
+    }
+
+    fn bar(&self) -> Result<Option<f64>, Diagnostic> {
+        let Some(bar) = &self.settings.table.bar else { return Ok(None) };
+        let radius = *bar.get_ref();
+        if radius.is_finite() && radius > 0.0 {
+            return Ok(Some(radius));
+        }
+        let message = format!("[robot] bar: the radius must be positive, is {radius}");
+        Err(self.settings.source.diagnostic_at(bar.span(), message).help("bar = 0.05, metres"))
+    }
+
+    /// A link of these parts, which are all that could be read of it.
+    fn link(
+        &self,
+        index: usize,
+        mut parts: Vec<Part>,
+        gathered: Gathered,
+        bar: Option<f64>,
+        notes: &mut Vec<String>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Link, InputError> {
+        let name = self.tree.links[self.tree.child[self.chain.joints[index]]].clone();
+        let Gathered { empty, mut unread, unseen, .. } = gathered;
+        if !empty.is_empty() {
+            let bodies = empty.join(", ");
+            notes.push(format!("link {} \"{name}\": shapes of size zero are ignored (in {bodies})", index + 1));
+        }
+        let has_collision = parts.iter().any(|part| !part.is_visual);
+        if has_collision {
+            warnings.extend(unseen.iter().map(left_out));
+        } else {
+            unread.extend(unseen);
+        }
+        let mut source = if has_collision { OutlineSource::Collision } else { OutlineSource::Visual };
+        if !unread.is_empty() || parts.is_empty() {
+            match bar {
+                Some(radius) => {
+                    for diagnostic in &unread {
+                        warnings.push(format!("{}; the bar stands in for it", diagnostic.message));
+                    }
+                    parts.push(self.bar_part(index, radius, &name));
+                    source = OutlineSource::Bar;
+                }
+                None => {
+                    InputError::check(unread)?;
+                    source = OutlineSource::None;
+                }
+            }
+        }
+        if source == OutlineSource::None {
+            warnings.push(format!(
+                "link {} \"{name}\" has no geometry, so it cannot collide ([robot] bar = RADIUS gives it one)",
+                index + 1
+            ));
+        }
+        let link = Link { name, parts, source };
+        if matches!(source, OutlineSource::Visual | OutlineSource::Bar) {
+            notes.push(self.described(index, &link));
+        } else {
+            notes.extend(visual_links(&link));
+        }
+        Ok(link)
+    }
+
+    fn described(&self, index: usize, Link { name, parts, source }: &Link) -> String {
+        format!("link {} \"{name}\": {}", index + 1, self.summary(*source, parts))
+    }
+
+    fn summary(&self, source: OutlineSource, parts: &[Part]) -> String {
+        let shapes = counted(parts.len(), "shape");
+        match source {
+            OutlineSource::Collision => format!("outline from the collision geometry ({shapes})"),
+            OutlineSource::Visual => {
+                format!("outline from the visual geometry, for want of collision geometry ({shapes})")
+            }
+            OutlineSource::Bar if parts.len() > 1 => {
+                format!("outline from the collision geometry and a bar ({shapes})")
+            }
+            OutlineSource::Bar => "outline is a bar between the joints, as the world file asks".to_owned(),
+            OutlineSource::None => "no outline: it has no geometry".to_owned(),
+        }
+    }
+
+    /// The URDF links that arm link `index` is made of, in the order of the file.
+    pub fn bodies(&self, index: usize) -> Vec<usize> {
+        let [first, second] = self.chain.joints;
+        (0..self.document.robot.links.len())
+            .filter(|l| match index {
+                0 => self.tree.carries(first, *l) && !self.tree.carries(second, *l),
+                _ => self.tree.carries(second, *l),
+            })
+            .collect()
+    }
+
+    /// URDF links that stand still, in the order of the file.
+    fn fixed_links(&self) -> impl Iterator<Item = usize> + '_ {
+        let is_fixed = |link: &usize| group(self.document, self.tree, self.chain, *link) == Some(Group::Fixed);
+        (0..self.document.robot.links.len()).filter(is_fixed)
+    }
+
+    /// A shape as parts of arm link `index`, in the link's frame: one for each layer, cut where `cuts` says.
+    ///
+    /// # Errors
+    /// When it turns with the wrist and covers another thing at each angle.
+    fn parts(&self, index: usize, shape: &PlacedShape, cuts: &[f64]) -> Result<Vec<Part>, Diagnostic> {
+        let PlacedShape { link, number, is_visual, solid, pose, .. } = shape;
+        let to_link = Translation2::from(-self.joint_at(index).0.coords);
+        let body = &self.document.robot.links[*link].name;
+        let part = |shape, inner, heights| Part {
+            shape,
+            inner,
+            number: *number,
+            is_visual: *is_visual,
+            heights,
+            body: body.clone(),
+        };
+        let Some(axis) = self.wrist_axis(*link).map(|axis| to_link * axis) else {
+            let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link.into()));
+            let layers = solid.layers(pose, self.plane, cuts).into_iter();
+            let layers = layers.map(|(outline, heights)| (outline.at(&to_link.into()), heights));
+            let in_pieces = |(outline, heights): (Convex, Heights)| {
+                let pieces = if outline.core().len() > MOST_CORNERS { outline.cut_up() } else { vec![outline] };
+                pieces.into_iter().map(move |piece| (piece, heights))
+            };
+            return Ok(layers
+                .flat_map(in_pieces)
+                .map(|(piece, heights)| part(piece, inner.clone(), heights))
+                .collect());
+        };
+        let outline = solid.outline(pose, self.plane).at(&to_link.into());
+        let inner = solid.inner(pose, self.plane).map(|inner| inner.at(&to_link.into()));
+        match all_round(axis, &outline, inner.as_ref().unwrap_or(&outline)) {
+            Some((outline, inner)) => Ok(vec![part(outline, inner, shape.heights)]),
+            None => {
+                let message = format!(
+                    "link \"{body}\" turns with the wrist and is not about its axis, so that what it covers is another thing at each angle"
+                );
+                let help = "give it <collision> geometry that covers it all round: a <cylinder> along the axis of the wrist's joint";
+                Err(self.document.diagnostic_at(&shape.at, message).help(help))
+            }
+        }
+    }
+
+    /// Where the wrist's axis is that a link turns about while steps are done.
+    fn wrist_axis(&self, body: usize) -> Option<Point> {
+        let name = self.settings.table.wrist_joint().filter(|_| self.settings.has_steps)?;
+        let joint = self.document.robot.joints.iter().position(|joint| joint.name == *name.get_ref())?;
+        self.tree.carries(joint, body).then(|| self.at(self.tree.child[joint]).0)
+    }
+
+    /// Where a joint is: in the plane, and its height.
+    pub fn joint_at(&self, index: usize) -> (Point, f64) {
+        self.at(self.tree.child[self.chain.joints[index]])
+    }
+
+    fn at(&self, link: usize) -> (Point, f64) {
+        let at = self.poses[link].translation.vector;
+        (project(self.plane, &at), at.dot(&self.plane.normal))
+    }
+
+    /// The capsule from joint 1 to joint 2, or from joint 2 to the tip.
+    fn bar_part(&self, index: usize, radius: f64, body: &str) -> Part {
+        let (from, low) = self.joint_at(index);
+        let (to, high) = if index == 0 { self.joint_at(1) } else { self.at(self.chain.tip) };
+        Part {
+            inner: None,
+            number: 0,
+            is_visual: false,
+            shape: capsule(Point::origin(), Point::from(Vector::from(to - from)), radius),
+            heights: Heights { lower: low.min(high) - radius, upper: low.max(high) + radius },
+            body: body.to_owned(),
+        }
+    }
+}

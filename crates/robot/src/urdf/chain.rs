@@ -1,0 +1,332 @@
+//! Which two joints move, where the others stand, and which link is the tip.
+
+use super::document::Document;
+use super::held::Held;
+use super::pairing::{self, Evident};
+use super::tree::Tree;
+use crate::error::{Diagnostic, InputError, quoted};
+use crate::settings::RobotSettings;
+use toml::Spanned;
+use urdf_rs::JointType;
+
+/// The choice that turns a robot into a two-joint arm. Indices into the file's lists.
+#[derive(Debug)]
+pub(super) struct Chain {
+    /// Base to tip.
+    pub joints: [usize; 2],
+    /// The tip's link.
+    pub tip: usize,
+    /// Value of every joint, 0 for the chosen ones.
+    pub values: Vec<f64>,
+    /// The other movable joints that matter to the arm. Their values are held.
+    pub held: Vec<usize>,
+    /// The same in words.
+    pub notes: Vec<String>,
+}
+
+/// Chooses joints, values and tip.
+///
+/// # Errors
+/// When the two joints are not clear, do not follow one another, or cannot be planned for on their own.
+pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) -> Result<Chain, InputError> {
+    let chooser = Chooser { document, tree, settings };
+    chooser.names_exist()?;
+    let Evident { joints, reason } = chooser.joints()?;
+    let mut chain = with_joints(document, tree, settings, joints)?;
+    if !reason.is_empty() {
+        let [first, second] = joints.map(|j| document.robot.joints[j].name.as_str());
+        let note = format!("the two joints are \"{first}\" and \"{second}\"{reason}; [robot] joints chooses others");
+        chain.notes.insert(0, note);
+    }
+    Ok(chain)
+}
+
+/// The chain of two joints, the first of which carries the second.
+///
+/// # Errors
+/// When they cannot be planned for on their own, or the world's tip or fixed values do not go with them.
+pub(super) fn with_joints(
+    document: &Document,
+    tree: &Tree,
+    settings: RobotSettings,
+    joints: [usize; 2],
+) -> Result<Chain, InputError> {
+    let chooser = Chooser { document, tree, settings };
+    chooser.independent(joints)?;
+    let tip = chooser.tip(joints)?;
+    let Held { values, held, notes } = chooser.values(joints)?;
+    Ok(Chain { joints, tip, values, held, notes })
+}
+
+/// Whether all else that the world's `[robot]` table says goes with these two joints.
+pub(super) fn admits(document: &Document, tree: &Tree, settings: RobotSettings, joints: [usize; 2]) -> bool {
+    Chooser { document, tree, settings }.names_exist().is_ok() && with_joints(document, tree, settings, joints).is_ok()
+}
+
+/// The two joints that the world names, or that are the only ones.
+pub(super) fn joints(document: &Document, tree: &Tree, settings: RobotSettings) -> Option<[usize; 2]> {
+    Chooser { document, tree, settings }.joints().ok().map(|evident| evident.joints)
+}
+
+/// Every two joints that move on their own, the first of which carries the second; base first.
+pub(super) fn pairs(document: &Document, tree: &Tree) -> Vec<[usize; 2]> {
+    let joints = &document.robot.joints;
+    let mut movable: Vec<usize> =
+        (0..joints.len()).filter(|j| is_movable(&joints[*j]) && joints[*j].mimic.is_none()).collect();
+    movable.sort_by_key(|j| tree.depth(tree.child[*j]));
+    let carried = |a: usize| movable.iter().filter(move |b| tree.carries(a, tree.parent[**b])).map(move |b| [a, *b]);
+    movable.iter().flat_map(|a| carried(*a)).collect()
+}
+
+/// Sees to it that the choice is sound.
+pub(super) struct Chooser<'a> {
+    pub document: &'a Document,
+    pub tree: &'a Tree,
+    pub settings: RobotSettings<'a>,
+}
+
+/// Whether a joint has one value that it can move by.
+pub(super) fn is_movable(joint: &urdf_rs::Joint) -> bool {
+    matches!(joint.joint_type, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
+}
+
+/// The type as the file has it.
+pub(super) fn type_name(joint: &urdf_rs::Joint) -> String {
+    format!("{:?}", joint.joint_type).to_lowercase()
+}
+
+impl Chooser<'_> {
+    pub(super) fn all(&self) -> &[urdf_rs::Joint] {
+        &self.document.robot.joints
+    }
+
+    pub(super) fn joint(&self, name: &str) -> Option<usize> {
+        self.all().iter().position(|j| j.name == name)
+    }
+
+    pub(super) fn in_world<T>(&self, place: &Spanned<T>, message: String) -> Diagnostic {
+        self.settings.source.diagnostic_at(place.span(), message)
+    }
+
+    /// A movable joint that the world file names.
+    pub(super) fn named(&self, name: &Spanned<String>, table: &str) -> Result<usize, Diagnostic> {
+        let movable = || quoted(self.all().iter().filter(|j| is_movable(j)).map(|j| &j.name));
+        let help = || format!("the movable joints are {}", movable());
+        let Some(index) = self.joint(name.get_ref()) else {
+            let message = format!("[robot] {table}: the robot has no joint \"{}\"", name.get_ref());
+            return Err(self.in_world(name, message).help(help()));
+        };
+        let joint = &self.all()[index];
+        if !is_movable(joint) {
+            let message = format!("[robot] {table}: joint \"{}\" is of type {}", joint.name, type_name(joint));
+            return Err(self.in_world(name, message).help(help()));
+        }
+        Ok(index)
+    }
+
+    fn names_exist(&self) -> Result<(), InputError> {
+        let robot = &self.settings.table;
+        let keys = |table, names: Vec<&Spanned<String>>| -> Vec<Diagnostic> {
+            names.into_iter().filter_map(|n| self.named(n, table).err()).collect()
+        };
+        let mut diagnostics = keys("fixed", robot.fixed.keys().collect());
+        diagnostics.extend(keys("limits", robot.limits.keys().collect()));
+        diagnostics.extend(keys("velocity", robot.velocity.keys().collect()));
+        diagnostics.extend(keys("acceleration", robot.acceleration.keys().collect()));
+        diagnostics.extend(keys("jerk", robot.jerk.keys().collect()));
+        diagnostics.extend(keys("effort", robot.effort.keys().collect()));
+        InputError::check(diagnostics)
+    }
+
+    /// The two joints; the reason is empty if they are named, or the only ones.
+    fn joints(&self) -> Result<Evident, Diagnostic> {
+        let settled = |joints: [usize; 2]| Evident { joints, reason: String::new() };
+        let Evident { joints: pair, reason } = match &self.settings.table.joints {
+            Some(names) => match names.get_ref().as_slice() {
+                [a, b] => settled([self.named(a, "joints")?, self.named(b, "joints")?]),
+                other => {
+                    let message = format!("[robot] joints: exactly two joints move, {} are named", other.len());
+                    return Err(self.in_world(names, message).help("joints = [\"first\", \"second\"], base to tip"));
+                }
+            },
+            None => self.evident()?,
+        };
+        let [a, b] = pair;
+        if self.tree.carries(a, self.tree.parent[b]) {
+            return Ok(Evident { joints: pair, reason });
+        }
+        let (first, second) = (&self.all()[a].name, &self.all()[b].name);
+        let swapped = self.tree.carries(b, self.tree.parent[a]);
+        match &self.settings.table.joints {
+            None if swapped => Ok(settled([b, a])),
+            Some(names) if swapped => {
+                let message = format!(
+                    "[robot] joints: joint \"{first}\" is carried by joint \"{second}\", not the other way round"
+                );
+                Err(self.in_world(names, message).help(format!("swap them: joints = [\"{second}\", \"{first}\"]")))
+            }
+            names => {
+                let message = if a == b {
+                    format!("joint \"{first}\" is named twice")
+                } else {
+                    format!("joints \"{first}\" and \"{second}\" are on different branches: neither carries the other")
+                };
+                let diagnostic = match names {
+                    Some(names) => self.in_world(names, format!("[robot] joints: {message}")),
+                    None => self.document.source.diagnostic(message),
+                };
+                Err(diagnostic.help("choose two joints of one chain, base to tip"))
+            }
+        }
+    }
+
+    /// Joints that can move on their own.
+    fn candidates(&self) -> Vec<usize> {
+        (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect()
+    }
+
+    fn evident(&self) -> Result<Evident, Diagnostic> {
+        let candidates = self.candidates();
+        if let [a, b] = candidates[..] {
+            return Ok(Evident { joints: [a, b], reason: String::new() });
+        }
+        let list: Vec<String> = candidates
+            .iter()
+            .map(|j| format!("\"{}\" ({})", self.all()[*j].name, type_name(&self.all()[*j])))
+            .collect();
+        let mimics: Vec<String> = self
+            .all()
+            .iter()
+            .filter_map(|j| j.mimic.as_ref().map(|m| format!("\"{}\" mimics \"{}\"", j.name, m.joint)))
+            .collect();
+        let coupled = if mimics.is_empty() {
+            String::new()
+        } else {
+            format!(
+                "; besides, {}: an arm whose links are coupled by mimic joints (a parallelogram or other linkage) is no \
+                 serial two-joint arm and is refused",
+                mimics.join(", ")
+            )
+        };
+        if candidates.len() < 2 {
+            let what = if list.is_empty() { "none".to_owned() } else { format!("only one, {}", list[0]) };
+            let message =
+                format!("cplan plans for two joints; of the robot's joints that can move there is {what}{coupled}");
+            return Err(self
+                .document
+                .source
+                .diagnostic(message)
+                .help("use a robot with two joints that move in one plane"));
+        }
+        if candidates.len() > pairing::MOST_TRIED {
+            let message = format!(
+                "the robot has {} joints that can move, and which two are to be planned for is not said{coupled}",
+                candidates.len()
+            );
+            let help = "name two of one chain in the world file: [robot] joints = [\"first\", \"second\"]; the others stand still";
+            return Err(self.document.source.diagnostic(message).help(help));
+        }
+        let planar = pairing::planar(self.document, self.tree, self.settings);
+        if let Some(evident) = pairing::evident(self.document, self.tree, &planar) {
+            return Ok(evident);
+        }
+        let count = candidates.len();
+        let list = list.join(", ");
+        if planar.is_empty() {
+            let message = format!(
+                "cplan plans for two joints that move in one plane; none of the robot's {count} joints that can move form \
+                 such a pair: {list}{coupled}"
+            );
+            let help =
+                "use a robot with two joints that move in one plane; `cplan inspect` says of each pair why it does not";
+            return Err(self.document.source.diagnostic(message).help(help));
+        }
+        let message = format!(
+            "the robot has {count} joints that can move, and which two are to be planned for is not said: {list}{coupled}"
+        );
+        let help = format!(
+            "name two of one chain in the world file: {}; the others stand still (at `fixed` values)",
+            pairing::choices(self.document, &planar)
+        );
+        Err(self.document.source.diagnostic(message).help(help))
+    }
+
+    /// Refuses chains whose two joints do not move alone.
+    fn independent(&self, chosen: [usize; 2]) -> Result<(), Diagnostic> {
+        let reason = "an arm with coupled joints (a parallelogram or other linkage) is no serial two-joint arm";
+        for j in chosen {
+            if let Some(mimic) = &self.all()[j].mimic {
+                let message = format!("mimics joint \"{}\", so it cannot move on its own: {reason}", mimic.joint);
+                return Err(self.mimic_diagnostic(j, &message));
+            }
+        }
+        for (j, joint) in self.all().iter().enumerate() {
+            let carried = self.tree.carries(chosen[0], self.tree.child[j]);
+            if matches!(joint.joint_type, JointType::Floating | JointType::Planar | JointType::Spherical)
+                && (carried || self.tree.carries(j, self.tree.child[chosen[1]]))
+            {
+                let message =
+                    format!("is of type {}: where its link is does not follow from one value", type_name(joint));
+                return Err(self
+                    .document
+                    .joint_diagnostic(j, &message)
+                    .help("make it fixed, or choose joints above it"));
+            }
+            // Beside the arm it matters if it could collide.
+            let matters = || carried || self.tree.carries(j, self.tree.child[chosen[0]]) || self.has_shapes(j);
+            if joint.mimic.is_none() || !matters() {
+                continue;
+            }
+            let leader = self.leader(j)?;
+            if chosen.contains(&leader) {
+                let leader = &self.all()[leader].name;
+                let message = format!("mimics joint \"{leader}\", so more than two joints of the arm move: {reason}");
+                return Err(self.mimic_diagnostic(j, &message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a joint moves a link with shapes.
+    pub(super) fn has_shapes(&self, joint: usize) -> bool {
+        let links = self.document.robot.links.iter().enumerate().filter(|(link, _)| self.tree.carries(joint, *link));
+        links.map(|(_, link)| link).any(|link| !link.collision.is_empty() || !link.visual.is_empty())
+    }
+
+    pub(super) fn mimic_diagnostic(&self, joint: usize, message: &str) -> Diagnostic {
+        let place = &self.document.joints[joint];
+        let message = format!("joint \"{}\" {message}", self.all()[joint].name);
+        self.document
+            .diagnostic_at(place.mimic.as_ref().unwrap_or(&place.at), message)
+            .help("choose joints that no mimic joint depends on; if the coupling does not matter, make the joint fixed in a copy of the file")
+    }
+
+    fn tip(&self, joints: [usize; 2]) -> Result<usize, Diagnostic> {
+        let below: Vec<usize> = (0..self.tree.links.len()).filter(|l| self.tree.carries(joints[1], *l)).collect();
+        if let Some(name) = &self.settings.table.tip {
+            return match self.tree.link(name.get_ref()) {
+                Some(link) if below.contains(&link) => Ok(link),
+                found => {
+                    let message = match found {
+                        None => format!("[robot] tip: the robot has no link \"{}\"", name.get_ref()),
+                        Some(_) => format!(
+                            "[robot] tip: link \"{}\" is not carried by the second joint, \"{}\"",
+                            name.get_ref(),
+                            self.all()[joints[1]].name
+                        ),
+                    };
+                    let links = quoted(below.iter().map(|l| &self.tree.links[*l]));
+                    Err(self.in_world(name, message).help(format!("the links that it carries are {links}")))
+                }
+            };
+        }
+        // The deepest link below joint 2, the first of the file among equals.
+        let depth = |l: &usize| (self.tree.depth(*l), std::cmp::Reverse(*l));
+        Ok(below.into_iter().max_by_key(depth).unwrap_or(self.tree.child[joints[1]]))
+    }
+}
+
+/// Unit of a joint's value.
+pub(super) fn unit(joint: &urdf_rs::Joint) -> &'static str {
+    if joint.joint_type == JointType::Prismatic { "m" } else { "rad" }
+}

@@ -1,0 +1,85 @@
+//! Files that are no plain URDF: xacro, SDF, other XML, and broken XML.
+
+use super::document::tag;
+use crate::error::Diagnostic;
+use crate::source::{Position, Source};
+use cplan_xacro::is_xacro;
+use roxmltree::{Document, Error, Node};
+
+/// Namespace of xacro.
+const XACRO: &str = "ros.org/wiki/xacro";
+
+/// What a text in xacro is refused with. Files are expanded before they come here.
+fn xacro(diagnostic: Diagnostic) -> Diagnostic {
+    diagnostic.help(
+        "save it as a file, which is expanded: `cplan robot.urdf.xacro world.toml`; \
+         `cplan inspect robot.urdf.xacro --expanded robot.urdf` writes it as a plain URDF",
+    )
+}
+
+/// Refuses document types that define entities, which can grow without end. One that does not is harmless, and ignored.
+pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
+    const ENTITY: &str = "<!ENTITY";
+    match source.text().find(ENTITY).filter(|at| source.text()[..*at].contains("<!DOCTYPE")) {
+        None => Ok(()),
+        Some(at) => {
+            let diagnostic = source.diagnostic_at(
+                at..at + ENTITY.len(),
+                "the document type defines entities, which a URDF has no use for",
+            );
+            Err(diagnostic.help("write their values where they are used, and remove the <!DOCTYPE ...>"))
+        }
+    }
+}
+
+/// What broken XML is reported as.
+pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
+    let at = error.pos();
+    if matches!(error, Error::UnknownNamespace(prefix, _) if prefix == "xacro") {
+        let diagnostic = source.diagnostic(format!("line {}: this text is xacro, not a plain URDF", at.row));
+        return xacro(diagnostic);
+    }
+    let (line, column) = (at.row as usize, at.col as usize);
+    let line_start: usize = source.text().split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let in_line: usize = source.text()[line_start..].chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
+    let offset = line_start + in_line;
+    let mut message = error.to_string();
+    // The place is in front of the message already.
+    if let Some(cut) = message.rfind(&format!(" at {}:{}", at.row, at.col)) {
+        message.truncate(cut);
+    }
+    let diagnostic = source.diagnostic_at(offset..offset + 1, format!("this is not well-formed XML: {message}"));
+    Diagnostic { position: Some(Position { line, column }), ..diagnostic }
+        .help("is this the URDF? The order is URDF, then world file; an XML editor shows where a tag is not closed")
+}
+
+/// Refuses documents that are something else than a URDF. A URDF that merely declares the xacro namespace is fine.
+pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Diagnostic> {
+    let at = |node: Node, message: &str| source.diagnostic_at(tag(node), message);
+    match root.tag_name().name() {
+        "robot" => {}
+        "sdf" | "world" | "model" => {
+            return Err(at(root, "this is an SDF file (Gazebo), not a URDF").help(
+                "use the robot's URDF, which SDF models are mostly written from, or convert it, e.g. with `sdf2urdf`",
+            ));
+        }
+        "mujoco" => return Err(at(root, "this is a MuJoCo model, not a URDF").help("use the robot's URDF")),
+        other => {
+            let message = format!("this is not a URDF: the root element is <{other}>, not <robot>");
+            return Err(at(root, &message).help("give the URDF first and the world file second"));
+        }
+    }
+    match xacro_trace(root.document()).filter(|_| !source.is_expanded() && is_xacro(source.text())) {
+        Some(node) => Err(xacro(at(node, "this text is xacro, not a plain URDF"))),
+        None => Ok(()),
+    }
+}
+
+/// The first element that only the xacro program understands.
+fn xacro_trace<'a, 'i>(document: &'a Document<'i>) -> Option<Node<'a, 'i>> {
+    document.descendants().filter(Node::is_element).find(|node| {
+        let foreign = |namespace: Option<&str>| namespace.is_some_and(|n| n.contains(XACRO) || n.ends_with("/xacro"));
+        foreign(node.tag_name().namespace())
+            || node.attributes().any(|a| foreign(a.namespace()) || a.value().contains("${") || a.value().contains("$("))
+    })
+}

@@ -1,0 +1,142 @@
+//! Where the joints stand that do not move: as the world says, at rest, or as a mimic makes them.
+
+use super::chain::{Chooser, is_movable, unit};
+use super::limits::{Limits, Range, find};
+use crate::error::{Diagnostic, InputError};
+use crate::quantity::Quantity;
+use cplan_core::space::JointRange;
+use urdf_rs::{JointType, Mimic};
+
+/// Values of all joints, and which of them are held where it matters.
+pub(super) struct Held {
+    pub values: Vec<f64>,
+    pub held: Vec<usize>,
+    pub notes: Vec<String>,
+}
+
+impl Chooser<'_> {
+    fn followed(&self, joint: usize, mimic: &Mimic) -> Result<usize, Diagnostic> {
+        self.joint(&mimic.joint).ok_or_else(|| {
+            let message = format!("mimics joint \"{}\", which does not exist", mimic.joint);
+            self.mimic_diagnostic(joint, &message)
+        })
+    }
+
+    /// The joint at the end of a chain of mimics.
+    pub(super) fn leader(&self, joint: usize) -> Result<usize, Diagnostic> {
+        let mut at = joint;
+        for _ in 0..=self.all().len() {
+            match &self.all()[at].mimic {
+                None => return Ok(at),
+                Some(mimic) => at = self.followed(at, mimic)?,
+            }
+        }
+        Err(self.mimic_diagnostic(joint, "follows itself: the mimics form a cycle"))
+    }
+
+    /// The joint that a joint follows, and the factor and the offset that make its value of that joint's: itself, 1 and 0
+    /// unless it mimics another.
+    pub(super) fn rule(&self, joint: usize) -> Result<(usize, f64, f64), Diagnostic> {
+        let leader = self.leader(joint)?;
+        let mut value = Affine { factor: 1.0, offset: 0.0 };
+        let mut at = joint;
+        while let Some(mimic) = &self.all()[at].mimic {
+            value = value.after(mimic);
+            at = self.followed(at, mimic)?;
+        }
+        Ok((leader, value.factor, value.offset))
+    }
+
+    /// The value of every joint, and what to say about those that matter.
+    pub(super) fn values(&self, chosen: [usize; 2]) -> Result<Held, InputError> {
+        for name in self.settings.table.fixed.keys() {
+            if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {
+                let message = format!("[robot] fixed: joint \"{}\" is one of the two that move", name.get_ref());
+                return Err(self
+                    .in_world(name, message)
+                    .help("leave it out of `fixed`, or choose other `joints`")
+                    .into());
+            }
+        }
+        let mut values = vec![0.0; self.all().len()];
+        let (mut held, mut notes) = (Vec::new(), Vec::new());
+        for (j, joint) in self.all().iter().enumerate() {
+            if chosen.contains(&j) || !is_movable(joint) || joint.mimic.is_some() {
+                continue;
+            }
+            values[j] = self.held_at(j)?;
+            if self.tree.carries(j, self.tree.child[chosen[1]]) || self.tree.carries(chosen[0], self.tree.child[j]) {
+                held.push(j);
+                notes.push(format!("joint \"{}\" is held at {} {}", joint.name, values[j], unit(joint)));
+            }
+        }
+        for (j, joint) in self.all().iter().enumerate().filter(|(_, joint)| is_movable(joint)) {
+            if joint.mimic.is_none() {
+                continue;
+            }
+            let (leader, factor, offset) = self.rule(j)?;
+            if let Some(name) = self.settings.table.fixed.keys().find(|n| *n.get_ref() == joint.name) {
+                let message = format!("[robot] fixed: joint \"{}\" mimics \"{}\"", joint.name, self.all()[leader].name);
+                return Err(self.in_world(name, message).help("give the value of the joint that it mimics").into());
+            }
+            values[j] = factor * values[leader] + offset;
+            if self.tree.carries(chosen[0], self.tree.child[j]) {
+                let leader = &self.all()[leader].name;
+                held.push(j);
+                notes.push(format!(
+                    "joint \"{}\" follows joint \"{leader}\": held at {} {}",
+                    joint.name,
+                    values[j],
+                    unit(joint)
+                ));
+            }
+        }
+        Ok(Held { values, held, notes })
+    }
+
+    /// Value of a movable joint that does not move: the world's, else 0 clamped into its limits.
+    fn held_at(&self, index: usize) -> Result<f64, Diagnostic> {
+        let joint = &self.all()[index];
+        let range = Limits { document: self.document, settings: self.settings }.range(index)?;
+        let Some(value) = find(&self.settings.table.fixed, &joint.name) else {
+            return Ok(match range {
+                Range::Known(JointRange::Interval { lower, upper })
+                | Range::Taken(JointRange::Interval { lower, upper }, _) => 0f64.clamp(lower, upper),
+                Range::Known(JointRange::Circle) | Range::Taken(JointRange::Circle, _) | Range::Unset(_) => 0.0,
+            });
+        };
+        let Quantity { value: number, in_degrees } = *value.get_ref();
+        if in_degrees && joint.joint_type == JointType::Prismatic {
+            let message = format!("[robot] fixed: joint \"{}\" slides: its value cannot be in degrees", joint.name);
+            return Err(self.in_world(value, message).help("write its value in metres, without \"deg\""));
+        }
+        if !number.is_finite() {
+            return Err(self.in_world(value, format!("[robot] fixed: the value of \"{}\" is not finite", joint.name)));
+        }
+        match range {
+            Range::Known(JointRange::Interval { lower, upper }) if number < lower || number > upper => {
+                let unit = unit(joint);
+                let message = format!(
+                    "[robot] fixed: {number} {unit} is outside the limits of joint \"{}\", [{lower}, {upper}] {unit}",
+                    joint.name
+                );
+                Err(self.in_world(value, message).help("choose a value within, or override [robot] limits"))
+            }
+            _ => Ok(number),
+        }
+    }
+}
+
+/// `factor * x + offset`, composed along a chain of mimics.
+struct Affine {
+    factor: f64,
+    offset: f64,
+}
+
+impl Affine {
+    /// Puts a mimic's own map before this one.
+    fn after(self, mimic: &Mimic) -> Self {
+        let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
+        Affine { factor: self.factor * multiplier, offset: self.factor * offset + self.offset }
+    }
+}

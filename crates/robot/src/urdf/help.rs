@@ -1,0 +1,29 @@
+//! What a world file would have to say for a robot to load.
+
+use super::limits::{Limits, key};
+use super::reduction::Reduction;
+use cplan_core::model::Plane;
+
+/// Entries of `[robot]` with which the pair of joints loads, each on a line of its own: the joints, and placeholders for
+/// ranges that are missing or wrong and for geometry that cannot be used. None if `[robot]` has all.
+pub(super) fn entries(reduction: &Reduction, plane: &Plane) -> Option<String> {
+    let &Reduction { document, settings, chain, .. } = reduction;
+    let joints = &document.robot.joints;
+    let limits = Limits { document, settings };
+    let [first, second] = chain.joints.map(|j| joints[j].name.as_str());
+    let mut lines = Vec::new();
+    let chosen = super::chain::joints(document, reduction.tree, settings);
+    if chosen != Some(chain.joints) {
+        lines.push(format!("joints = [{first:?}, {second:?}]"));
+    }
+    let table = |what: &str, missing: &dyn Fn(usize) -> bool, placeholder: &dyn Fn(usize) -> String| {
+        let entry = |j: usize| format!("{} = {}", key(&joints[j].name), placeholder(j));
+        let entries: Vec<String> = chain.joints.into_iter().filter(|j| missing(*j)).map(entry).collect();
+        (!entries.is_empty()).then(|| format!("{what} = {{ {} }}", entries.join(", ")))
+    };
+    lines.extend(table("limits", &|j| limits.planned_range(j).is_err(), &|j| limits.example(j)));
+    if reduction.outlines(plane).is_err() {
+        lines.push("bar = 0.05".into());
+    }
+    (!lines.is_empty()).then(|| lines.join("\n"))
+}

@@ -1,0 +1,245 @@
+//! Ranges, top speeds, accelerations and jerks of the joints.
+
+use super::document::Document;
+use crate::error::Diagnostic;
+use crate::quantity::{LARGEST, PerJoint, Written};
+use crate::settings::RobotSettings;
+use cplan_core::model::{LONGEST_TURN, SLIDING_SPEED, TURNING_SPEED, assumed_acceleration};
+use cplan_core::space::JointRange;
+use std::f64::consts::{PI, TAU};
+use toml::Spanned;
+use urdf_rs::JointType;
+
+/// Longest range of a joint that slides, metres: beyond the coordinates that a world may have nothing can be hit.
+const LONGEST_SLIDE: f64 = 2.0 * LARGEST;
+
+/// Both limits of a revolute joint beyond this many radians are none: simulators write 1e16, exporters 1e9 or infinity. No
+/// start that a world may give is so far out.
+const UNLIMITED: f64 = LARGEST;
+
+/// Limits of a revolute joint that reach this value, radians, and no farther than [`MOST_DEGREES`] look like degrees: it is four turns.
+const LEAST_DEGREES: f64 = 4.0 * TAU;
+
+/// Two turns, degrees. More is no joint's range in either unit.
+const MOST_DEGREES: f64 = 720.0;
+
+/// Limits this near to a whole number of half turns, radians, are meant as such: what three decimals leave of them.
+const HALF_TURN_ROUNDING: f64 = 1e-3;
+
+/// What is known of a joint's range.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Range {
+    Known(JointRange),
+    /// Not as the file has it, with a note.
+    Taken(JointRange, String),
+    /// No limits, with the reason.
+    Unset(String),
+}
+
+/// Top speed, acceleration and jerk of a moving joint.
+pub(super) struct Rates {
+    pub velocity: f64,
+    pub acceleration: f64,
+    pub jerk: Option<f64>,
+    /// What was assumed for want of limits.
+    pub assumed: Assumed,
+}
+
+/// Which rates nobody gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Assumed {
+    pub velocity: bool,
+    pub acceleration: bool,
+}
+
+/// Limits of joints as the URDF and the world file have them.
+pub(super) struct Limits<'a> {
+    pub document: &'a Document,
+    pub settings: RobotSettings<'a>,
+}
+
+impl Limits<'_> {
+    /// The range of a movable joint: the world's, else the URDF's narrowed by its soft limits.
+    pub fn range(&self, index: usize) -> Result<Range, Diagnostic> {
+        let joint = &self.document.robot.joints[index];
+        if let Some(limits) = find(&self.settings.table.limits, &joint.name) {
+            return self.overridden(joint, limits).map(Range::Known);
+        }
+        if joint.joint_type == JointType::Continuous {
+            return Ok(Range::Known(JointRange::Circle));
+        }
+        if self.document.joints[index].limit.is_none() {
+            return Ok(Range::Unset("has no <limit>".into()));
+        }
+        let (lower, upper) = (joint.limit.lower, joint.limit.upper);
+        if lower == upper {
+            return Ok(Range::Unset(format!("has no range: lower and upper are both {lower}, which means unset")));
+        }
+        let [lower, upper] = self.softened(index, [lower, upper])?;
+        let slides = joint.joint_type == JointType::Prismatic;
+        if !slides && lower <= -UNLIMITED && upper >= UNLIMITED {
+            let note =
+                format!("joint \"{}\": limits from {lower} to {upper} are none; taken as continuous", joint.name);
+            return Ok(Range::Taken(JointRange::Circle, note));
+        }
+        if slides && upper - lower > LONGEST_SLIDE {
+            let (lower, upper) = (lower.max(-LARGEST), upper.min(LARGEST));
+            if lower < upper {
+                let note = format!("joint \"{}\": its range is taken as {lower:e} to {upper:e} m", joint.name);
+                return Ok(Range::Taken(JointRange::Interval { lower, upper }, note));
+            }
+        }
+        if !slides && are_degrees(lower, upper) {
+            let turns = ((upper - lower) / TAU).round();
+            return Ok(Range::Unset(format!(
+                "has limits from {lower} to {upper} rad, {turns} turns: they look like degrees"
+            )));
+        }
+        if upper - lower > if slides { LONGEST_SLIDE } else { LONGEST_TURN } {
+            return Ok(Range::Unset(format!("has limits from {lower} to {upper}, a range too long to plan in")));
+        }
+        Ok(Range::Known(JointRange::Interval { lower, upper }))
+    }
+
+    /// The range of a joint that is to be planned for.
+    pub fn planned_range(&self, index: usize) -> Result<JointRange, Diagnostic> {
+        match self.range(index)? {
+            Range::Known(axis) | Range::Taken(axis, _) => Ok(axis),
+            Range::Unset(reason) => {
+                let joint = &self.document.robot.joints[index];
+                let at = self.document.joints[index].limit.as_ref().unwrap_or(&self.document.joints[index].at);
+                let (key, joint_type) = (key(&joint.name), &joint.joint_type);
+                let mut help = format!("in the world file: [robot] limits = {{ {key} = {} }}", self.example(index));
+                match self.degrees(index) {
+                    Some([lower, upper]) => {
+                        help += &format!("; if they are meant in radians: {{ {key} = [{lower}, {upper}] }}")
+                    }
+                    None if *joint_type == JointType::Revolute => {
+                        help += ", or make it type=\"continuous\" in the URDF"
+                    }
+                    None => {}
+                }
+                Err(self.document.diagnostic_at(at, format!("joint \"{}\" {reason}", joint.name)).help(help))
+            }
+        }
+    }
+
+    /// A range for the world file to give a joint that has none to plan in: the URDF's in degrees if it looks like that, else a placeholder.
+    pub fn example(&self, index: usize) -> String {
+        match self.degrees(index) {
+            Some([lower, upper]) => format!("[\"{lower}deg\", \"{upper}deg\"]"),
+            None if self.document.robot.joints[index].joint_type == JointType::Prismatic => "[0.0, 0.5]".into(),
+            None => "[-3.1, 3.1]".into(),
+        }
+    }
+
+    /// The URDF's limits of a revolute joint if they look like degrees.
+    fn degrees(&self, index: usize) -> Option<[f64; 2]> {
+        let joint = &self.document.robot.joints[index];
+        let (lower, upper) = (joint.limit.lower, joint.limit.upper);
+        (joint.joint_type == JointType::Revolute && are_degrees(lower, upper)).then_some([lower, upper])
+    }
+
+    fn overridden(&self, joint: &urdf_rs::Joint, limits: &Spanned<Vec<Written>>) -> Result<JointRange, Diagnostic> {
+        let diagnostic = |message: String| {
+            let message = format!("[robot] limits of \"{}\": {message}", joint.name);
+            self.settings
+                .source
+                .diagnostic_at(limits.span(), message)
+                .help("limits = { NAME = [lower, upper] }, rad or m")
+        };
+        let longest = if joint.joint_type == JointType::Prismatic { LONGEST_SLIDE } else { LONGEST_TURN };
+        let numbers: Vec<f64> = limits.get_ref().iter().map(|n| n.get_ref().value).collect();
+        if joint.joint_type == JointType::Prismatic && limits.get_ref().iter().any(|n| n.get_ref().in_degrees) {
+            return Err(diagnostic("the joint slides: its limits cannot be in degrees".into()));
+        }
+        let [lower, upper] = numbers[..] else {
+            return Err(diagnostic(format!("expected [lower, upper], found {} numbers", numbers.len())));
+        };
+        if !(lower.is_finite() && upper.is_finite()) {
+            return Err(diagnostic("they must be finite".into()));
+        }
+        if lower >= upper {
+            return Err(diagnostic(format!("lower ({lower}) must be below upper ({upper})")));
+        }
+        if upper - lower > longest {
+            return Err(diagnostic(format!("the range is longer than {longest}"))
+                .help("a joint that turns without end is of type continuous in the URDF"));
+        }
+        Ok(JointRange::Interval { lower, upper })
+    }
+
+    fn softened(&self, index: usize, [lower, upper]: [f64; 2]) -> Result<[f64; 2], Diagnostic> {
+        let joint = &self.document.robot.joints[index];
+        let (Some(at), Some(soft)) = (&self.document.joints[index].soft_limits, &joint.safety_controller) else {
+            return Ok([lower, upper]);
+        };
+        let (soft_lower, soft_upper) = (soft.soft_lower_limit, soft.soft_upper_limit);
+        let narrowed = [lower.max(soft_lower), upper.min(soft_upper)];
+        if narrowed[0] >= narrowed[1] {
+            let message = format!(
+                "joint \"{}\": its soft limits [{soft_lower}, {soft_upper}] leave nothing of its limits [{lower}, {upper}]",
+                joint.name
+            );
+            let help = format!("in the world file: [robot] limits = {{ {} = [{lower}, {upper}] }}", key(&joint.name));
+            return Err(self.document.diagnostic_at(at, message).help(help));
+        }
+        Ok(narrowed)
+    }
+
+    /// Top speed, acceleration and jerk of a joint that is to be planned for.
+    pub fn rates(&self, index: usize) -> Result<Rates, Diagnostic> {
+        let joint = &self.document.robot.joints[index];
+        let place = &self.document.joints[index];
+        let name = &joint.name;
+        let mut assumed = Assumed::default();
+        let slides = joint.joint_type == JointType::Prismatic;
+        let given = place.limit.is_some().then_some(joint.limit.velocity).filter(|v| *v > 0.0);
+        let velocity = self.positive(&self.settings.table.velocity, name, "velocity")?.or(given).unwrap_or_else(|| {
+            let default = if slides { SLIDING_SPEED } else { TURNING_SPEED };
+            assumed.velocity = true;
+            default
+        });
+        let jerk = self.positive(&self.settings.table.jerk, name, "jerk")?;
+        let given = place.acceleration.filter(|a| *a > 0.0);
+        if let Some(acceleration) = self.positive(&self.settings.table.acceleration, name, "acceleration")?.or(given) {
+            return Ok(Rates { velocity, acceleration, jerk, assumed });
+        }
+        assumed.acceleration = true;
+        Ok(Rates { velocity, acceleration: assumed_acceleration(velocity), jerk, assumed })
+    }
+
+    fn positive(&self, table: &PerJoint<Spanned<f64>>, name: &str, what: &str) -> Result<Option<f64>, Diagnostic> {
+        match find(table, name) {
+            None => Ok(None),
+            Some(value) if value.get_ref().is_finite() && *value.get_ref() > 0.0 => Ok(Some(*value.get_ref())),
+            Some(value) => {
+                let message = format!("[robot] {what} of \"{name}\" must be positive, is {}", value.get_ref());
+                Err(self
+                    .settings
+                    .source
+                    .diagnostic_at(value.span(), message)
+                    .help("give a number above 0, in radians or metres and seconds"))
+            }
+        }
+    }
+}
+
+/// Whether limits of a revolute joint look like degrees: they go farther than any drive without end stops turns, yet no farther than
+/// two turns would in degrees, and are no multiples of half turns in radians.
+fn are_degrees(lower: f64, upper: f64) -> bool {
+    let is_half_turns = |limit: f64| ((limit / PI).round() * PI - limit).abs() < HALF_TURN_ROUNDING;
+    let farthest = lower.abs().max(upper.abs());
+    (LEAST_DEGREES..=MOST_DEGREES).contains(&farthest) && !(is_half_turns(lower) && is_half_turns(upper))
+}
+
+/// A joint's entry in one of the world's tables.
+pub(super) fn find<'a, T>(table: &'a PerJoint<T>, name: &str) -> Option<&'a T> {
+    table.iter().find(|(k, _)| k.get_ref() == name).map(|(_, v)| v)
+}
+
+/// A name as a TOML key.
+pub(super) fn key(name: &str) -> String {
+    let bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    if bare { name.to_owned() } else { format!("{name:?}") }
+}

@@ -1,0 +1,125 @@
+//! What the two arm links weigh, and what their joints can bring.
+
+use super::bodies::Bodies;
+use super::limits::{find, key};
+use super::plane::project;
+use super::tree::isometry;
+use crate::error::Diagnostic;
+use crate::settings::RobotSettings;
+use cplan_core::model::{Arm, Body, Dynamics};
+use cplan_geometry::Vector;
+use nalgebra::{Matrix3, Vector3};
+
+/// Acceleration of free fall in the root frame, whose z axis points up; m/s2.
+const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
+
+/// The least determinant of an inertia matrix, as a share of the product of its diagonal: below, a joint moves nothing. And the least effort, as a
+/// share of what moves the greatest inertia as fast as it may have to go: below, rounding is all that is left of it.
+const NEGLIGIBLE: f64 = 1e-12;
+
+/// Whether what the world says of efforts and gravity can be, also where nothing depends on it.
+///
+/// # Errors
+/// The first that cannot.
+pub(super) fn check(settings: RobotSettings) -> Result<(), Diagnostic> {
+    let bad =
+        settings.table.effort.iter().find(|(_, effort)| !(effort.get_ref().is_finite() && *effort.get_ref() > 0.0));
+    if let Some((joint, effort)) = bad {
+        let message = format!("[robot] effort of \"{joint}\" must be positive, is {}", effort.get_ref());
+        return Err(settings.source.diagnostic_at(effort.span(), message).help("N m, or N of a joint that slides"));
+    }
+    let Some(given) = &settings.table.gravity else { return Ok(()) };
+    let numbers: Vec<f64> = given.get_ref().iter().map(|number| *number.get_ref()).collect();
+    if numbers.len() == 3 && numbers.iter().all(|number| number.is_finite()) {
+        return Ok(());
+    }
+    let message = format!("[robot] gravity: expected three finite numbers, found {numbers:?}");
+    let help = "gravity = [0, 0, -9.81], m/s2 in the robot's root frame";
+    Err(settings.source.diagnostic_at(given.span(), message).help(help))
+}
+
+impl Bodies<'_> {
+    /// Masses and efforts of an arm.
+    ///
+    /// # Errors
+    /// Links without mass, joints without effort, numbers that no body has.
+    pub fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
+        check(self.settings)?;
+        let effort = [self.effort(0)?, self.effort(1)?];
+        let bodies = [self.body(0)?, self.body(1)?];
+        let gravity = self.gravity();
+        let gravity = Vector::new(gravity.dot(&self.plane.u), gravity.dot(&self.plane.v));
+        let dynamics = Dynamics { bodies, gravity, effort, assumed, limits: false };
+        let inertia = dynamics.greatest_inertia(arm);
+        let acceleration = dynamics.greatest_accelerations(arm);
+        if inertia.iter().flatten().chain(&acceleration).all(|value| value.is_finite())
+            && (0..2).all(|k| effort[k] > NEGLIGIBLE * inertia[k][k] * acceleration[k])
+        {
+            return Ok(dynamics);
+        }
+        let is_moved = dynamics.least_determinant(arm) > NEGLIGIBLE * inertia[0][0] * inertia[1][1];
+        let (message, help) = if is_moved {
+            (
+                "the efforts of the joints are nothing beside what their velocities, masses and gravity ask for",
+                "look for a wrong unit: kg, m, N m (N of a joint that slides), rad/s (m/s), m/s2",
+            )
+        } else {
+            ("one of the two joints moves no inertia", "give its link an <inertial> with <mass> and <inertia>")
+        };
+        Err(self.document.source.diagnostic(message).help(help))
+    }
+
+    fn effort(&self, index: usize) -> Result<f64, Diagnostic> {
+        let joint = &self.document.robot.joints[self.chain.joints[index]];
+        let place = &self.document.joints[self.chain.joints[index]];
+        if let Some(given) = find(&self.settings.table.effort, &joint.name) {
+            return Ok(*given.get_ref());
+        }
+        if joint.limit.effort.is_finite() && joint.limit.effort > 0.0 && place.limit.is_some() {
+            return Ok(joint.limit.effort);
+        }
+        let message = format!("joint \"{}\" has no effort", joint.name);
+        let help = format!(
+            "effort=\"50\" in its <limit>, or in the world file: [robot] effort = {{ {} = 50 }} (N m, or N of a joint that slides)",
+            key(&joint.name)
+        );
+        Err(self.document.diagnostic_at(place.limit.as_ref().unwrap_or(&place.at), message).help(help))
+    }
+
+    /// All that an arm link is made of, in its frame.
+    fn body(&self, index: usize) -> Result<Body, Diagnostic> {
+        let joint = self.joint_at(index).0;
+        let mut whole = Body::NONE;
+        for body in self.bodies(index) {
+            let link = &self.document.robot.links[body];
+            let inertial = &link.inertial;
+            let mass = inertial.mass.value;
+            let pose = self.poses[body] * isometry(&inertial.origin);
+            let i = &inertial.inertia;
+            let tensor = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
+            let normal = pose.inverse_transform_vector(&self.plane.normal);
+            let inertia = normal.dot(&(tensor * normal));
+            if mass < 0.0 || inertia < 0.0 {
+                let message =
+                    format!("link \"{}\" has a mass of {mass} kg and an inertia of {inertia} kg m2", link.name);
+                let at = &self.document.links[body].at;
+                return Err(self.document.diagnostic_at(at, message).help("no body has less than 0 of either"));
+            }
+            let center = (project(self.plane, &pose.translation.vector) - joint).into();
+            whole = whole.and(&Body { mass, center, inertia });
+        }
+        if whole.mass > 0.0 {
+            return Ok(whole);
+        }
+        let link = self.tree.child[self.chain.joints[index]];
+        let message = format!("link \"{}\" has no mass", self.tree.links[link]);
+        let help = "give it an <inertial> with <origin>, <mass> and <inertia>";
+        Err(self.document.source.diagnostic(message).help(help))
+    }
+
+    fn gravity(&self) -> Vector3<f64> {
+        let given = self.settings.table.gravity.as_ref();
+        let numbers = given.map(|given| given.get_ref().iter().map(|number| *number.get_ref()));
+        numbers.map_or(GRAVITY.into(), Vector3::from_iterator)
+    }
+}

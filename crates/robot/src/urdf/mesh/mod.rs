@@ -1,0 +1,119 @@
+//! Mesh files: where they are, their vertices and edges.
+
+mod dae;
+mod obj;
+mod stl;
+
+use crate::quantity::LARGEST;
+use crate::source::{Source, read_bounded};
+use cplan_xacro::packages;
+use nalgebra::Point3;
+use std::path::{Path, PathBuf};
+
+/// The surface of a mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Mesh {
+    /// Vertices of its faces.
+    pub points: Vec<Point3<f64>>,
+    /// Ends of the edges of its faces, into `points`, an edge once or more often; none if the reader does not know the faces.
+    pub edges: Vec<[u32; 2]>,
+}
+
+impl Mesh {
+    /// Adds the closed outline of a face whose corners are the points from number `first` on.
+    fn close_face(&mut self, first: usize) {
+        let corners = first as u32..self.points.len() as u32;
+        let next = corners.clone().cycle().skip(1);
+        self.edges.extend(corners.zip(next).map(|(from, to)| [from, to]));
+    }
+}
+
+/// Why a mesh is not read, and what to do about it.
+pub(super) struct Unread {
+    pub message: String,
+    pub cure: &'static str,
+}
+
+impl From<String> for Unread {
+    fn from(message: String) -> Self {
+        let cure = "correct the path, put the package folder beside the URDF or name its place in ROS_PACKAGE_PATH, and \
+                    convert other formats to STL; or let bars between the joints stand in for the links, in the world \
+                    file: [robot] bar = 0.05 (their radius in metres)";
+        Self { message, cure }
+    }
+}
+
+/// A mesh, scaled, in the geometry's frame.
+///
+/// `filename` is as in the URDF: `package://name/rest` (`name` as the `package.xml` has it), `file://path`, absolute, or relative to the
+/// URDF's folder.
+///
+/// # Errors
+/// With the places that were searched: the file is missing, the URDF is no file, of a format that is not read, broken, or too large.
+pub(super) fn read(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Mesh, Unread> {
+    let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if !["stl", "dae", "obj"].contains(&extension.as_str()) {
+        let message =
+            format!("mesh \"{filename}\" is neither STL, Collada (.dae) nor OBJ, and cplan reads no other mesh format");
+        return Err(message.into());
+    }
+    let anchor = urdf.anchor().map_err(|why| format!("mesh \"{filename}\" cannot be found: {why}"))?;
+    let path = find(filename, anchor)?;
+    let bytes = read_bounded(&path).map_err(|e| format!("mesh {} cannot be read: {e}", path.display()))?;
+    let mesh = match extension.as_str() {
+        "stl" => stl::read(bytes),
+        "dae" => dae::read(&bytes).map(|points| Mesh { points, edges: Vec::new() }),
+        _ => obj::read(&bytes),
+    };
+    let Mesh { points, edges } = mesh.map_err(|e| format!("mesh {}: {e}", path.display()))?;
+    let scaled: Vec<_> = points.iter().map(|p| Point3::new(p.x * scale[0], p.y * scale[1], p.z * scale[2])).collect();
+    match scaled.iter().position(|p| !p.iter().all(|c| c.abs() <= LARGEST)) {
+        None => Ok(Mesh { points: scaled, edges }),
+        Some(far) => Err(too_far(&points[far], scale, &path)),
+    }
+}
+
+/// A vertex that scaled is nowhere, or where no arm can be.
+fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> Unread {
+    let [x, y, z] = vertex.coords.into();
+    let [a, b, c] = scale;
+    let what = if vertex.iter().all(|c| c.is_finite()) { "too large" } else { "not finite" };
+    let message = format!(
+        "mesh {}: a vertex is {what}: ({x:?}, {y:?}, {z:?}) with scale=\"{a:?} {b:?} {c:?}\" (at most {LARGEST:e} m)",
+        path.display()
+    );
+    let cure =
+        "give the scale that makes metres of its numbers, such as 0.001 for millimetres, or export the mesh again";
+    Unread { message, cure }
+}
+
+/// The file of a mesh.
+///
+/// # Errors
+/// With the places that were searched.
+pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
+    if let Some(path) = candidates(filename, urdf).find(|path| path.is_file()) {
+        return Ok(path);
+    }
+    let mut places: Vec<String> = candidates(filename, urdf).map(|path| path.display().to_string()).collect();
+    places.dedup();
+    Err(match places.is_empty() {
+        false => format!("mesh \"{filename}\" is not there; looked at {}", places.join(", ")),
+        true => format!("mesh \"{filename}\" is not there: near the URDF is no package of that name"),
+    })
+}
+
+/// Where a mesh may be, likeliest first.
+fn candidates<'f>(filename: &'f str, urdf: &Path) -> Box<dyn Iterator<Item = PathBuf> + 'f> {
+    let folder = urdf.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if let Some(path) = filename.strip_prefix("file://") {
+        return Box::new(std::iter::once(folder.join(path)));
+    }
+    match filename.strip_prefix("package://") {
+        None => Box::new(std::iter::once(folder.join(filename))),
+        Some(rest) => {
+            let (package, inside) = rest.split_once('/').unwrap_or((rest, ""));
+            Box::new(packages(package, urdf).map(move |folder| folder.join(inside)))
+        }
+    }
+}

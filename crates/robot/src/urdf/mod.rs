@@ -1,0 +1,79 @@
+//! From a URDF to a planar two-joint arm.
+//!
+//! The joints' axes and all link frames are computed in the root frame at the zero configuration (the two joints at 0,
+//! the others where `[robot] fixed` holds them), then projected on the common plane of motion.
+//!
+//! ```text
+//! Document (sound elements, diagnostics) -> Tree -> Chain (two joints, tip) -> Reduction -> Plane, Bounds, Outlines -> Arm
+//! ```
+//!
+//! [`load`] stops at the first stage that fails; [`survey`] goes on as far as it makes sense and reports everything.
+
+mod advice;
+mod attributes;
+mod bodies;
+mod chain;
+mod document;
+mod effects;
+mod foreign;
+mod held;
+mod ignored;
+mod limits;
+mod masses;
+mod mesh;
+mod pairing;
+mod plane;
+mod reduction;
+mod self_collision;
+mod shapes;
+mod help;
+mod solid;
+mod survey;
+mod tool;
+mod tree;
+
+pub use survey::survey;
+
+use crate::error::InputError;
+use crate::report::RobotReport;
+use crate::settings::RobotSettings;
+use crate::source::Source;
+use cplan_core::model::Arm;
+use document::Document;
+use reduction::Reduction;
+use std::collections::BTreeSet;
+use std::path::Path;
+use tree::Tree;
+
+/// The meshes that a robot finds where it is, but not if its text were the file `other`.
+#[must_use]
+pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
+    let (Ok(here), Ok(xml)) = (robot.anchor(), roxmltree::Document::parse(robot.text())) else { return Vec::new() };
+    let named =
+        xml.descendants().filter(|node| node.has_tag_name("mesh")).filter_map(|node| node.attribute("filename"));
+    let place = |name: &str, urdf: &Path| mesh::find(name, urdf).ok().and_then(|path| path.canonicalize().ok());
+    let is_lost = |name: &&str| place(name, here).is_some_and(|path| place(name, other) != Some(path));
+    let names: BTreeSet<&str> = named.filter(is_lost).collect();
+    names.into_iter().map(str::to_owned).collect()
+}
+
+/// Reads a URDF and reduces it to the arm that the settings choose.
+///
+/// # Errors
+/// Broken or foreign files, robots that are no planar two-joint arm, unset limits, meshes that cannot be read.
+pub fn load(source: Source, settings: RobotSettings) -> Result<(Arm, RobotReport), InputError> {
+    let document = Document::read(source)?;
+    InputError::check(document.diagnostics.clone())?;
+    let tree = Tree::build(&document)?;
+    let chain = chain::choose(&document, &tree, settings)?;
+    let reduction = Reduction::new(&document, &tree, settings, &chain);
+    masses::check(settings)?;
+    let plane = reduction.plane()?;
+    let bounds = reduction.bounds()?;
+    let outlines = reduction.outlines(&plane)?;
+    let joints = reduction.robot_joints(&plane)?;
+    let (arm, mut report, unknown) = reduction.arm(plane, bounds, outlines);
+    report.warnings.extend(advice::warnings(&reduction, &arm));
+    unknown.filter(|_| settings.table.dynamics).map_or(Ok(()), Err)?;
+    Ok((arm, RobotReport { joints, ..report }))
+}

@@ -1,0 +1,86 @@
+//! Which two joints of a robot form a planar arm, and whether that settles which are meant.
+
+use super::chain;
+use super::document::Document;
+use super::plane::ALIGNED;
+use super::reduction::Reduction;
+use super::tree::Tree;
+use crate::quantity::PerJoint;
+use crate::robot_table::RobotTable;
+use crate::settings::RobotSettings;
+use cplan_core::model::Plane;
+use urdf_rs::JointType;
+
+/// More pairs than this are not listed in a message.
+const LISTED: usize = 6;
+
+/// Of robots with more joints than this that can move, pairs are not tried: their number grows with the square.
+pub(super) const MOST_TRIED: usize = 40;
+
+/// Two joints that form a planar arm.
+pub(super) struct PlanarPair {
+    /// Base to tip.
+    pub joints: [usize; 2],
+    plane: Plane,
+}
+
+/// A pair that is taken although the world names none.
+pub(super) struct Evident {
+    pub joints: [usize; 2],
+    /// Why this one, in words that follow its names.
+    pub reason: String,
+}
+
+/// Every two joints that form a planar arm and go with all that the world says; base first.
+pub(super) fn planar(document: &Document, tree: &Tree, settings: RobotSettings) -> Vec<PlanarPair> {
+    let plane = |joints: [usize; 2]| {
+        let chain = chain::with_joints(document, tree, settings, joints).ok()?;
+        Reduction::new(document, tree, settings, &chain).common_plane().ok()
+    };
+    let pairs = chain::pairs(document, tree).into_iter();
+    pairs.filter_map(|joints| Some(PlanarPair { joints, plane: plane(joints)? })).collect()
+}
+
+/// The pair that must be meant: the only planar one, if none turns between; or else, of the planar ones without any joint between
+/// that moves, the only one, or the first of the chain if all share its plane.
+pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<Evident> {
+    let between = |pair: &PlanarPair| -> Vec<&urdf_rs::Joint> {
+        let [a, b] = &pair.joints;
+        let is_inner = |j: &usize| tree.carries(*a, tree.parent[*j]) && tree.carries(*j, tree.parent[*b]);
+        let inner = (0..document.robot.joints.len()).filter(is_inner);
+        inner.map(|j| &document.robot.joints[j]).filter(|joint| chain::is_movable(joint)).collect()
+    };
+    if let [only] = planar {
+        let turns = |joint: &&urdf_rs::Joint| joint.joint_type != JointType::Prismatic;
+        let reason = ", the only planar pair of neighbours".to_owned();
+        return (!between(only).iter().any(turns)).then_some(Evident { joints: only.joints, reason });
+    }
+    let adjacent: Vec<&PlanarPair> = planar.iter().filter(|pair| between(pair).is_empty()).collect();
+    let (first, others) = adjacent.split_first()?;
+    let follows = |other: &&PlanarPair| {
+        let [a, b] = [first.joints[1], other.joints[0]];
+        (a == b || tree.carries(a, tree.parent[b]))
+            && other.plane.normal.cross(&first.plane.normal).norm() <= ALIGNED.sin()
+    };
+    let reason = match others.len() {
+        0 => ", the only planar pair of neighbours".to_owned(),
+        more => format!(", the first of {} planar pairs of neighbours, which share a plane", more + 1),
+    };
+    others.iter().all(follows).then_some(Evident { joints: first.joints, reason })
+}
+
+/// The entries that would choose these pairs, for messages.
+pub(super) fn choices(document: &Document, pairs: &[PlanarPair]) -> String {
+    let entry = |pair: &PlanarPair| {
+        let [a, b] = pair.joints.map(|j| document.robot.joints[j].name.as_str());
+        format!("[robot] joints = [{a:?}, {b:?}]")
+    };
+    let shown: Vec<String> = pairs.iter().take(LISTED).map(entry).collect();
+    let more = if pairs.len() > LISTED { ", ..." } else { "" };
+    shown.join(", or ") + more
+}
+
+/// The table without its choice of joints and tip, and of where joints are held.
+pub(super) fn freed(table: &RobotTable) -> RobotTable {
+    RobotTable { joints: None, tip: None, fixed: PerJoint::new(), ..table.clone() }
+}

@@ -1,0 +1,148 @@
+//! The joints of the tool: one that lowers it, and a wrist.
+
+use super::chain::{Chooser, is_movable};
+use super::limits::Limits;
+use super::reduction::Reduction;
+use super::tree;
+use crate::error::Diagnostic;
+use crate::quantity::Number;
+use crate::stroke::StrokeTable;
+use cplan_core::model::assumed_acceleration;
+use cplan_core::model::{Driver, Plane, RobotJoint, RobotJoints, Stroke, ToolJoint};
+use toml::Spanned;
+use urdf_rs::JointType;
+
+/// How far an axis may be from the plane's normal: the cosine falls short of 1 by no more than rounding.
+pub(super) const PARALLEL: f64 = 1e-9;
+
+/// How far the tip may be off the wrist's axis, metres: rounding.
+const ON_AXIS: f64 = 1e-6;
+
+impl Reduction<'_> {
+    /// The movable joints in the order of the file, and which of them the tool moves by.
+    ///
+    /// # Errors
+    /// A stroke or a wrist by a joint that cannot do it; mimics of joints that do not exist, or of themselves.
+    pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Diagnostic> {
+        let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
+        let robot = &self.settings.table;
+        let stroke = robot.stroke.as_ref().map(|table| self.stroke(&chooser, table, plane)).transpose()?;
+        let wrist = robot.wrist_joint().map(|name| self.tool_joint(&chooser, name, "wrist", plane)).transpose()?;
+        let driver = |leader: usize| {
+            let is = |joint: Option<&ToolJoint>| joint.is_some_and(|joint| joint.name == chooser.all()[leader].name);
+            match self.chain.joints.iter().position(|chosen| *chosen == leader) {
+                Some(k) => Driver::Planned(k),
+                None if is(stroke.as_ref().map(|stroke| &stroke.joint)) => Driver::Stroke,
+                None if is(wrist.as_ref()) => Driver::Wrist,
+                None => Driver::Held(self.chain.values[leader]),
+            }
+        };
+        let joints = chooser.all().iter().enumerate().filter(|(_, joint)| is_movable(joint));
+        let joints = joints.map(|(index, joint)| {
+            let (leader, factor, offset) = chooser.rule(index)?;
+            Ok(RobotJoint { name: joint.name.clone(), driver: driver(leader), factor, offset })
+        });
+        Ok(RobotJoints { joints: joints.collect::<Result<_, Diagnostic>>()?, stroke, wrist })
+    }
+
+    fn stroke(&self, chooser: &Chooser, table: &StrokeTable, plane: &Plane) -> Result<Stroke, Diagnostic> {
+        let joint = self.tool_joint(chooser, &table.joint, "stroke", plane)?;
+        let source = self.settings.source;
+        let given = |number: &Option<Number>, what: &str, allowed: fn(f64) -> bool, how: &str| match number {
+            None => Ok(None),
+            Some(number) => match source.finite(number, &format!("[robot] stroke, {what}"))? {
+                value if allowed(value) => Ok(Some(value)),
+                value => {
+                    let message = format!("[robot] stroke: {what} must be {how}, is {value}");
+                    Err(source
+                        .diagnostic_at(number.span(), message)
+                        .help("stroke = { joint = \"NAME\", travel = 0.1 }, in metres"))
+                }
+            },
+        };
+        let travel = given(&table.travel, "travel", |x| x != 0.0, "other than 0")?;
+        let velocity = given(&table.velocity, "velocity", |x| x > 0.0, "positive")?;
+        let acceleration = given(&table.acceleration, "acceleration", |x| x > 0.0, "positive")?;
+        let index = chooser.named(&table.joint, "stroke")?;
+        let (velocity, own) = match velocity {
+            Some(velocity) => (velocity, assumed_acceleration(velocity)),
+            None => {
+                let rates = Limits { document: self.document, settings: self.settings }.rates(index)?;
+                (rates.velocity, rates.acceleration)
+            }
+        };
+        let below = |link: &usize| self.tree.carries(index, *link);
+        let bodies = (0..self.tree.links.len()).filter(below).map(|link| self.tree.links[link].clone()).collect();
+        Ok(Stroke { joint, travel, velocity, acceleration: acceleration.unwrap_or(own), bodies })
+    }
+
+    /// A joint that mimics a joint of the tool and moves something that can collide, or the tip.
+    fn follower_with_shapes(&self, chooser: &Chooser, leader: usize) -> Result<Option<String>, Diagnostic> {
+        for (index, joint) in chooser.all().iter().enumerate().filter(|(_, joint)| joint.mimic.is_some()) {
+            let counts = chooser.has_shapes(index) || self.tree.carries(index, self.chain.tip);
+            if counts && chooser.leader(index)? == leader {
+                return Ok(Some(joint.name.clone()));
+            }
+        }
+        Ok(None)
+    }
+
+    /// A joint that moves the tool along the plane's normal or about it.
+    fn tool_joint(
+        &self,
+        chooser: &Chooser,
+        name: &Spanned<String>,
+        table: &str,
+        plane: &Plane,
+    ) -> Result<ToolJoint, Diagnostic> {
+        let index = chooser.named(name, table)?;
+        let joint = &chooser.all()[index];
+        let diagnostic = |why: &str, help: &str| {
+            let message = format!("[robot] {table}: joint \"{}\" {why}", joint.name);
+            Err(chooser.in_world(name, message).help(help))
+        };
+        if self.chain.joints.contains(&index) {
+            return diagnostic("is one of the two that move", "name another joint, of the tool");
+        }
+        if let Some(mimic) = &joint.mimic {
+            return diagnostic(&format!("mimics joint \"{}\"", mimic.joint), "name the joint that it mimics");
+        }
+        match (table, joint.joint_type == JointType::Prismatic) {
+            ("stroke", false) => return diagnostic("turns", "a stroke needs a joint that slides"),
+            ("wrist", true) => return diagnostic("slides", "a wrist needs a joint that turns"),
+            _ => {}
+        }
+        let [_, second] = self.chain.joints;
+        if !self.tree.carries(second, self.tree.child[index]) {
+            let second = &chooser.all()[second].name;
+            return diagnostic(&format!("is not carried by joint \"{second}\""), "name a joint of the tool");
+        }
+        if let Some(follower) = self.follower_with_shapes(chooser, index)? {
+            let why = format!("is mimicked by joint \"{follower}\", whose links would move otherwise than the tool");
+            return diagnostic(
+                &why,
+                "make the other joint fixed in a copy of the file, or take its links' geometry away",
+            );
+        }
+        let direction = self.poses[self.tree.child[index]] * tree::axis(joint);
+        let along = direction.dot(&plane.normal);
+        if along.abs() < 1.0 - PARALLEL {
+            let why = "is not parallel to the normal of the plane that the arm moves in";
+            return diagnostic(why, "name a joint of the tool whose axis is");
+        }
+        let tip = self.chain.tip;
+        let tip_link = &self.tree.links[tip];
+        if !self.tree.carries(index, tip) {
+            let why = format!("does not carry the tip \"{tip_link}\"");
+            return diagnostic(&why, "name a joint of the tool, or another tip: [robot] tip = \"LINK\"");
+        }
+        let to_tip = self.poses[tip].translation.vector - self.poses[self.tree.child[index]].translation.vector;
+        let off = (to_tip - plane.normal * to_tip.dot(&plane.normal)).norm();
+        if table == "wrist" && off > ON_AXIS {
+            let why = format!("moves the tip \"{tip_link}\", which is {off:.2e} m off its axis");
+            return diagnostic(&why, "name a link on the axis: [robot] tip = \"LINK\"");
+        }
+        let axis = Limits { document: self.document, settings: self.settings }.planned_range(index)?;
+        Ok(ToolJoint { name: joint.name.clone(), rest: self.chain.values[index], sign: along.signum(), range: axis })
+    }
+}

@@ -1,0 +1,53 @@
+//! The wrist in the world file's `[robot]`.
+
+use super::error::Diagnostic;
+use super::quantity::Number;
+use super::schema::Positive;
+use super::source::Source;
+use cplan_core::model::{Wrist, assumed_acceleration, assumed_acceleration_note};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use toml::Spanned;
+
+/// The wrist's limits.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "wrist")]
+pub struct WristTable {
+    /// The joint that it is, so that ROS 2 files have its values; without it they hold it still.
+    #[schemars(with = "Option<String>")]
+    pub joint: Option<Spanned<String>>,
+    /// Top speed, rad/s.
+    #[schemars(with = "Positive")]
+    pub velocity: Number,
+    /// Greatest acceleration, rad/s2; by default top speed is reached in 0.25 s.
+    #[schemars(with = "Option<Positive>")]
+    pub acceleration: Option<Number>,
+}
+
+impl WristTable {
+    /// Reads the wrist's limits. `source` is the file that the table is from.
+    ///
+    /// # Errors
+    /// When one is not positive or not finite.
+    pub fn read(&self, source: &Source) -> Result<Wrist, Diagnostic> {
+        let velocity = positive(source, &self.velocity, "velocity")?;
+        let acceleration = self.acceleration.as_ref().map(|a| positive(source, a, "acceleration")).transpose()?;
+        Ok(Wrist { velocity, acceleration: acceleration.unwrap_or(assumed_acceleration(velocity)) })
+    }
+
+    /// Returns a note on the acceleration, if it is assumed.
+    #[must_use]
+    pub fn note(&self, wrist: &Wrist) -> Option<String> {
+        self.acceleration.is_none().then(|| assumed_acceleration_note("wrist", wrist.acceleration, "rad"))
+    }
+}
+
+fn positive(source: &Source, number: &Number, what: &str) -> Result<f64, Diagnostic> {
+    let value = source.finite(number, &format!("[robot] wrist, {what}"))?;
+    if value > 0.0 {
+        return Ok(value);
+    }
+    let message = format!("[robot] wrist: {what} must be positive, is {value}");
+    Err(source.diagnostic_at(number.span(), message).help("wrist = { velocity = 6.0 }, in rad/s"))
+}

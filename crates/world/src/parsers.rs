@@ -1,0 +1,18 @@
+//! Errors of the parsers of JSON and YAML, with the place in the file.
+
+use cplan_robot::{Diagnostic, Source};
+use serde_saphyr::{MessageFormatter, UserMessageFormatter};
+
+/// What is wrong with a file as JSON, and where. The parser's message ends with the place, which is left out here.
+pub(crate) fn json_diagnostic(source: &Source, error: &serde_json::Error) -> Diagnostic {
+    let message = error.to_string();
+    let message = message.lines().next().unwrap_or_default();
+    let message = message.split(" at line ").next().unwrap_or(message);
+    source.diagnostic_at_position(error.line(), error.column(), message)
+}
+
+/// What is wrong with a file as YAML, and where, in words that give no advice to who calls the parser.
+pub(crate) fn yaml_diagnostic(source: &Source, error: &serde_saphyr::Error) -> Diagnostic {
+    let (line, column) = error.location().map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
+    source.diagnostic_at_position(line, column, UserMessageFormatter.format_message(error))
+}

@@ -1,0 +1,154 @@
+//! Checked values of a world file.
+
+use super::joint_pair::JointPair;
+use super::notes::Taken;
+use super::world::GoalTable;
+use cplan_core::model::{Goal, Heights};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Point, Pose, Vector};
+use cplan_robot::{Diagnostic, Number, Numbers, Source, Written};
+use std::cell::RefCell;
+use std::ops::Range;
+use std::path::PathBuf;
+use toml::Spanned;
+
+/// Checks values and knows the file they come from.
+pub(super) struct Reader<'a> {
+    pub source: &'a Source,
+    /// What is not refused, though it is not written as it is meant.
+    pub taken: Taken,
+    /// Joint values in degrees.
+    pub in_degrees: RefCell<Vec<JointPair>>,
+}
+
+impl<'a> Reader<'a> {
+    pub fn new(source: &'a Source) -> Self {
+        Self { source, taken: Taken::default(), in_degrees: RefCell::default() }
+    }
+}
+
+impl Reader<'_> {
+    /// A number that must not be negative.
+    pub fn not_negative(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
+        let value = self.source.finite(number, what)?;
+        if value < 0.0 {
+            let message = format!("{what} must not be negative, is {value}");
+            return Err(self.source.diagnostic_at(number.span(), message).help("write 0 or more"));
+        }
+        Ok(value)
+    }
+
+    /// Exactly two numbers.
+    pub fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
+        match numbers.get_ref().as_slice() {
+            [a, b] => Ok([self.source.finite(a, what)?, self.source.finite(b, what)?]),
+            other => {
+                let message = format!("{what}: expected two numbers, found {}", other.len());
+                Err(self.source.diagnostic_at(numbers.span(), message).help("write [a, b]"))
+            }
+        }
+    }
+
+    /// A point of the plane.
+    pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Diagnostic> {
+        self.two(numbers, what).map(Point::from)
+    }
+
+    /// Where a frame lies and how it is turned; none if neither is said.
+    pub fn pose(&self, at: Option<&Numbers>, angle: Option<&Written>, what: &str) -> Result<Option<Pose>, Diagnostic> {
+        let at = at.map(|at| self.point(at, &format!("{what}, at"))).transpose()?;
+        let angle = angle.map(|angle| self.quantity(angle, &format!("{what}, angle"))).transpose()?;
+        let is_given = at.is_some() || angle.is_some();
+        let place = || Pose::new(at.map_or_else(Vector::zeros, |at| at.coords), angle.unwrap_or(0.0));
+        Ok(is_given.then(place))
+    }
+
+    /// All goals of a table, of which any will do, and where they stand.
+    pub fn goals(&self, goal: &GoalTable, at: Range<usize>) -> Result<(Vec<Goal>, Range<usize>), Diagnostic> {
+        let Some(areas) = &goal.areas else {
+            let (goal, at) = self.goal(goal, at, "goal")?;
+            return Ok((vec![goal], at));
+        };
+        if goal.joints.is_some() || goal.tip.is_some() {
+            let diagnostic = self.source.diagnostic_at(at, "the goal has `areas` beside another goal");
+            return Err(diagnostic.help("keep one of `joints`, `tip` and `areas`"));
+        }
+        let area = |corners: &Spanned<Vec<Numbers>>| match corners.get_ref().as_slice() {
+            [a, b] => {
+                let [a, b] = [self.point(a, "goal area")?, self.point(b, "goal area")?];
+                Ok(Goal::Area([a.inf(&b), a.sup(&b)]))
+            }
+            other => {
+                let message = format!("goal area: expected two opposite corners, found {}", other.len());
+                Err(self.source.diagnostic_at(corners.span(), message).help("write [[x, y], [x, y]]"))
+            }
+        };
+        let found = areas.get_ref().iter().map(area).collect::<Result<Vec<_>, _>>()?;
+        if found.is_empty() {
+            let diagnostic = self.source.diagnostic_at(areas.span(), "the goal has no area");
+            return Err(diagnostic.help("areas = [[[x, y], [x, y]]]: two opposite corners each"));
+        }
+        Ok((found, areas.span()))
+    }
+
+    /// Joint values or a point for the tip, and where they stand.
+    pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Diagnostic> {
+        if let Some(areas) = &goal.areas {
+            let diagnostic = self.source.diagnostic_at(areas.span(), format!("{what}: a step has no areas"));
+            return Err(diagnostic.help("joints = [q1, q2], or tip = [x, y]"));
+        }
+        self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)
+    }
+
+    /// The same from the two keys, of which one is there.
+    pub fn place(
+        &self,
+        joints: Option<&Spanned<Vec<Written>>>,
+        tip: Option<&Numbers>,
+        at: Range<usize>,
+        what: &str,
+    ) -> Result<(Goal, Range<usize>), Diagnostic> {
+        match (joints, tip) {
+            (Some(joints), None) => {
+                let pair = self.joint_pair(joints, &format!("{what} joints"))?;
+                let goal = Goal::Joints(Configuration::from(pair.values));
+                if pair.degrees.iter().any(Option::is_some) {
+                    self.in_degrees.borrow_mut().push(pair);
+                }
+                Ok((goal, joints.span()))
+            }
+            (None, Some(tip)) => Ok((Goal::Tip(self.point(tip, &format!("{what} tip"))?), tip.span())),
+            (joints, _) => {
+                let found = if joints.is_some() { "both" } else { "neither" };
+                let message = format!("the {what} needs either `joints` or `tip`, it has {found}");
+                Err(self.source.diagnostic_at(at, message).help("joints = [q1, q2], or tip = [x, y]"))
+            }
+        }
+    }
+
+    /// The path of a file that the world names, relative to itself.
+    pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Diagnostic> {
+        let anchor = self.source.anchor();
+        let anchor = anchor.map_err(|why| {
+            let help = "save the world as a file beside it";
+            self.source.diagnostic_at(name.span(), format!("{what}: {why}")).help(help)
+        })?;
+        let path = anchor.with_file_name(name.get_ref());
+        if path.is_file() {
+            return Ok(path);
+        }
+        let message = format!("{what}: there is no file {}", path.display());
+        Err(self.source.diagnostic_at(name.span(), message).help("paths are relative to the world file"))
+    }
+
+    /// Heights, all if there are none.
+    pub fn heights(&self, height: Option<&Numbers>, what: &str) -> Result<Heights, Diagnostic> {
+        let Some(height) = height else { return Ok(Heights::ALL) };
+        let [lower, upper] = self.two(height, &format!("{what}, height"))?;
+        if lower > upper {
+            let message = format!("{what}: height [{lower}, {upper}] is empty");
+            return Err(self.source.diagnostic_at(height.span(), message).help("write the lower end first"));
+        }
+        Ok(Heights { lower, upper })
+    }
+}
