@@ -74,7 +74,7 @@ mod tests {
 
     fn planned(urdf: &str, world: &str, options: &Options) -> Plan {
         let read = |file: &str| {
-            let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+            let path = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(file);
             Source::read(&path).unwrap()
         };
         let scene = scene_from(read(urdf), read(world)).unwrap();
