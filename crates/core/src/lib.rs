@@ -2,7 +2,7 @@
 //!
 //! - [`space`]: joint values, axes that are intervals or circles, paths.
 //! - [`model`]: joints, links, the arm, obstacles, and the scene: which pairs of shapes can meet.
-//! - [`cspace`]: C-obstacles as slices, polygons or cells, each with what it proves.
+//! - [`cspace`]: C-obstacles as slices, polygons or cells, each with its kind of proof.
 //! - [`waves`]: waves and classical searches over the free cells of a grid.
 //! - [`planner`]: the trait `Planner` and the four planners of the mission.
 //! - [`check`]: the judge, which certifies paths and proofs on the shapes themselves.

@@ -1,4 +1,4 @@
-//! What is wrong with a planner's options, in words.
+//! Errors of a planner's options, in words.
 
 use super::planner_options::{MOST_MARGIN, NEAREST, SAMPLES};
 use super::{Criterion, Method, Planner};
@@ -8,7 +8,7 @@ use cplan_fields::{EquationChoice, FieldChoice};
 use std::ops::RangeInclusive;
 
 impl Planner {
-    /// What its field needs and these regions of the world lack, if anything, with the cure.
+    /// Reports preferences that its field needs and the world lacks, with a hint.
     #[must_use]
     pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
         let FieldChoice::Relaxed { equation, .. } = self.field()?.field else { return None };
@@ -31,7 +31,7 @@ impl Planner {
         preferences.is_empty().then(needs)
     }
 
-    /// What of it makes no sense, by name.
+    /// Reports the first option without sense, by name.
     pub(super) fn error(&self) -> Option<String> {
         if self.path_kind() == PathKind::Middles && self.method() != Method::Trapezoid {
             return Some(format!("path: middles is for trapezoid, not for {}", self.method()));
@@ -62,7 +62,7 @@ impl Planner {
     }
 }
 
-/// What is wrong with a number that is to be in a range, if anything.
+/// Reports a number that lies outside its range.
 pub(super) fn wrong_number(name: &str, n: usize, range: &RangeInclusive<usize>) -> Option<String> {
     (!range.contains(&n)).then(|| format!("{name}: {n} is not from {} to {}", range.start(), range.end()))
 }

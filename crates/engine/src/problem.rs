@@ -94,8 +94,7 @@ impl Problem {
     }
 
     /// The time that reading the files took, if it was read from files.
-    #[must_use]
-    pub fn read_in(&self) -> Option<Duration> {
+    pub(crate) fn read_in(&self) -> Option<Duration> {
         self.read_in
     }
 

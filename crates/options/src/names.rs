@@ -1,4 +1,4 @@
-//! Planners, paths, searches and what else has names, so that help and shells can list them.
+//! The words for planners, paths, searches and other choices, so that help and shells can list them.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use cplan_core::planner::{GridSearch, PathKind, VisibilityGraph};
@@ -22,7 +22,7 @@ pub trait Named: Copy + Send + Sync + 'static {
         None
     }
 
-    /// Returns what the help says about it; may be empty.
+    /// Returns its line in the help; may be empty.
     fn help(self) -> &'static str;
 }
 

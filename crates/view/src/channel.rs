@@ -91,7 +91,7 @@ pub fn sign(at: Spot, is_middle: bool) -> Item {
     if is_middle { ring(at) } else { disc(at) }
 }
 
-/// What the points are.
+/// The names of the points.
 pub fn keys([centers, middles]: [&Chain; 2]) -> Vec<Key> {
     let center = (!centers.is_empty()).then(|| (Sign::Point { middle: false }, "centres of cells (C)".to_owned()));
     let middle = (!middles.is_empty()).then(|| (Sign::Point { middle: true }, "middles of doors (Q)".to_owned()));

@@ -27,7 +27,7 @@ impl FieldLines {
         self != Self::Equipotentials
     }
 
-    /// What the lines mean.
+    /// The meaning of the lines.
     pub fn keys(self) -> Vec<Key> {
         let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });
         let levels = self.has_levels().then(|| (line(color::scale(0.5)), "equipotentials".to_owned()));

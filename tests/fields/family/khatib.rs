@@ -1,5 +1,6 @@
 //! Attraction and repulsion: their laws, their traps, and that these are told.
 
+use super::planner::drawn;
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Attraction, ForceField, Khatib, Limits, Repulsion};
 use cplan::space::{Configuration, JointRange, Topology};
@@ -7,17 +8,8 @@ use cplan::space::{Configuration, JointRange, Topology};
 const ATTRACTIONS: [Attraction; 2] = [Attraction::Constant(1.5), Attraction::Linear(0.7)];
 const REPULSIONS: [Repulsion; 2] = [Repulsion::Ranged { gain: 2.0, range: 3.0 }, Repulsion::InverseSquare(2.0)];
 
-/// A grid drawn in text, its cells of width 1.
-fn drawn(text: &str) -> Grid {
-    let rows: Vec<&str> = text.split_whitespace().collect();
-    let cells = [rows.len(), rows[0].len()];
-    let axes = cells.map(|n| JointRange::Interval { lower: 0.0, upper: n as f64 });
-    let blocked = rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
-    Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
-}
-
-/// A trap that is open on the left; the goal lies to the right of it.
-fn u_trap() -> (Grid, usize, usize) {
+/// A trap that is open on the left, with a start in it and a goal to the right of it.
+pub fn u_trap() -> (Grid, usize, usize) {
     let text = "
         ....................
         ....................

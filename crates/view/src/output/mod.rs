@@ -1,4 +1,4 @@
-//! How a plan leaves cplan: as files, pictures, a page, and a summary for people.
+//! Output of a plan: files, pictures, a page, and a summary for people.
 //!
 //! [`PlanOutput`] adds all of it to [`Plan`]: `bytes` and `save` for files, `svg` and `html` for pictures,
 //! `summary` for a terminal; `cspaces` has the configuration space as data.
@@ -29,43 +29,42 @@ use crate::{DrawError, View};
 use cplan_engine::Plan;
 use std::path::Path;
 
-/// What a [`Plan`] can be written as.
+/// The forms in which a [`Plan`] can be written.
 pub trait PlanOutput {
-    /// The configuration space as its planner saw it, as data. C-obstacles are traced anew, which takes the time that it takes for a
-    /// picture.
+    /// Returns the planner's configuration space as data. It traces the C-obstacles again, which takes as long as for a picture.
     #[must_use]
     fn cspaces(&self) -> CSpaces;
 
-    /// The plan as a file of this format; none if the format holds only a trajectory and there is none. All except MCAP, PNG and GIF
-    /// are text in UTF-8.
+    /// Returns the plan as a file of this format, or nothing if the format holds only a trajectory or a grid, and the plan has neither.
+    /// All formats except MCAP, PNG and GIF are text in UTF-8.
     ///
     /// # Errors
     /// A picture that cannot be made of pixels.
     fn bytes(&self, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError>;
 
-    /// Writes the plan into a file, whole or not at all. The extension says what it holds, see [`FileFormat::from_path`].
+    /// Writes the plan into a file, whole or not at all. The extension chooses the format, see [`FileFormat::from_path`].
     ///
     /// # Errors
     /// An unknown extension, a missing trajectory, a picture that cannot be made, I/O.
     fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError>;
 
-    /// What its pictures and pages show.
+    /// Returns the content of its pictures and pages.
     #[must_use]
     fn view(&self) -> View;
 
-    /// The same with how the planner came to its answer, for pictures and pages that play.
+    /// Returns the same with a replay of the planner, for pictures and pages that play.
     #[must_use]
     fn view_with_replay(&self) -> View;
 
-    /// Workspace and configuration space side by side, as an SVG document; of a task also its steps.
+    /// Returns workspace and configuration space side by side, as an SVG document, with the steps of a task.
     #[must_use]
     fn svg(&self) -> String;
 
-    /// A page that stands by itself, in which the motion is played and the arm can be moved.
+    /// Returns a self-contained page that plays the motion and in which the arm can be moved.
     #[must_use]
     fn html(&self) -> String;
 
-    /// The result in some ten lines for people, the verdict first; of a task a line for each step.
+    /// Returns the result in some ten lines for people, the verdict first, with a line for each step of a task.
     #[must_use]
     fn summary(&self) -> String;
 }
