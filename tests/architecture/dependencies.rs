@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::process::Command;
 
 fn table(file: &str) -> toml::Table {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
@@ -26,4 +27,91 @@ fn what_comes_twice_is_known() {
     for name in names(&deny["bans"]["deny"]) {
         assert!(!names(&lock["package"]).contains(&name), "{name} is banned");
     }
+}
+
+/// Packages of the default build, and the packages that each of them uses.
+struct Build {
+    uses: BTreeMap<String, BTreeSet<String>>,
+}
+
+impl Build {
+    /// Asks Cargo, for the system that the tables are about.
+    fn of_cargo() -> Self {
+        let arguments =
+            "tree --locked --package cplan --edges normal,build --prefix depth --target x86_64-unknown-linux-gnu";
+        let mut cargo = Command::new(env!("CARGO"));
+        let done = cargo.args(arguments.split(' ')).current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let (mut uses, mut above) = (BTreeMap::<String, BTreeSet<String>>::new(), Vec::new());
+        for line in String::from_utf8(done.stdout).unwrap().lines() {
+            // As in "2serde v1.0.229 (*)".
+            let start = line.find(|c: char| !c.is_ascii_digit()).expect("a name");
+            let (depth, name) = (line[..start].parse::<usize>().unwrap(), &line[start..]);
+            let package = name.split(' ').take(2).collect::<Vec<_>>().join(" ");
+            above.truncate(depth);
+            uses.entry(package.clone()).or_default();
+            if let Some(user) = above.last() {
+                uses.entry(String::clone(user)).or_default().insert(package.clone());
+            }
+            above.push(package);
+        }
+        Self { uses }
+    }
+
+    /// Whether a package is a crate of this repository.
+    fn is_ours(package: &str) -> bool {
+        package.starts_with("cplan")
+    }
+
+    /// The name of a package without its version.
+    fn name(package: &str) -> &str {
+        package.split(' ').next().unwrap_or_default()
+    }
+
+    /// Names of packages from outside that crates of ours use.
+    fn direct(&self) -> BTreeSet<&str> {
+        let ours = self.uses.iter().filter(|(package, _)| Self::is_ours(package));
+        let used = ours.flat_map(|(_, used)| used).filter(|package| !Self::is_ours(package));
+        used.map(|package| Self::name(package)).collect()
+    }
+
+    /// Packages that are left if no crate of ours uses these.
+    fn without(&self, names: &[&str]) -> BTreeSet<&str> {
+        let root = self.uses.keys().find(|package| Self::name(package) == "cplan").expect("the program");
+        let (mut left, mut next) = (BTreeSet::from([root.as_str()]), vec![root]);
+        while let Some(user) = next.pop() {
+            for used in &self.uses[user] {
+                let is_out = Self::is_ours(user) && names.contains(&Self::name(used));
+                if !is_out && left.insert(used) {
+                    next.push(used);
+                }
+            }
+        }
+        left
+    }
+}
+
+#[test]
+fn tables_of_dependencies_are_what_cargo_says() {
+    let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/dependencies.md")).unwrap();
+    let build = Build::of_cargo();
+    let all = build.without(&[]);
+    let ours = all.iter().filter(|package| Build::is_ours(package)).count();
+    let total = format!("compiles {} packages from crates.io and {ours} crates of this repository", all.len() - ours);
+    assert!(page.contains(&total), "docs/dependencies.md does not say: {total}");
+    let (mut listed, mut wrong) = (Vec::new(), Vec::new());
+    for row in page.lines().filter(|line| line.starts_with("| `")) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let names: Vec<&str> = cells[1].split(", ").map(|name| name.trim_matches('`')).collect();
+        let gone = all.len() - build.without(&names).len();
+        if cells[3] != gone.to_string() {
+            wrong.push(format!("{}: {gone}, not {}", cells[1], cells[3]));
+        }
+        match names[..] {
+            [name] => listed.push(name),
+            _ => assert!(names.iter().all(|name| listed.contains(name)), "{} have no rows of their own", cells[1]),
+        }
+    }
+    assert!(wrong.is_empty(), "packages in docs/dependencies.md:\n{}", wrong.join("\n"));
+    assert_eq!(listed, Vec::from_iter(build.direct()), "left rows of docs/dependencies.md, right what our crates use");
 }

@@ -25,6 +25,7 @@ mod row;
 mod schema;
 mod search;
 mod summary;
+mod swarm;
 mod table;
 mod template;
 

@@ -1,24 +1,16 @@
-//! A search for a better layout: particle swarm optimisation (Kennedy and Eberhart 1995; `argmin`'s) that begins with the best layouts known.
+//! A search for a better layout: a particle swarm that begins with the best layouts known.
 
 use super::Study;
 use super::measure::Objective;
 use super::row::Row;
-use argmin::core::{CostFunction, Error, Executor};
-use argmin::solver::particleswarm::{Particle, ParticleSwarm};
+use super::swarm::minimize;
 use cplan_core::space::Draws;
 use cplan_parallel::in_order;
-use rand_xoshiro::Xoshiro256PlusPlus;
-use rand_xoshiro::rand_core::SeedableRng;
-use std::borrow::Borrow;
-use std::cell::RefCell;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
 /// Layouts of a generation, if the search may try ten times as many.
 const SWARM: usize = 40;
-
-/// How fast layouts move at first, as a share of the room.
-const SPEED: f64 = 0.2;
 
 /// What a layout costs that does not count.
 const NOTHING: f64 = f64::INFINITY;
@@ -45,84 +37,65 @@ impl Study {
         each: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<(), E> {
         let swarm = (self.searched / 10).clamp(1, SWARM);
-        let generations = self.searched / swarm;
+        let mut generations = self.searched / swarm;
         if generations == 0 || self.objective.is_none() {
             return Ok(());
         }
+        let costs = known.iter().map(|row| (key(&row.values), self.cost(row))).collect();
+        let mut landscape = Landscape { study: self, done, jobs, first: known.len(), each, costs, tried: 0 };
         let rooms: Vec<[f64; 2]> = self.parameters.iter().map(|parameter| parameter.values.room()).collect();
-        let [lower, upper] = [0, 1].map(|end| rooms.iter().map(|room| room[end]).collect::<Vec<_>>());
-        let state = RefCell::new(State {
-            each,
-            costs: known.iter().map(|row| (key(&row.values), self.cost(row))).collect(),
-            tried: 0,
-            refused: None,
-        });
-        let landscape = Landscape { study: self, done, jobs, first: known.len(), state: &state };
-        let solver = ParticleSwarm::<Vec<f64>, f64, _>::new((lower, upper), swarm)
-            .with_rng_generator(Xoshiro256PlusPlus::seed_from_u64(self.seed));
-        let particles = self.best_particles(known, swarm);
-        // A swarm that is drawn takes a generation.
-        let generations = generations - usize::from(particles.is_none());
-        let executor = Executor::new(landscape, solver).configure(|state| {
-            let state = state.max_iters(generations as u64);
-            match particles {
-                Some(particles) => state.population(particles),
-                None => state,
-            }
-        });
-        // It fails where a row is refused, and for nothing else.
-        let _ = executor.timer(false).run();
-        state.into_inner().refused.map_or(Ok(()), Err)
+        let mut numbers = Draws::nth(self.seed, u64::MAX);
+        let mut places = self.best_places(known, swarm);
+        if places.len() < swarm {
+            // Drawn places fill the swarm, which takes a generation.
+            let mut drawn = || rooms.iter().map(|[lower, upper]| lower + (upper - lower) * numbers.unit()).collect();
+            let drawn: Vec<Vec<f64>> = (places.len()..swarm).map(|_| drawn()).collect();
+            let costs = landscape.costs(&drawn)?;
+            places.extend(drawn.into_iter().zip(costs));
+            generations -= 1;
+        }
+        minimize(&rooms, places, generations, &mut numbers, |places| landscape.costs(places))
     }
 
-    /// The best rows as a swarm; none if there are too few.
-    fn best_particles(&self, known: &[Row], swarm: usize) -> Option<Vec<Particle<Vec<f64>, f64>>> {
-        let mut order: Vec<&Row> = known.iter().collect();
-        order.sort_by(|a, b| self.cost(a).total_cmp(&self.cost(b)).then(a.layout.cmp(&b.layout)));
-        let mut numbers = Draws::nth(self.seed, u64::MAX);
-        let particle = |row: &&Row| {
-            let values = self.parameters.iter().map(|parameter| &parameter.values);
-            let place = values.clone().zip(&row.values).map(|(values, value)| values.place(*value)).collect();
-            let speed = values.map(|values| {
-                let [lower, upper] = values.room();
-                (upper - lower) * SPEED * (2.0 * numbers.unit() - 1.0)
-            });
-            Particle::new(place, self.cost(row), speed.collect())
+    /// Places and costs of the best rows, best first, at most so many.
+    fn best_places(&self, known: &[Row], most: usize) -> Vec<(Vec<f64>, f64)> {
+        let mut order: Vec<(&Row, f64)> = known.iter().map(|row| (row, self.cost(row))).collect();
+        order.sort_by(|(a, a_cost), (b, b_cost)| a_cost.total_cmp(b_cost).then(a.layout.cmp(&b.layout)));
+        let place = |row: &Row| {
+            let values = self.parameters.iter().zip(&row.values);
+            values.map(|(parameter, value)| parameter.values.place(*value)).collect()
         };
-        (order.len() >= swarm).then(|| order[..swarm].iter().map(particle).collect())
+        order.into_iter().take(most).map(|(row, cost)| (place(row), cost)).collect()
     }
 }
 
 /// What layouts cost, by their places in the rooms of the parameters.
-struct Landscape<'a, F, E> {
+struct Landscape<'a, F> {
     study: &'a Study,
     /// Rows of an earlier search, in order.
     done: &'a [Row],
     jobs: usize,
     /// The number of the first layout that is tried.
     first: usize,
-    state: &'a RefCell<State<F, E>>,
-}
-
-struct State<F, E> {
     each: F,
     /// Costs of all layouts that have a row, by their values.
     costs: HashMap<Vec<u64>, f64>,
     tried: usize,
-    refused: Option<E>,
 }
 
-impl<F: FnMut(Row) -> Result<(), E>, E> Landscape<'_, F, E> {
-    /// Costs of layouts, whose rows are handed on.
-    fn costs(&self, places: &[&Vec<f64>]) -> Result<Vec<f64>, Error> {
-        let Self { study, done, jobs, first, state } = self;
-        let State { each, costs, tried, refused } = &mut *state.borrow_mut();
+impl<F> Landscape<'_, F> {
+    /// Returns the costs of layouts, and hands on the rows of those that are new.
+    fn costs<E>(&mut self, places: &[Vec<f64>]) -> Result<Vec<f64>, E>
+    where
+        F: FnMut(Row) -> Result<(), E>,
+    {
+        let Self { study, done, jobs, first, each, costs, tried } = self;
         let values = |place: &Vec<f64>| -> Vec<f64> {
             study.parameters.iter().zip(place).map(|(parameter, place)| parameter.values.at(*place)).collect()
         };
-        let places: Vec<Vec<f64>> = places.iter().map(|place| values(place)).collect();
+        let layouts: Vec<Vec<f64>> = places.iter().map(values).collect();
         let mut new: Vec<&Vec<f64>> = Vec::new();
-        for values in &places {
+        for values in &layouts {
             // Places of listed values are often the same, and so are those at the ends of ranges.
             if let Entry::Vacant(entry) = costs.entry(key(values)) {
                 entry.insert(NOTHING);
@@ -130,40 +103,20 @@ impl<F: FnMut(Row) -> Result<(), E>, E> Landscape<'_, F, E> {
             }
         }
         let before = *tried;
-        let row = |i: usize| {
-            let values = new[i].clone();
-            match done.get(before + i).filter(|row| row.values == values) {
-                Some(row) => row.clone(),
-                None => study.row_of(first + before + i, values),
-            }
+        let row = |i: usize| match done.get(before + i).filter(|row| row.values == *new[i]) {
+            Some(row) => row.clone(),
+            None => study.row_of(*first + before + i, new[i].clone()),
         };
-        let handed = in_order(new.len(), *jobs, row, |row| {
+        in_order(new.len(), *jobs, row, |row| {
             costs.insert(key(&row.values), study.cost(&row));
             *tried += 1;
             each(row)
-        });
-        handed.map_err(|error| {
-            *refused = Some(error);
-            Error::msg("a row is refused")
         })?;
-        Ok(places.iter().map(|values| costs.get(&key(values)).copied().unwrap_or(NOTHING)).collect())
+        Ok(layouts.iter().map(|values| costs.get(&key(values)).copied().unwrap_or(NOTHING)).collect())
     }
 }
 
 /// Values as a key: those of zero are the same.
 fn key(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| (value + 0.0).to_bits()).collect()
-}
-
-impl<F: FnMut(Row) -> Result<(), E>, E> CostFunction for Landscape<'_, F, E> {
-    type Param = Vec<f64>;
-    type Output = f64;
-
-    fn cost(&self, place: &Vec<f64>) -> Result<f64, Error> {
-        Ok(self.costs(&[place])?[0])
-    }
-
-    fn bulk_cost<P: Borrow<Vec<f64>>>(&self, places: &[P]) -> Result<Vec<f64>, Error> {
-        self.costs(&places.iter().map(Borrow::borrow).collect::<Vec<_>>())
-    }
 }

@@ -1,0 +1,154 @@
+//! Particle swarm optimisation (Kennedy and Eberhart 1995), with the weights of Clerc's standard swarm (2006).
+
+use cplan_core::space::Draws;
+use std::f64::consts::LN_2;
+
+/// Share of its speed that a particle keeps from one generation to the next; Clerc's value.
+const INERTIA: f64 = 0.5 / LN_2;
+
+/// Strongest pull towards a best place, as a multiple of the distance to it; Clerc's value.
+const PULL: f64 = 0.5 + LN_2;
+
+/// Greatest speed at the beginning, as a share of the room.
+const FIRST_SPEED: f64 = 0.2;
+
+/// A place that moves, and the best one that it has been at.
+struct Particle {
+    place: Vec<f64>,
+    speed: Vec<f64>,
+    best: Vec<f64>,
+    least: f64,
+}
+
+impl Particle {
+    fn new((place, cost): (Vec<f64>, f64), rooms: &[[f64; 2]], numbers: &mut Draws) -> Self {
+        let speed = |[lower, upper]: &[f64; 2]| (upper - lower) * FIRST_SPEED * (2.0 * numbers.unit() - 1.0);
+        Self { speed: rooms.iter().map(speed).collect(), best: place.clone(), place, least: cost }
+    }
+
+    /// Moves on with some of its speed, pulled to its own best place and to that of all, and stops at the ends of the rooms.
+    fn move_on(&mut self, best_of_all: &[f64], rooms: &[[f64; 2]], numbers: &mut Draws) {
+        for (k, [lower, upper]) in rooms.iter().enumerate() {
+            let place = self.place[k];
+            let mut pull = |best: f64| PULL * numbers.unit() * (best - place);
+            self.speed[k] = INERTIA * self.speed[k] + pull(self.best[k]) + pull(best_of_all[k]);
+            let next = place + self.speed[k];
+            self.place[k] = next.clamp(*lower, *upper);
+            // Clerc's rule: a particle that pushed on would stay at the end for generations.
+            if self.place[k] != next {
+                self.speed[k] = 0.0;
+            }
+        }
+    }
+
+    /// Keeps its place if that costs less than any before.
+    fn learn(&mut self, cost: f64) {
+        if cost < self.least {
+            self.least = cost;
+            self.best.clone_from(&self.place);
+        }
+    }
+}
+
+/// Looks for places of least cost within the rooms, one for each coordinate. Begins with places whose costs are known, each of which
+/// becomes a particle; `costs` judges all places of a generation at once, and keeps the best if anyone wants it. Costs may be infinite.
+///
+/// # Errors
+/// The error of `costs`.
+pub(super) fn minimize<E>(
+    rooms: &[[f64; 2]],
+    known: Vec<(Vec<f64>, f64)>,
+    generations: usize,
+    numbers: &mut Draws,
+    mut costs: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, E>,
+) -> Result<(), E> {
+    let mut particles: Vec<Particle> = known.into_iter().map(|known| Particle::new(known, rooms, numbers)).collect();
+    for _ in 0..generations {
+        let Some(best) = particles.iter().min_by(|a, b| a.least.total_cmp(&b.least)) else { break };
+        let best = best.best.clone();
+        particles.iter_mut().for_each(|particle| particle.move_on(&best, rooms, numbers));
+        let places: Vec<Vec<f64>> = particles.iter().map(|particle| particle.place.clone()).collect();
+        for (particle, cost) in particles.iter_mut().zip(costs(&places)?) {
+            particle.learn(cost);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROOMS: [[f64; 2]; 3] = [[-2.0, 1.0], [0.0, 5.0], [-1.0, 1.0]];
+
+    /// All places that a swarm of twenty tries, in order, and their least cost.
+    fn tried(seed: u64, cost: impl Fn(&[f64]) -> f64) -> (Vec<Vec<f64>>, f64) {
+        let mut numbers = Draws::new(seed);
+        let known: Vec<(Vec<f64>, f64)> = (0..20)
+            .map(|_| {
+                let place: Vec<f64> =
+                    ROOMS.iter().map(|[lower, upper]| lower + (upper - lower) * numbers.unit()).collect();
+                let cost = cost(&place);
+                (place, cost)
+            })
+            .collect();
+        let (mut all, mut least) = (Vec::new(), f64::INFINITY);
+        let done = minimize(&ROOMS, known, 60, &mut numbers, |places| {
+            all.extend_from_slice(places);
+            let costs: Vec<f64> = places.iter().map(|place| cost(place)).collect();
+            least = costs.iter().copied().fold(least, f64::min);
+            Ok::<_, ()>(costs)
+        });
+        assert_eq!(done, Ok(()));
+        (all, least)
+    }
+
+    /// Squared distance to a place, which may lie beyond the rooms.
+    fn squared_distance(to: [f64; 3]) -> impl Fn(&[f64]) -> f64 {
+        move |place| place.iter().zip(to).map(|(x, to)| (x - to).powi(2)).sum()
+    }
+
+    #[test]
+    fn it_finds_the_least_within_the_rooms_and_at_their_ends() {
+        for seed in 0..20 {
+            let (all, least) = tried(seed, squared_distance([0.3, 4.0, -0.5]));
+            assert!(least < 1e-6, "seed {seed}: {least}");
+            let is_within =
+                |place: &Vec<f64>| ROOMS.iter().zip(place).all(|([lower, upper], x)| (*lower..=*upper).contains(x));
+            assert!(all.len() == 1200 && all.iter().all(is_within));
+            // The nearest place in the rooms is (1, 4, -0.5).
+            let (_, least) = tried(seed, squared_distance([3.0, 4.0, -0.5]));
+            assert!((least - 4.0).abs() < 1e-6, "seed {seed}: {least}");
+        }
+    }
+
+    #[test]
+    fn it_comes_out_of_places_that_count_for_nothing() {
+        // Of half the rooms nothing is known but that they are bad.
+        let cost =
+            |place: &[f64]| if place[0] < -0.5 { f64::INFINITY } else { squared_distance([-0.5, 1.0, 0.0])(place) };
+        for seed in 0..20 {
+            let (_, least) = tried(seed, cost);
+            assert!(least < 1e-4, "seed {seed}: {least}");
+        }
+        assert_eq!(tried(0, |_| f64::INFINITY).1, f64::INFINITY);
+    }
+
+    #[test]
+    fn a_seed_decides_all() {
+        let cost = squared_distance([0.3, 4.0, -0.5]);
+        assert_eq!(tried(7, &cost), tried(7, &cost));
+        assert_ne!(tried(7, &cost), tried(8, &cost));
+    }
+
+    #[test]
+    fn it_ends_with_the_first_refusal() {
+        let mut calls = 0;
+        let known = vec![(vec![0.0, 1.0, 0.0], 1.0)];
+        let done = minimize(&ROOMS, known, 10, &mut Draws::new(1), |places| {
+            calls += 1;
+            if calls == 3 { Err("enough") } else { Ok(vec![1.0; places.len()]) }
+        });
+        assert_eq!((done, calls), (Err("enough"), 3));
+    }
+}
