@@ -12,10 +12,11 @@ def tables(settings: Settings) -> list[Table]:
     """One table: problems A and W20, two sizes."""
     table = Table(
         "Building a configuration space",
-        "One core, one process, milliseconds: median (quartiles). parry2d: a collision test at the centre of every "
-        "cell, whole rows settled by the first link, discs before the exact test, first hit counts. cplan bitmap and "
-        "rows: the same question, a bit or a byte a cell, from exact contact angles. Outer: free cells are free all "
-        "over. Polygons: the free space with a margin of 1 mm, whatever the number of cells.",
+        "Times are milliseconds on one core in one process: medians, with quartiles in brackets. parry2d makes a "
+        "collision test at the centre of every cell; the first link decides whole rows, discs are tested before "
+        "exact shapes, and the first hit counts. cplan's bitmap and rows answer the same question from exact "
+        "contact angles, with a bit or a byte per cell. In cplan's outer grid all of each free cell is free. "
+        "cplan's polygons are the free space with a margin of 1 mm, for any number of cells.",
         [
             "problem",
             "cells",
@@ -40,7 +41,7 @@ def tables(settings: Settings) -> list[Table]:
             table.leads.append(Lead(f"C-space of {name}, {cells} x {cells}", "parry2d", "cplan bitmap", ratio))
             table.note(
                 f"{name}, {cells} x {cells}: {report['blocked']} of {report['cells']} cells blocked; parry2d, in "
-                f"single precision, says otherwise in {report['differ']} of them; in {report['differ_double']} of "
-                "these so does its double precision."
+                f"single precision, differs in {report['differ']} of them; in {report['differ_double']} of "
+                "these its double precision differs, too."
             )
     return [table]

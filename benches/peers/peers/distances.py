@@ -13,10 +13,10 @@ def table() -> Table:
     """Empty."""
     return Table(
         "Distances on a grid",
-        "From one goal to all free cells, milliseconds, median (quartiles). Steps: moves to four neighbours. Eight "
-        "neighbours: a diagonal move costs the square root of 2; cplan allows it only where both cells beside it are "
-        "free, scikit-image everywhere. Any direction: the distance around the walls, to first order, which cplan has "
-        "not.",
+        "Times are milliseconds from one goal to all free cells: medians, with quartiles in brackets. Steps "
+        "are moves to four neighbours. With eight neighbours, a diagonal move costs the square root of 2; "
+        "cplan allows it only if both cells beside it are free, scikit-image everywhere. Any direction is the "
+        "distance around the walls, to first order, which cplan does not offer.",
         ["grid", "quantity", "program", "time", "over cplan's", "same values"],
     )
 

@@ -43,16 +43,18 @@ def table() -> Table:
     """Empty."""
     return Table(
         "Harmonic fields",
-        "Laplace's equation on the free cells: 1 at the goal, 0 on walls and beyond the edge. Milliseconds, median "
-        "(quartiles). Setup: all that depends on the walls alone. A goal: with the setup done; the peers' too. Their "
-        "matrix is given to them, assembling it is not counted. Error: against scipy's direct solver, where it is "
-        "asked; the iterative ones are stopped at 1e-6. Dead ends: cells that can reach the goal but have no greater "
-        "neighbour, where a robot that climbs the field gets stuck.",
+        "The problem is Laplace's equation on the free cells: 1 at the goal, 0 on walls and beyond the edge. "
+        "Times are milliseconds: medians, with quartiles in brackets. Setup is all work that depends only on "
+        "the walls; a goal is the work after the setup. The other programs get their matrix, and its assembly "
+        "is not counted. Errors are relative to scipy's direct solver, if it ran; the iterative solvers stop "
+        "at 1e-6. Dead ends are cells from which the goal can be reached, but which have no greater "
+        "neighbour: a robot that climbs the field gets stuck there.",
         ["grid", "solver", "setup", "a goal", "setup and goal", "greatest error", "dead ends"],
         notes=[
-            "cplan multigrid is the library's solver for one equation, good to 1e-6 of the goal's value. cplan "
-            "harmonic is the planner's: each value agrees with its neighbours to 1.5e-14 of itself, however small it "
-            "is (the judge gets its logarithms). That is what its time buys: no dead ends.",
+            "cplan multigrid is the library's solver for one equation, accurate to 1e-6 of the goal's value. "
+            "cplan harmonic is the planner's solver: each value agrees with its neighbours to a relative error of "
+            "1.5e-14, however small it is (the judge gets its logarithms). It takes more time, and has no dead "
+            "ends.",
         ],
     )
 
@@ -70,7 +72,7 @@ def add(table: Table, cells: Cells) -> None:
         exact = _direct(equations)
         rows.append(_peer(table, cells, "scipy splu", exact, "is the measure"))
     else:
-        table.note(f"{cells.name}: scipy's direct solver was not asked; it takes gigabytes.")
+        table.note(f"{cells.name}: scipy's direct solver was not run; it takes gigabytes.")
     for name, maker in (
         ("pyamg ruge_stuben", "ruge_stuben_solver"),
         ("pyamg aggregation", "smoothed_aggregation_solver"),

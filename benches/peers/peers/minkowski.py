@@ -11,9 +11,10 @@ def tables(settings: Settings) -> list[Table]:
     """One table, by number of corners."""
     table = Table(
         "Minkowski differences of convex polygons",
-        "Two regular polygons of so many corners each; nanoseconds a corner of the result, median (quartiles). The "
-        "plain merge compares sides by a cross product in doubles, which is right for these; cplan decides by exact "
-        "predicates, so that it is right for sides that are parallel but for rounding, too.",
+        "Both polygons are regular with the same number of corners. Times are nanoseconds per corner of the "
+        "result: medians, with quartiles in brackets. The plain merge compares sides by a cross product in "
+        "doubles, which is correct for these polygons. cplan uses exact predicates, which are also correct "
+        "for sides that are parallel except for rounding.",
         ["corners", "cplan", "plain merge", "areas differ by"],
     )
     say("  differences")

@@ -97,11 +97,12 @@ def paths_table(listed: list[Entry], verdicts: Verdicts) -> Table:
     bounds = _bounds(listed)
     table = Table(
         "Paths: problems A and B",
-        "Time from the scene in memory to the answer, by each program's own clock, in milliseconds: median, and in "
-        "brackets the quartiles. Length: median of the valid paths over the proven lower bound "
-        f"(A {bounds['A']:.4f}, B {bounds['B']:.4f} rad, by `cplan --gap 1e-4`). Valid: free of collision at every "
-        "1e-4 rad, by the harness's own judge, of the runs made. Process: from its start to its end on A; cplan "
-        "reads URDF and TOML and writes the timed trajectory in it, the others print waypoints.",
+        "Times are milliseconds from the scene in memory to the answer, by each program's own clock: medians, "
+        "with quartiles in brackets. Length is the median of the valid paths over the proven lower bound (A "
+        f"{bounds['A']:.4f} rad, B {bounds['B']:.4f} rad, by `cplan --gap 1e-4`). Valid counts the paths that "
+        "are free of collision at every 1e-4 rad, by the harness's own judge. Process is the time from the "
+        "start of the process to its end on A; cplan reads URDF and TOML and writes the timed trajectory in "
+        "it, the others print waypoints.",
         [
             "planner",
             "A ms",
@@ -126,9 +127,9 @@ def paths_table(listed: list[Entry], verdicts: Verdicts) -> Table:
             table.note(f"{entry.contender.name} was not run, or not to the end: {entry.failure}.")
     _add_leads(table, listed)
     table.note(
-        "The peers stop at their first solution, or go on improving it for 1 s where the table says so. Time limit "
-        "2 s, on INF 1 s. "
-        'cplan\'s times hold the certificate, and for "shortest" and "visibility" the lower bound on the optimum too.'
+        "The other programs stop at their first solution, or improve it for 1 s where the table says so. The "
+        'time limit is 2 s, on INF 1 s. cplan\'s times include the certificate, and for "shortest" and '
+        '"visibility" also the lower bound on the optimum.'
     )
     return table
 
@@ -171,8 +172,8 @@ def impossible_table(listed: list[Entry], verdicts: Verdicts) -> Table:
     """Problems that have none."""
     table = Table(
         "No path: problems INF and T",
-        "What each program says, in its own words, how often, and after how long (ms, median and quartiles). Any "
-        "path here is wrong: the judge says so of every one.",
+        "The table has each program's own answers with their numbers, and the times in milliseconds: medians, "
+        "with quartiles in brackets. Every returned path is wrong, and the judge rejects each one.",
         ["planner", "INF: answer", "INF ms", "T: answer", "T ms", "paths returned", "of these valid"],
     )
     for entry in listed:

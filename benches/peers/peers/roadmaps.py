@@ -21,10 +21,10 @@ def tables(settings: Settings) -> list[Table]:
     """One table, by number of corners."""
     table = Table(
         "Shortest paths among polygons",
-        "Random disjoint polygons of ten corners, most of them not convex, a fifth of the area filled. Build in "
-        "milliseconds, query in microseconds: medians (quartiles over the rounds, of the mean of 32 queries). cplan "
-        "triangulates, and searches cones of sight; its visibility graph is not needed for a query. pyvisgraph "
-        "builds the graph.",
+        "The polygons are random and disjoint, have ten corners each, are mostly not convex, and fill a fifth "
+        "of the area. Build times are in milliseconds and query times in microseconds: medians, with "
+        "quartiles over the rounds of the mean of 32 queries. cplan triangulates, and searches cones of "
+        "sight; a query does not need its visibility graph. pyvisgraph builds the graph.",
         ["corners", "program", "build ms", "whole visibility graph ms", "query us", "greatest difference in length"],
     )
     sizes = [(100, settings.choose(20, 5), True), (1000, settings.choose(10, 3), not settings.quick)]

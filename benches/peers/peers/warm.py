@@ -26,10 +26,10 @@ def table(settings: Settings, problems: dict[str, Problem], verdicts: Verdicts, 
     """cplan's library calls beside OMPL's planners."""
     table = Table(
         "Answers from a warm process",
-        "The same by library calls, one after the other in one process, without files: `decide` (a certified path, "
-        "or a proof that has passed its check), `shortest` (the planner, without its bound, and with it: how far its path "
-        "is from the optimum, at the most: proven), OMPL's first solutions (seeds differ). Milliseconds, "
-        "median (quartiles); length over the proven lower bound.",
+        "The table shows library calls in one process, one after the other and without files. `decide` is a "
+        "certified path, or a proof that has passed its check; `shortest` is the planner without its bound, "
+        "and with it; OMPL returns first solutions with different seeds. Times are milliseconds: medians, "
+        "with quartiles in brackets. Length is relative to the proven lower bound.",
         ["problem", "program", "ms", "answer", "length", "valid"],
     )
     for name, problem in problems.items():
