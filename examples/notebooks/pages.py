@@ -1,4 +1,4 @@
-"""Executes the notebooks of this folder and writes what they show as pages of the book: `python examples/notebooks/pages.py`.
+"""Executes the notebooks of this folder and writes them as pages of the book: `python examples/notebooks/pages.py`.
 
 Needs nbclient, ipykernel and matplotlib beside cplan (`pip install .[test]`). The notebooks are stored without outputs.
 """
@@ -16,12 +16,12 @@ NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 
 
 def executed(notebook: Path) -> NotebookNode:
-    """The notebook with what its cells put out, in a kernel of its own."""
+    """Returns the notebook with the outputs of its cells, executed in a new kernel."""
     return NotebookClient(nbformat.read(notebook, as_version=4), timeout=120, kernel_name="python3").execute()
 
 
 def page(name: str, notebook: NotebookNode) -> tuple[str, dict[str, bytes]]:
-    """Markdown of an executed notebook, and its pictures by file name."""
+    """Returns the Markdown of an executed notebook, and its pictures by file name."""
     blocks, pictures = [], {}
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
@@ -37,7 +37,7 @@ def page(name: str, notebook: NotebookNode) -> tuple[str, dict[str, bytes]]:
             else:
                 blocks.append(f"```text\n{data['text/plain'].rstrip()}\n```")
     # Below the title.
-    where = f"This page is what the notebook [{name}.ipynb](../examples/notebooks/{name}.ipynb) shows."
+    where = f"This page is generated from the notebook [{name}.ipynb](../examples/notebooks/{name}.ipynb)."
     return "\n\n".join([blocks[0], where, *blocks[1:]]) + "\n", pictures
 
 
