@@ -42,20 +42,16 @@
 //!
 //! # Cost and guarantees
 //!
-//! - Linear in the number of cells, independent of the values: about 300 ns per cell in mazes and corridors. Wide rooms cost
-//! a few solves by
-//! [`Multigrid`](cplan_multigrid::Multigrid).
+//! - Linear in the number of cells, independent of the values: about 300 ns per cell in mazes and corridors. Wide rooms
+//!   cost a few solves by [`Multigrid`](cplan_multigrid::Multigrid).
 //! - Each value agrees with the one that its neighbours imply to 64 relative roundings ([`residual`]).
 //! - Every cell except the goals has a strictly greater neighbour, compared exactly ([`Potential::navigates`]). This
-//! also holds where
-//! symmetry makes the harmonic function level, because each step of a walk ends with probability `3e-14`. That exceeds
-//! all rounding,
-//! and lowers a value ten million steps away by less than a millionth.
+//!   also holds where symmetry makes the harmonic function level, because each step of a walk ends with probability
+//!   `3e-14`. That exceeds all rounding, and lowers a value ten million steps away by less than a millionth.
 //! - [`follow`] stays in free cells and ends at a goal, because it moves from cell to cell where the gradient leads
-//! nowhere. It works
-//! with any other field that implements [`Guide`].
+//!   nowhere. It works with any other field that implements [`Guide`].
 //! - The same input gives the same bits. Long solves can be interrupted: they pass a
-//! [`checkpoint`](cplan_interrupt::checkpoint).
+//!   [`checkpoint`](cplan_interrupt::checkpoint).
 //!
 //! # Method
 //!
