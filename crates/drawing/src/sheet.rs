@@ -160,7 +160,11 @@ impl Sheet {
         }
         if self.points > MOST_POINTS {
             let message = format!("the drawing has more than {MOST_POINTS} points");
-            return Err(Error::new(origin.line, message, "leave out all that the arm cannot reach, or take a larger tolerance"));
+            return Err(Error::new(
+                origin.line,
+                message,
+                "leave out all that the arm cannot reach, or take a larger tolerance",
+            ));
         }
         Ok(())
     }

@@ -402,7 +402,7 @@ mod tests {
         }
     }
 
-    /// Whether no part of these pieces turns over where they are drawn in.
+    /// Returns true if no part of these pieces turns over when their corners move.
     fn turns_over_nothing(pieces: &[Convex], distance: f64) -> bool {
         let (all, together) = within(pieces, distance);
         all.iter().flatten().all(|part| together.of(part.core()).is_some())

@@ -17,7 +17,7 @@ pub fn signed_distance(p: Point, a: Point, b: Point) -> f64 {
     determinant(a, b, p) / (b - a).norm()
 }
 
-/// Where a point lies with respect to a closed set.
+/// Location of a point relative to a closed set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Location {
     /// In the interior.

@@ -158,8 +158,8 @@ proptest! {
     }
 }
 
-/// The symmetry of walls and goals makes all four neighbours equal, the harmonic function is level. The loss of
-/// walks makes it fall there.
+/// The symmetry of walls and goals makes all four neighbours equal and the harmonic function level. The loss of walks
+/// makes it fall there.
 #[test]
 fn the_middle_of_four_goals_is_not_level() {
     for half in [2, 3, 20, 40] {

@@ -216,7 +216,7 @@ mod tests {
             })
         });
         assert_eq!((result, reached.get()), (Err(Interrupted::Set), 7));
-        assert_eq!(counted_to(3, |_| ()), 3, "nothing is left of it outside");
+        assert_eq!(counted_to(3, |_| ()), 3, "outside the run it has no effect");
     }
 
     #[test]
