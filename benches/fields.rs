@@ -10,7 +10,7 @@ use cplan::space::{JointRange, Topology};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
-/// A torus of `n x n` cells with 25 boxes, scattered by the golden ratio.
+/// Returns a torus of `n x n` cells with 25 boxes, distributed by the golden ratio.
 fn boxes(n: usize) -> Grid {
     let corner = |k: usize, by: f64| (k as f64 * by).fract() * n as f64;
     let mut blocked = vec![false; n * n];
@@ -24,7 +24,7 @@ fn boxes(n: usize) -> Grid {
     Grid { topology: Topology { ranges: [JointRange::Circle; 2] }, proves: Proves::Sampled, cells: [n, n], blocked }
 }
 
-/// The first and the middle free cell.
+/// Returns the first and the middle free cell.
 fn ends(grid: &Grid) -> (usize, usize) {
     let free: Vec<usize> = (0..grid.blocked.len()).filter(|&cell| !grid.blocked[cell]).collect();
     (free[0], free[free.len() / 2])

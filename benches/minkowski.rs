@@ -6,7 +6,7 @@ use std::hint::black_box;
 use cplan::geometry::{Convex, Point, hull};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
-/// A regular polygon; `phase` turns it so that the sides of two polygons are not parallel.
+/// Returns a regular polygon, turned by `phase` so that the sides of two polygons are not parallel.
 fn regular(corners: usize, phase: f64) -> Convex {
     let angle = |k: usize| phase + k as f64 / corners as f64 * std::f64::consts::TAU;
     let core = (0..corners).map(|k| Point::new(angle(k).cos(), angle(k).sin())).collect();

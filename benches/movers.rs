@@ -1,5 +1,5 @@
-//! Motions among what moves, from the loaded world to a motion that is certified in time, or the proof that no timing helps. First the median over
-//! worlds that are drawn, of ten movers each.
+//! Benchmarks of motions among moving obstacles, from the loaded world to a certified motion in time, or the proof that
+//! no timing helps. The first is the median over random worlds with ten moving obstacles each.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -40,7 +40,7 @@ fn drawn_worlds(_: &mut Criterion) {
             Outcome::Unknown(reason) if reason.contains("move") => {
                 proven += usize::from(reason.contains("proven: along"))
             }
-            // Among what stands already there is no way, or none known.
+            // Among the static obstacles no path exists or is known.
             _ => continue,
         }
         times.push(took);

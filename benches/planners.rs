@@ -1,5 +1,5 @@
-//! Every planner on the benchmark problem A (a narrow passage on the torus) and on a shipped workspace: the
-//! configuration space it works on, what it prepares, and one query.
+//! Benchmarks of every planner on the benchmark problem A (a narrow passage on the torus) and on a shipped workspace:
+//! the configuration space, the preparation, and one query.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -12,7 +12,8 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::path::Path;
 
-/// As the program begins: obstacles grown by a thousandth of the reach, one turn to either side of the start.
+/// Returns the program's initial polygons: obstacles grown by a thousandth of the reach, one turn to either side of the
+/// start.
 fn polygons(problem: &MotionProblem) -> Regions {
     regions(problem.scene(), 1e-3 * problem.scene().arm().reach(), problem.start(), 1)
 }
@@ -21,7 +22,7 @@ fn cells(problem: &MotionProblem, n: usize) -> Grid {
     outer_grid(problem.scene(), [n, n], problem.scene().workspace().clearance)
 }
 
-/// The cells along each axis at which the program finds a path: from 256 on doubled until there is one.
+/// Returns the number of cells along each axis at which the program finds a path: 256, doubled until a path exists.
 fn sufficient(problem: &MotionProblem) -> usize {
     let query = Query { start: problem.start(), goals: problem.goals().clone() };
     let planner = Wavefront::default();

@@ -1,5 +1,6 @@
-//! Roadmap planners among random disjoint polygons, 23 % of the area filled: what they build, the whole visibility graph,
-//! one query; and beside it the textbook's visibility graph, every pair of corners against every side.
+//! Benchmarks of roadmap planners among random disjoint polygons that cover 23 % of the area: the construction, the
+//! whole visibility graph, and one query. The textbook's visibility graph, which tests every pair of corners against
+//! every side, is measured beside them.
 
 #[path = "../tests/common/dice.rs"]
 mod dice;
@@ -19,7 +20,7 @@ use std::hint::black_box;
 /// Corners in all.
 const SIZES: [usize; 5] = [100, 1_000, 10_000, 20_000, 50_000];
 
-/// Where the naive graph is bearable.
+/// Largest number of corners for the naive graph.
 const NAIVE: usize = 1_000;
 
 /// Queries between free places all over the window.
@@ -62,7 +63,7 @@ fn measure<P: Planner<Space = Regions>>(criterion: &mut Criterion, name: &str, p
     group.finish();
 }
 
-/// The visibility graph by definition: `O(n^3)`.
+/// Computes the visibility graph by definition: `O(n^3)`.
 fn naive_graph(regions: &Regions) -> usize {
     let sides = sides(regions);
     let corners: Vec<Point> = sides.iter().map(|side| side.0).collect();

@@ -13,7 +13,7 @@ use std::hint::black_box;
 
 const PROBLEMS: [Benchmark; 4] = [Benchmark::A, Benchmark::B, Benchmark::Inf, Benchmark::T];
 
-/// A certified path, or a proof that has passed the independent check.
+/// Measures a certified path, or a proof that has passed the independent check.
 fn answers(c: &mut Criterion) {
     let mut group = c.benchmark_group("slabs");
     for which in PROBLEMS {
@@ -30,7 +30,7 @@ fn answers(c: &mut Criterion) {
     group.finish();
 }
 
-/// The shortest path, certified, on the problems that have one, with the proof how near to the optimum it is.
+/// Measures the certified shortest path with its proven gap, on the problems that have one.
 fn optima(c: &mut Criterion) {
     let mut group = c.benchmark_group("shortest");
     for which in [Benchmark::A, Benchmark::B] {

@@ -1,4 +1,4 @@
-//! Asks every planner the same question and prints what each one is good for.
+//! Plans the same problem with every planner and compares the results.
 //!
 //! ```text
 //! cargo run --release --example compare_planners -- robots/planar_2r.urdf workspaces/shelf.toml

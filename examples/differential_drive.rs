@@ -21,7 +21,8 @@ use mobile::{START, TARGETS};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// The controller as it is used here. Its repulsion begins where the plan never leads: within the body's radius and a part of the clearance.
+/// The controller. Its repulsion starts only within the body's radius and part of the clearance, which the plan never
+/// enters.
 const LAW: Tanh = Tanh { pull: 10.0, push: 1.0, range: 0.26 };
 
 /// The controller without a plan has to see obstacles sooner.
@@ -45,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for name in ["hall", "house"] {
         let floor = Floor::load(&format!("explore/{name}.toml"))?;
         println!("{name}: R. F. Goncalves da Silva, Trabalho Pratico 1, from {START:?} to {:?}", TARGETS[0].1);
-        // What the robot leaves of the clearance is proven, too: the plan keeps more from obstacles than it can deviate.
+        // The remaining clearance is proven, too: the plan's clearance exceeds the greatest deviation.
         let scene = floor.scene.clone().with_clearance(DEVIATION)?;
         let (arm, workspace) = scene.into_parts();
         let problem = Problem::new(arm, workspace, START, TARGETS[0].1)?;

@@ -75,14 +75,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Down harmonic fields on a map, relaxed until the squares of a sweep's changes add up to less than this.
+/// Drives along harmonic fields on a map, relaxed until the squares of a sweep's changes add up to less than `below`.
 fn harmonic(floor: &Floor, map: &Occupancy, below: f64) -> Vec<Leg> {
     let is_solid = |k: usize| fields::is_solid(map, k);
     let stopping = Stopping { below, ..alves::STOPPING };
     by_fields(floor, &|leg| Some(alves::harmonic(TARGETS[leg].1, &is_solid, &stopping)?.values))
 }
 
-/// A leg in some words.
+/// Describes a leg.
 fn told(leg: &Leg) -> String {
     let how = match leg.ending {
         Ending::Reached => "reached".to_owned(),

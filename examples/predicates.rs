@@ -2,7 +2,7 @@
 
 use cplan::geometry::{Convex, ConvexError, Point, penetration_depth, point_penetration, polygon_test};
 
-/// An axis-parallel rectangle.
+/// Returns an axis-parallel rectangle.
 fn rectangle(x: [f64; 2], y: [f64; 2]) -> Result<Convex, ConvexError> {
     let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, k)| Point::new(x[i], y[k]));
     Convex::new(corners.to_vec(), 0.0)

@@ -73,7 +73,7 @@ fn print_notes(notes: &[&str]) {
     println!();
 }
 
-/// How many counts there are, by what is claimed of them.
+/// Number of counts by claim.
 #[derive(Default)]
 struct Claims {
     matching: usize,

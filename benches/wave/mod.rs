@@ -55,13 +55,13 @@ fn clutter(n: usize) -> Grid {
     square(n, blocked)
 }
 
-/// A share of all cells is blocked, anywhere.
+/// Returns a grid with a share of blocked cells at random places.
 fn noise(n: usize, percent: usize) -> Grid {
     let mut numbers = Numbers(12_345_678_912_345);
     square(n, (0..n * n).map(|_| numbers.below(100) < percent).collect())
 }
 
-/// A perfect maze, made by a depth-first walk: corridors of some width between walls one cell thick.
+/// Returns a perfect maze made by a depth-first walk: corridors of some width between walls one cell thick.
 fn maze(n: usize, width: usize) -> Grid {
     let (size, pitch) = (n / (width + 1), width + 1);
     let mut numbers = Numbers(5_555_555);
@@ -147,7 +147,7 @@ impl Plain {
 /// A grid of so many cells along each axis.
 type Scene = fn(usize) -> Grid;
 
-/// Reached cells a second; 1000 Melem/s are 1 ns a cell.
+/// Measures reached cells per second; 1000 Melem/s are 1 ns per cell.
 pub fn wave(c: &mut Criterion) {
     for n in [1024, 4096] {
         let mut group = c.benchmark_group(format!("wave {n}^2"));

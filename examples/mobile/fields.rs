@@ -5,7 +5,7 @@ use super::occupancy::{CELLS, Occupancy, cell};
 use super::robot::{Robot, wrapped};
 use cplan::Point;
 
-/// Whether a cell is solid to a field: whatever is not known to be free is.
+/// Returns true if a cell is solid for a field: every cell that is not known to be free.
 pub fn is_solid(map: &Occupancy, k: usize) -> bool {
     map.at([k / CELLS[1], k % CELLS[1]]) > 0.0
 }

@@ -1,4 +1,4 @@
-//! The floor of a room: what a robot's rays and its body may run into.
+//! The floor of a room, with obstacles for a robot's rays and its body.
 
 use cplan::cspace::c_obstacles;
 use cplan::draw::{Picture, View, svg};
@@ -9,7 +9,7 @@ use cplan::space::Path;
 use cplan::{Configuration, Point};
 use std::path::Path as File;
 
-/// A world of cplan's, and the sides of what stands in it.
+/// A cplan world, and the sides of its obstacles.
 pub struct Floor {
     /// A gantry (`robots/mobile_robot.urdf`) among the obstacles: its configurations are the places of the robot.
     pub scene: Scene,
@@ -18,18 +18,18 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// A shipped world of the mobile robot.
+    /// Loads a shipped world of the mobile robot.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Defects of the world.
     pub fn load(world: &str) -> Result<Self, InputError> {
         Self::of_robot("mobile_robot", world)
     }
 
-    /// A shipped world of another robot that slides over its floor.
+    /// Loads a shipped world of another gantry robot.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Defects of the world.
     pub fn of_robot(robot: &str, world: &str) -> Result<Self, InputError> {
         let root = File::new(env!("CARGO_MANIFEST_DIR"));
         let urdf = root.join("robots").join(robot).with_extension("urdf");
@@ -37,7 +37,7 @@ impl Floor {
         Ok(Self::new(loaded.scene))
     }
 
-    /// The floor of a scene.
+    /// Returns the floor of a scene.
     pub fn new(scene: Scene) -> Self {
         let (mut sides, mut discs) = (Vec::new(), Vec::new());
         for piece in scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces) {
@@ -50,7 +50,7 @@ impl Floor {
         Self { scene, sides, discs }
     }
 
-    /// How far a ray goes before it meets something, metres; `most` if it meets nothing until then.
+    /// Returns the length of a ray up to the first obstacle, metres, or `most`.
     pub fn range(&self, from: Point, angle: f64, most: f64) -> f64 {
         let ray = Vector2::new(angle.cos(), angle.sin());
         let side = |[a, b]: &[Point; 2]| {
@@ -70,12 +70,12 @@ impl Floor {
         hits.fold(most, f64::min)
     }
 
-    /// Distance from the robot's body to the nearest obstacle, metres; negative where they overlap.
+    /// Returns the distance from the robot's body to the nearest obstacle, metres; negative if they overlap.
     pub fn gap(&self, at: Point) -> f64 {
         self.scene.clearance(Configuration::new(at.x, at.y))
     }
 
-    /// The floor with what went over it, as SVG.
+    /// Draws the floor with paths, as SVG.
     pub fn picture(&self, title: &str, goals: &[[f64; 2]], ways: &[(String, Vec<Point>)]) -> String {
         let fineness = 1e-3 * self.scene.arm().reach();
         let outlines = c_obstacles(&self.scene, fineness, fineness);

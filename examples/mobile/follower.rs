@@ -26,10 +26,10 @@ pub const SONARS: [(f64, f64, f64); 16] = [
     (-0.157, 0.136, 90.0),
 ];
 
-/// How far they see, metres.
+/// Range of the sonars, metres.
 const RANGE: f64 = 5.0;
 
-/// What a sonar reads: a single ray. (Real ones hear what is within some 15 degrees.)
+/// Returns the reading of a sonar, modelled as a single ray. (Real sonars detect objects within about 15 degrees.)
 pub fn sonar(robot: &Robot, k: usize) -> f64 {
     let (ahead, left, degrees) = SONARS[k];
     let Pose { at, heading } = robot.pose;

@@ -15,28 +15,29 @@ pub const TOP_SPEED: f64 = 1.0;
 /// A leg ends in a trap if the robot came no nearer to its target for so many seconds.
 const PATIENCE: f64 = 60.0;
 
-/// What counts as nearer, metres.
+/// Least decrease of the distance that counts as progress, metres.
 const NEARER: f64 = 0.01;
 
-/// How a leg ended.
+/// The ending of a leg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ending {
-    /// At the target.
+    /// The robot is at the target.
     Reached,
     /// No nearer to the target for a minute; the least distance to it, metres.
     Trapped(f64),
-    /// In a cell that counts as an obstacle, where there is no force: the source's program ends with an error.
+    /// The robot is in an obstacle cell, which has no force: the source's program ends with an error.
     OnObstacle,
 }
 
-/// What the source prints, and what it says.
+/// The method as printed in the source, or as described by its text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Manner {
-    /// Whether the map is filled on the way (algorithm 11) or is what it is (algorithm 9).
+    /// True to fill the map on the way (algorithm 11), false for a fixed map (algorithm 9).
     pub maps: bool,
-    /// Whether it is done as the text says, not as the program does. The robot stands still while it faces more than 10 degrees away from
-    /// the force; the program asks whether the error is less than `degrees(10)`, which is 573, radians: it never stands still. And what
-    /// the robot has just come to is no obstacle; the program marks the bin while the robot stands at it.
+    /// True to follow the text instead of the program. By the text, the robot stands still while it faces more than 10
+    /// degrees away from the force; the program tests whether the error is less than `degrees(10)`, which is 573,
+    /// radians, so it never stands still. By the text, a reached target is not an obstacle; the program marks the bin
+    /// while the robot stands at it.
     pub mended: bool,
 }
 
@@ -52,7 +53,7 @@ impl Patience {
         Self { best: f64::INFINITY, since: robot.time }
     }
 
-    /// The least distance to the target, if nothing has been gained for too long.
+    /// Returns the least distance to the target, if there was no progress for too long.
     pub fn lost(&mut self, robot: &Robot, distance: f64) -> Option<f64> {
         if distance < self.best - NEARER {
             *self = Self { best: distance, since: robot.time };
@@ -61,7 +62,8 @@ impl Patience {
     }
 }
 
-/// The force at a place, in the plane: 1 towards the target, and `1 / d^2`, `d` in cells, away from each occupied cell; none in one.
+/// Returns the force at a place in the plane: 1 towards the target, and `1 / d^2`, with `d` in cells, away from each
+/// occupied cell. Returns `None` in an occupied cell.
 pub fn force(map: &Occupancy, target: Point, at: Point) -> Option<Vector2<f64>> {
     if map.at(cell(at)) >= 0.9 {
         return None;
@@ -82,7 +84,8 @@ pub fn force(map: &Occupancy, target: Point, at: Point) -> Option<Vector2<f64>> 
     Some(Vector2::new(force.x, -force.y))
 }
 
-/// Drives to within `stop` of a target, by commands of speed and turning rate; `command` is asked for them at each distance.
+/// Drives to within `stop` of a target by commands of speed and turning rate, which `command` returns for each
+/// distance.
 pub fn approach(
     robot: &mut Robot,
     target: Point,

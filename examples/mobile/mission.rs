@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 /// A leg of the mission.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leg {
-    /// How it ended.
+    /// The ending.
     pub ending: Ending,
     /// Length of the way, metres.
     pub length: f64,
@@ -28,11 +28,11 @@ pub struct Leg {
     pub time: f64,
     /// Steps that were refused because the body would have met an obstacle.
     pub refused: usize,
-    /// Where the robot was.
+    /// Positions of the robot.
     pub way: Vec<Point>,
 }
 
-/// The mission leg by leg: after one that fails the robot is put at its target, so that each can be judged.
+/// Runs the mission leg by leg. After a failed leg the robot is placed at its target, so that each leg can be judged.
 fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Vec<Leg> {
     let mut robot = Robot::new(floor, START, 0.0);
     let leg = |leg: usize| {
@@ -55,7 +55,7 @@ fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Ve
     (0..TARGETS.len()).map(leg).collect()
 }
 
-/// By forces, in an unknown room or by a map; as printed or mended ([`Manner`]).
+/// Drives by forces, in an unknown room or by a map; as printed or corrected ([`Manner`]).
 pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, mended: bool) -> Vec<Leg> {
     let mut map = known.cloned().unwrap_or_else(Occupancy::unknown);
     let manner = Manner { maps: known.is_none(), mended };
@@ -70,7 +70,7 @@ pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, mended: bool) -> Vec<
     })
 }
 
-/// Down fields that are relaxed on a map; a field that does not converge leads nowhere.
+/// Drives along fields that are relaxed on a map. A field that does not converge gives no path.
 pub fn by_fields(floor: &Floor, field: &dyn Fn(usize) -> Option<Vec<f64>>) -> Vec<Leg> {
     legs(floor, |robot, leg| match field(leg) {
         Some(values) => fields::drive(robot, &values, TARGETS[leg].1.into()),
@@ -78,7 +78,7 @@ pub fn by_fields(floor: &Floor, field: &dyn Fn(usize) -> Option<Vec<f64>>) -> Ve
     })
 }
 
-/// The map that the wall follower draws in so many seconds, and its way; the source's program gives it 300.
+/// Returns the map that the wall follower draws within a time, and its path; the source's program gives it 300 s.
 pub fn followed(floor: &Floor, seconds: f64) -> (Occupancy, Vec<Point>) {
     let (mut robot, mut map) = (Robot::new(floor, START, 0.0), Occupancy::unknown());
     follower::follow(&mut robot, &mut map, seconds);
@@ -89,7 +89,7 @@ pub fn followed(floor: &Floor, seconds: f64) -> (Occupancy, Vec<Point>) {
 /// Cells of 0.5 m.
 const COARSE: CellCounts = CellCounts([80, 40]);
 
-/// The planners with which cplan explores towards a target, by name.
+/// Returns the planners with which cplan explores towards a target, by name.
 pub fn planners() -> Vec<(&'static str, Planner)> {
     let named = Planner::named(Method::Harmonic);
     let with = |choice: FieldChoice| {
@@ -133,10 +133,10 @@ pub const SENSOR: Sensor = Sensor {
     cell: 0.5,
 };
 
-/// The mission by cplan: to each target in turn, each through a room of which nothing is known.
+/// Runs the mission by cplan: to each target in turn, through a room that is initially unknown.
 ///
 /// # Errors
-/// If what is asked makes no sense.
+/// Invalid settings.
 pub fn explored(floor: &Floor, planner: Planner) -> Result<Vec<(Scene, Exploration)>, Box<dyn Error>> {
     let starts = [START, TARGETS[0].1, TARGETS[1].1, TARGETS[2].1];
     let mut legs = Vec::new();
@@ -160,7 +160,7 @@ pub fn explored(floor: &Floor, planner: Planner) -> Result<Vec<(Scene, Explorati
     Ok(legs)
 }
 
-/// The way of an exploration, from corner to corner.
+/// Returns the path of an exploration, from corner to corner.
 pub fn way(exploration: &Exploration) -> Vec<Point> {
     let corners = |leg: &explore::Leg| leg.curve.curve().path().waypoints().to_vec();
     exploration.legs.iter().flat_map(corners).map(Point::from).collect()

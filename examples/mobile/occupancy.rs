@@ -1,4 +1,4 @@
-//! The occupancy grid of S. F. dos Reis Alves, *Trabalho 2 - Campos potenciais* (algorithms 1 to 3), as it is printed.
+//! The occupancy grid of S. F. dos Reis Alves, *Trabalho 2 - Campos potenciais* (algorithms 1 to 3), as printed.
 
 use super::floor::Floor;
 use super::robot::Pose;
@@ -10,7 +10,7 @@ pub const CELLS: [usize; 2] = [40, 80];
 /// Side of a cell, metres.
 pub const SIDE: f64 = 0.5;
 
-/// How far the scanner sees, metres.
+/// Range of the scanner, metres.
 const RANGE: f64 = 8.0;
 
 /// 1 where something is, 0 where nothing is, 0.5 where nobody knows.
@@ -19,7 +19,7 @@ pub struct Occupancy {
     cells: Vec<f64>,
 }
 
-/// A place in rows and columns, with fractions (algorithm 2).
+/// Returns a place in fractional rows and columns (algorithm 2).
 pub fn place(at: Point) -> [f64; 2] {
     let [rows, columns] = CELLS.map(|n| n as f64);
     let within = |k: f64, n: f64| match k {
@@ -30,34 +30,34 @@ pub fn place(at: Point) -> [f64; 2] {
     [within(rows - (at.y / SIDE + rows / 2.0), rows), within(at.x / SIDE + columns / 2.0, columns)]
 }
 
-/// The cell of a place: fractions are cut off, towards zero.
+/// Returns the cell of a place. Fractions are truncated towards zero.
 pub fn cell(at: Point) -> [usize; 2] {
     place(at).map(|k| k as usize)
 }
 
 impl Occupancy {
-    /// A grid of which nothing is known.
+    /// Returns an unknown grid.
     pub fn unknown() -> Self {
         Self { cells: vec![0.5; CELLS[0] * CELLS[1]] }
     }
 
-    /// What is known of a cell.
+    /// Returns the value of a cell.
     pub fn at(&self, [row, column]: [usize; 2]) -> f64 {
         self.cells[row * CELLS[1] + column]
     }
 
-    /// Says what is in a cell.
+    /// Sets the value of a cell.
     pub fn set(&mut self, [row, column]: [usize; 2], value: f64) {
         self.cells[row * CELLS[1] + column] = value;
     }
 
-    /// The cells that count as obstacles of forces, by row and column.
+    /// Iterates over the cells that count as obstacles for forces, by row and column.
     pub fn occupied(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         let is_occupied = |&(_, &value): &(usize, &f64)| value > 0.9;
         self.cells.iter().enumerate().filter(is_occupied).map(|(k, _)| [k / CELLS[1], k % CELLS[1]])
     }
 
-    /// How many cells are free, occupied and unknown.
+    /// Returns the numbers of free, occupied and unknown cells.
     pub fn counts(&self) -> [usize; 3] {
         [0.0, 1.0, 0.5].map(|value| self.cells.iter().filter(|&&cell| cell == value).count())
     }
@@ -75,10 +75,11 @@ impl Occupancy {
         }
     }
 
-    /// Makes what is unknown between two cells free (Bresenham 1965, as printed: the end with the greater index is left out).
+    /// Marks the unknown cells between two cells as free (Bresenham 1965, as printed: the end with the greater index is
+    /// omitted).
     fn clear_line(&mut self, from: [usize; 2], to: [usize; 2]) {
         let is_steep = to[0].abs_diff(from[0]) > to[1].abs_diff(from[1]);
-        // The longer way is counted by the second index.
+        // The longer direction is counted by the second index.
         let turned = |[row, column]: [usize; 2]| if is_steep { [column, row] } else { [row, column] };
         let (mut from, mut to) = (turned(from), turned(to));
         if from[1] > to[1] {

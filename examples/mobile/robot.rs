@@ -5,7 +5,7 @@ use cplan::Point;
 use cplan::nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
 
-/// Where a robot is and which way it faces, counter-clockwise from x.
+/// Position and heading of a robot, counter-clockwise from x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// The middle between its wheels, metres.
@@ -15,7 +15,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose after so many seconds at constant speeds ahead (m/s) and about (rad/s): an arc of a circle, exactly.
+    /// Returns the pose after a time at constant linear (m/s) and angular speed (rad/s): an exact arc of a circle.
     pub fn after(self, speed: f64, turn: f64, seconds: f64) -> Self {
         let half = 0.5 * turn * seconds;
         // The chord of the arc: its length is that of the arc times sin(half) / half.
@@ -25,13 +25,13 @@ impl Pose {
         Self { at: self.at + chord, heading: self.heading + 2.0 * half }
     }
 
-    /// The point at a distance straight ahead.
+    /// Returns the point at a distance straight ahead.
     pub fn ahead(self, distance: f64) -> Point {
         self.at + distance * Vector2::new(self.heading.cos(), self.heading.sin())
     }
 }
 
-/// An angle between -pi and pi.
+/// Returns an angle between -pi and pi.
 pub fn wrapped(angle: f64) -> f64 {
     let turned = (angle + PI).rem_euclid(TAU);
     turned - PI
@@ -40,28 +40,28 @@ pub fn wrapped(angle: f64) -> f64 {
 /// No piece of a motion between two checks takes longer, seconds.
 const STEP: f64 = 0.02;
 
-/// The body keeps this distance from obstacles, metres: far above the rounding of distances, far below what one sees.
+/// Distance that the body keeps from obstacles, metres: far above rounding, far below visibility.
 const TOUCHING: f64 = 1e-6;
 
 /// A robot that drives over a floor. Its body never gets into an obstacle: a motion that would lead there is refused, as bumpers do,
 /// and only turns it.
 pub struct Robot<'a> {
-    /// What it drives on.
+    /// The floor.
     pub floor: &'a Floor,
-    /// Where it is.
+    /// Current pose.
     pub pose: Pose,
-    /// Where it has been, after each step of its motion.
+    /// Poses after each step of its motion.
     pub track: Vec<Pose>,
     /// Length of its way, metres.
     pub length: f64,
     /// Time that has passed, seconds.
     pub time: f64,
-    /// Where it was when steps were refused.
+    /// Positions at which steps were refused.
     pub refused: Vec<Point>,
 }
 
 impl<'a> Robot<'a> {
-    /// A robot that has not moved.
+    /// Creates a robot that has not moved.
     pub fn new(floor: &'a Floor, at: [f64; 2], heading: f64) -> Self {
         let pose = Pose { at: at.into(), heading };
         Self { floor, pose, track: vec![pose], length: 0.0, time: 0.0, refused: Vec::new() }
@@ -85,7 +85,7 @@ impl<'a> Robot<'a> {
         }
     }
 
-    /// Where it has been, for pictures.
+    /// Returns its positions, for pictures.
     pub fn way(&self) -> Vec<Point> {
         self.track.iter().map(|pose| pose.at).collect()
     }

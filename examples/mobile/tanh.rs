@@ -12,16 +12,16 @@ pub const AHEAD: f64 = 0.1;
 /// Seconds between two commands.
 pub const CYCLE: f64 = 0.01;
 
-/// How far the scanner sees, metres, and how many rays it has all around. The source says neither.
+/// Range of the scanner, metres, and its number of rays. The source states neither.
 const RANGE: f64 = 8.0;
 const RAYS: u32 = 360;
 
-/// Gains and the distance within which obstacles count. The source gives none of their values.
+/// Gains, and the distance within which obstacles count. The source states none of the values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tanh {
-    /// Of the attraction, 1/m (`zeta`).
+    /// Gain of the attraction, 1/m (`zeta`).
     pub pull: f64,
-    /// Of the repulsion (`eta`).
+    /// Gain of the repulsion (`eta`).
     pub push: f64,
     /// Obstacles farther away than this are ignored, metres (`Q`).
     pub range: f64,
@@ -30,13 +30,13 @@ pub struct Tanh {
 /// The nearest reading: its distance and its direction in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// From the wheels' middle, metres.
+    /// Distance from the middle between the wheels, metres.
     pub distance: f64,
     /// Counter-clockwise from x, radians.
     pub angle: f64,
 }
 
-/// What the robot's scanner reads as nearest.
+/// Returns the nearest reading of the robot's scanner.
 pub fn nearest(robot: &Robot) -> Nearest {
     let Pose { at, heading } = robot.pose;
     let rays = (0..RAYS).map(|ray| heading + TAU * f64::from(ray) / f64::from(RAYS));
@@ -45,11 +45,12 @@ pub fn nearest(robot: &Robot) -> Nearest {
 }
 
 impl Tanh {
-    /// The velocity that the controlled point is to have, m/s: towards the target, and away from the nearest obstacle.
+    /// Returns the velocity of the controlled point, m/s: towards the target, and away from the nearest obstacle.
     ///
-    /// With `D` pointing away from it the source's terms `tanh(zeta (x - goal))` and `tanh(eta (1/Q - 1/d) / d^2 D)` are gradients: the first
-    /// points away from the goal, and the second, whose factor is negative within `Q`, to the obstacle. The velocity goes against both. (As
-    /// printed, `U` is their sum: equation 3 lacks a sign.) Neither component exceeds 1 by either term.
+    /// If `D` points away from the obstacle, the source's terms `tanh(zeta (x - goal))` and `tanh(eta (1/Q - 1/d) / d^2
+    /// D)` are gradients: the first points away from the goal, and the second, whose factor is negative within `Q`, to
+    /// the obstacle. The velocity is opposite to both. (As printed, `U` is their sum: equation 3 lacks a sign.) No
+    /// component exceeds 1 by either term.
     pub fn velocity(&self, point: Point, target: Point, nearest: Nearest) -> Vector2<f64> {
         let attraction = (self.pull * (point - target)).map(f64::tanh);
         let away = -(Rotation2::new(nearest.angle) * Vector2::x());
@@ -71,13 +72,15 @@ pub const SPACING: f64 = 0.2;
 /// A waypoint is passed when the controlled point is so near to it, metres.
 pub const PASSED: f64 = 0.01;
 
-/// How far the robot's middle can get from the line that it follows, metres, while nothing repels it. Each component of the controlled point goes
-/// to the waypoint's without overshooting, so it stays in the rectangle between where it was and the waypoint; no point of that is
-/// farther from the diagonal than half of it, and the diagonal's beginning is at most [`PASSED`] off the line. The middle is [`AHEAD`] behind. (And a
-/// hair for steps of finite length.)
+/// Greatest distance of the robot's middle from the line that it follows, metres, without repulsion.
+///
+/// Each component of the controlled point approaches that of the waypoint without overshooting, so the point stays in
+/// the rectangle between its last position and the waypoint. No point of that rectangle is farther from the diagonal
+/// than half of it, and the start of the diagonal is at most [`PASSED`] off the line. The middle is [`AHEAD`] behind.
+/// (Plus a margin for steps of finite length.)
 pub const DEVIATION: f64 = 0.5 * (SPACING + PASSED) + PASSED + AHEAD + 0.01;
 
-/// The corners of a line, and points between them.
+/// Returns the corners of a line, and points between them.
 pub fn waypoints(corners: &[[f64; 2]]) -> Vec<Point> {
     let mut points: Vec<Point> = corners.first().map(|&corner| corner.into()).into_iter().collect();
     for pair in corners.windows(2) {
@@ -88,10 +91,10 @@ pub fn waypoints(corners: &[[f64; 2]]) -> Vec<Point> {
     points
 }
 
-/// What became of a drive.
+/// The result of a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drive {
-    /// How many waypoints were passed.
+    /// Number of waypoints passed.
     pub passed: usize,
     /// Commands in which an obstacle repelled.
     pub repelled: usize,

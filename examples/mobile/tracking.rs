@@ -9,21 +9,21 @@ use cplan::nalgebra::Vector2;
 /// The controller's constants.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tracking {
-    /// What pulls the controlled point to the desired one, 1/s (`k`; 1 in the source).
+    /// Gain towards the desired point, 1/s (`k`; 1 in the source).
     pub gain: f64,
-    /// How fast the desired point moves, m/s. The source does not say.
+    /// Speed of the desired point, m/s. The source does not state it.
     pub speed: f64,
 }
 
 impl Tracking {
-    /// The velocity that the controlled point is to have: `k (xd - x) + xd'`. So the distance to the desired point falls by
-    /// `exp(-k t)`, however that point moves.
+    /// Returns the velocity of the controlled point: `k (xd - x) + xd'`. So the distance to the desired point decreases
+    /// by `exp(-k t)` for any motion of that point.
     pub fn velocity(&self, point: Point, desired: Desired) -> Vector2<f64> {
         self.gain * (desired.at - point) + desired.velocity
     }
 }
 
-/// Where the desired point is, and how it moves.
+/// Position and velocity of the desired point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Desired {
     /// Metres.
@@ -32,7 +32,7 @@ pub struct Desired {
     pub velocity: Vector2<f64>,
 }
 
-/// The point that moves along a line of at least one corner, and rests at its end.
+/// Returns the point that moves along a line of at least one corner, and rests at its end.
 pub fn desired(corners: &[[f64; 2]], speed: f64, time: f64) -> Desired {
     let mut left = speed * time;
     for pair in corners.windows(2) {
@@ -47,10 +47,10 @@ pub fn desired(corners: &[[f64; 2]], speed: f64, time: f64) -> Desired {
     Desired { at: corners.last().map_or(Point::origin(), |&end| end.into()), velocity: Vector2::zeros() }
 }
 
-/// What became of a drive.
+/// The result of a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tracked {
-    /// Whether the controlled point has come to the end of the line.
+    /// True if the controlled point has reached the end of the line.
     pub arrived: bool,
     /// The greatest distance between the controlled point and the desired one, metres.
     pub farthest: f64,

@@ -1,4 +1,4 @@
-//! What the pictures of the documentation show. `tests/program/pictures.rs` draws them, too.
+//! The pictures of the documentation. `tests/program/pictures.rs` draws them, too.
 
 use cplan::PlanOutput as _;
 use cplan::engine::{CellCounts, GridSpace, Method, Planner};
@@ -10,15 +10,15 @@ use std::path::Path;
 
 /// A picture of the documentation.
 pub enum Subject {
-    /// What a planner answers to a workspace: robot, workspace, planner.
+    /// A planner's answer to a workspace: robot, workspace, planner.
     Answer(&'static str, &'static str, Method),
     /// Attraction of constant size, and repulsion by all obstacle cells: robot, workspace, charge of a cell.
     Forces(&'static str, &'static str, f64),
-    /// What comes of a task: robot, workspace in `tasks`.
+    /// The result of a task: robot, workspace in `tasks`.
     Task(&'static str, &'static str),
 }
 
-/// All, with the names of their files.
+/// All pictures, with the names of their files.
 pub const PICTURES: [(&str, Subject); 17] = [
     ("shortest", Subject::Answer("planar_2r", "workbench", Method::Shortest)),
     ("visibility", Subject::Answer("planar_2r", "workbench", Method::Visibility)),
@@ -43,12 +43,12 @@ pub const PICTURES: [(&str, Subject); 17] = [
 pub const MOVING: (&str, &str) = ("thinking", "shortest");
 
 impl Subject {
-    /// The picture, SVG: what the program draws.
+    /// Draws the picture as SVG, as the program does.
     pub fn svg(&self) -> Result<String, Box<dyn Error>> {
         Ok(self.plan()?.svg())
     }
 
-    /// What the program says.
+    /// Plans as the program does.
     pub fn plan(&self) -> Result<Plan, Box<dyn Error>> {
         let (robot, world, options) = match *self {
             Subject::Answer(robot, world, method) => (robot, Path::new("").join(world), method.into()),
@@ -62,7 +62,7 @@ impl Subject {
     }
 }
 
-/// One attempt by attraction and repulsion, on 80 x 80 cells.
+/// Returns options for one attempt by attraction and repulsion, on 80 x 80 cells.
 fn by_forces(charge: f64) -> Options {
     let laws = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(charge), saturated: false };
     let (limits, path) = (Limits::High, PathKind::Own);

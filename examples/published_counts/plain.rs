@@ -4,25 +4,25 @@ use cplan::field::{Cell, Domain};
 use std::f64::consts::PI;
 use std::fmt;
 
-/// What becomes of a value above 1, to which over-relaxation leads: the source does not say.
+/// Treatment of values above 1, which over-relaxation produces and the source does not mention.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beyond {
     /// It stays.
     Kept,
     /// It becomes 1, and one below 0 becomes 0.
     Clamped,
-    /// It becomes this, which is less than 1: perhaps so that no free cell is taken for an obstacle.
+    /// Reset to this value below 1, possibly so that free cells are not taken for obstacles.
     Reset(f64),
 }
 
-/// What must fall below the tolerance; `change` is that of a cell in a sweep.
+/// The quantity that must fall below the tolerance. `change` is that of a cell in a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rule {
     /// The sum of `|change|`.
     SumOfChanges,
     /// `|sum of change|`: how much the sum of all values changes.
     ChangeOfSum,
-    /// How much the sum of `|change|` differs from that of the sweep before: what the text says.
+    /// Difference between the sum of `|change|` and that of the previous sweep: the rule in the text.
     DifferenceOfSums,
     /// The sum of `change^2`.
     SumOfSquares,
@@ -30,16 +30,16 @@ pub enum Rule {
     GreatestChange,
 }
 
-/// A way to read the source.
+/// An interpretation of the source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Choice {
-    /// Whether values are stored as `float`s.
+    /// True if values are stored as `float`s.
     pub single: bool,
     /// Values above 1.
     pub beyond: Beyond,
     /// When it ends.
     pub rule: Rule,
-    /// What the rule's measure must be below.
+    /// Bound on the rule's measure.
     pub tolerance: f64,
 }
 
@@ -79,8 +79,9 @@ impl<'a> Plain<'a> {
         Self { n: domain.cells()[0], domain, values: values.collect() }
     }
 
-    /// Relaxes until the rule says so, by one of the four relaxations of the tables, and returns how many sweeps it took; none if
-    /// it does not come to an end. `drift` is what is added to a cell's value, of its neighbours' `-x, +x, -y, +y`.
+    /// Relaxes until the rule is satisfied, by one of the four relaxations of the tables, and returns the number of
+    /// sweeps, or `None` if it does not end. `drift` returns the term added to a cell's value, from its neighbours'
+    /// `-x, +x, -y, +y`.
     pub fn relax(&mut self, of: usize, choice: &Choice, drift: impl Fn(usize, [f64; 4]) -> f64) -> Option<usize> {
         let n = self.n;
         let over = of >= 2;
@@ -134,7 +135,7 @@ impl<'a> Plain<'a> {
         None
     }
 
-    /// The direction in which each cell's value rises, by central differences.
+    /// Returns the direction in which each cell's value rises, by central differences.
     pub fn directions(&self) -> Vec<[f64; 2]> {
         let (n, v) = (self.n, &self.values);
         let at = |cell: usize| {
@@ -149,7 +150,7 @@ impl<'a> Plain<'a> {
     }
 }
 
-/// The text's formula, with as many rows and columns as there are cells.
+/// Returns the text's formula, with as many rows and columns as cells.
 fn best_factor(n: usize) -> f64 {
     let c = 2.0 * (PI / n as f64).cos();
     4.0 / (2.0 + (4.0 - c * c).sqrt())

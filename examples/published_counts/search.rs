@@ -15,22 +15,22 @@ impl Tally {
         self.0.iter().filter(|(printed, found)| found.is_some_and(|f| near(*printed as f64, f as f64))).count()
     }
 
-    /// How many are the published ones.
+    /// Returns the number of counts equal to the published ones.
     pub fn exact(&self) -> usize {
         self.count(|printed, found| found == printed)
     }
 
-    /// How many differ by no more than 2 sweeps.
+    /// Returns the number of counts within 2 sweeps.
     pub fn within_2(&self) -> usize {
         self.count(|printed, found| (found - printed).abs() <= 2.0)
     }
 
-    /// How many differ by no more than a twentieth.
+    /// Returns the number of counts within five per cent.
     pub fn within_5_per_cent(&self) -> usize {
         self.count(|printed, found| (found / printed - 1.0).abs() <= 0.05)
     }
 
-    /// First what matches, then what is near.
+    /// Ranks exact matches first, then close ones.
     fn rank(&self) -> [usize; 3] {
         [self.exact(), self.within_2(), self.within_5_per_cent()]
     }
@@ -51,15 +51,15 @@ impl fmt::Display for Tally {
 pub struct Maps(Vec<(&'static Table, Scene)>);
 
 impl Maps {
-    /// Reads them.
+    /// Reads the tables.
     ///
     /// # Errors
-    /// What is wrong with the files.
+    /// Defects of the files.
     pub fn read() -> Result<Self, Box<dyn Error>> {
         TABLES.iter().map(|table| Ok((table, deicu::scene(table)?))).collect::<Result<_, _>>().map(Self)
     }
 
-    /// Each table's counts of the harmonic stage, at one scale, by these relaxations.
+    /// Tallies each table's counts of the harmonic stage, at one scale, by these relaxations.
     pub fn harmonic(&self, relaxations: [usize; 2], choice: &Choice, scale: usize) -> Vec<Tally> {
         let of_table = |(table, scene): &(&Table, Scene)| {
             let domain = scene.domain(SCALES[scale]);
@@ -69,7 +69,7 @@ impl Maps {
         self.0.iter().map(of_table).collect()
     }
 
-    /// Each table's counts of all stages, in the order of the source.
+    /// Tallies each table's counts of all stages, in the order of the source.
     pub fn all(&self, relaxations: [usize; 2], choice: &Choice, scale: usize) -> Vec<Tally> {
         let n = SCALES[scale];
         let of_table = |(table, scene): &(&Table, Scene)| {
@@ -122,7 +122,7 @@ pub fn gauss_seidel() -> Vec<Choice> {
     choices
 }
 
-/// Over-relaxation, with the rule that Gauss-Seidel settles, and the two that are next to it.
+/// Returns the interpretations of over-relaxation, with the rule determined by Gauss-Seidel, and its two neighbours.
 pub fn over_relaxation() -> Vec<Choice> {
     let mut choices = Vec::new();
     for single in [true, false] {
@@ -136,14 +136,14 @@ pub fn over_relaxation() -> Vec<Choice> {
     choices
 }
 
-/// What explains most of Gauss-Seidel.
+/// The interpretation that explains most counts of Gauss-Seidel.
 pub const OF_GAUSS_SEIDEL: Choice =
     Choice { single: true, beyond: Beyond::Kept, rule: Rule::SumOfChanges, tolerance: 0.01 };
 
-/// What explains most of over-relaxation.
+/// The interpretation that explains most counts of over-relaxation.
 pub const OF_SOR: Choice = Choice { beyond: Beyond::Reset(0.999_999), ..OF_GAUSS_SEIDEL };
 
-/// All tables together.
+/// Adds the tallies of all tables.
 pub fn together(tallies: Vec<Tally>) -> Tally {
     tallies.into_iter().fold(Tally::default(), |mut all, tally| {
         all.add(tally);
@@ -151,7 +151,7 @@ pub fn together(tallies: Vec<Tally>) -> Tally {
     })
 }
 
-/// The choice that explains most, first of several.
+/// Returns the interpretation that explains most counts, the first of several.
 pub fn best(tried: &[(Choice, Tally)]) -> Option<&Choice> {
     let mut best: Option<&(Choice, Tally)> = None;
     for candidate in tried {

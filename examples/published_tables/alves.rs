@@ -13,10 +13,10 @@ const CELLS: [usize; 2] = [40, 80];
 /// The sum of squared changes in a sweep must fall below this, within so many sweeps.
 pub const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-8, max_sweeps: 1000 };
 
-/// A goal, the direction in which it is to be reached, and what is published of it.
+/// A goal, the direction of arrival, and the published count.
 struct Goal {
     name: &'static str,
-    /// In metres, from the middle of the room; the second rises.
+    /// Position in metres from the middle of the room; the second coordinate points upwards.
     at: [f64; 2],
     /// `v`, along rows (downwards) and columns.
     direction: [f64; 2],
@@ -31,8 +31,8 @@ const GOALS: [Goal; 3] = [
     Goal { name: "object 2 (9, -7)", at: [9.0, -7.0], direction: [1.0, 0.0], harmonic: 111, oriented: 323 },
 ];
 
-/// The room with a goal: outer walls are solid, and whichever cells are said to be, counted row by row. Row and column of a place are by
-/// the source's rule.
+/// Returns the room with a goal: outer walls are solid, and the given cells, counted row by row. Row and column of a
+/// place follow the source's rule.
 fn room(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Domain {
     let [rows, columns] = CELLS;
     let row = (rows as f64 / 2.0 - at[1] / 0.5) as usize;
@@ -48,13 +48,13 @@ fn room(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Domain {
     Domain::new(CELLS, (0..rows * columns).map(kind).collect(), [Boundary::High; 2], Levels::PUBLISHED)
 }
 
-/// The harmonic field of a goal (algorithm 13), if it converges.
+/// Relaxes the harmonic field of a goal (algorithm 13), if it converges.
 pub fn harmonic(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool, stopping: &Stopping) -> Option<Relaxed> {
     let sor = Relaxation::sor(Factor::Given(1.8), Order::Lines(Scan::ROWS));
     relax(&room(at, is_solid), &Equation::Harmonic, &sor, stopping).ok().filter(Relaxed::converged)
 }
 
-/// The field that is to be followed to a goal along a direction (rows downwards, columns), if it converges (algorithm 14).
+/// Relaxes the oriented field of a goal for a direction (rows downwards, columns), if it converges (algorithm 14).
 pub fn oriented(at: [f64; 2], direction: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Option<Relaxed> {
     let direction = Direction::of(direction)?;
     let equation = Equation::Oriented { direction, epsilon: 0.5, difference: Difference::Central };
@@ -62,12 +62,12 @@ pub fn oriented(at: [f64; 2], direction: [f64; 2], is_solid: &dyn Fn(usize) -> b
     relax(&room(at, is_solid), &equation, &relaxation, &STOPPING).ok().filter(Relaxed::converged)
 }
 
-/// Name, field and count of every published number, in a room with nothing in it.
+/// Returns name, field and count of every published number, in an empty room.
 pub fn rows() -> Vec<(String, Count)> {
     rows_among(&|_| false)
 }
 
-/// The same in a room where these cells are solid.
+/// Does the same in a room with these solid cells.
 pub fn rows_among(is_solid: &dyn Fn(usize) -> bool) -> Vec<(String, Count)> {
     let count = |published: usize, field: Option<Relaxed>| {
         // The source prints the index of the last sweep, which counts from 0.
@@ -82,7 +82,7 @@ pub fn rows_among(is_solid: &dyn Fn(usize) -> bool) -> Vec<(String, Count)> {
     harmonic.chain(oriented).collect()
 }
 
-/// What can and what cannot be rebuilt.
+/// Notes on reproducible and irreproducible results.
 pub const NOTES: &[&str] = &[
     "Known: cells, goals, factor 1.8, epsilon 0.5, v, order and stopping rule (the source prints its program). Unknown: the",
     "furniture, which is only in a picture. Without it harmonic fields take 2.15 to 2.23 times, oriented ones 1.22 to 1.23 times",

@@ -10,19 +10,19 @@ use std::error::Error;
 /// The scales of the tables: cells along each axis.
 pub const SCALES: [usize; 2] = [100, 250];
 
-/// Of one map. In arrays of four the relaxations are those of [`RELAXATIONS`], in arrays of two the scales are those of
-/// [`SCALES`].
+/// The counts of one map. In arrays of four the relaxations are those of [`RELAXATIONS`], in arrays of two the scales
+/// are those of [`SCALES`].
 pub struct Table {
-    /// Its number in the source, and what of the map was used.
+    /// Its number in the source, and the part of the map that was used.
     pub title: &'static str,
     /// The world of the map, in `workspaces/maps`.
     world: &'static str,
     /// The obstacle that was left out, if any.
     without: Option<&'static str>,
     before: [[(usize, Claim); 2]; 4],
-    /// With preferences, and with altered ones ("BVP 2").
+    /// Counts with preferences, and with altered ones ("BVP 2").
     after: [[[(usize, Claim); 2]; 4]; 2],
-    /// What there is to say.
+    /// Notes.
     pub notes: &'static [&'static str],
 }
 
@@ -40,20 +40,20 @@ fn relaxation(of: usize) -> Relaxation {
     }
 }
 
-/// The sum of all changes in a sweep must fall below 0.01. Every published count is below these limits: over-relaxation
-/// among preferences need not converge at all.
+/// Returns the stopping rule: the sum of all changes in a sweep must fall below 0.01. Every published count is below
+/// these limits; over-relaxation with preferences may not converge at all.
 fn stopping(of: usize) -> Stopping {
     Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: if of < 2 { 30_000 } else { 3_000 } }
 }
 
-/// Sweeps of the harmonic stage and of both; none where one does not converge.
+/// Sweeps of the harmonic stage and of both; `None` if one does not converge.
 pub type Sweeps = [Option<usize>; 2];
 
 /// Relaxes the fields behind one line of a table, `of` being one of [`RELAXATIONS`].
 pub fn measure(scene: &Scene, cells: usize, of: usize, altered: bool) -> Sweeps {
     let relaxation = relaxation(of);
-    // Over-relaxation adds the preference as it is, without the factor. The sign of the altered form is that of the source's
-    // equation, `- epsilon v grad p`, not that of its algorithm; the other's is that of the algorithm.
+    // Over-relaxation adds the preference without the factor. The sign of the altered form is that of the source's
+    // equation, `- epsilon v grad p`, not of its algorithm; the other form has the sign of the algorithm.
     let share = if altered { -1.0 } else { 1.0 } / relaxation.factor([cells, cells]);
     let epsilon = scene.epsilon(cells).into_iter().map(|epsilon| share * epsilon).collect();
     let equation = match altered {
@@ -68,8 +68,8 @@ pub fn measure(scene: &Scene, cells: usize, of: usize, altered: bool) -> Sweeps 
 }
 
 impl Table {
-    /// What is printed: sweeps of one of [`RELAXATIONS`] at one of [`SCALES`]; of stage 0 those before preferences, of 1 and 2 all with
-    /// preferences and with altered ones.
+    /// Returns the printed number of sweeps of one of [`RELAXATIONS`] at one of [`SCALES`]: of stage 0 before
+    /// preferences, of stages 1 and 2 in total with preferences and with altered ones.
     pub fn published(&self, of: usize, stage: usize, scale: usize) -> usize {
         match stage {
             0 => self.before[of][scale].0,
@@ -81,12 +81,12 @@ impl Table {
 /// Reads the map of a table.
 ///
 /// # Errors
-/// What is wrong with the files.
+/// Defects of the files.
 pub fn scene(table: &Table) -> Result<Scene, Box<dyn Error>> {
     Scene::read(table.world, table.without)
 }
 
-/// One line: the algorithm, the scale, what is counted before preferences and in all (where there are any).
+/// One line: the algorithm, the scale, the counts before preferences and in total (if there are preferences).
 pub struct Line {
     algorithm: String,
     cells: usize,
@@ -95,7 +95,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// The numbers that the line compares, the published and the measured ones.
+    /// Iterates over the pairs of published and measured numbers in the line.
     pub fn counts(&self) -> impl Iterator<Item = &Count> {
         std::iter::once(&self.before).chain(&self.after)
     }
@@ -108,7 +108,7 @@ impl std::fmt::Display for Line {
     }
 }
 
-/// All lines of a table at these scales (0 and 1 for those of [`SCALES`]).
+/// Returns all lines of a table at these scales (0 and 1 for those of [`SCALES`]).
 pub fn lines(table: &Table, scene: &Scene, scales: &[usize]) -> Vec<Line> {
     // Every algorithm is a task of its own; the harmonic stage is that of the preferences that follow it.
     let tasks = scales.iter().flat_map(|&scale| (0..8).map(move |task| (scale, task % 4, task / 4)));
@@ -218,7 +218,7 @@ pub const TABLES: [Table; 3] = [
     },
 ];
 
-/// What holds for all three.
+/// The method of all three tables.
 pub const METHOD: &[&str] = &[
     "Cell = floor((x - min) / (max - min) n), walls by Bresenham, outermost cells walls, obstacles 1, free cells from 0; the",
     "goal rectangle with its last cells, preference rectangles without; stop when the sum of |change| is below 0.01.",

@@ -15,15 +15,16 @@ pub struct Scene {
     lines: Vec<[Point; 2]>,
     /// Lower left and upper right corner of the goal.
     goal: [Point; 2],
-    /// The same of each preference, and its epsilon.
+    /// The corners of each preference, and its epsilon.
     rectangles: Vec<([Point; 2], f64)>,
 }
 
 impl Scene {
-    /// Reads a world of `workspaces/maps`, the gantry's limits being the bounds of the map, and leaves out an obstacle.
+    /// Reads a world of `workspaces/maps`, in which the gantry's limits are the bounds of the map, without one of its
+    /// obstacles.
     ///
     /// # Errors
-    /// What is wrong with the files, and a preference that is no region of the tip.
+    /// Defects of the files, and a preference that is not a region of the tip.
     pub fn read(world: &str, without: Option<&str>) -> Result<Self, Box<dyn Error>> {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let world = root.join("workspaces/maps").join(world).with_extension("toml");
@@ -41,8 +42,9 @@ impl Scene {
         })
     }
 
-    /// `n x n` cells: first index `x`, second `y`, both rising. Walls are the cells of the lines and the outermost ones;
-    /// the goal, which may lie on a wall, is all cells from that of its lower left to that of its upper right corner.
+    /// Returns `n x n` cells: first index `x`, second `y`, both ascending. Walls are the cells of the lines and the
+    /// outermost ones. The goal, which may lie on a wall, has all cells from that of its lower left to that of its
+    /// upper right corner.
     pub fn domain(&self, n: usize) -> Domain {
         let mut kinds = vec![Cell::Free; n * n];
         for &[a, b] in &self.lines {
@@ -62,8 +64,8 @@ impl Scene {
         Domain::new([n, n], kinds, [Boundary::High; 2], Levels::PUBLISHED)
     }
 
-    /// The epsilon of each cell; later rectangles of the world overwrite earlier ones. The cell of the upper right corner is
-    /// outside, unlike that of a goal: so the published counts say.
+    /// Returns the epsilon of each cell. Later rectangles of the world overwrite earlier ones. Unlike for a goal, the
+    /// cell of the upper right corner is outside, as the published counts show.
     pub fn epsilon(&self, n: usize) -> Vec<f64> {
         let mut epsilon = vec![0.0; n * n];
         for (rectangle, strength) in &self.rectangles {
@@ -76,7 +78,7 @@ impl Scene {
     }
 }
 
-/// A point in millimetres, without what metres are off by rounding.
+/// Converts a point to millimetres, without rounding errors of metres.
 fn millimetres(point: Point) -> Point {
     point.map(|metres| (1000.0 * metres).round())
 }
@@ -86,7 +88,7 @@ fn bounds(problem: &MotionProblem) -> [Point; 2] {
     [Point::new(x.0, y.0), Point::new(x.1, y.1)].map(millimetres)
 }
 
-/// The segments of a wall; none of what is no polyline.
+/// Returns the segments of a wall, or none if it is not a polyline.
 fn segments(obstacle: &Obstacle) -> Vec<[Point; 2]> {
     match &obstacle.shape {
         Shape::Polyline(points) => points.windows(2).map(|ends| [ends[0], ends[1]].map(millimetres)).collect(),
@@ -101,19 +103,19 @@ fn rectangle(preference: &Preference) -> Option<([Point; 2], f64)> {
     }
 }
 
-/// Lower left and upper right corner of what holds all points.
+/// Returns the lower left and the upper right corner of the bounding box.
 fn hull(points: impl Iterator<Item = Point>) -> [Point; 2] {
     let none = [Point::new(f64::INFINITY, f64::INFINITY), Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY)];
     points.map(millimetres).fold(none, |[low, high], point| [low.inf(&point), high.sup(&point)])
 }
 
-/// The cell of a point, `floor((x - min) / (max - min) n)`, and the last one for what lies at the upper bound.
+/// Returns the cell of a point, `floor((x - min) / (max - min) n)`, or the last cell at the upper bound.
 fn cell_of(point: Point, [low, high]: [Point; 2], n: usize) -> [usize; 2] {
     let along = |at: f64, low: f64, high: f64| (((at - low) / (high - low) * n as f64) as usize).min(n - 1);
     [along(point.x, low.x, high.x), along(point.y, low.y, high.y)]
 }
 
-/// The cells of a line (Bresenham 1965), both ends included.
+/// Returns the cells of a line (Bresenham 1965), both ends included.
 fn line(from: [usize; 2], to: [usize; 2]) -> Vec<[usize; 2]> {
     let [dx, dy] = [0, 1].map(|k| from[k].abs_diff(to[k]) as i64);
     let towards = |at: &mut usize, to: usize| if *at < to { *at += 1 } else { *at -= 1 };

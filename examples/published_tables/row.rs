@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What is claimed of a measured number. The example fails where a claim does not hold.
+/// The claim about a measured number. The example fails if a claim does not hold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Claim {
     /// It is the published one.
@@ -13,29 +13,29 @@ pub enum Claim {
     Unmatched,
 }
 
-/// A published number, a measured one, and what is claimed.
+/// A published number, a measured one, and the claim about them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Count {
-    /// As printed in the source.
+    /// The number printed in the source.
     pub published: f64,
-    /// As it comes out here; none if it does not converge.
+    /// The measured number; `None` if the relaxation does not converge.
     pub measured: Option<f64>,
-    /// How they are to compare.
+    /// The claim.
     pub claim: Claim,
 }
 
 impl Count {
-    /// A count of sweeps beside the published one.
+    /// Creates the count of sweeps beside the published one.
     pub fn of_sweeps(published: usize, measured: Option<usize>, claim: Claim) -> Self {
         Self { published: published as f64, measured: measured.map(|sweeps| sweeps as f64), claim }
     }
 
-    /// How far the measured number is from the published one, in per cent of it; infinitely if there is none.
+    /// Returns the relative deviation of the measured number in per cent, or infinity if there is none.
     fn deviation(&self) -> f64 {
         self.measured.map_or(f64::INFINITY, |measured| 100.0 * (measured / self.published - 1.0))
     }
 
-    /// Whether the claim is true.
+    /// Returns true if the claim is true.
     pub fn holds(&self) -> bool {
         match self.claim {
             Claim::Match => self.measured == Some(self.published),

@@ -22,7 +22,7 @@ const MOUTH: std::ops::Range<usize> = 22..42;
 const RATE: f64 = 30.0;
 /// States that are measured, after one that starts from nothing.
 const STATES: usize = 300;
-/// Of the drift, and the radius in cells of its influence where it is local.
+/// Strength of the drift, and the radius of its influence in cells if it is local.
 const EPSILON: f64 = 0.5;
 const RADIUS: f64 = 10.0;
 
@@ -40,14 +40,14 @@ const CURVES: [([f64; 2], [f64; 2], [f64; 2]); 7] = [
     ([42.0, 32.0], [30.0, 24.0], [8.0, 5.0]),
 ];
 
-/// Where the `k`-th of [`CURVES`] is, in cells.
+/// Returns the position of the `k`-th of [`CURVES`], in cells.
 fn place(k: usize, seconds: f64) -> [f64; 2] {
     let (middle, reach, periods) = CURVES[k];
     // Phases of their own, so that not all are in the middle at once.
     [0, 1].map(|axis| middle[axis] + reach[axis] * (TAU * (seconds / periods[axis] + 0.3 * k as f64)).sin())
 }
 
-/// The first of our robots plans: the other five are obstacles of 8 cm, the ball is the goal.
+/// Returns the domain of the planning robot: the other five robots are obstacles of 8 cm, the ball is the goal.
 pub fn state(seconds: f64) -> Domain {
     let [length, width] = CELLS;
     let mut kinds = vec![Cell::Free; length * width];
@@ -72,14 +72,14 @@ pub fn state(seconds: f64) -> Domain {
 pub enum Kind {
     /// Laplace's equation.
     Harmonic,
-    /// One drift everywhere.
+    /// One drift in all cells.
     Oriented(Difference),
     /// A drift around each of our robots.
     LocallyOriented(Difference),
 }
 
 impl Kind {
-    /// On a state of play.
+    /// Returns the equation for a state of play.
     pub fn equation(self, domain: &Domain, seconds: f64) -> Option<Equation> {
         let direction = Direction::of([1.0, 0.0])?;
         Some(match self {
@@ -95,7 +95,7 @@ impl Kind {
     }
 }
 
-/// Mean sweeps a state; none if a state diverges.
+/// Returns the mean number of sweeps per state, or `None` if a state diverges.
 fn mean_sweeps(kind: Kind, relaxation: &Relaxation) -> Option<f64> {
     let mut values = state(0.0).start();
     let mut total = 0;
@@ -126,7 +126,7 @@ pub struct Table {
 /// The factor that the source gives for weighted Jacobi.
 const WEIGHT: f64 = 1.8;
 
-/// Name and count of each published number.
+/// Returns name and count of each published number.
 pub fn rows(table: &Table) -> Vec<(String, Count)> {
     let rows = Order::Lines(Scan::ROWS);
     let [sequential, parallel] = table.factors.map(Factor::Given);
@@ -146,7 +146,7 @@ pub fn rows(table: &Table) -> Vec<(String, Count)> {
     relaxations.iter().zip(&table.published).map(count).collect()
 }
 
-/// What can and what cannot be compared.
+/// Notes on comparable and incomparable results.
 pub const NOTES: &[&str] = &[
     "Unmatched throughout: the play is ours, and the faster it is the more sweeps a state takes. What the source says of its own",
     "holds here as well: Jacobi takes most sweeps; red-black takes as many as row by row; SOR with the source's factor takes",

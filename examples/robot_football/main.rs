@@ -14,7 +14,7 @@ mod play;
 use std::error::Error;
 use std::process::ExitCode;
 
-/// What the command line asks for.
+/// The options of the command line.
 struct Asked {
     frames: usize,
     seed: u64,

@@ -1,4 +1,5 @@
-//! What the fields of a match cost, beside what the source measured (M. Oliveira da Silva 2011, tables 6.3 to 6.17; a CPU of 2009).
+//! Costs of the fields of a match, beside those in the source (M. Oliveira da Silva 2011, tables 6.3 to 6.17; a CPU of
+//! 2009).
 
 use super::play::{CELLS, Frame, MOST, RATE, walls};
 use cplan::field::{
@@ -10,22 +11,22 @@ use std::time::Instant;
 
 /// The source's rule: sum of squared changes of a sweep.
 pub const PUBLISHED_BELOW: f64 = 1e-6;
-/// Of the frames this share is solved from a standing start, too.
+/// One in this many frames is also solved from the initial field.
 const STANDING: usize = 30;
 
-/// Which field.
+/// The kinds of fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Laplace's equation, of the blue seeker.
     Harmonic,
     /// The blue seeker's own.
     Oriented,
-    /// That which the red ones share.
+    /// The field that the red robots share.
     LocallyOriented,
 }
 
 impl Kind {
-    /// What it is of in a frame.
+    /// Returns its input in a frame.
     pub fn moment(self, frame: &Frame) -> Moment {
         match self {
             Self::Harmonic => Moment { robots: Vec::new(), ..frame.moments[frame.seekers[0]].clone() },
@@ -44,7 +45,7 @@ pub struct Case {
     pub published: Option<[f64; 2]>,
 }
 
-/// All of them: first those of the source.
+/// Returns all cases, those of the source first.
 pub fn cases() -> Vec<Case> {
     use Difference::{Central, Upwind};
     let published = [
@@ -66,12 +67,12 @@ pub fn cases() -> Vec<Case> {
     cases
 }
 
-/// Row by row; with factor 1 Gauss and Seidel's.
+/// Returns SOR row by row; with factor 1 Gauss-Seidel.
 pub fn sor(factor: f64) -> Solver {
     Solver::Relaxation(Relaxation::sor(Factor::Given(factor), Order::Lines(Scan::ROWS)))
 }
 
-/// A field before the first frame.
+/// Returns a field before the first frame.
 pub fn standing(difference: Difference) -> Result<MovingField, RelaxError> {
     MovingField::new(CELLS, walls(), [Boundary::High; 2], difference)
 }
@@ -102,10 +103,10 @@ impl Clock {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Run {
     pub fields: usize,
-    /// Of those that took one sweep, or none.
+    /// Number of frames that took at most one sweep.
     pub at_once: usize,
     pub sweeps: usize,
-    /// Of a field, on the mean.
+    /// Mean milliseconds per field.
     pub milliseconds: f64,
 }
 
@@ -119,7 +120,7 @@ impl Run {
     }
 }
 
-/// One field after the other, each from the one before, or all from a standing start.
+/// Solves the fields in sequence, each from the previous one, or all from the initial field.
 pub fn run<'a>(
     moments: impl Iterator<Item = &'a Moment>,
     case: &Case,
@@ -142,7 +143,7 @@ pub fn run<'a>(
     Ok(run)
 }
 
-/// A line and what came of it.
+/// A line of the table with its results.
 pub struct Row {
     pub case: Case,
     pub warm: Run,
@@ -191,7 +192,8 @@ impl fmt::Display for Row {
     }
 }
 
-/// The fields of the red ones, where the strategy asks so many times a frame and the camera sees something new but once.
+/// Runs the fields of the red robots when the strategy asks several times per frame, while the camera sees a change
+/// only once.
 pub fn asked(frames: &[Frame], times: usize, case: &Case) -> Result<Run, RelaxError> {
     let moments: Vec<&Moment> = frames.iter().flat_map(|frame| std::iter::repeat_n(&frame.moments[3], times)).collect();
     run(moments.into_iter(), case, PUBLISHED_BELOW, false)
@@ -217,7 +219,7 @@ pub struct Exact {
     direction: [f64; 2],
 }
 
-/// One frame in so many is solved by elimination.
+/// One in this many frames is solved by elimination.
 const ELIMINATED: usize = 20;
 /// A field that is nearer to obstacles' values than this is one without a goal that can be reached.
 const LEVEL: f64 = 1e-12;
@@ -227,7 +229,7 @@ pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
     let mut found = Vec::new();
     for (k, frame) in frames.iter().enumerate().step_by(ELIMINATED) {
         let (moment, at) = (Kind::Oriented.moment(frame), frame.robots[frame.seekers[0]]);
-        // Nothing is relaxed: the field only says what each cell is.
+        // The field is not relaxed; it only provides the kind of each cell.
         let mut field = standing(Difference::Upwind)?;
         field.next(&moment, &sor(1.0), 1.0, 0)?;
         let domain = field.domain();
@@ -242,7 +244,8 @@ pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
     Ok(found)
 }
 
-/// Angles, in degrees and rising, between the blue seeker's direction in its field as a rule leaves it from frame to frame, and as it is.
+/// Returns the ascending angles, in degrees, between the directions of the blue seeker in its relaxed and in its exact
+/// field.
 pub fn astray(frames: &[Frame], exact: &[Exact], solver: &Solver, below: f64) -> Result<Vec<f64>, RelaxError> {
     let mut field = standing(Difference::Upwind)?;
     let mut angles = Vec::new();

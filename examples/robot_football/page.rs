@@ -7,14 +7,14 @@ use serde_json::{Value, json};
 /// Frames from one picture of the fields to the next, and cells from one arrow to the next.
 const EVERY: usize = 4;
 const APART: usize = 3;
-/// Points of a curve that are left out between two that are shown.
+/// Number of points of a curve omitted between two that are shown.
 const SPARSE: usize = 6;
-/// Directions of arrows are kept in so many steps of a turn, as letters; a dot is none.
+/// Directions of arrows are stored in this many steps of a turn, as letters; a dot means none.
 const TURN: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-";
 /// Likewise values of a field, from 0 to 1, by the logarithm of their distance from 1, in so many steps a power of ten.
 const A_POWER: f64 = 4.0;
 
-/// A match as it is seen.
+/// A recorded match.
 #[derive(Default)]
 pub struct Film {
     frames: Vec<Value>,
@@ -34,7 +34,7 @@ impl Film {
         }
     }
 
-    /// The page.
+    /// Returns the page.
     pub fn page(&self, seed: u64) -> String {
         let data = json!({
             "cells": CELLS, "depth": DEPTH, "mouth": MOUTH, "body": BODY, "ball": BALL, "influence": INFLUENCE, "perCm": PER_CM,
@@ -67,7 +67,7 @@ fn picture(field: &MovingField) -> Value {
     json!([arrows, values])
 }
 
-/// The curve that a robot would go if nothing moved.
+/// Returns the curve that a robot would follow in a static world.
 fn way(field: &MovingField, at: [f64; 2]) -> Vec<f64> {
     let is_free = field.direction(at).is_some();
     let way = is_free.then(|| field.follow(at).ok()).flatten();

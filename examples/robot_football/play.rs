@@ -14,7 +14,7 @@ use cplan::field::{
 pub const CELLS: [usize; 2] = [85, 65];
 /// Cells that a goal is deep.
 pub const DEPTH: f64 = 5.0;
-/// Where the mouth of a goal begins and ends, across the field: 40 cm.
+/// Range of a goal's mouth across the field: 40 cm.
 pub const MOUTH: [f64; 2] = [22.0, 42.0];
 /// Cells in a centimetre.
 pub const PER_CM: f64 = 0.5;
@@ -26,41 +26,42 @@ pub const BALL: f64 = 2.135 * PER_CM;
 pub const RATE: f64 = 60.0;
 /// Steps of the curve that a robot goes in a frame: 0.96 m/s.
 const STEPS: usize = 4;
-/// The way that a robot goes in a frame at the most.
+/// Greatest distance that a robot moves in a frame.
 pub const REACH: f64 = STEPS as f64 * STEP;
 /// The distance at which a robot pushes the ball, and that part of it that is the goal of who seeks the ball.
 const CONTACT: f64 = BODY + BALL + 0.6;
 const SOUGHT: f64 = CONTACT - 0.3;
-/// Speed of a ball that is pushed, what is left of it in the next frame and after it bounces.
+/// Speed of a pushed ball, and the factors by which it decreases per frame and per bounce.
 const PUSHED: f64 = 1.6;
 const ROLLS: f64 = 0.985;
 const BOUNCES: f64 = 0.6;
-/// Of drifts, per cell, and the radius of influence where they are local: 20 cm.
+/// Strength of drifts, per cell, and their radius of influence if they are local: 20 cm.
 pub const EPSILON: f64 = 0.5;
 pub const INFLUENCE: f64 = 10.0;
 /// A robot seeks the ball instead of the one that does when it is nearer by so much.
 const TAKES_OVER: f64 = 6.0;
 /// Red ones that do not seek the ball go no nearer to it.
 const KEEPS_OFF: f64 = 14.0;
-/// What the fields of the match are found to, by SOR with the source's factor: a sum of squared changes that leaves the directions right.
+/// Tolerance of the fields of the match, by SOR with the source's factor: a sum of squared changes at which directions
+/// are correct.
 const BELOW: f64 = 1e-12;
 const FACTOR: f64 = 1.7;
 /// Sweeps that this may take.
 pub const MOST: usize = 2000;
-/// A ball that stays this long, in frames, within so many cells is put on a mark of the field.
+/// A ball that stays within this many cells for this many frames is moved to a mark of the field.
 const STALE: (usize, f64) = (120, 12.0);
 /// The marks, as in the league: four, 37.5 cm from the middle and 40 cm from its line.
 const MARKS: [[f64; 2]; 4] = [[23.25, 12.0], [23.25, 52.0], [60.75, 12.0], [60.75, 52.0]];
 
-/// What there is to see at the beginning of a frame.
+/// The state at the beginning of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Three blue ones, three red ones.
     pub robots: [[f64; 2]; 6],
     pub ball: [f64; 2],
-    /// Which robot of either team seeks the ball.
+    /// The robot of each team that seeks the ball.
     pub seekers: [usize; 2],
-    /// What the field of each blue robot is of, and that of the red ones.
+    /// The input of each blue robot's field, and of the shared red one.
     pub moments: [Moment; 4],
 }
 
@@ -71,7 +72,7 @@ pub struct Match {
     noise: u64,
     /// Goals of blue and red.
     pub score: [usize; 2],
-    /// Ways of blue and red robots that were cut short since another robot was in the way.
+    /// Number of moves of blue and red robots that another robot cut short.
     pub refused: [usize; 2],
     /// Robots of blue and red that had no direction, frame by frame.
     pub lost: [usize; 2],
@@ -81,7 +82,7 @@ struct State {
     robots: [[f64; 2]; 6],
     ball: [f64; 2],
     rolls: [f64; 2],
-    /// Where the ball was when it last left its surroundings, and when.
+    /// Position and time at which the ball last left its surroundings.
     left: ([f64; 2], usize),
     seekers: [usize; 2],
     frame: usize,
@@ -93,7 +94,7 @@ pub fn walls() -> Vec<bool> {
     (0..rows * columns).map(|cell| !is_open([(cell / columns) as f64, (cell % columns) as f64])).collect()
 }
 
-/// Whether a robot anywhere in this cell is on the field.
+/// Returns true if a robot anywhere in this cell is on the field.
 fn is_open([row, column]: [f64; 2]) -> bool {
     let [rows, columns] = CELLS.map(|n| n as f64);
     let within = |at: f64, low: f64, high: f64| at - 0.5 >= low + BODY && at + 0.5 <= high - BODY;
@@ -101,7 +102,7 @@ fn is_open([row, column]: [f64; 2]) -> bool {
 }
 
 impl Match {
-    /// With other places and pushes for each seed.
+    /// Creates a match with different positions and pushes for each seed.
     pub fn new(seed: u64) -> Result<Self, RelaxError> {
         let mut noise = seed;
         let homes = [[11.0, 32.0], [26.0, 20.0], [33.0, 42.0], [73.0, 32.0], [58.0, 44.0], [51.0, 22.0]];
@@ -112,12 +113,12 @@ impl Match {
         Ok(Self { state, fields: vec![field; 4], noise, score: [0; 2], refused: [0; 2], lost: [0; 2] })
     }
 
-    /// The fields of the last frame: one of each blue robot, that of the red ones.
+    /// Returns the fields of the last frame: one for each blue robot, and the shared red one.
     pub fn fields(&self) -> &[MovingField] {
         &self.fields
     }
 
-    /// Plays one frame; what there was at its beginning.
+    /// Plays one frame, and returns the state at its beginning.
     pub fn next(&mut self) -> Result<Frame, RelaxError> {
         self.state.choose_seekers();
         let moments = [0, 1, 2, 3].map(|k| if k < 3 { self.state.of_one(k) } else { self.state.of_red() });
@@ -136,7 +137,7 @@ impl Match {
         Ok(Frame { robots, ball, seekers, moments })
     }
 
-    /// One robot's turn.
+    /// Moves one robot.
     fn go(&mut self, robot: usize) {
         let team = robot / 3;
         let at = self.state.robots[robot];
@@ -171,7 +172,7 @@ impl Match {
         }
     }
 
-    /// The ball rolls away from a robot that touches it, towards the other goal.
+    /// Pushes the ball away from a robot that touches it, towards the other goal.
     fn push(&mut self) {
         let ball = self.state.ball;
         let nearest =
@@ -190,7 +191,7 @@ impl Match {
         self.state.rolls = push.map(|x| PUSHED * x);
     }
 
-    /// The ball rolls on, bounces, and may be in a goal.
+    /// Rolls the ball, which may bounce, or enter a goal.
     fn roll(&mut self) {
         let [rows, columns] = CELLS.map(|n| n as f64);
         let State { ball, rolls, .. } = &mut self.state;
@@ -216,7 +217,7 @@ impl Match {
         }
     }
 
-    /// Nobody gets on: the ball is put on the mark that is farthest from all robots.
+    /// Moves a blocked ball to the mark that is farthest from all robots.
     fn free_ball(&mut self) {
         let room = |mark: &[f64; 2]| self.state.robots.iter().map(|&at| far(at, *mark)).fold(f64::INFINITY, f64::min);
         let mark = MARKS.into_iter().max_by(|a, b| room(a).total_cmp(&room(b)));
@@ -234,7 +235,8 @@ impl State {
         (0..6).filter(|&other| other != robot).map(|other| self.robots[other]).collect()
     }
 
-    /// The nearest seeks the ball, but a keeper does not, and the one that does goes on unless another is much nearer.
+    /// Chooses the seekers: the nearest robot except the keeper. The current seeker stays unless another robot is much
+    /// nearer.
     fn choose_seekers(&mut self) {
         for (team, first) in [(0, 1), (1, 3)] {
             let distance = |robot: usize| {
@@ -251,8 +253,9 @@ impl State {
         robots.map(|k| Disc { center: self.robots[k], radius: BODY + REACH + CLOSE }.grown_for(BODY)).collect()
     }
 
-    /// A blue robot's own field: the others are obstacles, its drift holds everywhere. The seeker comes to the ball along the
-    /// direction in which it is to roll; another one stands halfway between ball and goal, the first keeps the goal.
+    /// Returns a blue robot's own field: the others are obstacles, and its drift applies everywhere. The seeker
+    /// approaches the ball in the direction of the intended push; another robot stands halfway between ball and goal,
+    /// and the first keeps the goal.
     fn of_one(&self, robot: usize) -> Moment {
         let keeps = [10.0, self.ball[1].clamp(MOUTH[0], MOUTH[1])];
         let (goal, heading) = match robot {
@@ -272,8 +275,8 @@ impl State {
         }
     }
 
-    /// The field that red robots share: blue ones are obstacles, the ball is the goal, each red one has a drift about it. The seeker
-    /// comes along the direction in which the ball is to roll, the others are drawn back.
+    /// Returns the field that red robots share: blue ones are obstacles, the ball is the goal, and each red one has a
+    /// drift around it. The seeker approaches in the direction of the intended push, the others are drawn back.
     fn of_red(&self) -> Moment {
         let robots = (3..6).filter_map(|robot| {
             let heading = match robot == self.seekers[1] {
@@ -293,7 +296,7 @@ impl State {
     }
 }
 
-/// Uniform from -1 to 1 (SplitMix64; Steele, Lea, Flood 2014).
+/// Returns a uniform number from -1 to 1 (SplitMix64; Steele, Lea, Flood 2014).
 fn drawn(state: &mut u64) -> f64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let z = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -9,7 +9,7 @@ Made from [the schema](world.schema.json) by `cargo run --example world_referenc
 by examples. Unknown keys are errors. Where an angle or a length is asked for, radians or metres, an angle may be written `\"30deg\"`.
 ";
 
-/// The whole page: the file itself, then all tables in it by name.
+/// Returns the whole page: the file itself, then all its tables by name.
 pub fn page(schema: &Value) -> String {
     let tables = schema["definitions"].as_object().expect("a schema with definitions");
     let mut page = format!("{HEAD}\n## The file\n\n{}", table(schema, tables));
@@ -19,7 +19,7 @@ pub fn page(schema: &Value) -> String {
     page
 }
 
-/// What a table is for, its keys, and which of them go together.
+/// Describes a table, its keys, and their dependencies.
 fn table(schema: &Value, tables: &Map<String, Value>) -> String {
     let required: Vec<&str> = names(&schema["required"]);
     let mut text = format!("{}\n\n| key | holds | meaning |\n|---|---|---|\n", described(schema));
@@ -38,7 +38,7 @@ fn table(schema: &Value, tables: &Map<String, Value>) -> String {
     text
 }
 
-/// Which keys exclude or need each other, in sentences.
+/// Describes which keys exclude or require each other.
 fn rules(schema: &Value) -> Vec<String> {
     let mut rules = Vec::new();
     let all = schema["allOf"].as_array().into_iter().flatten();
@@ -64,7 +64,7 @@ enum Number {
     Many,
 }
 
-/// What a value is, in words.
+/// Describes the type of a value.
 fn kind(value: &Value, number: Number) -> String {
     let noun = |one: &str, many: &str| if number == Number::One { one.to_owned() } else { many.to_owned() };
     if let Some(name) = refers_to(value) {
@@ -91,13 +91,13 @@ fn kind(value: &Value, number: Number) -> String {
     }
 }
 
-/// The table that a value is, by name.
+/// Returns the name of the table to which a value refers.
 fn refers_to(value: &Value) -> Option<&str> {
     let reference = [&value["$ref"], &value["allOf"][0]["$ref"]].into_iter().find_map(Value::as_str);
     reference.and_then(|path| path.strip_prefix("#/definitions/"))
 }
 
-/// What an array is, in words.
+/// Describes an array.
 fn list(value: &Value, number: Number) -> String {
     let items = kind(&value["items"], Number::Many);
     let (least, most) = (value["minItems"].as_u64(), value["maxItems"].as_u64());
@@ -111,7 +111,7 @@ fn list(value: &Value, number: Number) -> String {
     }
 }
 
-/// Between which bounds a number lies.
+/// Describes the bounds of a number.
 fn range(value: &Value) -> String {
     let above = value["exclusiveMinimum"].as_f64().map(|bound| format!(" above {bound}"));
     let from = value["minimum"].as_f64().map(|bound| format!(" of {bound} or more"));
@@ -119,7 +119,7 @@ fn range(value: &Value) -> String {
     [above, from, to].into_iter().flatten().collect()
 }
 
-/// The description, on one line; a bar would end a cell of the table.
+/// Returns the description on one line. A bar would end a cell of the table.
 fn described(value: &Value) -> String {
     let own = value["description"].as_str().unwrap_or_default();
     own.replace('\n', " ").replace('|', "\\|")

@@ -1,4 +1,5 @@
-//! Any bytes as a certificate: among obstacles that leave no way, among others that leave one, among what moves, and of a task on a belt.
+//! Reads any bytes as a certificate: among obstacles without a path, with a path, among moving obstacles, and of a task
+//! on a belt.
 #![no_main]
 
 #[path = "shipped.rs"]
@@ -9,7 +10,7 @@ use libfuzzer_sys::fuzz_target;
 use shipped::shipped;
 use std::sync::LazyLock;
 
-/// The texts of a robot and a world.
+/// Returns the texts of a robot and a world.
 fn texts(robot: &str, world: &str) -> [String; 2] {
     [format!("robots/{robot}.urdf"), format!("workspaces/{world}.toml")]
         .map(|file| std::fs::read_to_string(shipped(&file)).expect("shipped files are there"))

@@ -1,5 +1,5 @@
-//! Any bytes as each of the files that `cplan-check` reads besides the certificate: a robot, a world, meshes, a picture, its description and a
-//! line map.
+//! Reads any bytes as each of the files that `cplan-check` reads in addition to the certificate: a robot, a world,
+//! meshes, a picture, its description and a line map.
 #![no_main]
 
 #[path = "files.rs"]
@@ -13,7 +13,7 @@ use libfuzzer_sys::fuzz_target;
 use shipped::shipped;
 use std::sync::LazyLock;
 
-/// With all that is not any bytes.
+/// All valid files.
 static FILES: LazyLock<Files> = LazyLock::new(|| {
     let files = Files::new();
     let urdf = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).expect("shipped files are there");

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// A file of the repository.
+/// Returns the path of a file of the repository.
 pub fn shipped(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..").join(file)
 }

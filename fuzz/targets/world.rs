@@ -21,7 +21,7 @@ static FILES: LazyLock<Files> = LazyLock::new(Files::new);
 /// Longer tasks are only loaded.
 const MOST_STEPS: usize = 4;
 
-/// The task of a world with steps: it is refused with a message, or can be planned and reported.
+/// Reads the task of a world with steps: it is refused with a message, or can be planned and reported.
 fn task(scene: LoadedScene) {
     let task = match scene.task(&Overrides::default()) {
         Ok(loaded) => loaded.task,

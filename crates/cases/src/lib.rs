@@ -59,10 +59,10 @@ pub fn seed() -> u64 {
     from_environment("CPLAN_SEED", 0)
 }
 
-/// True if the cases are those of every run. Tests that count how many cases of a kind occur can only do so then.
+/// Returns true if the cases are the default ones. Only then may tests count how many cases of a kind occur.
 ///
 /// # Panics
-/// As [`cases`].
+/// Same as [`cases`].
 #[must_use]
 pub fn usual() -> bool {
     seed() == 0 && times(1 << 20) == 1 << 20

@@ -66,8 +66,8 @@ fn status(outcome: Status) -> usize {
 }
 
 impl Study {
-    /// The log. `started` is a date and a time for people, `seconds` what all of it took. Planners had no limit of time or
-    /// memory, which the log puts as 0; the machine is not named.
+    /// Writes the log. `started` is a date and a time for people, `seconds` the total duration. Planners had no limits
+    /// on time and memory, which the log states as 0. The machine is not named.
     #[must_use]
     pub fn to_arena_log(&self, started: &str, seconds: f64) -> String {
         let mut log = format!("cplan version {}\n", env!("CARGO_PKG_VERSION"));
@@ -104,14 +104,14 @@ impl Study {
     }
 }
 
-/// One line that is no mark of the format: those begin a line.
+/// Returns the text on one line that does not look like a mark of the format.
 fn line(text: &str) -> String {
     let clean: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let clean = clean.trim();
     if clean.starts_with(['<', '|', '.']) { format!("'{clean}'") } else { clean.to_owned() }
 }
 
-/// One word, as the names of experiments are read.
+/// Returns the text as one word, for names of experiments.
 fn word(text: &str) -> String {
     let word = text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|part| !part.is_empty());
     let word = word.collect::<Vec<_>>().join("_");
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::Sampling;
 
-    /// What a log says, read by its grammar.
+    /// The contents of a log, parsed by its grammar.
     struct Log {
         experiment: String,
         seed: u64,
@@ -146,7 +146,7 @@ mod tests {
             self.0.next().expect("the log ends too early")
         }
 
-        /// What stands before a line's known end.
+        /// Returns the part of a line before its known end.
         fn before(&mut self, end: &str) -> &'a str {
             let line = self.line();
             line.strip_suffix(end).unwrap_or_else(|| panic!("{line:?} does not end in {end:?}"))

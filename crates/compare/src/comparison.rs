@@ -9,7 +9,7 @@ use cplan_text::wrapped;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// The rows, and what they are about.
+/// The results of planners on one problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
     /// Name of the problem.
@@ -18,40 +18,41 @@ pub struct Comparison {
     pub length_unit: String,
     /// Start and goal, where they are not the world's.
     pub query: Option<[Configuration; 2]>,
-    /// No motion from start to goal is shorter: proven. Unit as the lengths; none where nothing is known.
+    /// Proven lower bound on the length of every motion from start to goal, in the unit of lengths; `None` if unknown.
     pub bound: Option<f64>,
-    /// One a planner, in the order of the table.
+    /// One row per planner, in the order of the table.
     pub rows: Vec<Row>,
 }
 
 impl Comparison {
-    /// The least length of all, if a path was found.
+    /// Returns the least length, if a path was found.
     #[must_use]
     pub fn best(&self) -> Option<f64> {
         self.rows.iter().filter_map(|r| r.length).filter(|l| l.is_finite()).min_by(f64::total_cmp)
     }
 
-    /// How many times as long as the shortest path this row's is; 1 for the best. A path of length zero (the goal is
-    /// the start) is as good as any other such path, and no other has a ratio to it.
+    /// Returns the ratio of this row's length to the shortest one; 1 for the best. If a path has length zero (the goal
+    /// is the start), other such paths have ratio 1, and longer ones none.
     #[must_use]
     pub fn ratio(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.best()?)
     }
 
-    /// How many times as long as the proven bound this row's path is: it is longer than the optimum by no more than that.
+    /// Returns the ratio of this row's length to the proven bound. The path exceeds the optimum by at most this factor.
     #[must_use]
     pub fn over_optimum(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.bound?)
     }
 
-    /// Whether one planner has a certified path and another a proof that there is none: one of the two is wrong.
+    /// Returns true if one planner found a certified path and another proved that no path exists, so that one of them is
+    /// wrong.
     #[must_use]
     pub fn is_contradictory(&self) -> bool {
         let has = |outcome| self.rows.iter().any(|row| row.outcome == outcome);
         has(Status::Found) && has(Status::Infeasible)
     }
 
-    /// What became of the problem, in words.
+    /// Summarises the results in words.
     #[must_use]
     pub fn outcome(&self) -> String {
         let all = self.rows.len();
@@ -65,7 +66,7 @@ impl Comparison {
         }
     }
 
-    /// The contradiction in words, if there is one.
+    /// Describes the contradiction, if there is one.
     #[must_use]
     pub fn alarm(&self) -> Option<String> {
         let named = |outcome| {
@@ -83,15 +84,15 @@ impl Comparison {
         })
     }
 
-    /// An aligned table for a terminal, of what matters most, in 80 columns; units in the header, `-` where there is nothing. Below
-    /// it the planners' notes, a line each. Ends in a newline.
+    /// Returns an aligned table of the most important columns, 80 characters wide; units are in the header, and `-`
+    /// marks missing values. Planners' notes follow, one per line. Ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
         let remarks = self.remarks().map(|line| wrapped(&line, WIDTH, 2) + "\n");
         self.table().of_columns(&ESSENTIAL).to_text_within(WIDTH) + &remarks.collect::<String>()
     }
 
-    /// The same with all there is, however wide.
+    /// Returns the table with all columns, at any width.
     #[must_use]
     pub fn to_wide_text(&self) -> String {
         self.table().to_text() + &self.remarks().map(|line| line + "\n").collect::<String>()
@@ -101,20 +102,20 @@ impl Comparison {
         self.rows.iter().flat_map(Row::remarks)
     }
 
-    /// The same table in Markdown.
+    /// Returns the table in Markdown.
     #[must_use]
     pub fn to_markdown(&self) -> String {
         self.table().to_markdown()
     }
 
-    /// Comma-separated values (RFC 4180) in SI units with full precision; empty where there is nothing.
+    /// Returns comma-separated values (RFC 4180) in SI units with full precision; missing values are empty.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let rows = self.rows.iter().map(|row| self.csv_row(row) + "\n");
         format!("{CSV_HEADER}\n{}", rows.collect::<String>())
     }
 
-    /// A row's fields in the order of [`CSV_HEADER`].
+    /// Returns a row's fields in the order of [`CSV_HEADER`].
     pub(super) fn csv_row(&self, row: &Row) -> String {
         let number = |v: Option<f64>| v.filter(|v| v.is_finite()).map_or_else(String::new, |v| v.to_string());
         let counts = row.counts().map(|n| n.map_or_else(String::new, |n| n.to_string()));
@@ -129,7 +130,7 @@ impl Comparison {
         fields.join(",")
     }
 
-    /// A JSON object in SI units; null where there is nothing.
+    /// Returns a JSON object in SI units; missing values are null.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let mut object = json!({
@@ -219,7 +220,7 @@ impl Comparison {
 /// Columns of the table that come first: planner, outcome, length and how near that is to the optimum, clearance, motion, time, memory.
 const ESSENTIAL: [usize; 8] = [0, 1, 2, 4, 5, 6, 11, 12];
 
-/// Length and clearance of both paths.
+/// Returns length and clearance of both paths.
 fn paths(row: &Row) -> Value {
     let figures =
         |kind| row.of_kind(kind).map(|(length, clearance)| json!({ "length": length, "clearance": clearance }));
@@ -230,7 +231,7 @@ fn paths(row: &Row) -> Value {
 pub(super) const CSV_HEADER: &str = "planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,\
                                      build_s,query_s,certify_s,note,lower_bound,over_optimum,prove_s,total_s,memory_bytes,reason";
 
-/// `a / b`, and 1 where both are the same; none where that is no number.
+/// Returns `a / b`, with 1 for equal numbers, or `None` if the quotient is not a number.
 fn quotient(a: f64, b: f64) -> Option<f64> {
     if a == b { Some(1.0) } else { Some(a / b).filter(|r| r.is_finite()) }
 }
@@ -330,7 +331,7 @@ mod tests {
         assert_eq!(json["planners"][1]["over_optimum"], 1.5625);
         assert_eq!(json["planners"][1]["size"]["sweeps"], 40);
         assert!(json["planners"][2]["length"].is_null() && json["planners"][2]["size"].is_null());
-        assert!(json["planners"][2]["time"]["query"].is_null(), "what is not a number is null");
+        assert!(json["planners"][2]["time"]["query"].is_null(), "NaN is written as null");
         assert!(json.get("start").is_none());
     }
 

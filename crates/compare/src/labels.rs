@@ -20,7 +20,7 @@ pub fn labels(names: &[&str]) -> Vec<String> {
         .collect()
 }
 
-/// The planner of a name, and each of its options with the values that follow it.
+/// Splits a name into the planner and its options with their values.
 fn options(name: &str) -> (&str, Vec<String>) {
     let mut words = name.split_whitespace();
     let planner = words.next().unwrap_or(name);

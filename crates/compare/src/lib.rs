@@ -1,5 +1,5 @@
-//! Comparisons of planners, on one problem or on many, and of relaxations ([`Convergence`]): for people, for spreadsheets, for
-//! programs.
+//! Comparisons of planners, on one problem or on many, and of relaxations ([`Convergence`]): for people, for
+//! spreadsheets, for programs.
 //!
 //! ```text
 //! Row (a planner on a problem) -> Comparison (planners on a problem) -> Study (planners on problems)
@@ -8,9 +8,9 @@
 //!                                                          a page with charts; a log for Planner Arena
 //! ```
 //!
-//! It knows figures only, and all outputs are pure functions of these. `Spread` is a distribution, `Measure` a number to
-//! compare by, `words` says what a sign test over the problems bears out and nothing else. `page` writes HTML with SVG
-//! charts of its own; pictures of `draw` come in as text.
+//! The crate works on figures only, and all outputs are pure functions of them. `Spread` is a distribution, `Measure` a
+//! quantity to compare. `words` states only conclusions that a sign test over the problems supports. `page` writes HTML
+//! with its own SVG charts; pictures from `draw` are passed in as text.
 
 mod arena;
 mod comparison;

@@ -1,4 +1,4 @@
-//! What is measured of each run.
+//! Quantities measured for each run.
 
 use super::comparison::Comparison;
 use super::row::Row;
@@ -25,7 +25,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// All, in the order of the tables.
+    /// All measures, in the order of the tables.
     pub const ALL: [Measure; 8] = [
         Measure::OverOptimum,
         Measure::Clearance,
@@ -37,7 +37,7 @@ impl Measure {
         Measure::Memory,
     ];
 
-    /// Its heading, with the unit in which tables show it.
+    /// Returns its heading, with the unit used in tables.
     #[must_use]
     pub fn heading(self) -> &'static str {
         match self {
@@ -52,7 +52,7 @@ impl Measure {
         }
     }
 
-    /// Its key in JSON, where it is in SI units and bytes.
+    /// Returns its key in JSON, which uses SI units and bytes.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
@@ -67,7 +67,7 @@ impl Measure {
         }
     }
 
-    /// A value as tables show it: in the unit of the heading.
+    /// Formats a value in the unit of the heading.
     #[must_use]
     pub fn shown(self, value: f64) -> String {
         let decimals = match self {
@@ -78,7 +78,7 @@ impl Measure {
         format!("{:.decimals$}", value * self.scale())
     }
 
-    /// By what SI units are multiplied to get the unit of the heading.
+    /// Returns the factor from SI units to the unit of the heading.
     #[must_use]
     pub fn scale(self) -> f64 {
         match self {
@@ -88,7 +88,7 @@ impl Measure {
         }
     }
 
-    /// A run's value, SI units and bytes; none where it has none.
+    /// Returns a run's value, in SI units and bytes, if it has one.
     #[must_use]
     pub fn of(self, comparison: &Comparison, row: &Row) -> Option<f64> {
         match self {

@@ -1,4 +1,4 @@
-//! What one planner did on one problem.
+//! The result of one planner on one problem.
 
 use cplan_core::model::Status;
 use cplan_core::planner::{Note, PathKind, Size};
@@ -11,7 +11,7 @@ pub enum Family {
     Roadmap,
     /// Values on a grid's cells: wavefront, harmonic and its relatives.
     Field,
-    /// What judges the scene itself: exact slices, slabs, boxes: shortest, first, subdivision.
+    /// Planners that test the scene itself (exact slices, slabs, boxes): shortest, first, subdivision.
     Exact,
 }
 
@@ -19,7 +19,7 @@ impl Family {
     /// All families, in the order of the tables.
     pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Exact];
 
-    /// Its planners, in the plural.
+    /// Returns the plural name of its planners.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -45,34 +45,34 @@ impl From<Method> for Family {
 /// Figures of a planner's path of the other kind than the row is about.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OtherPath {
-    /// Its length, in the unit of [`Row::length`].
+    /// Length, in the unit of [`Row::length`].
     pub length: f64,
-    /// Its clearance, as in [`Row::clearance`].
+    /// Clearance, as in [`Row::clearance`].
     pub clearance: Option<f64>,
 }
 
-/// What one planner did. What it did not come to is missing.
+/// The result of one planner. Missing values were not reached.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Name on the command line.
     pub planner: String,
-    /// What kind of planner it is.
+    /// Family of the planner.
     pub family: Family,
-    /// Which of its paths.
+    /// Kind of the path.
     pub path_kind: PathKind,
-    /// How it ended.
+    /// Status at the end.
     pub outcome: Status,
-    /// Euclidean length in joint space (rad and m as they come).
+    /// Euclidean length in joint space (mixing rad and m).
     pub length: Option<f64>,
-    /// Its path of the other kind, if it has one.
+    /// The planner's path of the other kind, if it has one.
     pub other_path: Option<OtherPath>,
     /// Straight pieces of the path.
     pub pieces: Option<usize>,
-    /// Proven least distance between arm and obstacles along the path, metres; none where nothing can be hit.
+    /// Proven least distance between arm and obstacles along the path, metres; `None` if no obstacle is within reach.
     pub clearance: Option<f64>,
     /// Time that the motion takes, seconds.
     pub duration: Option<f64>,
-    /// How much was built.
+    /// Size of the data structures.
     pub size: Option<Size>,
     /// Computing time to prepare the space, seconds.
     pub build: Option<f64>,
@@ -82,18 +82,18 @@ pub struct Row {
     pub certify: Option<f64>,
     /// Computing time spent looking for a proof that there is no path, seconds.
     pub prove: Option<f64>,
-    /// Computing time from the problem to the verdict, seconds: all of these, and what lies between them.
+    /// Computing time from the problem to the verdict, seconds: the stages above, and everything between them.
     pub total: Option<f64>,
-    /// Bytes that were allocated at the same time on the way to the verdict, at the most.
+    /// Greatest number of bytes allocated at the same time before the verdict.
     pub memory: Option<u64>,
-    /// What the planner has to add.
+    /// A note of the planner.
     pub note: Option<Note>,
     /// Why the outcome is unknown, in words.
     pub reason: Option<String>,
 }
 
 impl Row {
-    /// A row that knows nothing yet but who it is about.
+    /// Creates a row with only the planner's identity and status.
     #[must_use]
     pub fn new(planner: impl Into<String>, family: Family, outcome: Status) -> Self {
         Self {
@@ -118,7 +118,7 @@ impl Row {
         }
     }
 
-    /// Length and clearance of the planner's path of this kind, if both are known.
+    /// Returns length and clearance of the planner's path of this kind, if both are known.
     #[must_use]
     pub fn of_kind(&self, kind: PathKind) -> Option<(f64, Option<f64>)> {
         let other = self.other_path?;
@@ -137,7 +137,7 @@ impl Row {
         [of("nodes"), of("edges"), of("cells"), of("sweeps"), of("expanded")]
     }
 
-    /// What there is to say below a table, a line each.
+    /// Iterates over the lines below a table.
     pub(super) fn remarks(&self) -> impl Iterator<Item = String> + '_ {
         let note = self.note.map(|note| format!("{}: {note}", self.planner));
         let reason = self.reason.as_ref().map(|reason| format!("{}: unknown: {reason}", self.planner));

@@ -1,7 +1,7 @@
 //! The sign test: whether one side wins more often than chance lets it.
 
-/// Probability that a fair coin falls at least as unevenly as `wins` to `losses`: the two-sided sign test, exact. 1 if
-/// there is nothing to tell. `O(n)`.
+/// Returns the probability that a fair coin falls at least as unevenly as `wins` to `losses`: the exact two-sided sign
+/// test. Returns 1 without throws. `O(n)`.
 #[must_use]
 pub fn sign_test(wins: usize, losses: usize) -> f64 {
     let n = wins + losses;
@@ -20,7 +20,7 @@ pub fn sign_test(wins: usize, losses: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// By throwing all coins.
+    /// Computes it by enumerating all throws.
     fn enumerated(wins: usize, losses: usize) -> f64 {
         let n = wins + losses;
         let fewer = wins.min(losses) as u32;

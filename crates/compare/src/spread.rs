@@ -1,9 +1,9 @@
-//! How values are distributed.
+//! Distribution of values.
 
 /// The five numbers of a box plot, and the mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spread {
-    /// How many values there are; at least one.
+    /// Number of values; at least one.
     pub n: usize,
     /// The least of the values.
     pub min: f64,
@@ -20,7 +20,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// That of the finite ones among these values; none if there are none. `O(n log n)`.
+    /// Computes the distribution of the finite values; `None` if all are infinite or missing. `O(n log n)`.
     #[must_use]
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let mut sorted: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
@@ -33,15 +33,15 @@ impl Spread {
         Some(Self { n, min, lower_quartile, median, upper_quartile, max, mean })
     }
 
-    /// Least, quartiles with the median, greatest, mean: in the order of the tables.
+    /// Returns least, lower quartile, median, upper quartile, greatest and mean: the order of the tables.
     #[must_use]
     pub fn numbers(&self) -> [f64; 6] {
         [self.min, self.lower_quartile, self.median, self.upper_quartile, self.max, self.mean]
     }
 }
 
-/// The value below which this share (0 to 1) of the values lies, linear between neighbours: the definition that R (type
-/// 7) and NumPy take unless told otherwise. The values ascend, and there is at least one.
+/// Returns the value below which this fraction (0 to 1) of the values lies, with linear interpolation: the default
+/// definition of R (type 7) and NumPy. The values are ascending, and there is at least one.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let at = share * (sorted.len() - 1) as f64;
     let below = at.floor() as usize;
@@ -75,7 +75,8 @@ mod tests {
         assert_eq!(Spread::of([f64::NAN, 2.0, f64::NEG_INFINITY]).unwrap().n, 1);
     }
 
-    /// The quantile by its definition as an inverse: the broken line through the points `(i / (n - 1), sorted[i])`.
+    /// Returns the quantile by its definition as an inverse: the broken line through the points `(i / (n - 1),
+    /// sorted[i])`.
     fn along_the_line(sorted: &[f64], share: f64) -> f64 {
         let knots: Vec<f64> = (0..sorted.len()).map(|i| i as f64 / (sorted.len().max(2) - 1) as f64).collect();
         for i in 1..sorted.len() {

@@ -6,25 +6,25 @@ use super::row::Row;
 use super::spread::Spread;
 use cplan_core::model::Status;
 
-/// Random start-goal pairs in place of the worlds' own.
+/// Random start-goal pairs instead of the worlds' own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sampling {
     /// Pairs a world.
     pub queries: usize,
-    /// What they follow from.
+    /// Their seed.
     pub seed: u64,
 }
 
-/// The same planners on many problems.
+/// The results of the same planners on many problems.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
-    /// What it is about.
+    /// Title.
     pub title: String,
-    /// Where start and goal were drawn at random.
+    /// The sampling, if start and goal were drawn at random.
     pub sampling: Option<Sampling>,
-    /// One a problem, each with the same planners in the same order.
+    /// One comparison per problem, each with the same planners in the same order.
     pub comparisons: Vec<Comparison>,
-    /// What was left out, and why; a line each.
+    /// Omitted worlds with reasons, one per line.
     pub left_out: Vec<String>,
     /// Problems that could not be run.
     pub refused: Vec<Refusal>,
@@ -37,36 +37,36 @@ pub struct Refusal {
     pub problem: String,
     /// `input`, `start` or `goal`.
     pub kind: &'static str,
-    /// What is wrong, on a line.
+    /// The defect, on one line.
     pub reason: String,
 }
 
 impl Study {
-    /// The planners' names, in the order of the tables.
+    /// Returns the planners' names, in the order of the tables.
     #[must_use]
     pub fn planners(&self) -> Vec<&str> {
         self.comparisons.first().map_or_else(Vec::new, |c| c.rows.iter().map(|row| row.planner.as_str()).collect())
     }
 
-    /// A planner's runs, each with its problem.
+    /// Iterates over a planner's runs, each with its problem.
     pub fn runs(&self, planner: usize) -> impl Iterator<Item = (&Comparison, &Row)> {
         self.comparisons.iter().filter_map(move |c| c.rows.get(planner).map(|row| (c, row)))
     }
 
-    /// How many of a planner's runs ended in each way, in the order of [`Status::ALL`].
+    /// Returns the number of a planner's runs by status, in the order of [`Status::ALL`].
     #[must_use]
     pub fn tally(&self, planner: usize) -> [usize; 3] {
         Status::ALL.map(|outcome| self.runs(planner).filter(|(_, row)| row.outcome == outcome).count())
     }
 
-    /// How a planner's values are distributed over the problems for which it has one; none if there are none.
+    /// Returns the distribution of a planner's values, or `None` if it has no values.
     #[must_use]
     pub fn spread(&self, planner: usize, measure: Measure) -> Option<Spread> {
         Spread::of(self.runs(planner).filter_map(|(comparison, row)| measure.of(comparison, row)))
     }
 
-    /// What all planners together know of each problem, in the order of [`Status::ALL`]: problems with a path, problems
-    /// proven to have none, problems that none of them settled. Contradictory ones count as solved.
+    /// Returns the number of problems by the joint knowledge of all planners, in the order of [`Status::ALL`]: with a
+    /// path, proven infeasible, and unsettled. Contradictory ones count as solved.
     #[must_use]
     pub fn settled(&self) -> [usize; 3] {
         let mut counts = [0; 3];
@@ -79,7 +79,7 @@ impl Study {
         counts
     }
 
-    /// Each contradiction between planners, in words.
+    /// Describes each contradiction between planners.
     #[must_use]
     pub fn alarms(&self) -> Vec<String> {
         self.comparisons.iter().filter_map(Comparison::alarm).collect()

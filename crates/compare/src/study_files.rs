@@ -24,7 +24,7 @@ impl Study {
         self.text(|table| table.to_text_within(WIDTH))
     }
 
-    /// The same with tables as wide as they are.
+    /// Does the same with tables of any width.
     #[must_use]
     pub fn to_wide_text(&self) -> String {
         self.text(Table::to_text)
@@ -40,7 +40,7 @@ impl Study {
         text + &self.footnotes().map(|line| wrapped(&line, WIDTH, 2) + "\n").collect::<String>()
     }
 
-    /// The same in Markdown.
+    /// Returns the same in Markdown.
     #[must_use]
     pub fn to_markdown(&self) -> String {
         let mut text = format!("# {}\n", escaped(&self.title));
@@ -54,8 +54,8 @@ impl Study {
         if notes.is_empty() { text } else { format!("{text}\n{notes}") }
     }
 
-    /// A line a run, in SI units with full precision: the problem, start and goal where they were drawn, then the columns
-    /// of [`Comparison::to_csv`].
+    /// Returns one line per run, in SI units with full precision: the problem, start and goal if they were drawn, then
+    /// the columns of [`Comparison::to_csv`].
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = format!("problem,start_1,start_2,goal_1,goal_2,{CSV_HEADER}\n");
@@ -77,7 +77,8 @@ impl Study {
         text
     }
 
-    /// A JSON object in SI units: every run of every problem, each planner's tally and distributions, and the words.
+    /// Returns a JSON object in SI units: every run of every problem, each planner's tally and distributions, and the
+    /// conclusions.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let mut object = json!({
@@ -115,7 +116,7 @@ impl Study {
         object
     }
 
-    /// All tables with their headings.
+    /// Returns all tables with their headings.
     #[must_use]
     pub fn tables(&self) -> Vec<(String, Table)> {
         let mut tables = vec![("outcomes".to_owned(), self.outcomes())];
@@ -167,7 +168,7 @@ impl Study {
         Table { columns, rows: self.comparisons.iter().map(row).collect() }
     }
 
-    /// What planners have to add, what was left out, and contradictions, which nobody may overlook, last.
+    /// Iterates over planners' notes, omissions, and last the contradictions, which nobody may overlook.
     pub(super) fn footnotes(&self) -> impl Iterator<Item = String> + '_ {
         let of = |c: &'_ Comparison| -> Vec<String> {
             c.rows.iter().flat_map(Row::remarks).map(|remark| format!("{}: {remark}", c.problem)).collect()
@@ -190,7 +191,7 @@ impl Refusal {
     }
 }
 
-/// Text in which Markdown sees no markup.
+/// Escapes Markdown markup.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

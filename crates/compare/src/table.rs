@@ -2,15 +2,15 @@
 
 use cplan_text::plain_line;
 
-/// Characters that the lines of tables keep to, unless they are asked for whole.
+/// Largest width of tables, characters, unless the full width is requested.
 pub const WIDTH: usize = 80;
 
 /// Side to which a column's cells are moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
-    /// To the left side, for words.
+    /// Left-aligned, for words.
     Left,
-    /// To the right side, for numbers.
+    /// Right-aligned, for numbers.
     Right,
 }
 
@@ -22,18 +22,18 @@ pub struct Column {
 }
 
 impl Column {
-    /// A column of this name.
+    /// Creates a column with a name.
     pub fn new(name: &str, align: Align) -> Self {
         Self { name: name.to_owned(), align }
     }
 
-    /// What stands above it.
+    /// Returns its name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// To which side its cells are moved.
+    /// Returns its alignment.
     #[must_use]
     pub fn align(&self) -> Align {
         self.align
@@ -45,7 +45,7 @@ impl Column {
 pub struct Table {
     /// The headers, one for each column.
     pub columns: Vec<Column>,
-    /// As many cells as columns each.
+    /// Rows with one cell per column.
     pub rows: Vec<Vec<Option<String>>>,
 }
 
@@ -56,8 +56,8 @@ impl Table {
         table.text_under(&[table.header()])
     }
 
-    /// The same in lines of so many characters: if need be with the last word of headers below the others, and in parts, one
-    /// below the other, each of which begins with the first column.
+    /// Returns the table in lines of limited width: if necessary with headers on two lines, and in parts below each
+    /// other, each starting with the first column.
     pub fn to_text_within(&self, width: usize) -> String {
         let text = self.to_text();
         if self.columns.len() < 2 || text.lines().all(|line| line.chars().count() <= width) {
@@ -90,7 +90,7 @@ impl Table {
         parts.into_iter().map(part).collect::<Vec<_>>().join("\n")
     }
 
-    /// Some of its columns.
+    /// Returns a table with some of its columns.
     pub(super) fn of_columns(&self, columns: &[usize]) -> Self {
         let row = |row: &Vec<Option<String>>| columns.iter().map(|&k| row[k].clone()).collect();
         Self {
@@ -110,13 +110,13 @@ impl Table {
         text
     }
 
-    /// The same with other cells.
+    /// Returns a table with changed cells.
     fn with_cells(&self, change: impl Fn(&str) -> String) -> Self {
         let row = |row: &Vec<Option<String>>| row.iter().map(|cell| cell.as_deref().map(&change)).collect();
         Self { columns: self.columns.clone(), rows: self.rows.iter().map(row).collect() }
     }
 
-    /// A table of GitHub's Markdown, aligned in the source too.
+    /// Returns a table in GitHub's Markdown, also aligned in the source.
     pub fn to_markdown(&self) -> String {
         let escaped = self.with_cells(|cell| plain_line(&cell.replace('|', "\\|").replace('<', "&lt;")).into_owned());
         // A rule needs three characters.
@@ -159,12 +159,12 @@ fn shown(row: &[Option<String>]) -> Vec<&str> {
     row.iter().map(|cell| cell.as_deref().unwrap_or("-")).collect()
 }
 
-/// A number with so many decimals; none where it is not finite.
+/// Formats a number with fixed decimals, or returns `None` if it is not finite.
 pub(super) fn fixed(value: Option<f64>, decimals: usize) -> Option<String> {
     value.filter(|v| v.is_finite()).map(|v| format!("{v:.decimals$}"))
 }
 
-/// A text field of a CSV file.
+/// Quotes a text field of a CSV file.
 pub fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

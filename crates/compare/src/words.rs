@@ -1,4 +1,4 @@
-//! A study in words: only what its figures bear out.
+//! Conclusions of a study in words, as far as its figures support them.
 
 use super::measure::Measure;
 use super::row::Family;
@@ -9,7 +9,7 @@ use cplan_core::model::Status;
 use cplan_core::planner::PathKind;
 use cplan_text::{counted, percent};
 
-/// A side is said to be better if a fair coin would favour it as clearly as this seldom.
+/// Largest probability with which a fair coin would favour a side as clearly, for calling it better.
 const SIGNIFICANT: f64 = 0.05;
 
 /// Values that differ by no more than this share of them are as good as each other.
@@ -18,8 +18,8 @@ const AS_GOOD: f64 = 1e-6;
 /// Fewer problems than this cannot bear out anything: even if one side wins all of five, p is 1/16.
 const ENOUGH: usize = 6;
 
-/// The measures that sides are compared by: what the better one does, with a place for "er" or "est", and whether
-/// more is better.
+/// The measures of comparison: the verb for the better side, with a place for "er" or "est", and whether more is
+/// better.
 const ASPECTS: [(Measure, [&str; 2], &str, bool); 5] = [
     (
         Measure::OverOptimum,
@@ -44,11 +44,12 @@ struct Side {
     planners: Vec<usize>,
 }
 
-/// What the study says, a paragraph each: how many problems were settled, how near the proven optimum is, and family
-/// against family how long, how near to obstacles, how fast, how soon and how large. A planner speaks for its family by its
-/// usual path; what pulling one taut changes is said apart. Planners take the place of families where there is only one of
-/// those. A side is called better only where the sign test over all problems that all sides
-/// have a value for bears it out at 5 %.
+/// Returns the conclusions, one paragraph each: how many problems were settled, how close the proven optimum is, and
+/// for each pair of families the lengths, clearances, times and sizes.
+///
+/// Each planner represents its family by its usual path; the effect of pulling paths taut is reported separately. With
+/// a single family, planners are compared instead. A side is called better only if the sign test over all problems with
+/// values for all sides supports it at 5 %.
 #[must_use]
 pub fn words(study: &Study) -> Vec<String> {
     let mut words = vec![outcomes(study)];
@@ -84,7 +85,7 @@ fn outcomes(study: &Study) -> String {
     text
 }
 
-/// How tight the bound is, by the best path of all planners.
+/// Describes how tight the bound is, by the best path of all planners.
 fn optimum(study: &Study) -> Option<String> {
     let excess = |c: &super::Comparison| Some(c.best()? / c.bound? - 1.0);
     let spread = Spread::of(study.comparisons.iter().filter_map(excess))?;
@@ -96,7 +97,7 @@ fn optimum(study: &Study) -> Option<String> {
     ))
 }
 
-/// What becomes of each planner's own path when it is pulled taut, where both are there.
+/// Describes the effect of pulling each planner's own path taut, where both paths exist.
 fn pulled_taut(study: &Study) -> Option<String> {
     let sentences = study.planners().into_iter().enumerate().filter_map(|(i, name)| {
         let pairs =
@@ -126,7 +127,7 @@ fn sides(study: &Study) -> Vec<Side> {
     sides
 }
 
-/// Side against side by one measure; none if there is no problem for which all have a value.
+/// Compares sides by one measure, or returns `None` if no problem has values for all.
 fn aspect(
     study: &Study,
     sides: &[Side],
@@ -205,7 +206,7 @@ mod tests {
     use super::*;
     use crate::{Comparison, OtherPath, Row};
 
-    /// A problem with a roadmap and a field: lengths over a bound of 1, and times.
+    /// Returns a problem with a roadmap and a field: lengths over a bound of 1, and times.
     fn problem(lengths: [Option<f64>; 2], totals: [f64; 2]) -> Comparison {
         let row = |i: usize, name: &str, family| Row {
             length: lengths[i],
@@ -246,7 +247,7 @@ mod tests {
              worse in 0 (p = 0.004)."
         );
         assert!(words[3].starts_with("Fields answered sooner."), "{}", words[3]);
-        assert_eq!(words.len(), 4, "clearance, motion and memory are missing: nothing is said of them");
+        assert_eq!(words.len(), 4, "clearance, motion and memory are missing: the text omits them");
     }
 
     #[test]

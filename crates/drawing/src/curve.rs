@@ -14,7 +14,7 @@ const MOST_CHORDS: f64 = 1e5;
 #[derive(Debug)]
 pub(crate) struct TooFine;
 
-/// Number of chords for a step of `range` of the parameter.
+/// Returns the number of chords for a step of `range` of the parameter.
 fn chords(bend: f64, range: f64, tolerance: f64) -> Result<usize, TooFine> {
     let count = (range * (bend / (8.0 * tolerance)).sqrt()).ceil().max(1.0);
     if count <= MOST_CHORDS { Ok(count as usize) } else { Err(TooFine) }
@@ -47,7 +47,7 @@ impl Ellipse {
         [0, 1].map(|k| self.center[k] + self.u[k] * cos + self.v[k] * sin)
     }
 
-    /// Half of its long axis.
+    /// Returns the length of its long half axis.
     fn longest(self) -> f64 {
         // No direction is stretched by more than both together.
         let square: f64 = [self.u, self.v].iter().flatten().map(|x| x * x).sum();
@@ -61,7 +61,7 @@ impl Ellipse {
         Ok(along(count, move |part| self.at(from + by * part)))
     }
 
-    /// The whole of it.
+    /// Returns the points of the whole ellipse.
     pub fn ring(self, tolerance: f64) -> Result<Vec<Point>, TooFine> {
         Ok(self.arc(0.0, TAU, tolerance)?.collect())
     }
@@ -73,12 +73,13 @@ pub(crate) struct Bow {
     pub center: Point,
     pub radius: f64,
     pub from: f64,
-    /// What it turns by, to the left if that is positive.
+    /// Turning angle, positive to the left.
     pub by: f64,
 }
 
 impl Bow {
-    /// From `a` to `b`, turning by four times the arc tangent of `bulge`. None if that is straight.
+    /// Creates the arc from `a` to `b` that turns by four times the arc tangent of `bulge`. Returns `None` if it is
+    /// straight.
     pub fn new(a: Point, b: Point, bulge: f64) -> Option<Self> {
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
         let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
@@ -94,7 +95,8 @@ impl Bow {
         })
     }
 
-    /// What lies outwards of it by a distance that changes evenly, at most as far inwards as its centre. Fine enough for a map.
+    /// Returns the curve at a distance outside the arc that changes linearly from `first` to `last`. A negative
+    /// distance may reach the centre at most. The chords are fine enough after `map`.
     pub fn spiral(self, first: f64, last: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFine> {
         let Self { center, radius, from, by } = self;
         let bend = radius + first.abs().max(last.abs()) + 2.0 * (last - first).abs() / by.abs();
@@ -109,7 +111,8 @@ impl Bow {
     }
 }
 
-/// An arc from `a` to `b` that turns by four times the arc tangent of `bulge`, to the left if that is positive, without `a`.
+/// Returns an arc from `a` to `b`, without `a`, that turns by four times the arc tangent of `bulge`, positive to the
+/// left.
 pub(crate) fn bulge(a: Point, b: Point, bulge: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFine> {
     let end = map.point(b);
     let Some(Bow { center, radius, from, by }) = Bow::new(a, b, bulge) else { return Ok(vec![end]) };
@@ -121,7 +124,7 @@ pub(crate) fn bulge(a: Point, b: Point, bulge: f64, map: &Map, tolerance: f64) -
     Ok(points)
 }
 
-/// A Bézier curve of degree 3 without its first point.
+/// Returns a cubic Bézier curve without its first point.
 pub(crate) fn cubic([a, b, c, d]: [Point; 4], tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFine> {
     let second = |p: Point, q: Point, r: Point| (p[0] - 2.0 * q[0] + r[0]).hypot(p[1] - 2.0 * q[1] + r[1]);
     let count = chords(6.0 * second(a, b, c).max(second(b, c, d)), 1.0, tolerance)?;
@@ -145,7 +148,7 @@ pub(crate) struct Spline {
 const MOST_HALVINGS: u32 = 14;
 
 impl Spline {
-    /// Whether the parts fit each other.
+    /// Returns true if degree, knots, control points and weights are consistent.
     pub fn is_sound(&self) -> bool {
         let Self { degree, knots, control, weights } = self;
         (1..=16).contains(degree)
@@ -157,7 +160,7 @@ impl Spline {
             && weights.iter().all(|&w| w > 0.0)
     }
 
-    /// Its points. Spans are halved until the middles of all chords lie within half of the tolerance.
+    /// Returns its points. Spans are halved until the middles of all chords lie within half of the tolerance.
     pub fn points(&self, tolerance: f64) -> Result<Vec<Point>, TooFine> {
         let (first, last) = (self.degree, self.control.len());
         let mut points = vec![self.at(first, self.knots[first])];
@@ -178,7 +181,7 @@ impl Spline {
         Ok(points)
     }
 
-    /// De Boor's algorithm, in projective coordinates.
+    /// Evaluates the spline by De Boor's algorithm, in projective coordinates.
     fn at(&self, span: usize, t: f64) -> Point {
         let Self { degree: p, knots, control, weights } = self;
         let mut rows: Vec<[f64; 3]> =
@@ -195,7 +198,7 @@ impl Spline {
     }
 }
 
-/// Distance of a point from a segment.
+/// Returns the distance of a point from a segment.
 fn distance(p: Point, a: Point, b: Point) -> f64 {
     let along = [b[0] - a[0], b[1] - a[1]];
     let square = along[0] * along[0] + along[1] * along[1];

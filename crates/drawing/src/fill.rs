@@ -1,4 +1,4 @@
-//! What rings surround.
+//! The region that rings surround.
 
 use crate::{Point, Ring};
 use i_overlay::core::fill_rule::FillRule as Rule;
@@ -6,17 +6,17 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 
-/// Which points are inside of rings that cross or surround each other.
+/// The rule that says which points are inside rings that cross or surround each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FillRule {
-    /// Those that they go round, directions counted.
+    /// Points with a nonzero winding number.
     NonZero,
-    /// Those that an odd number of them goes round.
+    /// Points with an odd winding number.
     EvenOdd,
 }
 
-/// What rings surround, as polygons that do not cross themselves or each other: outer ring and holes of each. Corners are rounded to a
-/// grid of some 1e-17 of the rings' extent.
+/// Returns the region that rings surround, as polygons that do not cross themselves or each other: an outer ring and
+/// holes each. Corners are rounded to a grid of about 1e-17 of the rings' extent.
 #[must_use]
 pub fn filled(rings: &[Ring], rule: FillRule) -> Vec<(Ring, Vec<Ring>)> {
     let rule = match rule {

@@ -5,10 +5,10 @@ use crate::sheet::{Origin, Sheet};
 use crate::{Drawing, Error, Point, Ring, Settings, Unit};
 use serde_json::Value;
 
-/// Reads GeoJSON, in metres unless another unit is said.
+/// Reads GeoJSON, in metres unless another unit is given.
 ///
 /// # Errors
-/// What is no JSON, with the line; what is no GeoJSON, with the way to it.
+/// If the text is not JSON (with its line) or not GeoJSON (with the path of the value).
 pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     if text.trim().is_empty() {
         return Err(Error::new(None, "the file is empty", CURE));
@@ -42,7 +42,7 @@ struct Reader {
     map: Map,
 }
 
-/// A value that is not what the format asks for, and the way to it.
+/// Creates an error about a value, with its path.
 fn wrong(at: &str, message: &str, cure: &str) -> Error {
     let at = at.trim_start_matches('.');
     let message = if at.is_empty() { message.to_owned() } else { format!("{at}: {message}") };
@@ -134,7 +134,7 @@ impl Reader {
 
     fn line(&mut self, line: &Value, at: &str, origin: &Origin) -> Result<(), Error> {
         let points = self.points(line, at)?;
-        // A line that comes back to where it began is a wall that goes round, and no solid: those are polygons here.
+        // A closed line is a thin wall, not a solid. In GeoJSON, solids are polygons.
         self.sheet.wall(points, origin)
     }
 
@@ -154,7 +154,7 @@ impl Reader {
     }
 }
 
-/// What a feature says of itself. `height` is how high it is, or from where to where; `unit` is in metres, scaled.
+/// Reads the properties of a feature. `height` is its height, or its lower and upper end; `unit` is in metres, scaled.
 fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
     let property = |key: &str| value.get("properties").and_then(|properties| properties.get(key));
     let text = |value: &Value| match value {

@@ -1,21 +1,22 @@
-//! Curves through given points, as CAD programs draw a spline of which a file has fit points alone: cubic, with chords' lengths as
-//! the parameter, and without a jump of curvature.
+//! Interpolating splines, as CAD programs draw a spline that is given only by its fit points: cubic, parametrised by
+//! chord length, with continuous curvature.
 
 use crate::Point;
 
-/// How the curve leaves its first point and comes to its last.
+/// End conditions of the curve.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Ends {
-    /// In these directions where they are given, else without curvature.
+    /// Open, with these directions at the ends. An end without a direction has zero curvature.
     Open([Option<Point>; 2]),
     /// The last point is followed by the first.
     Closed,
 }
 
-/// Points on either side of a closed curve's that repeat it: each of them halves what an end tells of itself, at least.
+/// Number of points repeated on each side of a closed curve. Each of them at least halves the influence of the
+/// artificial end.
 const REPEATED: usize = 64;
 
-/// The curve as Bézier curves of degree 3, each beginning where the last one ends. Two points that follow each other are apart.
+/// Returns the curve as connected cubic Bézier curves. Consecutive points must differ.
 pub(crate) fn interpolated(points: &[Point], ends: Ends) -> Vec<[Point; 4]> {
     match ends {
         _ if points.len() < 2 => Vec::new(),
@@ -30,14 +31,14 @@ pub(crate) fn interpolated(points: &[Point], ends: Ends) -> Vec<[Point; 4]> {
     }
 }
 
-/// By Thomas's algorithm for the derivatives at the points.
+/// Solves for the derivatives at the points by Thomas's algorithm.
 fn open(points: &[Point], directions: [Option<Point>; 2]) -> Vec<[Point; 4]> {
     let last = points.len() - 1;
     let steps: Vec<f64> = points.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).collect();
     let slopes: Vec<Point> =
         points.windows(2).zip(&steps).map(|(w, step)| [0, 1].map(|k| (w[1][k] - w[0][k]) / step)).collect();
     let [first_direction, last_direction] = directions.map(|direction| direction.and_then(unit));
-    // Before, at and after a point, and what they come to.
+    // Coefficients before, at and after a point, and the right-hand side.
     let row = |i: usize| match (i, first_direction, last_direction) {
         (0, Some(direction), _) => ([0.0, 1.0, 0.0], direction),
         (0, None, _) => ([0.0, 2.0, 1.0], slopes[0].map(|x| 3.0 * x)),
@@ -66,7 +67,7 @@ fn open(points: &[Point], directions: [Option<Point>; 2]) -> Vec<[Point; 4]> {
     (0..last).map(|i| [points[i], third(i, steps[i]), third(i + 1, -steps[i]), points[i + 1]]).collect()
 }
 
-/// None if there is no direction.
+/// Returns the unit vector, or `None` for a zero vector.
 fn unit([x, y]: Point) -> Option<Point> {
     let length = x.hypot(y);
     (length > 0.0).then(|| [x / length, y / length])

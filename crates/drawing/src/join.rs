@@ -6,12 +6,12 @@ use std::collections::HashMap;
 /// A chain of open curves, or of one.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Chain {
-    /// Which curves, in order; the first of them in the file need not be the first here.
+    /// Indices of the curves, in order along the chain.
     pub curves: Vec<usize>,
     /// Without the last point if that is the first.
     pub points: Vec<Point>,
     pub is_closed: bool,
-    /// How far the ends of neighbours that do not meet exactly are apart, at most.
+    /// Greatest gap between the ends of joined neighbours.
     pub gap: f64,
 }
 
@@ -55,7 +55,7 @@ pub(crate) fn joined(curves: &[Vec<Point>], reach: f64) -> Vec<Chain> {
     }
     let mut is_used = vec![false; curves.len()];
     let mut chains = Vec::new();
-    // Chains with two ends first, from either of them; what is left goes round.
+    // Chains with two ends come first, from either end. The remaining curves form closed loops.
     let is_end = |curve: usize| ends[curve].iter().position(|&place| at_place[place].len() != 2);
     let starts = (0..curves.len()).filter_map(|curve| Some((curve, is_end(curve)?)));
     for (first, side) in starts.chain((0..curves.len()).map(|curve| (curve, 0))) {
@@ -67,7 +67,7 @@ pub(crate) fn joined(curves: &[Vec<Point>], reach: f64) -> Vec<Chain> {
     chains
 }
 
-/// The chain that begins with an end of a curve.
+/// Follows the chain from one end of a curve.
 fn chain(
     curves: &[Vec<Point>],
     ends: &[[usize; 2]],

@@ -15,21 +15,22 @@
 //! assert_eq!(rounded, [[0.02, 0.03], [0.07, 0.03], [0.07, 0.0], [0.02, 0.0]]);
 //! ```
 //!
-//! # What becomes what
+//! # Results
 //!
-//! What is closed is solid, with holes where the format has them: rings of GeoJSON, rules of filling in SVG. What is open is a
-//! [`Polyline`](Geometry::Polyline). In DXF, lines, arcs and open polylines of one layer whose ends meet, two at a time, are one. An
-//! outline that lies inside another is solid, too; it is no hole of that.
+//! Closed outlines are solid, with holes where the format has them: inner rings in GeoJSON, fill rules in SVG. Open
+//! outlines are [`Polyline`](Geometry::Polyline)s. In DXF, lines, arcs and open polylines of one layer are joined where
+//! exactly two ends meet. An outline inside another is also solid, not a hole.
 //!
-//! # What holds
+//! # Guarantees
 //!
-//! Corners lie on the curves that they stand for, and no point of a curve is farther than [`Settings::tolerance`] from its chord: an
-//! outline that bulges outwards loses up to that, one that bulges inwards gains it. Circles stay circles as long as nothing
-//! stretches them. Ends that are nearer than the tolerance meet. Nothing is dropped silently: what is not taken is in [`Drawing::notes`].
-//! An outline may cross itself; [`filled`] says what it surrounds.
+//! Corners lie on the curves that they approximate, and no point of a curve is farther than [`Settings::tolerance`]
+//! from its chord. So an outline loses at most that much where it is convex, and gains at most that much where it is
+//! concave. Circles stay circles as long as the map does not stretch them. Ends closer than the tolerance are joined.
+//! Nothing is dropped silently: [`Drawing::notes`] lists all ignored and changed elements. An outline may cross itself;
+//! [`filled`] returns the region that it surrounds.
 //!
-//! What a file may make of itself, by blocks in blocks or by curves of a million chords, is bounded: it is refused beyond
-//! [`MOST_POINTS`].
+//! The size of the result is bounded, even with nested blocks or curves of a million chords: a drawing of more than
+//! [`MOST_POINTS`] points is refused.
 #![forbid(unsafe_code)]
 
 mod curve;
@@ -58,45 +59,45 @@ pub type Point = [f64; 2];
 /// Corners in order, each once: the last is joined to the first.
 pub type Ring = Vec<Point>;
 
-/// What a file shows.
+/// The contents of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Drawing {
-    /// In the order of the file; what was joined stands where its first piece does.
+    /// Shapes in the order of the file. A joined shape has the place of its first piece.
     pub shapes: Vec<Shape>,
-    /// What was not taken, or not as it is written.
+    /// Elements that were left out or changed.
     pub notes: Notes,
 }
 
 /// Something drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
-    /// The feature's name, the id of the element or of what it is in, or the block that it comes in with.
+    /// Name of the feature, id of the element or of its parent, or name of the block that contains it.
     pub name: Option<String>,
     /// The layer that it lies on.
     pub layer: Option<String>,
-    /// Where it is.
+    /// Its geometry.
     pub geometry: Geometry,
-    /// Its extent across the plane, metres.
+    /// Its extent perpendicular to the plane, metres.
     pub height: Option<[f64; 2]>,
     /// The layer that hides it: its own, if that is off or frozen, or a frozen one that it is inserted on.
     pub hidden_by: Option<String>,
-    /// What it is in the file's own words.
+    /// Its kind in the words of the file format.
     pub kind: String,
-    /// Where it begins, in formats that have lines.
+    /// Line on which it starts, in formats that have lines.
     pub line: Option<usize>,
-    /// Where it is inserted, if it comes in with a block.
+    /// Frame of the insertion, if it comes from a block.
     pub frame: Option<Frame>,
 }
 
 impl Shape {
-    /// All that it may be asked for by: its layer, its name, what hides it.
+    /// Returns all words that select it: its layer, its name, and the layer that hides it.
     #[must_use]
     pub fn called(&self) -> Vec<String> {
         [&self.layer, &self.name, &self.hidden_by].into_iter().flatten().cloned().collect()
     }
 }
 
-/// Where the outermost block that a shape comes in with is inserted, and how it is turned.
+/// Position and orientation of the outermost block that contains a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// The insertion point.
@@ -106,14 +107,14 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Where a point of the frame lies.
+    /// Maps a point of the frame to the drawing.
     #[must_use]
     pub fn placed(&self, [x, y]: Point) -> Point {
         let (sin, cos) = self.angle.sin_cos();
         [cos * x - sin * y + self.at[0], sin * x + cos * y + self.at[1]]
     }
 
-    /// A point as seen from the frame.
+    /// Maps a point of the drawing to the frame.
     #[must_use]
     pub fn local(&self, p: Point) -> Point {
         let (sin, cos) = self.angle.sin_cos();
@@ -122,40 +123,40 @@ impl Frame {
     }
 }
 
-/// Where a shape is.
+/// The geometry of a shape.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Geometry {
-    /// What is inside the outer ring and in no hole; directions mean nothing.
+    /// The area inside the outer ring and outside all holes. Directions of rings have no meaning.
     Polygon {
-        /// As it is drawn; it may cross itself.
+        /// The outer ring as drawn. It may cross itself.
         outer: Ring,
-        /// What they surround is free.
+        /// The holes, whose insides are free.
         holes: Vec<Ring>,
     },
     /// No area: at least two points, neighbours in different places.
     Polyline(Vec<Point>),
     /// A disc.
     Circle {
-        /// Its centre.
+        /// The centre.
         center: Point,
         /// Above 0.
         radius: f64,
     },
 }
 
-/// How a file is read.
+/// Options for reading a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Greatest distance of a curve from its chords, and of ends that meet, metres; at least [`FINEST`].
     pub tolerance: f64,
-    /// The unit of the file's numbers; by default what the file says.
+    /// Unit of the file's numbers. By default the unit that the file states.
     pub unit: Option<Unit>,
-    /// What everything is scaled by besides, about the drawing's origin; above 0.
+    /// Additional scale factor about the drawing's origin; above 0.
     pub scale: f64,
 }
 
 impl Default for Settings {
-    /// A tenth of a millimetre, and what the file says.
+    /// A tolerance of a tenth of a millimetre, and the unit of the file.
     fn default() -> Self {
         Self { tolerance: 1e-4, unit: None, scale: 1.0 }
     }
@@ -176,7 +177,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format that a file's extension stands for: `.dxf`, `.svg`, `.geojson` or `.json`.
+    /// Returns the format for a file extension: `.dxf`, `.svg`, `.geojson` or `.json`.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
@@ -192,11 +193,11 @@ impl Format {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Error {
-    /// From 1, in formats that have lines.
+    /// Line number from 1, in formats that have lines.
     pub line: Option<usize>,
-    /// What is wrong.
+    /// Description of the defect.
     pub message: String,
-    /// What to do about it.
+    /// Hint for the user.
     pub cure: String,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::{Frame, Point};
 
-/// Where a point goes: `x u + y v + o`.
+/// The map `x u + y v + o`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Map {
     pub u: Point,
@@ -26,29 +26,29 @@ impl Map {
         Self { u: [cos, sin], v: [-sin, cos], ..Self::IDENTITY }
     }
 
-    /// Where a direction goes.
+    /// Maps a direction.
     pub fn vector(&self, [x, y]: Point) -> Point {
         [0, 1].map(|k| self.u[k] * x + self.v[k] * y)
     }
 
-    /// Where a point goes.
+    /// Maps a point.
     pub fn point(&self, p: Point) -> Point {
         let moved = self.vector(p);
         [0, 1].map(|k| moved[k] + self.o[k])
     }
 
-    /// First `inner`, then this.
+    /// Returns the composition that applies `inner` first.
     pub fn after(&self, inner: &Map) -> Map {
         Map { u: self.vector(inner.u), v: self.vector(inner.v), o: self.point(inner.o) }
     }
 
-    /// Where it takes the origin, and the turn of whatever it mirrors or scales alike in all directions: that of the y axis, since what is
-    /// seen from below has x turned round.
+    /// Returns the image of the origin and the rotation of a similarity. The rotation is that of the y axis, because x
+    /// is mirrored in entities seen from below.
     pub fn frame(&self) -> Frame {
         Frame { at: self.o, angle: (-self.v[0]).atan2(self.v[1]) }
     }
 
-    /// The factor by which it scales, if it stretches no direction more than another.
+    /// Returns the scale factor, if it is the same in all directions.
     pub fn similarity(&self) -> Option<f64> {
         const EQUAL: f64 = 1e-9;
         let [u, v] = [self.u, self.v].map(|[x, y]| x.hypot(y));
@@ -56,7 +56,7 @@ impl Map {
         ((u - v).abs() <= EQUAL * u && across.abs() <= EQUAL * u * v).then_some(u)
     }
 
-    /// Whether it keeps areas apart from points and lines.
+    /// Returns true if the map keeps areas from collapsing to points or lines.
     pub fn is_regular(&self) -> bool {
         let area = self.u[0] * self.v[1] - self.u[1] * self.v[0];
         area != 0.0 && area.is_finite() && self.o.iter().all(|x| x.is_finite())

@@ -1,16 +1,16 @@
-//! What is to be said of a drawing, counted by kind, so that a thousand texts make one line.
+//! Notes about a drawing, counted by kind, so that a thousand texts give one line.
 
 use std::collections::HashMap;
 use std::fmt;
 
-/// Something that was not taken, or not as it is written.
+/// A remark about an element that was left out or changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
-    /// Of what kind, such as `TEXT: left out`.
+    /// Its kind, such as `TEXT: left out`.
     pub message: String,
-    /// How often.
+    /// Number of occurrences.
     pub count: usize,
-    /// Where first, in formats that have lines.
+    /// Line of the first occurrence, in formats that have lines.
     pub line: Option<usize>,
 }
 
@@ -33,7 +33,7 @@ const MOST_KINDS: usize = 48;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Notes {
     counted: Vec<(Vec<String>, Note)>,
-    /// Where each is, by whose it is and what it says.
+    /// Index of each note, by owner and message.
     places: HashMap<(Vec<String>, String), usize>,
 }
 
@@ -43,7 +43,7 @@ impl Notes {
         self.add_of(Vec::new(), message, line);
     }
 
-    /// Notes something of what lies on a layer or has a name: `whose` has all that it may be asked for by.
+    /// Adds a note about an element with a layer or name. `whose` lists all words that select the element.
     pub fn add_of(&mut self, whose: Vec<String>, message: impl Into<String>, line: Option<usize>) {
         let message = message.into();
         let place = *self.places.entry((whose.clone(), message.clone())).or_insert_with(|| {
@@ -53,13 +53,13 @@ impl Notes {
         self.counted[place].1.count += 1;
     }
 
-    /// All of them, in the order in which their kinds came up.
+    /// Returns all notes, in the order of the first occurrence of their kinds.
     #[must_use]
     pub fn all(&self) -> Vec<Note> {
         self.of(|_| true)
     }
 
-    /// Those of the whole drawing and of whom it is asked for.
+    /// Returns the notes about the whole drawing and about selected elements.
     #[must_use]
     pub fn of(&self, is_asked_for: impl Fn(&[String]) -> bool) -> Vec<Note> {
         let mut kinds: Vec<Note> = Vec::new();

@@ -1,4 +1,4 @@
-//! Where readers put what they find.
+//! The sheet on which readers collect shapes.
 
 use crate::curve::{Ellipse, TooFine};
 use crate::fill::{FillRule, filled};
@@ -30,7 +30,7 @@ pub(crate) struct Origin {
 }
 
 impl Origin {
-    /// What it may be asked for by.
+    /// Returns the words that select it.
     pub fn called(&self) -> Vec<String> {
         [&self.layer, &self.name, &self.hidden_by].into_iter().flatten().cloned().collect()
     }
@@ -40,9 +40,9 @@ impl Origin {
 pub(crate) struct Sheet {
     pub tolerance: f64,
     pub notes: Notes,
-    /// With the number of each in the file.
+    /// Shapes, each with its number in the file.
     shapes: Vec<(usize, Shape)>,
-    /// By who may be joined with whom: number in the file, whose, points.
+    /// Open curves by group: number in the file, origin, points. Only curves of one group are joined.
     open: BTreeMap<usize, Vec<(usize, Origin, Vec<Point>)>>,
     count: usize,
     points: usize,
@@ -54,7 +54,7 @@ impl Sheet {
         Self { tolerance: settings.tolerance, notes, shapes, open, count: 0, points: 0 }
     }
 
-    /// Says something of what is drawn.
+    /// Adds a note about an element.
     pub fn note(&mut self, message: impl Into<String>, origin: &Origin) {
         self.notes.add_of(origin.called(), message, origin.line);
     }
@@ -64,7 +64,7 @@ impl Sheet {
         self.note(format!("{what}: left out"), origin);
     }
 
-    /// A curve that needs too many chords.
+    /// Returns the error that a curve needs too many chords.
     pub fn too_fine(&self, origin: &Origin) -> Error {
         let (kind, tolerance) = (&origin.kind, self.tolerance);
         let message = format!("{kind}: within {tolerance} m of its chords it would have too many of them");
@@ -76,12 +76,12 @@ impl Sheet {
         chords.map_err(|TooFine| self.too_fine(origin))
     }
 
-    /// A closed outline.
+    /// Adds a closed outline.
     pub fn closed(&mut self, ring: Ring, origin: &Origin) -> Result<(), Error> {
         self.polygon(ring, Vec::new(), origin)
     }
 
-    /// An outline with holes.
+    /// Adds an outline with holes.
     pub fn polygon(&mut self, outer: Ring, holes: Vec<Ring>, origin: &Origin) -> Result<(), Error> {
         let outer = once(outer, true);
         if has_no_area(&outer) {
@@ -94,7 +94,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// What several rings surround by a rule.
+    /// Adds the region that several rings surround by a fill rule.
     pub fn region(&mut self, rings: Vec<Ring>, rule: FillRule, origin: &Origin) -> Result<(), Error> {
         if let [_] = &rings[..] {
             return rings.into_iter().try_for_each(|ring| self.closed(ring, origin));
@@ -106,7 +106,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// A polyline that is joined with nothing.
+    /// Adds a polyline that is not joined with others.
     pub fn wall(&mut self, points: Vec<Point>, origin: &Origin) -> Result<(), Error> {
         let points = once(points, false);
         if points.len() < 2 {
@@ -118,7 +118,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// A curve that is joined with others of its group, where their ends meet.
+    /// Adds a curve, to be joined with others of its group whose ends meet its own.
     pub fn open(&mut self, points: Vec<Point>, group: usize, origin: &Origin) -> Result<(), Error> {
         let points = once(points, false);
         if points.len() < 2 {
@@ -130,7 +130,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// A circle or, if the map stretches it, the ring that it becomes.
+    /// Adds a circle, or a ring if the map stretches the circle.
     pub fn circle(&mut self, center: Point, radius: f64, map: &Map, origin: &Origin) -> Result<(), Error> {
         match map.similarity() {
             Some(scale) if radius * scale > 0.0 => {
@@ -143,7 +143,7 @@ impl Sheet {
         }
     }
 
-    /// A whole ellipse, where the map has put it.
+    /// Adds a whole ellipse, already mapped.
     pub fn ellipse(&mut self, ellipse: &Ellipse, origin: &Origin) -> Result<(), Error> {
         let ring = self.chords(ellipse.ring(self.tolerance), origin)?;
         self.closed(ring, origin)
@@ -160,7 +160,11 @@ impl Sheet {
         }
         if self.points > MOST_POINTS {
             let message = format!("the drawing has more than {MOST_POINTS} points");
-            return Err(Error::new(origin.line, message, "leave out what no arm can meet, or take a larger tolerance"));
+            return Err(Error::new(
+                origin.line,
+                message,
+                "leave out all that the arm cannot reach, or take a larger tolerance",
+            ));
         }
         Ok(())
     }
@@ -175,7 +179,7 @@ impl Sheet {
         self.shapes.push((number, Shape { name, layer, geometry, height, hidden_by, kind, line, frame }));
     }
 
-    /// The drawing, ends that meet joined.
+    /// Joins the open curves and returns the drawing.
     pub fn finish(mut self) -> Drawing {
         for curves in std::mem::take(&mut self.open).into_values() {
             let (origins, curves): (Vec<_>, Vec<_>) = curves.into_iter().map(|(n, o, p)| ((n, o), p)).unzip();
@@ -212,7 +216,7 @@ pub(crate) fn once(mut points: Vec<Point>, is_ring: bool) -> Vec<Point> {
     points
 }
 
-/// Whether all corners lie on one line, as far as their coordinates say.
+/// Returns true if all corners lie on one line, by their stored coordinates.
 fn has_no_area(ring: &[Point]) -> bool {
     let [a, rest @ ..] = ring else { return true };
     let far = rest.iter().max_by(|p, q| apart(a, p).total_cmp(&apart(a, q)));

@@ -1,10 +1,10 @@
-//! What a line of some width covers: butt ends, mitred corners.
+//! The area covered by a line with a width: butt ends, mitred corners.
 
 use crate::curve::{Bow, TooFine};
 use crate::map::Map;
 use crate::{Point, Ring};
 
-/// A way from a corner to the next, straight or bent, whose width changes evenly.
+/// A straight or bent segment whose width changes linearly.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
     pub ends: [Point; 2],
@@ -15,11 +15,11 @@ pub(crate) struct Piece {
 /// A mitre longer than this many half widths is cut off, as in SVG and PostScript.
 const LONGEST_MITRE: f64 = 4.0;
 
-/// Edges that are apart by less than this share of the width go on smoothly, but for rounding.
+/// Edges closer than this fraction of the width continue smoothly, up to rounding.
 const SMOOTH: f64 = 1e-9;
 
 impl Piece {
-    /// Its edges to the left and to the right.
+    /// Returns its left and its right edge.
     fn edges(&self, map: &Map, tolerance: f64) -> Result<[Vec<Point>; 2], TooFine> {
         let [a, b] = self.ends;
         if let Some(bow) = Bow::new(a, b, self.bulge) {
@@ -33,7 +33,7 @@ impl Piece {
         Ok([edge(1.0), edge(-1.0)])
     }
 
-    /// Of its middle line, at both ends.
+    /// Returns the directions of its middle line at both ends.
     fn directions(&self) -> [Point; 2] {
         let [a, b] = self.ends;
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
@@ -50,13 +50,13 @@ impl Piece {
     }
 }
 
-/// A point at a distance in some direction.
+/// Returns the point at a distance in some direction.
 fn beside(p: Point, direction: Point, distance: f64) -> Point {
     [0, 1].map(|k| p[k] + direction[k] * distance)
 }
 
-/// Rings, all counter-clockwise where the map puts them, that cover what the pieces do. Each piece begins where the last one ends, has
-/// a length, and is wider than 0 somewhere.
+/// Returns rings that cover the same area as the pieces, counter-clockwise after `map`. Each piece must start where the
+/// previous one ends, have a length, and be wider than 0 somewhere.
 pub(crate) fn covered(pieces: &[Piece], is_closed: bool, map: &Map, tolerance: f64) -> Result<Vec<Ring>, TooFine> {
     let mut edges = pieces.iter().map(|piece| piece.edges(map, tolerance)).collect::<Result<Vec<_>, _>>()?;
     let closing = (is_closed && pieces.len() > 1).then_some((pieces.len() - 1, 0));
@@ -88,7 +88,7 @@ pub(crate) fn covered(pieces: &[Piece], is_closed: bool, map: &Map, tolerance: f
     Ok(rings)
 }
 
-/// Twice the area that a ring surrounds, positive if it is counter-clockwise.
+/// Returns twice the area that a ring surrounds, positive if it is counter-clockwise.
 fn doubled_area(ring: &[Point]) -> f64 {
     let from_first = |p: &Point| [p[0] - ring[0][0], p[1] - ring[0][1]];
     let cross = |w: &[Point]| {
@@ -98,7 +98,7 @@ fn doubled_area(ring: &[Point]) -> f64 {
     ring.windows(2).map(cross).sum()
 }
 
-/// What lies between two pieces on the outer side of their corner.
+/// Returns the area between two pieces on the outer side of their corner.
 fn corner([before, after]: [&Piece; 2], [edges, next_edges]: [&[Vec<Point>; 2]; 2]) -> Option<Ring> {
     let ([_, d], [e, _]) = (before.directions(), after.directions());
     let (cross, cos) = (d[0] * e[1] - d[1] * e[0], d[0] * e[0] + d[1] * e[1]);

@@ -12,7 +12,7 @@ pub struct Unit {
 
 /// A word that is no unit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("\"{0}\" is none of the units {names}", names = NAMES.map(|unit| unit.name).join(", "))]
+#[error("\"{0}\" is not a known unit; the units are {names}", names = NAMES.map(|unit| unit.name).join(", "))]
 pub struct UnknownUnit(String);
 
 const fn unit(name: &'static str, metres: f64) -> Unit {
@@ -41,16 +41,16 @@ impl Unit {
     pub const MILLIMETRE: Unit = unit("mm", 1e-3);
     /// 1 m.
     pub const METRE: Unit = unit("m", 1.0);
-    /// That of style sheets: 96 are an inch.
+    /// The pixel of style sheets, 96 per inch.
     pub const PIXEL: Unit = unit("px", INCH / 96.0);
 
-    /// Its length in metres.
+    /// Returns its length in metres.
     #[must_use]
     pub fn metres(self) -> f64 {
         self.metres
     }
 
-    /// What DXF's `$INSUNITS` stands for; none for 0, "unitless", and for astronomers' units.
+    /// Returns the unit for a value of DXF's `$INSUNITS`. Returns `None` for 0, "unitless", and for astronomical units.
     pub(crate) fn of_dxf(code: i64) -> Option<Unit> {
         let named = |name: &str| name.parse().ok();
         match code {

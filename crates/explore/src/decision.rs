@@ -1,4 +1,4 @@
-//! Where to go next.
+//! The decision where to go next.
 
 use super::explorer::Explorer;
 use super::known::Known;
@@ -16,24 +16,24 @@ use cplan_interrupt::checkpoint;
 use cplan_text::{counted, listed};
 use std::collections::{BTreeSet, HashSet};
 
-/// Places ahead on an optimistic path whose unknown cells are looked for.
+/// Number of places ahead on an optimistic path whose unknown cells are examined.
 const PLACES_AHEAD: usize = 8;
 
-/// Configurations that are looked at for a better view, some milliseconds' worth.
+/// Largest number of configurations examined for a better view, which takes several milliseconds.
 const MOST_VIEWS: usize = 150;
 
 /// Cells along a wall that are gone past straight: as many as smooth its steps, not its corners.
 const BY_THE_WALL: usize = 4;
 
-/// What comes next.
+/// The next action.
 pub enum Decision {
     Done(Ending),
-    /// Along a path that is certified; the cell of the grid that is gone to for what can be seen from there, if it is.
+    /// Follow a certified path. If the purpose is a reading, also the cell of the grid at which it is taken.
     Go(CertifiedPath, Option<usize>),
 }
 
 impl Explorer<'_> {
-    /// What comes next, by the strategy.
+    /// Decides the next action by the strategy.
     pub fn decide(&mut self) -> Decision {
         if let (Strategy::Goal, Some(goals)) = (self.settings.strategy, self.goals) {
             return self.towards_goal(goals);
@@ -42,7 +42,7 @@ impl Explorer<'_> {
         if joined.is_empty() { self.back() } else { self.exploring(&joined) }
     }
 
-    /// Back to where the last leg began, from where no middle of a cell can be reached; not twice.
+    /// Returns to the start of the last leg, if no cell centre is reachable from here; not twice in a row.
     fn back(&mut self) -> Decision {
         let last = self.legs.last().filter(|_| !self.is_back).map(|leg| leg.curve.curve().path().waypoints());
         let reversed = last.map(|waypoints| Path::new(waypoints.iter().rev().copied().collect()));
@@ -51,9 +51,9 @@ impl Explorer<'_> {
         certified.map_or_else(|| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None))
     }
 
-    /// Back to the last place where the arm was and from where it can go to something new, if nothing new can be seen from what it reaches
-    /// here: cells that no steps join may be joined by the way that it came. How many configurations it can reach from anywhere, if there is
-    /// no such place.
+    /// Returns to the last visited place from which something new is reachable, if nothing new can be seen from the
+    /// configurations reachable here. Cells that no steps join may be joined by the path taken so far. If there is no
+    /// such place, returns the number of configurations reachable from anywhere.
     fn where_it_was(&mut self, reach: &Reach) -> Result<Decision, usize> {
         let mut is_reached = vec![false; self.known.grid.blocked.len()];
         reach.cells.iter().for_each(|&cell| is_reached[cell] = true);
@@ -88,7 +88,7 @@ impl Explorer<'_> {
         Ending::Unknown(format!("no middle of {a} x {b} cells near ({}) is known to be free", shown(self.at)))
     }
 
-    /// To a frontier configuration; explored if none can be reached.
+    /// Moves to a frontier configuration, or ends with "explored" if they are all out of reach.
     fn exploring(&mut self, joined: &[usize]) -> Decision {
         loop {
             checkpoint();
@@ -115,7 +115,7 @@ impl Explorer<'_> {
         }
     }
 
-    /// Up the harmonic potential of all frontier configurations, from the nearest cell that is joined to any.
+    /// Follows the harmonic potential of all frontier configurations, from the nearest joined cell.
     fn uphill(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
         let mut side = Grid { blocked: vec![true; self.known.grid.blocked.len()], ..self.known.grid };
         let (from, goals) = joined.iter().find_map(|&from| {
@@ -136,8 +136,8 @@ impl Explorer<'_> {
         (reach.cells.last() == Some(&end)).then(|| reach.way(end))
     }
 
-    /// Opens the cells on this `side` of the frontier, those that can be come to from one without passing it, and those of the frontier among
-    /// them, which are handed back: what is behind it has no part in the potential before it.
+    /// Opens the cells on this `side` of the frontier: those reachable from a cell without crossing the frontier, and
+    /// the frontier cells among them, which are returned. The region behind does not affect the potential in front.
     fn up_to_frontier(&mut self, from: usize, side: &mut Grid) -> Vec<usize> {
         let is_new = std::mem::replace(&mut side.blocked[from], false);
         let (mut open, mut goals) = (if is_new { vec![from] } else { Vec::new() }, Vec::new());
@@ -156,7 +156,7 @@ impl Explorer<'_> {
         goals
     }
 
-    /// To the nearest wall, and along it to the first configuration from which something new can be seen; none where it comes round again
+    /// Moves to the nearest wall, and along it to the first frontier configuration. Returns `None` if the loop closes
     /// without one.
     fn along_wall(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
         let Known { grid, closed, .. } = &self.known;
@@ -177,7 +177,7 @@ impl Explorer<'_> {
         Some(way)
     }
 
-    /// Which way the arm went last, in eighths of a turn.
+    /// Returns the direction of the last motion, in eighths of a turn.
     fn heading(&self) -> Heading {
         let last = self.legs.last().and_then(|leg| leg.curve.curve().path().segments().last());
         let step = self.known.grid.step();
@@ -190,7 +190,8 @@ impl Explorer<'_> {
         }
     }
 
-    /// Towards the last of the cells on a way, straight past no more than `most` at a time; none if a step is not free, which is noted.
+    /// Moves towards the last cell of a path, straight past at most `most` cells at a time. Returns `None` if a step is
+    /// not free, and records it.
     fn along(&mut self, way: &[usize], most: usize) -> Option<Decision> {
         let configurations = unwrapped(&self.known.grid, self.at, way);
         let clearance = self.solid.workspace().clearance;
@@ -212,7 +213,7 @@ impl Explorer<'_> {
         }
     }
 
-    /// The way to the nearest frontier configuration; what can be reached if that is none, as for the others.
+    /// Returns the path to the nearest frontier configuration, or the reachable cells without one.
     fn nearest(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
         let Self { survey, sensor, known, frontier, .. } = self;
         let mut found = None;
@@ -223,11 +224,12 @@ impl Explorer<'_> {
         reach.way_to(found)
     }
 
-    /// Of the configurations that show all that the nearest frontier configuration does, if nothing unknown is in the way, the one of most
-    /// [`worth`], of several the nearest: so little is left behind that one would have to come back for.
+    /// Returns the path to the best view: among the configurations that show everything that the nearest frontier
+    /// configuration shows (if no unknown obstacle interferes), the one with the most [`worth`], and of several the
+    /// nearest. So little is left behind that would require a return.
     ///
-    /// None is looked for farther away than where nothing could be better, nor beyond the nearest [`MOST_VIEWS`]; and the farther away the fewer
-    /// are asked, down to those that are as far apart as readings.
+    /// The search stops at the distance beyond which nothing can be better, and after the nearest [`MOST_VIEWS`].
+    /// Farther away, fewer configurations are examined, at distances down to that of readings.
     fn best_view(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
         let Self { survey, sensor, known, frontier, .. } = self;
         let grid = &known.grid;
@@ -259,7 +261,7 @@ impl Explorer<'_> {
         reach.way_to(best.map(|(_, cell)| cell))
     }
 
-    /// Along the planner's way through what may be free, as far as it is known to be.
+    /// Follows the planner's path through possibly free space, as far as free space is known.
     fn towards_goal(&mut self, goals: &GoalSet) -> Decision {
         let arm = self.scene.arm();
         let clearance = self.scene.workspace().clearance;
@@ -299,8 +301,8 @@ impl Explorer<'_> {
         }
     }
 
-    /// To the nearest configuration from which one of the cells `in_the_way` can be seen; else to the best view; if there is none, to the goal
-    /// within what is known.
+    /// Moves to the nearest configuration from which one of the cells `in_the_way` is visible; else to the best view;
+    /// else to the goal within known space.
     fn detour(&mut self, goals: &GoalSet, in_the_way: &BTreeSet<usize>) -> Decision {
         let joined = join(&self.solid, &self.known.grid, self.at);
         if joined.is_empty() {
@@ -318,7 +320,7 @@ impl Explorer<'_> {
         }
     }
 
-    /// The way to the nearest configuration from which any of some cells of the map can be seen.
+    /// Returns the path to the nearest configuration from which any of the given map cells is visible.
     fn showing(&mut self, joined: &[usize], cells: &BTreeSet<usize>) -> Option<Vec<usize>> {
         if cells.is_empty() {
             return None;
@@ -335,7 +337,7 @@ impl Explorer<'_> {
         showing.map(|cell| reach.way(cell))
     }
 
-    /// To the goal where nothing new can be seen.
+    /// Plans to the goal within known space, if nothing new can be seen.
     fn within_known(&self, goals: &GoalSet) -> Decision {
         let problem = match problem(self.solid.clone(), self.at, goals) {
             Ok(problem) => problem,
@@ -352,8 +354,8 @@ impl Explorer<'_> {
     }
 }
 
-/// The problem of going to those of the goals that are free; the end of it all if none is known to be. The goals are free in the world:
-/// such cells are too coarse, or were not seen.
+/// Returns the problem of moving to the goals that are free, or the ending if all may be blocked. The goals are
+/// free in the true world, so such cells are too coarse, or were not seen.
 fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<MotionProblem, Ending> {
     let is_blocked = |piece: &&Segment| piece.is_point() && !scene.obstructions(piece.ends()[0]).is_empty();
     let (blocked, open): (Vec<&Segment>, Vec<&Segment>) = goals.pieces().iter().partition(is_blocked);
@@ -365,15 +367,15 @@ fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<Motion
     MotionProblem::new(scene, start, open).map_err(|error| Ending::Unknown(error.to_string()))
 }
 
-/// What it is worth to go so far to see so many cells for the first time.
+/// Returns the value of moving this far in order to see this many cells for the first time.
 ///
-/// The nearer the better, and of those that are about as near the one that shows more: twice as far must show 64 times as much (found by
-/// trying: CPLAN_WORLDS of `planning exploring`).
+/// Short distances have priority; among similar ones, the number of cells decides: twice the distance must show 64
+/// times as many (found by experiments: CPLAN_WORLDS of `planning exploring`).
 fn worth(seen: u32, length: f64, step: f64) -> f64 {
     f64::from(seen).powf(1.0 / 6.0) / (length + step / 2.0)
 }
 
-/// Two numbers, for people.
+/// Formats two numbers for people.
 fn shown(q: Configuration) -> String {
     format!("{:.4}, {:.4}", q[0], q[1])
 }

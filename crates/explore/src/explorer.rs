@@ -19,13 +19,13 @@ use cplan_text::counted;
 /// The arm is at a goal if it is no farther from it than this: whole turns may have been added to it, and rounded.
 const AT_GOAL: f64 = 1e-9;
 
-/// Explores the world of `scene`, of which nothing is known but what the sensor sees, from `start`. `progress` hears of it now and then.
+/// Explores the world of `scene` from `start`, knowing only the sensor's readings. Reports progress regularly.
 ///
-/// Deterministic: the same input gives the same exploration, but for the times that decisions took. A decision costs a
+/// Deterministic: the same input gives the same exploration, except for decision times. A decision costs a
 /// shortest-path search over the grid of configurations, and certificates; with a goal, a plan.
 ///
 /// # Errors
-/// A map of too many cells, one that is known already but not of this world, a strategy without its goal.
+/// A map with too many cells, a known map of another world, or a strategy that needs a goal without one.
 pub fn explore(
     scene: &Scene,
     sensor: &Sensor,
@@ -115,7 +115,7 @@ pub fn explore(
     })
 }
 
-/// Length of the shortest motion that is found in the world itself.
+/// Returns the length of the shortest motion found in the true world.
 fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet, settings: &Settings) -> Option<f64> {
     let problem = MotionProblem::new(scene.clone(), start, goals.clone()).ok()?;
     let options = Options { bounded: false, levels: settings.options.levels, ..Options::default() };
@@ -125,12 +125,12 @@ fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet, setting
     }
 }
 
-/// Where the arm is, and what it knows.
+/// The state of the arm, and its knowledge.
 pub struct Explorer<'a> {
     pub sensor: &'a Sensor,
     pub settings: &'a Settings,
     pub goals: Option<&'a GoalSet>,
-    /// What really is there. Decisions look at its arm and its clearance alone.
+    /// The true scene. Decisions read only its arm and its clearance.
     pub scene: &'a Scene,
     pub survey: Survey,
     /// The arm among all that is not known to be free.
@@ -138,9 +138,9 @@ pub struct Explorer<'a> {
     pub known: Known,
     pub frontier: Frontier,
     pub at: Configuration,
-    /// Whether the last leg along an optimistic path showed nothing new: another one would not, either.
+    /// True if the last leg along an optimistic path showed nothing new, so that another one would not, either.
     pub is_stalled: bool,
-    /// Whether the last leg was one back.
+    /// True if the last leg was a return.
     pub is_back: bool,
     pub legs: Vec<Leg>,
     errors: Draws,
@@ -165,7 +165,7 @@ impl Explorer<'_> {
         is_new
     }
 
-    /// Takes note of what was seen since the last decision.
+    /// Updates the knowledge with everything seen since the last decision.
     fn take_note(&mut self) {
         let fresh = std::mem::take(&mut self.fresh);
         let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
@@ -177,22 +177,23 @@ impl Explorer<'_> {
         }
     }
 
-    /// Whether the arm is where it is to go.
+    /// Returns true if the arm is at its goal.
     fn is_at_goal(&self) -> bool {
         let topology = self.scene.arm().topology();
         let goals = self.goals.filter(|_| self.settings.strategy == Strategy::Goal);
         goals.is_some_and(|goals| goals.contains(&topology, self.at, AT_GOAL))
     }
 
-    /// Whether something new would be seen from a cell of the grid.
+    /// Returns true if a reading at a cell of the grid would show something new.
     pub fn is_frontier(&mut self, cell: usize) -> bool {
         self.frontier.contains(&self.survey, self.sensor, cell)
     }
 
-    /// Moves along a path and looks on the way. Gone to for what can be seen from a cell, the arm stops as soon as that is nothing new.
+    /// Moves along a path and takes readings on it. If the purpose is a reading at a cell, the arm stops as soon as
+    /// that reading would show nothing new.
     ///
     /// # Errors
-    /// A part of the path that cannot be certified, or not be timed: why, in words.
+    /// The reason why a part of the path cannot be certified or timed.
     fn go(&mut self, way: &CertifiedPath, until: Option<usize>) -> Result<(), String> {
         let before = self.readings.len();
         let mut gone = vec![self.at];
@@ -215,7 +216,7 @@ impl Explorer<'_> {
         if gone.len() == 1 {
             return Ok(());
         }
-        // Part of what is certified is free, too.
+        // Parts of a certified path are free, too.
         let clearance = self.solid.workspace().clearance;
         let path =
             certify(&self.solid, Path::new(gone), clearance).map_err(|rejection| format!("a leg: {rejection:?}"))?;

@@ -6,14 +6,15 @@ use super::views::Stand;
 use cplan_core::cspace::Grid;
 use cplan_core::model::{Arm, Sensor};
 
-/// The frontier configurations of a grid: those at whose middles a reading would show something new.
+/// The frontier configurations of a grid: those at whose centres a reading would show something new.
 ///
-/// What is known stays so: a configuration leaves the frontier for good, and ever fewer cells can be seen from it. So what was counted
-/// before is a bound, and all questions together cost little more than some looks from everywhere.
+/// Knowledge only grows: a configuration leaves the frontier permanently, and the number of cells visible from it only
+/// decreases. So earlier counts are upper bounds, and all queries together cost little more than a few readings at each
+/// cell.
 #[derive(Debug)]
 pub struct Frontier {
     configurations: Vec<Prospect>,
-    /// From where each looks.
+    /// Sensor pose at each configuration.
     stands: Vec<Stand>,
     /// The unknown cells of the map beside free ones: what rays come to first is one of them.
     ///
@@ -26,14 +27,14 @@ pub struct Frontier {
     count: u32,
     /// The configuration that is asked ahead next.
     ahead: usize,
-    /// How many configurations were given up, though something seemed to be seen from them.
+    /// Number of configurations that were given up although they promised new cells.
     pub given_up: usize,
 }
 
 /// Configurations that are asked ahead at each decision: a fraction of a millisecond.
 const ASKED_AHEAD: usize = 256;
 
-/// What is known of a reading.
+/// Knowledge about a reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Prospect {
     /// A cell of the map that it comes to as long as nothing is known of that.
@@ -43,7 +44,7 @@ struct Prospect {
 }
 
 impl Frontier {
-    /// Over the configurations of a grid, nothing known of them but how far the sensor sees.
+    /// Creates the frontier over the configurations of a grid, bounded only by the range of the sensor.
     #[must_use]
     pub fn new(survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid) -> Self {
         let cells = survey.map().cells.len();
@@ -64,17 +65,17 @@ impl Frontier {
         }
     }
 
-    /// Takes note of what the map knows now.
+    /// Updates it with the current map.
     pub fn update(&mut self, survey: &Survey, sensor: &Sensor) {
         self.edges = Some(Edges::new(survey, sensor.range));
     }
 
-    /// Something new has been seen: there may be edges elsewhere.
+    /// Records that something new was seen, so edges may have changed.
     pub fn forget_edges(&mut self) {
         self.edges = None;
     }
 
-    /// Whether a reading at the middle of a cell of the grid would show something new.
+    /// Returns true if a reading at the centre of a cell of the grid would show something new.
     pub fn contains(&mut self, survey: &Survey, sensor: &Sensor, cell: usize) -> bool {
         let prospect = &mut self.configurations[cell];
         if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
@@ -104,25 +105,25 @@ impl Frontier {
         }
     }
 
-    /// From where a reading at the middle of a cell of the grid looks.
+    /// Returns the sensor pose for a reading at the centre of a cell of the grid.
     #[must_use]
     pub fn stand(&self, cell: usize) -> Stand {
         self.stands[cell]
     }
 
-    /// No more cells than these can be seen for the first time from a cell of the grid.
+    /// Returns an upper bound on the number of new cells visible from a cell of the grid.
     #[must_use]
     pub fn most(&self, cell: usize) -> u32 {
         self.configurations[cell].most
     }
 
-    /// No more cells than these can be seen from anywhere.
+    /// Returns an upper bound on the number of new cells visible from any cell.
     #[must_use]
     pub fn most_of_all(&self) -> u32 {
         self.most_of_all
     }
 
-    /// How many cells would be seen for the first time from a cell of the grid if nothing unknown were in the way.
+    /// Returns the number of new cells visible from a cell of the grid if no unknown obstacle interferes.
     pub fn gain(&mut self, survey: &Survey, sensor: &Sensor, cell: usize) -> u32 {
         if self.configurations[cell].most > 0 {
             self.count += 1;

@@ -5,10 +5,11 @@ use cplan_core::model::Sensor;
 use serde_json::{Value, json};
 
 impl Exploration {
-    /// All of it but the picture of the map: how it ended, what the map knows, every reading, every leg, the motion.
+    /// Returns everything except the picture of the map: the ending, the map's counts, every reading, every leg, the
+    /// motion.
     ///
-    /// `readings` are rows of both joints' values, the length of the way until then and the number of cells that were new; `decisions_ms`
-    /// stands there `timed` alone, so that the same input gives the same text.
+    /// `readings` are rows of both joints' values, the length of the path until then and the number of new cells.
+    /// `decisions_ms` is present only if `timed`, so that the same input gives the same text.
     #[must_use]
     pub fn to_json(&self, joints: [&str; 2], sensor: &Sensor, timed: bool) -> Value {
         let map = self.survey.map();

@@ -7,23 +7,23 @@ use cplan_core::model::{Arm, Scene};
 use cplan_core::waves::{FreeCells, Neighborhood};
 use cplan_interrupt::checkpoint;
 
-/// A grid of configurations, blocked where the arm meets a cell of the map that is not known to be free.
+/// A grid of configurations, blocked where the arm touches a map cell that is not known to be free.
 ///
-/// Each blocked configuration has such a cell as its witness and is looked at again only when something new is known of that, so that
-/// all the updates of an exploration together cost a few looks a configuration, and what it takes to read the map.
+/// Each blocked configuration has such a cell as its witness, and is examined again only when that cell changes. So all
+/// updates of an exploration together cost a few examinations per configuration, plus reading the map.
 #[derive(Debug)]
 pub struct Known {
     /// The middles of its cells are the configurations.
     pub grid: Grid,
     /// Steps between free middles that are not free themselves.
     pub closed: Closed,
-    /// The configurations of which a cell of the map is the witness.
+    /// The configurations for which each map cell is the witness.
     waiting: Vec<Vec<u32>>,
     clearance: f64,
 }
 
 impl Known {
-    /// What the map knows now, in `cells` configurations along the two axes.
+    /// Creates the grid for the current map, with `cells` configurations along the two axes.
     #[must_use]
     pub fn new(survey: &Survey, arm: &Arm, cells: [usize; 2], clearance: f64) -> Self {
         let count = cells[0] * cells[1];
@@ -34,9 +34,9 @@ impl Known {
         known
     }
 
-    /// Takes note of cells of the map that are known anew. The configurations that are free for the first time, in ascending order.
+    /// Updates the grid with newly known map cells. Returns the configurations that become free, ascending.
     pub fn update(&mut self, survey: &Survey, arm: &Arm, new: &[usize]) -> Vec<usize> {
-        // A step may be free where less is solid, and what is seen to be there may be lower than was feared.
+        // A step may become free when less is solid, and seen obstacles may be lower than assumed.
         if !new.is_empty() {
             self.closed.clear();
         }
@@ -44,8 +44,8 @@ impl Known {
         self.look_at(survey, arm, waiting)
     }
 
-    /// Closes a step that is not free, and with it those about it that are not, either: what is too narrow for one step is so for many, and
-    /// each would cost a way that ends there.
+    /// Closes a step that is not free, and blocked steps around it. A passage that is too narrow for one step is too
+    /// narrow for many, and each would cost a path that ends there.
     pub fn close(&mut self, solid: &Scene, step: [usize; 2]) {
         let (free, motions) = (FreeCells::new(&self.grid), straight_motions(solid));
         let mut found = vec![step];

@@ -1,25 +1,24 @@
-//! Planning in a world that is only seen bit by bit.
+//! Planning in a world that a sensor reveals step by step.
 //!
-//! The world that is given is what is really there. The explorer knows of it what its [`Sensor`](cplan_core::model::Sensor) has
-//! seen, as a map of cells; what it has not seen is solid. Every motion is certified within what is known to be free before it is
-//! begun, so the arm stops before it enters what it has not seen; and it is certified once more against the world itself by who
-//! plays it.
+//! The given world is the true one. The explorer knows only what its [`Sensor`](cplan_core::model::Sensor) has seen, as
+//! a map of cells; unseen cells are solid. Every motion is certified within the known free space before it starts, so
+//! the arm stops before unseen space. The player certifies it again against the true world.
 //!
 //! ```text
 //! look -> map -> known free configurations, frontier among them -> decision -> certified leg -> on the way: look ...
 //! ```
 //!
-//! # How it ends
+//! # Endings
 //!
-//! - *Reached*: the goal.
-//! - *Explored*: from no configuration of the grid that can be reached would a reading show anything new. That is decided, not
-//!   guessed: rays are as wide as the cells that they cross, so what a reading adds is known beforehand up to the first unknown
-//!   cell of each ray ([`Survey::promise`]).
-//!   (Where distances have errors a reading may hide what it promised; such configurations are counted.)
-//! - *Unreachable*: no way leads to the goal past the cells that hold something, proven, whatever lies in what was not seen; or
-//!   nothing new can be seen, and none leads there in what is known, proven. A cell that holds anything counts as solid, so that a
-//!   passage narrower than cells is none: this speaks of what is known, not of the world.
-//! - *Unknown*: none of these within the decisions allowed, or the grid is too coarse for the way.
+//! - *Reached*: the arm is at the goal.
+//! - *Explored*: no reading at any reachable configuration of the grid would show anything new. This is decided, not
+//!   estimated: rays are as wide as the cells that they cross, so the result of a reading is known in advance up to the
+//!   first unknown cell of each ray ([`Survey::promise`]). (With distance errors a reading may hide cells that it
+//!   promised; such configurations are counted.)
+//! - *Unreachable*: proven. Either no path leads to the goal past the occupied cells, whatever the unseen cells
+//!   contain; or nothing new can be seen, and no path leads there in the known space. An occupied cell counts as solid
+//!   as a whole, so a passage narrower than cells is closed: this is a statement about the map, not about the world.
+//! - *Unknown*: no other ending within the allowed number of decisions, or the grid is too coarse for the path.
 //!
 //! ```
 //! use cplan_explore::{Ending, Settings, Strategy, explore};

@@ -3,10 +3,11 @@
 use super::survey::Survey;
 use cplan_world::Occupancy;
 
-/// Shades of free, unknown and occupied cells: with the thresholds of [`map_description`] each is read as what it was.
+/// Shades of free, unknown and occupied cells. With the thresholds of [`map_description`] each is read back as the
+/// same.
 const SHADES: [u8; 3] = [254, 205, 0];
 
-/// The description, YAML, of the picture in the file `picture` beside it.
+/// Returns the YAML description of the picture in the file `picture` beside it.
 #[must_use]
 pub fn map_description(survey: &Survey, picture: &str) -> String {
     let map = survey.map();
@@ -21,7 +22,7 @@ pub fn map_description(survey: &Survey, picture: &str) -> String {
     )
 }
 
-/// The picture, PGM (P5): a pixel a cell, from the top.
+/// Returns the picture as PGM (P5), one pixel per cell, from the top.
 #[must_use]
 pub fn map_picture(survey: &Survey) -> Vec<u8> {
     let map = survey.map();

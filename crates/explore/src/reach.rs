@@ -17,13 +17,13 @@ pub struct Reach {
     /// Costs; infinite where no way leads.
     costs: Vec<f64>,
     before: Vec<u32>,
-    /// In the order of their costs.
+    /// Cells in the order of their costs.
     pub cells: Vec<usize>,
 }
 
-/// What waits to be looked at, a queue for each length of a step and one for where all begins.
+/// Open cells: a queue for each length of a step, and one for the start.
 ///
-/// Costs come out in ascending order, and what is added to them is the same in a queue: so each is in order by itself, without a heap.
+/// Costs are taken in ascending order, and each queue adds the same amount, so each queue is sorted without a heap.
 #[derive(Debug, Default)]
 struct OpenQueues([VecDeque<(f64, usize)>; 4]);
 
@@ -43,7 +43,7 @@ impl OpenQueues {
 const NONE: u32 = u32::MAX;
 
 impl Reach {
-    /// From the cells that `start` is joined to. Stops at the first cell, with the length of the way there, that `is_enough`.
+    /// Searches from the cells joined to `start`. Stops at the first cell, with its path length, for which `is_enough`.
     pub fn new(
         grid: &Grid,
         closed: &Closed,
@@ -86,7 +86,7 @@ impl Reach {
         reach
     }
 
-    /// The cells on the way to one, itself last.
+    /// Returns the cells on the path to a cell, itself last.
     pub fn way(&self, cell: usize) -> Vec<usize> {
         let mut way = vec![cell];
         while let Some(&last) = way.last().filter(|&&last| self.before[last] != NONE) {
@@ -96,13 +96,13 @@ impl Reach {
         way
     }
 
-    /// The way to a cell; all that can be reached if there is none to go to.
+    /// Returns the path to a cell, or the reach itself if there is no cell.
     pub fn way_to(self, cell: Option<usize>) -> Result<Vec<usize>, Self> {
         cell.map(|cell| self.way(cell)).ok_or(self)
     }
 }
 
-/// The configurations on a way from cell to cell, the start first, unwrapped.
+/// Returns the configurations on a path of cells, starting with the start, unwrapped.
 pub fn unwrapped(grid: &Grid, start: Configuration, way: &[usize]) -> Vec<Configuration> {
     let mut at = vec![start];
     for &cell in way {
@@ -112,7 +112,7 @@ pub fn unwrapped(grid: &Grid, start: Configuration, way: &[usize]) -> Vec<Config
     at
 }
 
-/// The cells about a configuration whose middles it can go to straight, the nearest first.
+/// Returns the cells around a configuration whose centres are reachable by a straight motion, the nearest first.
 pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
     let motions = straight_motions(scene);
     let mut near = free_about(grid, q);
@@ -120,7 +120,7 @@ pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
     near
 }
 
-/// The free cells about a configuration, the nearest first.
+/// Returns the free cells around a configuration, the nearest first.
 pub fn free_about(grid: &Grid, q: Configuration) -> Vec<usize> {
     let middle = grid.locate(q);
     let beside = std::iter::once(middle).chain(grid.neighbors(middle));
@@ -135,13 +135,13 @@ pub fn free_about(grid: &Grid, q: Configuration) -> Vec<usize> {
     near
 }
 
-/// Those that keep the scene's clearance.
+/// Returns the test for straight motions that keep the scene's clearance.
 pub fn straight_motions(scene: &Scene) -> StraightMotions<'_> {
     StraightMotions::new(scene, scene.workspace().clearance)
 }
 
-/// Leaves out waypoints: each time the farthest of the next `most` is gone to straight that doubling steps, then halves, find free. The
-/// number of the first step that is not free, if one is not.
+/// Removes waypoints: each time moves straight to the farthest of the next `most` that galloping search finds free.
+/// Returns the number of the first blocked step as the error.
 pub fn tightened(scene: &Scene, waypoints: &[Configuration], most: usize) -> Result<Path, usize> {
     let motions = straight_motions(scene);
     let mut kept = vec![waypoints[0]];

@@ -1,4 +1,4 @@
-//! What became of an exploration.
+//! The result of an exploration.
 
 use super::settings::Strategy;
 use super::survey::Survey;
@@ -7,27 +7,28 @@ use cplan_core::space::Configuration;
 use cplan_motion::Trajectory;
 use std::time::Duration;
 
-/// How an exploration ended.
+/// Reasons why an exploration ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ending {
     /// The arm is at a goal.
     Reached,
-    /// From no configuration of the grid that can be reached would a reading show anything new.
+    /// No reading at any reachable configuration of the grid would show anything new.
     Explored {
-        /// How many configurations these are.
+        /// Number of these configurations.
         configurations: usize,
-        /// How many of them were given up after a reading that showed nothing, though it promised something, as errors may make it;
-        /// none without errors.
+        /// Number of configurations given up after a reading that showed nothing although it promised something, which
+        /// distance errors can cause; 0 without errors.
         given_up: usize,
     },
-    /// There is no way to the goal in what is known, where cells that hold anything are solid as a whole: proven, and why.
+    /// No path leads to the goal in the known space, where occupied cells are solid as a whole: proven, with the
+    /// reason.
     Unreachable(String),
-    /// None of these: why.
+    /// No other ending applies, with the reason.
     Unknown(String),
 }
 
 impl Ending {
-    /// In a word.
+    /// Returns the ending as one word.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -42,7 +43,7 @@ impl Ending {
 /// A look at the world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
-    /// Where the arm was.
+    /// Configuration of the arm.
     pub at: Configuration,
     /// Length of the way until then, in joint space.
     pub length: f64,
@@ -50,25 +51,25 @@ pub struct Reading {
     pub new: Vec<usize>,
 }
 
-/// A motion from rest to rest, certified in what was known when it began.
+/// A motion from rest to rest, certified in the space known at its start.
 #[derive(Debug, Clone)]
 pub struct Leg {
-    /// What the motion follows.
+    /// The curve that the motion follows.
     pub curve: CertifiedCurve,
-    /// How many readings had been taken when it began.
+    /// Number of readings at its start.
     pub readings: usize,
 }
 
 /// An exploration from its beginning to its end.
 #[derive(Debug, Clone)]
 pub struct Exploration {
-    /// Where it went next.
+    /// The strategy.
     pub strategy: Strategy,
-    /// How it ended.
+    /// The ending.
     pub ending: Ending,
-    /// The map in the end.
+    /// The final map.
     pub survey: Survey,
-    /// What was known at first, without a reading: cells of the map that the arm stood among, or that were known already.
+    /// Cells known initially, without a reading: those around the arm, and those of a known map.
     pub surroundings: Vec<usize>,
     /// All readings, in order.
     pub readings: Vec<Reading>,
@@ -77,12 +78,12 @@ pub struct Exploration {
     pub opened: Vec<(usize, Vec<usize>)>,
     /// All motions, in order.
     pub legs: Vec<Leg>,
-    /// The whole motion; none if the arm never moved.
+    /// The whole motion; `None` if the arm never moved.
     pub trajectory: Option<Trajectory>,
     /// Length of the way, in joint space.
     pub length: f64,
-    /// Length of the shortest motion to the goal that was found in the world itself, in joint space: what an arm that knew it would go. None
-    /// unless the goal was reached.
+    /// Length in joint space of the shortest motion to the goal found in the true world: what an informed arm would
+    /// travel. `None` unless the goal was reached.
     pub known_length: Option<f64>,
     /// Time of each decision.
     pub decisions: Vec<Duration>,

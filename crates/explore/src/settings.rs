@@ -1,4 +1,4 @@
-//! How to explore.
+//! Settings of an exploration.
 
 use super::survey::MOST_CELLS;
 use cplan_engine::Options;
@@ -7,36 +7,37 @@ use cplan_world::OccupancyMap;
 use serde::Serialize;
 use thiserror::Error;
 
-/// How the explorer decides where to go next.
+/// Strategies for the next destination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Strategy {
-    /// To the goal, by the optimistic path: the one that the options' planner finds where what is unknown counts as free. As far as that is
-    /// known to be free; where that shows nothing new, to where what is in its way can be seen, or as [`Strategy::View`].
+    /// To the goal along the optimistic path, which the options' planner finds with unknown space counted as free.
+    /// Follows it as far as free space is known. If that shows nothing new, moves to a view of the cells in its way,
+    /// or as [`Strategy::View`].
     #[default]
     Goal,
-    /// To a frontier configuration that shows all that the nearest one does, and more than others that are about as near: a next best view
-    /// (González-Baños, Latombe 2002) that leaves little behind.
+    /// To a frontier configuration that shows everything that the nearest one shows, and more than others at a similar
+    /// distance: a next best view (González-Baños, Latombe 2002) that leaves little behind.
     View,
     /// To the nearest frontier configuration (Yamauchi 1997).
     Nearest,
     /// Up the harmonic potential whose goals are all frontier configurations (Prestes et al. 2002).
     Harmonic,
-    /// Along the boundary of what is known to be free, that to the right, to the first frontier configuration there; where none is left, to
-    /// the nearest.
+    /// Along the boundary of the known free space, with the boundary to the right, to the first frontier configuration
+    /// there; otherwise to the nearest.
     Wall,
 }
 
-/// How to explore.
+/// Settings of an exploration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// Where to go next.
+    /// Strategy for the next destination.
     pub strategy: Strategy,
     /// Cells of the grid of configurations, along both axes.
     pub cells: [usize; 2],
-    /// Distance about the arm, at first, in which the world is known, metres; none for two cells of the map.
+    /// Distance around the arm within which the world is known initially, metres; `None` for two cells of the map.
     pub surveyed: Option<f64>,
-    /// What is known already: the map of an earlier exploration of the same world.
+    /// Known map: from an earlier exploration of the same world.
     pub known: Option<OccupancyMap>,
     /// Decisions at the most.
     pub decisions: usize,
@@ -60,7 +61,7 @@ pub enum ExploreError {
     /// The map would be too large.
     #[error("a map of cells of {0} m would have more than {MOST_CELLS} of them")]
     Map(f64),
-    /// What is said to be known already is not of this world.
+    /// The known map is not of this world.
     #[error("the map that is known already {0}")]
     Known(String),
     /// There is no goal to go to.

@@ -5,11 +5,11 @@ use super::views::Rows;
 use cplan_world::Occupancy;
 use std::f64::consts::SQRT_2;
 
-/// The unknown cells beside free ones, one of which a ray comes to first, and where rays to them may begin.
+/// The unknown cells next to free ones, which rays reach first, and the cells from which rays may reach them.
 #[derive(Debug)]
 pub struct Edges {
     pub rows: Rows,
-    /// Whether a ray that begins in a cell may come to one of them, or the cell is unknown itself.
+    /// True for cells from which a ray may reach one of them, and for unknown cells.
     within_sight: Vec<bool>,
 }
 
@@ -17,10 +17,10 @@ pub struct Edges {
 const NONE: u32 = u32::MAX;
 
 impl Edges {
-    /// Those of what is known now, and where rays to them may begin that are no longer than `range`.
+    /// Computes them for the current map, for rays no longer than `range`.
     ///
-    /// A ray goes from cell to cell over their sides, over the same two of the four all along, through cells that are known to be free. So
-    /// where no such way leads to an edge, whichever two, no ray does. Linear in the number of cells.
+    /// A ray moves from cell to cell across their sides, always across the same two of the four, through cells known to
+    /// be free. If for no choice of two sides such a path leads to an edge, no ray does. Linear in the number of cells.
     #[must_use]
     pub fn new(survey: &Survey, range: f64) -> Self {
         let rows = survey.edges();
@@ -52,7 +52,7 @@ impl Edges {
         Self { rows, within_sight }
     }
 
-    /// Whether a ray that begins in a cell may come to something unknown.
+    /// Returns true if a ray from a cell may reach an unknown cell.
     #[must_use]
     pub fn may_be_seen_from(&self, cell: usize) -> bool {
         self.within_sight[cell]
@@ -67,7 +67,7 @@ mod tests {
     use cplan_geometry::Point;
     use proptest::prelude::*;
 
-    /// A map about an arm, of cells as they are told by their column and row.
+    /// Returns a map around an arm, with cells labelled by column and row.
     fn survey(label: impl Fn(usize, usize) -> Occupancy) -> (Survey, Sensor) {
         let arm = Arm::rr([1.0, 0.5], 0.05).expect("a good arm");
         let sensor = Sensor { cell: 0.1, range: 0.8, rays: 90, ..Sensor::usual(&arm) };
@@ -100,7 +100,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(96))]
 
-        /// By looking along all rays.
+        /// Compares with tracing all rays.
         #[test]
         fn what_all_rays_see_is_within_sight(seed: u64, unknown in 0.0..0.1, occupied in 0.0..0.4, cells in 1.0..9.0) {
             let labels = std::cell::RefCell::new(Draws::new(seed));

@@ -1,4 +1,4 @@
-//! What is known of a world, cell by cell, and what really is there.
+//! The known part of a world, cell by cell, and the true contents.
 
 use super::views::{AROUND_CELL, Crossing};
 use cplan_core::model::{Arm, Heights, JointType, Obstacle, Scene, Sensor, Shape, Workspace};
@@ -10,25 +10,26 @@ use nalgebra::{Isometry2, Vector2};
 /// Cells of the largest map.
 pub const MOST_CELLS: usize = 1 << 22;
 
-/// Margin of the map about what the arm can touch, in cells.
+/// Margin of the map around the reach of the arm, in cells.
 const MARGIN: f64 = 2.0;
 
-/// A map that fills up with what a sensor sees. What was said of a cell once stays so.
+/// A map that a sensor fills in. A known cell never changes.
 ///
-/// The sensor's rays are as wide as the cells that they cross: one ends at the first cell that anything is in, and the cells
-/// before it are empty. So what is known to be free is free, whole cells of it; and what a reading would add to the map is known
-/// beforehand up to the first unknown cell of each ray.
+/// The sensor's rays are as wide as the cells that they cross. A ray ends at the first occupied cell, and the cells
+/// before it are empty. So cells known to be free are entirely free, and the result of a reading is known in advance up
+/// to the first unknown cell of each ray.
 #[derive(Debug, Clone)]
 pub struct Survey {
     pub(super) known: OccupancyMap,
-    /// What is between the lowest obstacle's floor and the highest one's top; what is above or below is free, as everybody knows.
+    /// Range from the lowest obstacle's floor to the highest one's top. The space above and below is known to be free.
     heights: Heights,
-    /// From the lowest floor to the highest top of what is in a cell, if anything is: known as soon as the cell is.
+    /// For each occupied cell, the range from the lowest floor to the highest top of its contents. It becomes known
+    /// with the cell.
     truth: Vec<Option<Heights>>,
 }
 
 impl Survey {
-    /// Knows nothing yet of the obstacles of a scene. None if the map would have more than [`MOST_CELLS`].
+    /// Creates a map of a scene without any knowledge. Returns `None` if it would have more than [`MOST_CELLS`].
     #[must_use]
     pub fn new(scene: &Scene, cell: f64) -> Option<Self> {
         let obstacles = &scene.workspace().obstacles;
@@ -40,7 +41,7 @@ impl Survey {
         if count.is_nan() || count > MOST_CELLS as f64 {
             return None;
         }
-        // The middle of the map is that of what the arm can touch.
+        // The map is centred on the reach of the arm.
         let origin = [0, 1].map(|k| f64::midpoint(low[k], high[k]) - size[k] * cell / 2.0);
         let size = size.map(|n| n as usize);
         let known = OccupancyMap {
@@ -62,10 +63,10 @@ impl Survey {
         Some(survey)
     }
 
-    /// Takes over what an earlier exploration knew.
+    /// Takes over the knowledge of an earlier exploration.
     ///
     /// # Errors
-    /// A map of other cells, or of another world: what is wrong with it, in words.
+    /// The reason, if the map has other cells or is of another world.
     pub fn recall(&mut self, map: &OccupancyMap) -> Result<(), String> {
         let own = &self.known;
         if (map.size, map.resolution, map.pose) != (own.size, own.resolution, own.pose) {
@@ -95,39 +96,40 @@ impl Survey {
         Ok(())
     }
 
-    /// What is known.
+    /// Returns the known map.
     #[must_use]
     pub fn map(&self) -> &OccupancyMap {
         &self.known
     }
 
-    /// How many cells are free, occupied and unknown.
+    /// Returns the numbers of free, occupied and unknown cells.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         let count = |label| self.known.cells.iter().filter(|&&cell| cell == label).count();
         [count(Occupancy::Free), count(Occupancy::Occupied), count(Occupancy::Unknown)]
     }
 
-    /// The share of the map's cells of which something is known.
+    /// Returns the fraction of the map's cells that are known.
     #[must_use]
     pub fn share_seen(&self) -> f64 {
         let unknown = self.known.cells.iter().filter(|&&cell| cell == Occupancy::Unknown).count();
         1.0 - unknown as f64 / self.known.cells.len() as f64
     }
 
-    /// The corner of the map from which cells are counted.
+    /// Returns the corner of the map from which cells are counted.
     pub(super) fn origin(&self) -> Vector {
         self.known.pose.translation.vector
     }
 
-    /// The number of a cell, by column from the left and row from below.
+    /// Returns the number of a cell, by column from the left and row from below.
     fn index(&self, x: usize, y: usize) -> usize {
         (self.known.size[1] - 1 - y) * self.known.size[0] + x
     }
 
-    /// The cells that a shape meets, grown by a margin, of those that are `asked` about.
+    /// Iterates over the cells that a shape, grown by a margin, touches, among those that are `asked` for.
     ///
-    /// Row by row: beyond a side of the shape by more than a cell's radius are all cells before a column, or after one.
+    /// Works row by row: beyond a side of the shape by more than a cell's radius lie all cells before a column, or
+    /// after one.
     fn touched(&self, shape: &Convex, margin: f64, asked: impl Fn(usize) -> bool) -> impl Iterator<Item = usize> {
         let cell = self.known.resolution;
         let grown = Convex::trusted(shape.core().to_vec(), shape.radius() + margin);
@@ -165,14 +167,14 @@ impl Survey {
             .map(|(cell, ..)| cell)
     }
 
-    /// A cell as a shape, by column from the left and row from below.
+    /// Returns a cell as a shape, by column from the left and row from below.
     fn square(&self, x: usize, y: usize) -> Convex {
         let at =
             |x: usize, y: usize| Point::from(self.origin() + Vector::new(x as f64, y as f64) * self.known.resolution);
         Convex::trusted(vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)], 0.0)
     }
 
-    /// The shapes of the arm at `q` that are as high as any obstacle, with their heights.
+    /// Iterates over the arm's shapes at `q` at the height of any obstacle, with their heights.
     fn parts(&self, arm: &Arm, q: Configuration) -> impl Iterator<Item = (Convex, Heights)> {
         let poses = arm.poses(q);
         let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
@@ -180,7 +182,7 @@ impl Survey {
         high.map(move |(link, part)| (part.shape.at(&poses[link]), part.heights))
     }
 
-    /// The cells that the arm meets at `q`, grown by a margin, whatever is in them; in ascending order.
+    /// Returns the cells that the arm touches at `q`, grown by a margin, with any contents; ascending.
     fn under(&self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
         let parts = self.parts(arm, q);
         let mut cells: Vec<usize> =
@@ -190,7 +192,7 @@ impl Survey {
         cells
     }
 
-    /// A cell that is not known to be free and that the arm meets at `q`, grown by a margin; none if all are known to be.
+    /// Returns a cell that is not known to be free and that the arm touches at `q`, grown by a margin, or `None`.
     #[must_use]
     pub fn obstruction(&self, arm: &Arm, q: Configuration, margin: f64) -> Option<usize> {
         self.parts(arm, q).find_map(|(part, heights)| {
@@ -199,8 +201,8 @@ impl Survey {
         })
     }
 
-    /// The heights at which a cell is not known to be free. What is unknown is as high as anything in the world; of what was seen it is
-    /// known how high it is.
+    /// Returns the heights at which a cell is not known to be free. Unknown cells are as high as anything in the world;
+    /// seen ones have known heights.
     fn solid(&self, cell: usize) -> Option<Heights> {
         match self.known.cells[cell] {
             Occupancy::Free => None,
@@ -209,7 +211,7 @@ impl Survey {
         }
     }
 
-    /// The unknown cells that the arm meets at `q`, in ascending order.
+    /// Returns the unknown cells that the arm touches at `q`, ascending.
     #[must_use]
     pub fn unknown_at(&self, arm: &Arm, q: Configuration) -> Vec<usize> {
         let mut cells = self.under(arm, q, 0.0);
@@ -217,23 +219,23 @@ impl Survey {
         cells
     }
 
-    /// Whether nothing is known of a cell.
+    /// Returns true if a cell is unknown.
     #[must_use]
     pub fn is_unknown(&self, cell: usize) -> bool {
         self.known.cells[cell] == Occupancy::Unknown
     }
 
-    /// The cell of the map that a point lies in.
+    /// Returns the map cell that contains a point.
     pub(super) fn cell_at(&self, point: Point) -> Option<usize> {
         let local = (point.coords - self.origin()) / self.known.resolution;
         let is_inside = (0..2).all(|k| 0.0 <= local[k] && local[k] < self.known.size[k] as f64);
         is_inside.then(|| self.index(local.x as usize, local.y as usize))
     }
 
-    /// Notes what a reading at `q` shows; the cells that are new, in the order in which they were seen.
+    /// Records the result of a reading at `q`. Returns the new cells in the order in which they were seen.
     ///
-    /// Of a distance that may be wrong only what holds whatever the error is noted: cells before all that the ray may have ended at are
-    /// free, and where that is a single one it is occupied.
+    /// From a distance with errors, only facts that hold for every error are recorded: cells before all possible end
+    /// cells are free, and a single possible end cell is occupied.
     pub fn look(&mut self, sensor: &Sensor, arm: &Arm, q: Configuration, errors: &mut Draws) -> Vec<usize> {
         let (from, ahead) = sensor.pose(arm, q.into());
         let mut new = Vec::new();
@@ -263,8 +265,8 @@ impl Survey {
         new
     }
 
-    /// Notes what is in the cells that the arm meets at `q`, and in those about them, as far as `margin`: whoever puts an arm somewhere
-    /// has looked where it stands.
+    /// Records the contents of the cells that the arm touches at `q` and of those within `margin`: the user who places
+    /// an arm somewhere has looked at the place.
     pub fn survey_about(&mut self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
         let mut new = self.under(arm, q, margin);
         new.retain(|&cell| self.is_unknown(cell));
@@ -274,7 +276,8 @@ impl Survey {
         new
     }
 
-    /// The arm among all that is not known to be free; or, with `unknown_is_free`, among what is known to be there.
+    /// Returns the arm among everything that is not known to be free; with `unknown_is_free`, among the known
+    /// obstacles.
     #[must_use]
     pub fn scene(&self, arm: &Arm, clearance: f64, unknown_is_free: bool) -> Scene {
         let seen = self.known.cells.iter().zip(&self.truth).filter(|(label, _)| **label == Occupancy::Occupied);
@@ -300,7 +303,8 @@ impl Survey {
     }
 }
 
-/// The corners of a rectangle that holds the base, and all that an arm can come nearer to than the clearance at some heights.
+/// Returns the corners of a rectangle that contains the base, and everything that an arm can approach within the
+/// clearance at some heights.
 fn extent(scene: &Scene, heights: Heights) -> [Point; 2] {
     let (arm, clearance) = (scene.arm(), scene.workspace().clearance);
     let discs = swept(arm, heights);

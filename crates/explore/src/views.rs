@@ -1,4 +1,4 @@
-//! What readings of a sensor would show of a map: the cells that rays cross.
+//! Predicted readings of a sensor on a map: the cells that rays cross.
 
 use super::sight::Edges;
 use super::survey::Survey;
@@ -14,13 +14,13 @@ pub(super) const AROUND_CELL: f64 = 0.75;
 /// Room for rounding of distances, in cells.
 const SLACK: f64 = 1e-6;
 
-/// Where a sensor takes a reading, and the angle straight ahead of it: [`Sensor::pose`].
+/// Position of a sensor and its forward angle: [`Sensor::pose`].
 pub type Stand = (Point, f64);
 
 /// Cells of a map by their rows, those that have any, from the top; of each the columns in ascending order.
 pub type Rows = Vec<(usize, Vec<usize>)>;
 
-/// Of so many rows those that have any columns.
+/// Returns the rows that have any columns.
 fn rows(height: usize, columns: impl Fn(usize) -> Vec<usize>) -> Rows {
     (0..height).map(|row| (row, columns(row))).filter(|(_, columns)| !columns.is_empty()).collect()
 }
@@ -33,7 +33,8 @@ pub(super) struct Crossing {
 }
 
 impl Survey {
-    /// The cells that a ray crosses as far as the sensor sees, those whole that it leaves before that, in order.
+    /// Iterates over the cells that a ray crosses within the range of the sensor, as far as it crosses them completely,
+    /// in order.
     ///
     /// From side to side (Amanatides, Woo 1987).
     pub(super) fn crossings(&self, from: Point, angle: f64, range: f64) -> impl Iterator<Item = Crossing> + use<> {
@@ -64,8 +65,8 @@ impl Survey {
         })
     }
 
-    /// An unknown cell that a reading would come to; none if it would show nothing new. Rays come first to one of the
-    /// `edges`, where these are given: only those that may are looked along.
+    /// Returns an unknown cell that a reading would reach, or `None` if it would show nothing new. If `edges` are
+    /// given, traces only rays that may reach one.
     #[must_use]
     pub fn promise(&self, sensor: &Sensor, stand: Stand, edges: Option<&Edges>) -> Option<usize> {
         match edges {
@@ -75,7 +76,7 @@ impl Survey {
         }
     }
 
-    /// Whether a reading would come first to any of some unknown cells.
+    /// Returns true if a reading would reach any of some unknown cells first.
     #[must_use]
     pub fn shows_any(&self, sensor: &Sensor, stand: Stand, wanted: &Rows) -> bool {
         let width = self.known.size[0];
@@ -86,8 +87,8 @@ impl Survey {
         self.first_towards(sensor, stand, wanted, is_wanted).is_some()
     }
 
-    /// The first unknown cell of a ray of a reading that `is_asked` for. Only rays that may cross one of some cells are looked along,
-    /// unless the sensor itself is where nothing is known.
+    /// Returns the first unknown cell of a ray of a reading for which `is_asked` holds. Traces only rays that may cross
+    /// one of some cells, unless the sensor itself is in an unknown cell.
     fn first_towards(
         &self,
         sensor: &Sensor,
@@ -110,14 +111,14 @@ impl Survey {
         })
     }
 
-    /// Some cells by their rows.
+    /// Groups cells by row.
     #[must_use]
     pub fn by_rows(&self, cells: &BTreeSet<usize>) -> Rows {
         let width = self.known.size[0];
         rows(self.known.size[1], |y| cells.range(y * width..(y + 1) * width).map(|cell| cell % width).collect())
     }
 
-    /// The numbers of those rays that may cross a cell.
+    /// Iterates over the numbers of the rays that may cross a cell.
     fn rays_to(&self, sensor: &Sensor, from: Point, ahead: f64, cell: usize) -> impl Iterator<Item = usize> + use<> {
         let [width, height] = self.known.size;
         let middle = Vector::new((cell % width) as f64 + 0.5, (height - 1 - cell / width) as f64 + 0.5);
@@ -126,7 +127,7 @@ impl Survey {
         sensor.rays_about(ahead, way.y.atan2(way.x), if sine < 1.0 { sine.asin() } else { PI })
     }
 
-    /// Of each ray of a reading the first cell that is not known to be free, if it is unknown.
+    /// Iterates, for each ray of a reading, over its first cell that is not known to be free, if that is unknown.
     fn first_unknown(&self, sensor: &Sensor, stand: Stand) -> impl Iterator<Item = usize> {
         self.views(sensor, stand).filter_map(|mut view| {
             let first = view.find(|&cell| self.known.cells[cell] != Occupancy::Free);
@@ -134,7 +135,7 @@ impl Survey {
         })
     }
 
-    /// The unknown cells that rays of a reading come to first, in ascending order.
+    /// Returns the unknown cells that rays of a reading reach first, ascending.
     #[must_use]
     pub fn shown_first(&self, sensor: &Sensor, stand: Stand) -> Vec<usize> {
         let mut cells: Vec<usize> = self.first_unknown(sensor, stand).collect();
@@ -143,7 +144,7 @@ impl Survey {
         cells
     }
 
-    /// Whether the rays of a reading cross all of some cells before what is known to be there.
+    /// Returns true if the rays of a reading cross all of some cells before known obstacles.
     #[must_use]
     pub fn shows_all(&self, sensor: &Sensor, (from, ahead): Stand, cells: &[usize]) -> bool {
         cells.iter().all(|&wanted| {
@@ -154,13 +155,14 @@ impl Survey {
         })
     }
 
-    /// The unknown cells that the rays of a reading cross before what is known to be there; some more than once.
+    /// Iterates over the unknown cells that the rays of a reading cross before known obstacles; some cells occur more
+    /// than once.
     pub fn visible_unknown(&self, sensor: &Sensor, stand: Stand) -> impl Iterator<Item = usize> {
         let open = |&cell: &usize| self.known.cells[cell] != Occupancy::Occupied;
         self.views(sensor, stand).flat_map(move |view| view.take_while(open)).filter(|&cell| self.is_unknown(cell))
     }
 
-    /// The cells that each ray of a reading crosses.
+    /// Returns the cells that each ray of a reading crosses.
     fn views(
         &self,
         sensor: &Sensor,
@@ -170,7 +172,7 @@ impl Survey {
         sensor.rays(ahead).map(move |angle| self.crossings(from, angle, range).map(|crossing| crossing.cell))
     }
 
-    /// The unknown cells that share a side with a free one.
+    /// Returns the unknown cells that share a side with a free one.
     pub(super) fn edges(&self) -> Rows {
         let [width, height] = self.known.size;
         let is = |x: usize, y: usize, label| self.known.cells[y * width + x] == label;
@@ -185,7 +187,7 @@ impl Survey {
         rows(height, |y| (0..width).filter(|&x| is_edge(x, y)).collect())
     }
 
-    /// Those of some cells that are within a range of a point, up to rounding.
+    /// Iterates over the cells within a range of a point, up to rounding.
     fn near<'a>(&self, cells: &'a Rows, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
         let local = (point.coords - self.origin()) / self.known.resolution;
         let [width, height] = self.known.size;

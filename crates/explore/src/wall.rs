@@ -1,29 +1,31 @@
-//! Along the boundary of what is known to be free, as a wall follower goes.
+//! Wall following along the boundary of the known free space.
 
 use super::reach::Closed;
 use cplan_core::cspace::Grid;
 
-/// A heading, in eighths of a turn from `+q1` towards `+q2`. Whoever follows a wall goes along the axes: by even ones.
+/// A heading, in eighths of a turn from `+q1` towards `+q2`. A wall follower moves along the axes, that is, by even
+/// headings.
 pub type Heading = usize;
 
 /// A place on the way along a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Place {
-    /// Of the grid.
+    /// Cell of the grid.
     pub cell: usize,
-    /// By which it was come to.
+    /// Heading on arrival.
     pub heading: Heading,
 }
 
-/// Whether a free cell is beside a wall: a blocked cell, or the end of the grid, at a side or a corner.
+/// Returns true if a free cell is next to a wall: a blocked cell, or the end of the grid, at a side or a corner.
 pub fn is_beside_wall(grid: &Grid, cell: usize) -> bool {
     (0..8).any(|heading| is_wall(grid, cell, heading))
 }
 
-/// The next place of a follower that keeps the wall to its right: the right-hand rule of mazes, by Moore's neighbours.
+/// Returns the next place of a follower that keeps the wall to its right: the right-hand rule of mazes, by Moore's
+/// neighbours.
 ///
-/// The wall is what is met first from behind on the right round to behind on the left; where there is none, or no way on, it ends.
-/// Headings repeat, so whoever goes on comes round again.
+/// The wall is the first blocked neighbour in the order from behind on the right to behind on the left. Without a wall
+/// or a free neighbour the walk ends. Headings repeat, so the walk eventually returns.
 pub fn next(grid: &Grid, closed: &Closed, at: Place) -> Option<Place> {
     let Place { cell, heading } = at;
     let wall = (0..8).map(|turn| (heading + 5 + turn) % 8).find(|&side| is_wall(grid, cell, side))?;
@@ -36,7 +38,7 @@ fn is_wall(grid: &Grid, cell: usize, side: Heading) -> bool {
     beside(grid, cell, side).is_none_or(|beside| grid.blocked[beside])
 }
 
-/// The cell at a side or a corner of another.
+/// Returns the cell at a side or a corner of another.
 fn beside(grid: &Grid, cell: usize, side: Heading) -> Option<usize> {
     match side {
         0 | 4 => grid.beside(cell, 0, side == 0),
@@ -51,7 +53,7 @@ mod tests {
     use cplan_core::cspace::Proves;
     use cplan_core::space::{JointRange, Topology};
 
-    /// Of rows of `.` and `#`, the last of them that of the least `q2`.
+    /// Parses rows of `.` and `#`, the last row with the least `q2`.
     fn drawn(rows: &[&str], ranges: [JointRange; 2]) -> Grid {
         let (wide, high) = (rows[0].len(), rows.len());
         let at = |i: usize, j: usize| rows[high - 1 - j].as_bytes()[i] == b'#';

@@ -1,4 +1,4 @@
-//! What the planner for any field is asked for.
+//! The settings of the planner for fields.
 
 use crate::{Device, Difference, Direction, Equation, Escape, Khatib, Limits, Measure, Relaxation, Stencil};
 use cplan_core::cspace::ZonedGrid;
@@ -6,33 +6,33 @@ use cplan_core::planner::PathKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Which equation; arrays over the cells are made of the zones when a grid is there.
+/// An equation before the grid exists. Zones of the workspace become arrays over the cells later.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EquationChoice {
     /// Laplace's equation.
     Harmonic,
-    /// One drift everywhere.
+    /// One drift in all cells.
     Oriented {
-        /// Of the drift, in joint space.
+        /// Direction of the drift, in joint space.
         direction: Direction,
         /// Its strength, per cell.
         epsilon: f64,
-        /// How slopes are discretised.
+        /// Discretisation of slopes.
         difference: Difference,
     },
     /// The drift of each zone within it, none elsewhere.
     LocallyOriented {
         /// For zones that have no direction of their own.
         direction: Option<Direction>,
-        /// How slopes are discretised.
+        /// Discretisation of slopes.
         difference: Difference,
     },
     /// Preferences: the drift climbs the harmonic field.
     Preference {
         /// Strength outside all zones.
         elsewhere: f64,
-        /// How slopes are discretised.
+        /// Discretisation of slopes.
         difference: Difference,
     },
     /// Altered preferences: the drift climbs the field itself.
@@ -42,7 +42,7 @@ pub enum EquationChoice {
     },
 }
 
-/// What a field is made of.
+/// The kind of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FieldChoice {
@@ -52,18 +52,19 @@ pub enum FieldChoice {
         equation: EquationChoice,
         /// The relaxation that solves it.
         relaxation: Relaxation,
-        /// What of a sweep's changes must fall below the tolerance. The relative measure alone sees small values. By another one
-        /// the path may be stuck where they are; then the relaxation goes on by the relative one.
+        /// Measure of a sweep's changes, which must fall below the tolerance. Only the relative measure notices small
+        /// values. With another one, the path may get stuck where values are small; relaxation then continues by the
+        /// relative measure.
         #[serde(default, skip_serializing_if = "Measure::is_relative")]
         measure: Measure,
         /// The field is relaxed until the measure falls below this.
         tolerance: f64,
-        /// At most so many sweeps, of each stage.
+        /// Largest number of sweeps of each stage.
         max_sweeps: usize,
-        /// What it is relaxed on.
+        /// The device that relaxes the field.
         #[serde(default, skip_serializing_if = "Device::is_cpu")]
         on: Device,
-        /// Whether the equation sees that cells are not square.
+        /// Whether the equation takes the shape of cells into account.
         #[serde(default, skip_serializing_if = "Stencil::is_square")]
         stencil: Stencil,
     },
@@ -82,9 +83,9 @@ pub enum FieldChoice {
 pub struct FieldPlanner {
     /// The field whose gradient is followed.
     pub field: FieldChoice,
-    /// What lies beyond the limits of intervals.
+    /// Boundary condition at the limits of intervals.
     pub limits: Limits,
-    /// How local minima of attraction and repulsion are left; none if the planner gives up there.
+    /// Method for leaving local minima of attraction and repulsion. `None` to give up there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub escape: Option<Escape>,
     /// [`PathKind::Own`] is the curve along the gradient, or the force.
@@ -92,10 +93,10 @@ pub struct FieldPlanner {
 }
 
 impl EquationChoice {
-    /// The equation on a grid. `O(cells)`.
+    /// Returns the equation on a grid. `O(cells)`.
     ///
     /// # Errors
-    /// Why there is none, in words: a zone without the direction that it needs.
+    /// The reason, if a zone lacks a direction that the equation needs.
     pub fn on(self, space: &ZonedGrid, stencil: Stencil) -> Result<Equation, String> {
         let cells = 0..space.grid.blocked.len();
         // A direction of joint space, in cells that count as square, or in lengths.

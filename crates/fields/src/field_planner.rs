@@ -11,13 +11,13 @@ use cplan_core::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, T
 use cplan_core::space::{Configuration, Path};
 use cplan_harmonic::Place;
 
-/// Relative change in a sweep of a field that is relaxed finely: leaves directions of ascent as they are, except in cells where two
-/// are practically equal.
+/// Relative change in a sweep below which a field counts as finely relaxed. Directions of ascent are then final, except
+/// in cells where two are almost equal.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
 
-/// What became of a field.
+/// The result of following a field.
 struct Followed {
-    /// The way, or why there is none.
+    /// The path, or the reason for its absence.
     path: Result<Path, String>,
     trace: Trace,
     sweeps: usize,
@@ -29,7 +29,7 @@ impl Planner for FieldPlanner {
     type Space = ZonedGrid;
     type Map = ();
 
-    /// Nothing: what a field is depends on the goals.
+    /// Builds nothing, because a field depends on the goals.
     fn build(&self, _: &ZonedGrid) {}
 
     fn query(&self, space: &ZonedGrid, (): &(), query: &Query) -> Run {
@@ -71,16 +71,16 @@ impl Planner for FieldPlanner {
     }
 }
 
-/// The cells of a field for a query: what each is, with the levels that [`FieldPlanner`] takes. `O(cells)`.
+/// Returns the domain of a field for a query: the kind of each cell, with the levels of [`FieldPlanner`]. `O(cells)`.
 ///
 /// # Errors
-/// Where start or goal cannot be joined to the grid, in words.
+/// The reason, if the start or a goal cannot be joined to the grid.
 pub fn field_domain(grid: &Grid, query: &Query, limits: Limits) -> Result<Domain, String> {
     let goals = Joined::new(grid, query)?.sources();
     Ok(Domain::of_grid(grid, &goals, limits, Levels::PROBABILITY))
 }
 
-/// A way that is looked for.
+/// A path query on a field.
 struct Task<'a> {
     space: &'a ZonedGrid,
     query: &'a Query,
@@ -134,7 +134,7 @@ impl Task<'_> {
         let mut field = relax_on(on, domain, equation, relaxation, stopping).map_err(refused)?;
         let (mut path, mut note) = (climb(&field), None);
         if path.is_err() && field.converged() && !stopping.measure.is_relative() && on.is_cpu() {
-            // The measure does not see what is small, such as the values about a start far from the goal.
+            // The measure ignores small values, such as those around a start far from the goal.
             let first = field.sweeps();
             let finely = Stopping { measure: Measure::GreatestRelativeChange, below: RELATIVE_TOLERANCE, ..*stopping };
             field = relax_from(domain, equation, relaxation, &finely, field.values).map_err(refused)?;
@@ -142,7 +142,7 @@ impl Task<'_> {
         }
         let logarithm = |(value, kind): (&f64, &Cell)| match kind {
             Cell::Obstacle => f64::NEG_INFINITY,
-            // What is not monotone may fall below the obstacles' zero.
+            // A value of a non-monotone equation may fall below the obstacles' zero.
             _ => value.max(0.0).ln(),
         };
         let potential = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
@@ -167,7 +167,7 @@ impl Task<'_> {
     }
 }
 
-/// What was tried in vain to leave a local minimum.
+/// Describes the failed attempt to leave a local minimum.
 fn stayed(escape: Option<Escape>) -> &'static str {
     match escape {
         None => "",
@@ -176,12 +176,12 @@ fn stayed(escape: Option<Escape>) -> &'static str {
     }
 }
 
-/// What a climb is stuck on.
+/// Describes the place where a climb is stuck.
 fn what(stuck: &Stuck) -> &'static str {
     if stuck.flat { "the field is flat" } else { "the field has a local maximum" }
 }
 
-/// What an equation that is not monotone asks for.
+/// Returns advice for an equation that is not monotone.
 fn not_monotone(equation: &Equation) -> String {
     match equation {
         Equation::AlteredPreference { .. } => "the equation is not monotone; take a smaller epsilon".into(),
@@ -189,7 +189,7 @@ fn not_monotone(equation: &Equation) -> String {
     }
 }
 
-/// A relaxation that came to its limit, and what may help.
+/// Describes a relaxation that reached its limit, with advice.
 fn unfinished(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
     let help = match equation.is_monotone_on(domain) {
         true => "allow more sweeps, a larger tolerance, or relax by sor".into(),
@@ -198,7 +198,7 @@ fn unfinished(domain: &Domain, equation: &Equation, sweeps: usize) -> String {
     format!("the field is not converged after {sweeps} sweeps: {help}")
 }
 
-/// Why a climb is stuck, as far as that can be told.
+/// Explains why a climb is stuck, as far as possible.
 fn why(stuck: &Stuck, domain: &Domain, equation: &Equation, on: Device) -> String {
     match stuck {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),

@@ -11,24 +11,25 @@ use std::f64::consts::FRAC_1_SQRT_2;
 /// Cells are squares.
 const SIDES: [f64; 2] = [1.0; 2];
 
-/// A disc of cells: those whose centres lie nearer to its own than its radius, in cells. It does not go round circles.
+/// A disc of cells: those whose centres are closer to its centre than its radius, in cells. It does not wrap around
+/// circles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
-    /// Its centre, as (fractions of) row and column; whole numbers are centres of cells.
+    /// Centre, as (fractional) row and column. Integers are centres of cells.
     pub center: LatticePoint,
-    /// Its radius, in cells.
+    /// Radius, in cells.
     pub radius: f64,
 }
 
 impl Disc {
-    /// The disc that the centre of a disc of radius `own` keeps out of, so as not to touch this one: grown by `own`, and by half a
-    /// cell's diagonal, since a centre may be anywhere in a free cell.
+    /// Returns the disc that the centre of a disc of radius `own` must avoid in order not to touch this one. It is
+    /// grown by `own`, and by half a cell's diagonal, because a centre may be anywhere in a free cell.
     #[must_use]
     pub fn grown_for(self, own: f64) -> Self {
         Self { radius: self.radius + own + FRAC_1_SQRT_2, ..self }
     }
 
-    /// The cells whose centres lie in it.
+    /// Iterates over the cells whose centres lie in the disc.
     fn cells(self, [rows, columns]: [usize; 2]) -> impl Iterator<Item = usize> {
         let Self { center, radius } = self;
         let near = move |axis: usize, count: usize| {
@@ -43,35 +44,38 @@ impl Disc {
     }
 }
 
-/// What there is at one moment.
+/// The obstacles, goals and robots at one moment.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Moment {
     /// Obstacles that move: of several robots the others. They are as large as one says ([`Disc::grown_for`]).
     pub obstacles: Vec<Disc>,
-    /// Where to go: the cells of these discs that are no obstacles. One whose cells are all covered is no goal now.
+    /// Goal discs: their cells, except obstacles. A disc whose cells are all covered is not a goal at this moment.
     pub goals: Vec<Disc>,
     /// The robots that follow the field, each with a disc in which its own drift holds; of several the nearest robot's. With an
     /// infinite radius and one robot the drift holds everywhere; without robots the field is harmonic.
     pub robots: Vec<Influence>,
 }
 
-/// How a field is found from that of the moment before.
+/// Method for computing a field from that of the previous moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Solver {
     /// Sweep by sweep, as the literature does.
     Relaxation(Relaxation),
-    /// By [`by_multigrid`](super::by_multigrid).
+    /// Multigrid, by [`by_multigrid`](super::by_multigrid).
     Multigrid,
 }
 
-/// A field among obstacles that move, found anew each moment from that of the moment before: the locally oriented field that robots
-/// share, `lap p + <b, grad p> = 0` with the drift `b = epsilon v` of the nearest robot within its disc and 0 elsewhere; with one
-/// robot an oriented field, with none a harmonic one (Faria 2006; Oliveira da Silva 2011, section 3.4). Obstacles have the value 1,
-/// goals 0; robots that follow it are no obstacles in it, or nobody could tell where they are to go.
+/// A field among moving obstacles, computed at each moment from that of the previous one.
 ///
-/// A moment costs one look at the cells about each disc, some nanoseconds a cell for the weights, and what its [`Solver`] costs.
-/// While the equation is monotone and the rule for stopping is strict, each free cell that a goal can be reached from leads to
-/// one; with a loose rule, such as the literature's `1e-6`, values far from what has moved may be those of moments ago.
+/// It is the locally oriented field that robots share: `lap p + <b, grad p> = 0` with the drift `b = epsilon v` of the
+/// nearest robot within its disc, and 0 elsewhere. With one robot it is an oriented field, without robots a harmonic
+/// one (Faria 2006; Oliveira da Silva 2011, section 3.4). Obstacles have the value 1, goals 0. Robots that follow the
+/// field are not obstacles in it, because they could not leave their own cells.
+///
+/// A moment costs one pass over the cells around each disc, a few nanoseconds per cell for the weights, and the cost of
+/// its [`Solver`]. If the equation is monotone and the stopping rule strict, every free cell from which a goal is
+/// reachable leads to one. With a loose rule, such as the `1e-6` of the literature, values far from a change may be out
+/// of date.
 ///
 /// ```
 /// use cplan_fields::*;
@@ -97,19 +101,19 @@ pub enum Solver {
 pub struct MovingField {
     walls: Vec<bool>,
     difference: Difference,
-    /// That of the last moment.
+    /// The domain of the last moment.
     domain: Domain,
-    /// One a cell.
+    /// One value per cell.
     values: Vec<f64>,
     memory: Memory,
 }
 
 impl MovingField {
-    /// In so many rows and columns of cells, some of which are walls for ever, row by row; what is beyond the limits is the same for ever, too.
-    /// Values before the first moment are those of goals, as in the literature.
+    /// Creates a field on rows and columns of cells. `walls`, row by row, are permanent, and so is the boundary
+    /// condition. Before the first moment all values are those of goals, as in the literature.
     ///
     /// # Errors
-    /// Where there is not one flag a cell, or there are `2^32` cells or more.
+    /// If there is not one flag per cell, or there are `2^32` cells or more.
     pub fn new(
         cells: [usize; 2],
         walls: Vec<bool>,
@@ -126,11 +130,12 @@ impl MovingField {
         Ok(Self { walls, difference, values: domain.start(), domain, memory: Memory::default() })
     }
 
-    /// The field of the next moment, by sweeps or steps until the sum of their squared changes is less than `below`, `most` of them at
-    /// the most: [`Convergence`] says how many there were.
+    /// Computes the field of the next moment, by sweeps or steps until the sum of their squared changes is less than
+    /// `below`, or their number reaches `most`. [`Convergence`] has the number.
     ///
     /// # Errors
-    /// Those of [`relax_from`] and [`by_multigrid`](super::by_multigrid), and where a number of the moment is no number; the field is then as it was.
+    /// The errors of [`relax_from`] and [`by_multigrid`](super::by_multigrid), and NaN in the moment. The field is then
+    /// unchanged.
     pub fn next(
         &mut self,
         moment: &Moment,
@@ -150,7 +155,7 @@ impl MovingField {
         Ok(field.stages[0])
     }
 
-    /// What each cell is at a moment.
+    /// Returns the kind of each cell at a moment.
     fn domain_of(&self, moment: &Moment) -> Result<Domain, RelaxError> {
         let discs = moment.obstacles.iter().chain(&moment.goals).map(|disc| (disc.center, disc.radius));
         let mut numbers = discs.chain(moment.robots.iter().map(|robot| (robot.center, robot.radius)));
@@ -178,13 +183,13 @@ impl MovingField {
         }
     }
 
-    /// What each cell is at the last moment, before the first one without anything that moves.
+    /// Returns the domain at the last moment. Before the first moment it has only the permanent walls.
     #[must_use]
     pub fn domain(&self) -> &Domain {
         &self.domain
     }
 
-    /// One a cell.
+    /// Returns one value per cell.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
@@ -194,23 +199,24 @@ impl MovingField {
         Slope::new(&self.domain, &self.values, |place| self.domain.cell_at(place))
     }
 
-    /// Where the field leads from a point, as a unit vector: see [`direction()`]. None in obstacles and goals, and where the field is
-    /// level, as where no goal can be reached.
+    /// Returns the unit direction in which the field leads from a point: see [`direction()`]. Returns `None` in
+    /// obstacles and goals, and where the field is level, as in regions from which no goal is reachable.
     #[must_use]
     pub fn direction(&self, at: LatticePoint) -> Option<[f64; 2]> {
         direction(&self.guide(), SIDES, at)
     }
 
-    /// Where one comes to from a point in so many steps of [`STEP`](cplan_harmonic::STEP): see [`advance()`]. All of them lie in free cells and goals.
+    /// Returns the end of this many steps of [`STEP`](cplan_harmonic::STEP) from a point: see [`advance()`]. All lie in
+    /// free cells and goals.
     #[must_use]
     pub fn advance(&self, from: LatticePoint, steps: usize) -> LatticePoint {
         advance(&self.guide(), SIDES, from, steps)
     }
 
-    /// The curve to the goal as things are at the last moment: see [`follow()`].
+    /// Returns the curve to the goal in the field of the last moment: see [`follow()`].
     ///
     /// # Errors
-    /// [`Stuck`] where there is no way on: no goal can be reached, or the field has not converged.
+    /// [`Stuck`] if no goal is reachable, or the field has not converged.
     ///
     /// # Panics
     /// If the point lies in no cell.

@@ -1,28 +1,28 @@
-//! Which of many boxes meet a box.
+//! A tree of boxes that finds those which meet a given box.
 
 use super::Point;
 
-/// A box parallel to the axes: least and greatest coordinates.
+/// A box parallel to the axes, as its least and its greatest coordinates.
 pub type Bounds = [Point; 2];
 
-/// Boxes in a leaf: few enough to look at all of them.
+/// Largest number of boxes in a leaf. Testing this few one by one is fast.
 const LEAF: usize = 8;
 
-/// Boxes in a tree: each node's boxes are halved by the middles of theirs along the longer side of what they cover, down
-/// to leaves. Built in `O(n log n)`; what meets a box is found in time that grows with how many do, and with the
-/// logarithm of how many there are.
+/// A tree of boxes. Each node splits its boxes in two at the median centre, along the longer side of their common
+/// bounds.
+///
+/// Construction takes `O(n log n)`. A query takes `O(log n)` plus time proportional to the number of boxes found.
 #[derive(Debug, Clone, Default)]
 pub struct BoxTree {
     boxes: Vec<Bounds>,
-    /// Numbers of the boxes; a node is a stretch of it, its children are the halves.
+    /// Numbers of the boxes. A node is a range of this list, and its children are the two halves of that range.
     order: Vec<u32>,
-    /// What each node covers, and the number of the next node that is not below it: a node comes before all below its
-    /// first half, these before all below its second.
+    /// For each node, in preorder: the bounds of its boxes, and the index of the next node outside its subtree.
     nodes: Vec<(Bounds, u32)>,
 }
 
 impl BoxTree {
-    /// Of boxes, which are numbered as they come.
+    /// Builds the tree. Boxes are numbered by their place in the list.
     #[must_use]
     pub fn new(boxes: Vec<Bounds>) -> Self {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
@@ -33,7 +33,7 @@ impl BoxTree {
         Self { boxes, order, nodes }
     }
 
-    /// Numbers of the boxes that meet (touch, too) the given one, ascending, after what is in `found`.
+    /// Appends to `found`, in ascending order, the numbers of the boxes that meet `bounds`. Touching counts.
     pub fn meeting(&self, bounds: &Bounds, found: &mut Vec<u32>) {
         let from = found.len();
         if !self.order.is_empty() {
@@ -42,7 +42,7 @@ impl BoxTree {
         found[from..].sort_unstable();
     }
 
-    /// Searches the boxes `order` of the node of number `node`.
+    /// Searches the subtree of `node`, which holds the boxes `order`.
     fn search(&self, bounds: &Bounds, order: &[u32], node: usize, found: &mut Vec<u32>) {
         if !meet(&self.nodes[node].0, bounds) {
             return;

@@ -1,10 +1,10 @@
-//! The one shape that everything is made of: a convex polygon grown by a radius.
+//! The shape that links and obstacles consist of: a convex polygon grown by a radius.
 
 use super::predicates::{Orientation, orientation};
 use super::{Bounds, Point, Pose, Vector, hull};
 use serde::{Deserialize, Serialize};
 
-/// Why corners and a radius are no convex shape. Corners are counted from 1 in messages, from 0 here.
+/// Reasons why corners and a radius do not form a convex shape. Messages count corners from 1, fields from 0.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ConvexError {
     /// There is no corner.
@@ -13,31 +13,31 @@ pub enum ConvexError {
     /// The radius is negative or not finite.
     #[error("its radius is {radius}")]
     Radius {
-        /// The radius as it was given.
+        /// The given radius.
         radius: f64,
     },
-    /// A bar has no length, or not a finite one.
-    #[error("its length is {length}, which is to be greater than 0")]
+    /// A bar's length is zero, negative or not finite.
+    #[error("its length is {length}, which must be greater than 0")]
     Length {
-        /// The length as it was given.
+        /// The given length.
         length: f64,
     },
     /// A coordinate is infinite or not a number.
     #[error("corner {} is not finite", corner + 1)]
     NotFinite {
-        /// The place of the corner in the list, from 0.
+        /// Index of the corner in the list.
         corner: usize,
     },
     /// A corner and the next one coincide.
     #[error("corner {} and the next one coincide", corner + 1)]
     Repeated {
-        /// The place of the corner in the list, from 0.
+        /// Index of the corner in the list.
         corner: usize,
     },
-    /// The boundary does not go round once counter-clockwise, turning left all the way.
-    #[error("the boundary does not turn left at corner {}, or goes round more than once: its corners are to be convex and counter-clockwise", corner + 1)]
+    /// The boundary is not one counter-clockwise turn that bends left at every corner.
+    #[error("the boundary does not turn left at corner {}, or winds around more than once; list the corners of a convex polygon counter-clockwise", corner + 1)]
     NotConvex {
-        /// The place of the corner in the list, from 0.
+        /// Index of the corner in the list.
         corner: usize,
     },
 }
@@ -48,8 +48,8 @@ pub enum ConvexError {
 /// polygon with rounded corners. Links and obstacles are unions of these, so polygons, discs, thin walls and a
 /// clearance to keep are one case: growing by a distance only adds to the radius, exactly.
 ///
-/// The core is counter-clockwise and has no repeated corners. Within a scene what may be come nearer to than the clearance has a
-/// negative radius, see `receding`.
+/// The core is counter-clockwise and has no repeated corners. In a scene, a shape that may be approached closer than
+/// the clearance has a negative radius; see `receding`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Corners", into = "Corners")]
 pub struct Convex {
@@ -57,7 +57,7 @@ pub struct Convex {
     radius: f64,
 }
 
-/// What a shape is made of, as data.
+/// The serialised form of a shape.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Corners {
@@ -74,7 +74,8 @@ impl From<Convex> for Corners {
 impl TryFrom<Corners> for Convex {
     type Error = ConvexError;
 
-    /// As [`Convex::new`], but that corners may be bent by what moving a shape rounds: [`Convex::at`] makes such, too.
+    /// Does the same as [`Convex::new`], but accepts corners that the rounding of a transformation has bent, because
+    /// [`Convex::at`] makes such shapes.
     fn try_from(Corners { core, radius }: Corners) -> Result<Self, ConvexError> {
         match Self::new(core.clone(), radius) {
             Err(ConvexError::NotConvex { .. }) if is_hull_up_to_rounding(&core) => Ok(Self { core, radius }),
@@ -83,17 +84,17 @@ impl TryFrom<Corners> for Convex {
     }
 }
 
-/// By how much rounding may bend a corner, as a share of the greatest coordinate.
+/// Largest bend of a corner that counts as rounding, as a fraction of the greatest coordinate.
 const BENT: f64 = 16.0 * f64::EPSILON;
 
-/// Whether the corners go once round their convex hull, those that are none of its corners as near to its sides as rounding
-/// puts them.
+/// Returns true if the corners go once around their convex hull. Corners that are not on the hull may be off its sides
+/// by rounding.
 fn is_hull_up_to_rounding(core: &[Point]) -> bool {
     let hull = hull(core);
     let bent = BENT * core.iter().fold(0.0_f64, |most, p| most.max(p.coords.amax()));
     let n = core.len();
     let Some(first) = core.iter().position(|p| hull.len() > 2 && *p == hull[0]) else { return false };
-    // The side that the corner before lies on, and how far along.
+    // The side on which the previous corner lies, and its position along it.
     let (mut side, mut last) = (0, 0.0);
     let follows = (1..n).all(|k| {
         let p = core[(first + k) % n];
@@ -110,12 +111,12 @@ fn is_hull_up_to_rounding(core: &[Point]) -> bool {
 }
 
 impl Convex {
-    /// A shape from a core that is convex, counter-clockwise and without repeated corners; straight corners are allowed.
-    /// Decided exactly, in `O(n)`.
+    /// Creates a shape from a convex, counter-clockwise core without repeated corners. Straight corners are allowed.
+    /// The test is exact and takes `O(n)`.
     ///
     /// # Errors
-    /// When the corners are none of that, are none at all or not finite, or the radius is negative or not finite. Corners in
-    /// any order go through [`super::hull`] first.
+    /// If the core is empty, not convex, clockwise, repeats a corner or is not finite, or if the radius is negative or
+    /// not finite. For corners in any order call [`super::hull`] first.
     pub fn new(core: Vec<Point>, radius: f64) -> Result<Self, ConvexError> {
         if core.is_empty() {
             return Err(ConvexError::NoCorner);
@@ -135,7 +136,8 @@ impl Convex {
             let (from, to) = (core[i % n], core[(i + 1) % n]);
             from.y < to.y || from.y == to.y && from.x < to.x
         };
-        // Left turns alone could go round more than once: once round, the sides stop rising once.
+        // A boundary of left turns could still wind around several times. With one winding, the sides stop rising
+        // exactly once.
         let rounds = (0..n).filter(|&i| rises(i) && !rises(i + 1)).count();
         let is_flat = (0..n).all(|i| turn(i) == Orientation::Collinear);
         match (0..n).find(|&i| n > 2 && turn(i) == Orientation::Clockwise) {
@@ -145,23 +147,23 @@ impl Convex {
         }
     }
 
-    /// A disc; with radius 0 a point.
+    /// Creates a disc, or a point if the radius is 0.
     ///
     /// # Errors
-    /// When a number is not finite, or the radius negative.
+    /// If a number is not finite, or the radius is negative.
     pub fn disc(center: Point, radius: f64) -> Result<Self, ConvexError> {
         Self::new(vec![center], radius)
     }
 
-    /// A thin wall from `a` to `b`: no area, still solid. A point if `a` and `b` coincide.
+    /// Creates a thin wall from `a` to `b`. It has no area but is solid. If `a` and `b` coincide, it is a point.
     ///
     /// # Errors
-    /// When a coordinate is not finite.
+    /// If a coordinate is not finite.
     pub fn segment(a: Point, b: Point) -> Result<Self, ConvexError> {
         Self::new(if a == b { vec![a] } else { vec![a, b] }, 0.0)
     }
 
-    /// A shape from corners that are known to be right, or were computed: rounding may have bent them by a hair, which
+    /// Creates a shape from computed corners without checking them. Rounding may have bent them slightly, which
     /// [`Convex::new`] would refuse.
     #[must_use]
     #[doc(hidden)]
@@ -171,40 +173,41 @@ impl Convex {
         Self { core, radius }
     }
 
-    /// The shape with other corners and another radius, for pictures. Of a scene's own pieces the radius may be negative.
+    /// Returns the shape with mapped corners and another radius, for pictures. The radius of pieces in a scene may be
+    /// negative.
     #[must_use]
     pub fn mapped(&self, corner: impl Fn(Point) -> Point, radius: f64) -> Self {
         Self { core: self.core.iter().copied().map(corner).collect(), radius }
     }
 
-    /// [`Convex::segment`] of points that are known to be finite.
+    /// Does the same as [`Convex::segment`], for points that are known to be finite.
     #[must_use]
     pub fn between(a: Point, b: Point) -> Self {
         Self::trusted(if a == b { vec![a] } else { vec![a, b] }, 0.0)
     }
 
-    /// A point that is known to be finite.
+    /// Creates a point, which must be finite.
     #[must_use]
     pub fn point(p: Point) -> Self {
         Self::trusted(vec![p], 0.0)
     }
 
-    /// Corners of the core, counter-clockwise.
+    /// Returns the corners of the core, counter-clockwise.
     #[must_use]
     pub fn core(&self) -> &[Point] {
         &self.core
     }
 
-    /// Distance by which the core is grown, metres.
+    /// Returns the distance by which the core is grown, metres.
     #[must_use]
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// The same shape grown by `distance` on every side (a Minkowski sum with a disc; exact).
+    /// Returns the shape grown by `distance` on every side: the exact Minkowski sum with a disc.
     ///
     /// # Panics
-    /// When the radius becomes negative, or not finite.
+    /// If the new radius is negative or not finite.
     #[must_use]
     #[track_caller]
     pub fn grown(&self, distance: f64) -> Self {
@@ -213,38 +216,42 @@ impl Convex {
         Self { core: self.core.clone(), radius }
     }
 
-    /// The same shape, met only by what comes nearer than it would have to by `distance`: every signed distance from it is
-    /// greater by that, exactly. Where the radius becomes negative and cores overlap, that is by less than their
-    /// *penetration depth*; no shape of points does this, as one that is smaller on every side has other corners.
+    /// Returns the shape with every signed distance from it increased by `distance`, exactly, by lowering the radius.
+    ///
+    /// With a negative radius, the shape is met only by a core that penetrates its own core by more than that radius. A
+    /// smaller polygon could not express this, because its corners would differ.
     #[must_use]
     pub fn receding(&self, distance: f64) -> Self {
         debug_assert!(distance >= 0.0 && distance.is_finite());
         Self { core: self.core.clone(), radius: self.radius - distance }
     }
 
-    /// The differences `q - p` of the points `q` of this shape and `p` of `other`: the translations that make `other`
-    /// meet this shape, its *C-obstacle*. The radii add up, exactly, and the cores' difference is counter-clockwise from its
-    /// lowest (of these the leftmost) corner, each coordinate one difference of the cores' coordinates, rounded once. By one
-    /// sweep over the directions of the sides (T. Lozano-Perez, *Spatial Planning: A Configuration Space Approach*, 1983):
-    /// `O(n + m)`, at most `n + m` corners.
+    /// Returns the Minkowski difference `{ q - p : q in self, p in other }`: the translations that make `other` meet
+    /// this shape, which is its *C-obstacle*.
+    ///
+    /// The radii add up exactly. The core is counter-clockwise from its lowest corner (the leftmost of these). Each
+    /// coordinate is one difference of input coordinates, rounded once. One sweep over the directions of the sides
+    /// computes it (T. Lozano-Perez, *Spatial Planning: A Configuration Space Approach*, 1983), in `O(n + m)`, with at
+    /// most `n + m` corners.
     #[must_use]
     pub fn minkowski_difference(&self, other: &Self) -> Self {
         Self { core: super::minkowski_difference(&self.core, &other.core), radius: self.radius + other.radius }
     }
 
-    /// The shape moved by `pose`, up to rounding.
+    /// Returns the shape moved by `pose`, up to rounding.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Self {
         Self { core: self.core.iter().map(|p| pose * p).collect(), radius: self.radius }
     }
 
-    /// Greatest distance of a point of the shape (with a negative radius, of its core) from `pivot`, metres.
+    /// Returns the greatest distance of a point of the shape from `pivot`, metres. With a negative radius it measures
+    /// the core.
     #[must_use]
     pub fn reach_from(&self, pivot: Point) -> f64 {
         reach(&self.core, pivot) + self.radius.max(0.0)
     }
 
-    /// The smallest box with sides along the axes that holds the shape; with a negative radius, its core.
+    /// Returns the smallest box around the shape with sides along the axes. With a negative radius it bounds the core.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let radius = Vector::repeat(self.radius.max(0.0));
@@ -253,7 +260,7 @@ impl Convex {
         [lower - radius, upper + radius]
     }
 
-    /// Area, square metres (Steiner's formula: core + perimeter * r + pi r^2).
+    /// Returns the area, square metres, by Steiner's formula: core + perimeter * r + pi r^2.
     #[must_use]
     pub fn area(&self) -> f64 {
         let n = self.core.len();
@@ -266,7 +273,7 @@ impl Convex {
         twice / 2.0 + perimeter * self.radius + std::f64::consts::PI * self.radius * self.radius
     }
 
-    /// Whether it is a polygon whose corners are all on one line, but for what rounding makes of their coordinates.
+    /// Returns true if the shape is a polygon whose corners lie on one line up to rounding.
     pub fn is_sliver(&self) -> bool {
         let [first, others @ ..] = &self.core[..] else { return false };
         let twice: f64 = others.windows(2).map(|pair| super::cross(pair[0] - first, pair[1] - first).abs()).sum();
@@ -276,7 +283,7 @@ impl Convex {
     }
 }
 
-/// Greatest distance of any of these points from `pivot`.
+/// Returns the greatest distance of the points from `pivot`.
 pub fn reach(points: &[Point], pivot: Point) -> f64 {
     points.iter().map(|p| (p - pivot).norm_squared()).fold(0.0, f64::max).sqrt()
 }

@@ -1,24 +1,26 @@
-//! Decomposition of a simple polygon into convex ones.
+//! Decomposition of a simple polygon into convex pieces.
 
 use super::planar::{Boundary, HalfEdges, NONE, triangulate};
 use super::polygon::without_straight;
 use super::{Convex, Orientation, Point, SimplePolygon, orientation};
 use cplan_interrupt::checkpoint;
 
-/// Corners of the largest piece. What is asked of a piece takes time that grows with its corners; of many smaller ones only
-/// those that are near are asked.
+/// Largest number of corners of a piece. Queries take time that grows with the corners of a piece, and with many small
+/// pieces only those nearby are queried.
 pub const MOST_CORNERS: usize = 64;
 
-/// Strictly convex polygons (of radius 0) with disjoint interiors whose union is `polygon`, each of at most
-/// [`MOST_CORNERS`] corners.
+/// Decomposes a polygon into strictly convex polygons (of radius 0) with disjoint interiors, each of at most
+/// [`MOST_CORNERS`] corners. Their union is `polygon`. `O(n log n)`.
 ///
-/// A triangulation by a sweep, then removal of every diagonal that no reflex corner needs (S. Hertel, K. Mehlhorn, *Fast
-/// Triangulation of Simple Polygons*, 1983): at most four times as many as the least possible number. Pieces with too many
-/// corners are cut once more (`cut_up`). All corners are corners of the polygon, so with the exact predicates the
-/// union is the polygon itself, without rounding. Straight corners, of the polygon and of pieces, are dropped. `O(n log n)`.
+/// A sweep triangulates the polygon, then every diagonal is removed that no reflex corner needs (S. Hertel, K.
+/// Mehlhorn, *Fast Triangulation of Simple Polygons*, 1983). The number of pieces is at most four times the least
+/// possible. Pieces with too many corners are cut further by `cut_up`.
+///
+/// All corners are corners of the polygon and the predicates are exact, so the union has no rounding. Straight corners,
+/// of the polygon and of pieces, are removed.
 #[must_use]
 pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
-    // No diagonal is to end at a straight corner.
+    // Straight corners must not become ends of diagonals.
     let corners = without_straight(polygon.corners());
     let pieces = if polygon.is_convex() {
         vec![corners]
@@ -34,8 +36,8 @@ pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
 }
 
 impl Convex {
-    /// Shapes of at most [`MOST_CORNERS`] corners whose union is this one: cut along diagonals of the core, which must be
-    /// strictly convex. `O(n)`.
+    /// Cuts the shape along diagonals into shapes of at most [`MOST_CORNERS`] corners. The core must be strictly
+    /// convex. `O(n)`.
     #[must_use]
     pub fn cut_up(self) -> Vec<Self> {
         if self.core().len() <= MOST_CORNERS {
@@ -47,9 +49,11 @@ impl Convex {
     }
 }
 
-/// Adds a strictly convex polygon grown by `radius`, cut along diagonals into pieces of at most [`MOST_CORNERS`] corners: as
-/// few caps of equal length as will do, each cut off by one diagonal, and what the diagonals leave, cut up in turn. So one
-/// piece holds the most of the polygon, and the thin ones are at its rim. `O(n)`.
+/// Cuts a strictly convex polygon, grown by `radius`, along diagonals into pieces of at most [`MOST_CORNERS`] corners,
+/// and appends them to `out`. `O(n)`.
+///
+/// Each round cuts off as few caps of equal length as possible, each by one diagonal, and continues with the rest. So
+/// one piece holds most of the area, and the thin pieces are at the rim.
 fn cut_up(mut ring: Vec<Point>, radius: f64, out: &mut Vec<Convex>) {
     while ring.len() > MOST_CORNERS {
         checkpoint();
@@ -63,16 +67,16 @@ fn cut_up(mut ring: Vec<Point>, radius: f64, out: &mut Vec<Convex>) {
         }
         ring = (0..caps).map(|cap| ring[at(cap)]).collect();
     }
-    // Of two caps nothing is left but the diagonal between them.
+    // Two caps leave nothing but the diagonal between them.
     if ring.len() > 2 {
         out.push(Convex::trusted(ring, radius));
     }
 }
 
-/// The faces that are left of a triangulation when each side between two triangles is removed whose ends both stay convex.
+/// Merges triangles into convex faces: removes each inner side if both of its ends stay convex.
 fn convex_faces(vertices: &[Point], HalfEdges { origin, twin }: HalfEdges) -> Vec<Vec<Point>> {
     let at = |half: usize| vertices[origin[half] as usize];
-    // Half-edges before and after each in its face.
+    // For each half-edge, the previous and the next one in its face.
     let mut before: Vec<u32> = (0..origin.len() as u32).map(|h| if h % 3 == 0 { h + 2 } else { h - 1 }).collect();
     let mut after: Vec<u32> = (0..origin.len() as u32).map(|h| if h % 3 == 2 { h - 2 } else { h + 1 }).collect();
     let mut removed = vec![false; origin.len()];
@@ -82,7 +86,7 @@ fn convex_faces(vertices: &[Point], HalfEdges { origin, twin }: HalfEdges) -> Ve
             continue;
         }
         let other = other as usize;
-        // Where a half-edge begins its own face's boundary arrives, and that of the other face goes on.
+        // At the origin of a half-edge, its own face's boundary arrives and the boundary of the other face continues.
         let joints = [(before[half], after[other]), (before[other], after[half])];
         let convex = |(arriving, leaving): (u32, u32)| {
             let corner = at(leaving as usize);

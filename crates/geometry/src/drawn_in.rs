@@ -1,7 +1,8 @@
-//! Shapes of adjoining convex pieces, smaller by what their corners move into them.
+//! Insets of unions of adjoining convex pieces: every corner of the union moves inwards.
 //!
-//! Pieces adjoin where their sides have stretches in common, exactly; they do not overlap. What several share moves with all of them, so they go
-//! on adjoining. `O(n log n)` for `n` sides, and for each the corners below and above it.
+//! Pieces adjoin if stretches of their sides coincide exactly. They must not overlap. A shared corner moves with all of
+//! its pieces, so the insets adjoin as well. `O(n log n)` for `n` sides, plus time for the corners above and below
+//! each.
 
 use super::{
     BoxTree, Convex, Orientation, Point, SimplePolygon, Vector, cross, hull, orientation, perpendicular,
@@ -9,13 +10,15 @@ use super::{
 };
 use std::collections::BTreeMap;
 
-/// Corners that bend by less, radians, are none: rounding bends those that people write down on a line.
+/// Smallest bend that counts as a corner, radians. Rounding bends corners that users place on straight sides.
 const STRAIGHT: f64 = 1e-7;
 
-/// What is left of each of these pieces, convex too, where each corner of their union moves into it by `distance`, halfway between the
-/// sides there: a side moves by `distance` times the sine of half the angle at its ends. A corner stays that would leave the union, and where parts are
-/// too fine, so that they would turn over, the hull of their corners is left: in either case what lies deeper than `distance` is.
-/// Rounded outlines lose of their radius first.
+/// Returns what remains of each piece when each corner of the union moves inwards by `distance`, as convex shapes.
+///
+/// A corner moves along the bisector of its sides, so a side moves by `distance` times the sine of half the angle at
+/// its ends. A corner that would leave the union stays where it is. A part so thin that it would turn over is replaced
+/// by the hull of its corners. In both cases, all points deeper than `distance` remain. Rounded outlines lose radius
+/// first.
 #[must_use]
 pub fn drawn_in(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
     let (all, together) = within(pieces, distance);
@@ -30,14 +33,14 @@ pub fn drawn_in(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
     all.iter().map(|parts| parts.iter().flat_map(left).collect()).collect()
 }
 
-/// Whether no corner would leave what they are drawn into, and none is one of several rings that touch there.
+/// Returns true if every corner stays inside the union and no corner belongs to two rings or to one ring twice.
 #[must_use]
 pub fn can_be_drawn_in(pieces: &[Convex], distance: f64) -> bool {
     let (_, together) = within(pieces, distance);
     !together.touches && !together.leaves
 }
 
-/// Pieces cut from corner to corner, and where their corners go within them.
+/// Cuts the pieces from corner to corner, and computes where their corners move.
 fn within(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, Moved) {
     let all = corner_to_corner(pieces);
     let mut together = Moved::new(all.iter().flatten().filter(is_sharp), distance);
@@ -58,7 +61,7 @@ fn is_sharp(piece: &&Convex) -> bool {
     piece.radius() == 0.0
 }
 
-/// Each piece cut so that where pieces adjoin no corner of one is between those of a side of another. No new corners.
+/// Cuts each piece so that no corner of one piece lies within a side of another. Adds no corners.
 fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
     let has_sides = |piece: &&Convex| is_sharp(piece) && piece.core().len() > 2;
     let mut corners: Vec<Point> = pieces.iter().filter(has_sides).flat_map(Convex::core).copied().collect();
@@ -72,7 +75,7 @@ fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
     pieces.iter().map(parts).collect()
 }
 
-/// A convex ring as rings without corners on their sides.
+/// Splits a convex ring into rings without corners on their sides.
 fn cut(ring: Vec<Point>) -> Vec<Vec<Point>> {
     let (mut todo, mut all) = (vec![ring], Vec::new());
     while let Some(ring) = todo.pop() {
@@ -80,7 +83,7 @@ fn cut(ring: Vec<Point>) -> Vec<Vec<Point>> {
         let turn = |a: usize, b: usize, c: usize| orientation(ring[a], ring[b], ring[c]);
         let is_straight = |&k: &usize| turn((k + count - 1) % count, k, (k + 1) % count) == Orientation::Collinear;
         let straight: Vec<usize> = (0..count).filter(is_straight).collect();
-        // Halfway, so that it is cut few times one after the other.
+        // The middle one, so that few cuts follow each other.
         let across = straight.get(straight.len() / 2).and_then(|&at| {
             let is_off = |k: &usize| turn(at, (at + 1) % count, *k) != Orientation::Collinear;
             let off: Vec<usize> = (2..count - 1).map(|by| (at + by) % count).filter(is_off).collect();
@@ -99,7 +102,7 @@ fn cut(ring: Vec<Point>) -> Vec<Vec<Point>> {
     all
 }
 
-/// A ring with the corners of others that lie on its sides; these in the order of their `x`.
+/// Inserts into a ring those of `corners` that lie on its sides. `corners` is sorted by `x`.
 fn with_corners(core: &[Point], corners: &[Point]) -> Vec<Point> {
     let side = |k: usize| {
         let [from, to] = [core[k], core[(k + 1) % core.len()]];
@@ -114,7 +117,7 @@ fn with_corners(core: &[Point], corners: &[Point]) -> Vec<Point> {
     (0..core.len()).flat_map(side).collect()
 }
 
-/// The corners after and before one of a ring.
+/// Returns the next and the previous corner of a ring.
 fn beside(ring: &[Point], k: usize) -> [Point; 2] {
     [1, ring.len() - 1].map(|by| ring[(k + by) % ring.len()])
 }
@@ -126,24 +129,25 @@ fn key(p: Point) -> Key {
     [p.x, p.y].map(|v| (v + 0.0).to_bits())
 }
 
-/// Where corners of pieces go.
+/// New positions of the corners of pieces.
 struct Moved {
-    /// From where to where, by corner and the one after it in its piece. Those that pieces lie all round stay, and are not in it.
+    /// New positions by corner and its successor in the piece. Corners that pieces surround completely stay and are not
+    /// listed.
     to: BTreeMap<[Key; 2], [Point; 2]>,
-    /// Whether corners would have left the union, and have stayed.
+    /// True if corners would have left the union, and stay.
     leaves: bool,
-    /// Whether a corner of the union is that of several rings, or twice one of the same.
+    /// True if a corner of the union belongs to several rings, or twice to one.
     touches: bool,
 }
 
-/// A corner of the union, between the side that begins there and the one that ends there.
+/// A corner of the union: the end of one side and the start of the next.
 struct Corner {
     at: Point,
     next: Point,
     last: Point,
-    /// Where its parts' corners are looked up.
+    /// Keys of the corners of its pieces.
     parts: Vec<[Key; 2]>,
-    /// The direction halfway between the sides, and cosine and sine of half the angle between them; none where sides are not told apart.
+    /// Bisector of the sides, with the cosine and the sine of half the angle between them. `None` if the sides coincide.
     way: Option<(Vector, [f64; 2])>,
 }
 
@@ -154,7 +158,7 @@ impl Corner {
 }
 
 impl Moved {
-    /// Of pieces that are cut from corner to corner.
+    /// Computes the moves for pieces that are cut from corner to corner.
     fn new<'a>(pieces: impl IntoIterator<Item = &'a Convex>, distance: f64) -> Self {
         let mut sectors: BTreeMap<[Key; 2], [Point; 3]> = BTreeMap::new();
         for ring in pieces.into_iter().map(Convex::core) {
@@ -163,7 +167,7 @@ impl Moved {
                 sectors.insert([key(corner), key(next)], [corner, next, last]);
             }
         }
-        // From each side of the union on counter-clockwise about its first corner, to the next one.
+        // Chains each side of the union, counter-clockwise about its first corner, to the next side.
         let mut corners = Vec::new();
         for &[at, next, _] in sectors.values() {
             if sectors.contains_key(&[key(next), key(at)]) {
@@ -180,7 +184,7 @@ impl Moved {
             corners.iter().enumerate().map(|(k, corner)| ([key(corner.at), key(of(corner))], k)).collect()
         };
         let (by_next, by_last) = (number(|corner| corner.next), number(|corner| corner.last));
-        // The first corner that bends, along the union's sides.
+        // The next corner along the union's sides that bends.
         let ahead = |from: usize, forwards: bool| {
             let mut at = from;
             for _ in 0..corners.len() {
@@ -204,7 +208,7 @@ impl Moved {
             let moved = match corner.way {
                 None => corner.at,
                 Some((way, _)) if !corner.is_straight() => corner.at + way * distance,
-                // As deep as the side between the corners at its ends is there.
+                // As far inside as the line between the neighbouring bends at that place.
                 Some((way, _)) => ahead(k, false).zip(ahead(k, true)).map_or(corner.at, |(from, to)| {
                     let [behind, before] = [&from, &to].map(|end| (corner.at - end.0).norm());
                     let [start, end] = [from.1, behind + before - to.1];
@@ -225,7 +229,7 @@ impl Moved {
         (0..ring.len()).map(to).collect()
     }
 
-    /// What is left of a piece with these corners; none where sides turn over.
+    /// Returns what remains of a piece, or `None` if its sides turn over.
     fn of(&self, ring: &[Point]) -> Option<Vec<Convex>> {
         let moved = self.ring(ring);
         if ring.len() < 3 || moved == ring {
@@ -233,13 +237,13 @@ impl Moved {
         }
         let is_along = |k: usize| (beside(&moved, k)[0] - moved[k]).dot(&(beside(ring, k)[0] - ring[k])) > 0.0;
         let left = SimplePolygon::new(moved.clone()).ok()?;
-        // A thin piece turns over though its sides hardly turn.
+        // A thin piece can turn over although its sides hardly change direction.
         (left.corners() == moved && (0..ring.len()).all(is_along)).then(|| left.convex_pieces())
     }
 }
 
-/// The direction halfway between two sides of a corner, counter-clockwise from the first, and cosine and sine of half the angle between them. None where
-/// sides are not told apart.
+/// Returns the bisector between two sides of a corner, counter-clockwise from the first, with the cosine and the sine
+/// of half the angle between them. Returns `None` if the sides coincide.
 fn inwards(corner: Point, first: Point, last: Point) -> Option<(Vector, [f64; 2])> {
     let unit = |v: Vector| v.try_normalize(0.0);
     let [first, last] = [unit(first - corner)?, unit(last - corner)?];
@@ -276,7 +280,7 @@ mod tests {
         assert_eq!(radii, [0.3 - 0.1, 0.0]);
     }
 
-    /// Pieces of a bar with a bar upon it: a side of the one goes on beyond the other, on both sides.
+    /// Pieces of a bar with another bar on top. A side of the first continues beyond the second at both ends.
     #[test]
     fn pieces_go_on_adjoining() {
         let left = drawn_in(&[rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.])], 0.1 * 2f64.sqrt());
@@ -304,7 +308,7 @@ mod tests {
         }
     }
 
-    /// A hole comes so near the outer ring that sides cross where they move.
+    /// A hole so close to the outer ring that moved sides cross.
     #[test]
     fn thin_pieces_do_not_turn_over() {
         let outer = points(&[[1.34375, 0.0], [-0.58984375, 1.0224609375], [-0.818359375, -1.4169921875]]);
@@ -317,16 +321,16 @@ mod tests {
 
     #[test]
     fn what_is_too_fine_stays() {
-        // A triangle that its corners would cross.
+        // A triangle whose corners would cross.
         let small = Convex::trusted(points(&[[0., 0.], [1., 0.], [0.5, 0.8]]), 0.0);
         let left = drawn_in(std::slice::from_ref(&small), 2.0);
         assert_eq!(left, [[small]]);
-        // A needle of which no sides are told apart.
+        // A needle with coincident sides.
         let needle = Convex::trusted(points(&[[0., 0.], [1., 0.], [1., 1e-200]]), 0.0);
         assert!(drawn_in(&[needle], 0.01)[0].iter().flat_map(Convex::core).all(|p| p.x.is_finite() && p.y.is_finite()));
     }
 
-    /// Corners about the origin, on a grid on which halves of sides are exact.
+    /// Corners around the origin, on a grid in which midpoints of sides are exact.
     fn star(far: [f64; 2]) -> impl Strategy<Value = Vec<Point>> {
         prop::collection::vec(far[0]..far[1], 3..9).prop_map(|far| {
             let angle = |k: usize| std::f64::consts::TAU * k as f64 / far.len() as f64;
@@ -336,13 +340,13 @@ mod tests {
         })
     }
 
-    /// The same with straight corners halfway along some of its sides.
+    /// Inserts straight corners in the middle of some sides.
     fn with_straight(ring: &[Point], some: u8) -> Vec<Point> {
         let halfway = |k: usize| (some >> k & 1 == 1).then(|| nalgebra::center(&ring[k], &beside(ring, k)[0]));
         (0..ring.len()).flat_map(|k| std::iter::once(ring[k]).chain(halfway(k))).collect()
     }
 
-    /// A ring whose corners are moved, by the angles of its sides.
+    /// Moves the corners of a ring by the angles of its sides.
     fn by_angles(ring: &[Point], distance: f64) -> Vec<Point> {
         let angle = |v: Vector| v.y.atan2(v.x);
         let corner = |k: usize| {
@@ -356,7 +360,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(600))]
 
-        /// Of a polygon with a hole it is the polygon whose rings are moved; and however fine it is, what is deep is left.
+        /// For a polygon with a hole, the result is the polygon whose rings are moved. However thin the polygon, its
+        /// deep points remain.
         #[test]
         fn it_is_what_moved_rings_surround(
             outer in star([1.0, 3.0]), hole in star([0.2, 0.7]), some in any::<[u8; 2]>(), by in 0.0..0.03f64,
@@ -397,7 +402,7 @@ mod tests {
         }
     }
 
-    /// Whether no part of these pieces turns over where they are drawn in.
+    /// Returns true if no part of these pieces turns over when their corners move.
     fn turns_over_nothing(pieces: &[Convex], distance: f64) -> bool {
         let (all, together) = within(pieces, distance);
         all.iter().flatten().all(|part| together.of(part.core()).is_some())

@@ -3,9 +3,9 @@
 use super::{Convex, Point, cross, inset};
 
 impl Convex {
-    /// The points of this shape that lie at least `distance` deep in it: those about which a disc of that radius fits.
-    /// None if there is no such point. Rounded outlines shrink by their radius first, exactly; then every side of the
-    /// core moves inwards. Up to rounding; `O(n^2)`.
+    /// Returns the points that lie at least `distance` inside this shape: the centres of discs of that radius that fit
+    /// into it. Returns `None` if no disc fits. A rounded outline loses radius first, exactly; then every side of the
+    /// core moves inwards. Correct up to rounding; `O(n^2)`.
     #[must_use]
     pub fn eroded(&self, distance: f64) -> Option<Self> {
         if distance <= self.radius() {
@@ -14,7 +14,8 @@ impl Convex {
         inset(self.core(), distance - self.radius()).map(|core| Self::trusted(core, 0.0))
     }
 
-    /// A lower bound of the greatest distance by which this shape can be eroded: how deep the mean of the corners lies.
+    /// Returns a lower bound on the greatest distance by which this shape can be eroded: the depth of the mean of its
+    /// corners.
     #[must_use]
     pub fn depth(&self) -> f64 {
         let core = self.core();
@@ -53,17 +54,17 @@ mod tests {
             let eroded = shape.eroded(by);
             prop_assert!(by > shape.depth() || eroded.is_some());
             let point = Point::from(Vector::new(at.0, at.1));
-            // Depth of the point: how far the shape must move to leave it behind.
+            // The depth of a point: how far the shape must move to leave it outside.
             let depth = -separation(&shape, &Convex::point(point)).distance;
             let inside = eroded.is_some_and(|e| separation(&e, &Convex::point(point)).distance <= 0.0);
             prop_assert!((depth - by).abs() < 1e-9 || inside == (depth >= by), "{depth} {by}");
         }
     }
 
-    /// A shape from anywhere in a square.
+    /// Shapes anywhere in a square.
     fn shapes() -> impl Strategy<Value = Convex> {
         let corners = prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), 1..8);
-        // Flat ones have sharp corners.
+        // Flat shapes have sharp corners.
         (corners, prop_oneof![Just(0.0), 0.0..0.1f64], prop_oneof![Just(1.0), 0.0..0.1f64]).prop_map(
             |(points, radius, flat)| {
                 let corners: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y * flat)).collect();
@@ -75,7 +76,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(2000))]
 
-        /// What recedes is farther away by that, and not a whit of its corners is rounded; grown again it is what it was.
+        /// A receding shape is farther away by `by`, with sharp corners. Growing it again restores it.
         #[test]
         fn what_recedes_is_farther_away(shape in shapes(), other in shapes(), by in 0.0..0.5f64) {
             let (near, far) = (separation(&other, &shape), separation(&other, &shape.receding(by)));

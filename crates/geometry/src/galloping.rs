@@ -1,17 +1,17 @@
-//! How far something holds.
+//! Galloping search for the last number that satisfies a condition.
 
-/// The greatest number up to `last` for which `holds`, by doubling steps from `first`, for which it is taken to hold, and halving
-/// what is left: asked some `2 log2(n)` times where the answer is `first + n`, and of no number beyond `first + 2 n + 1`.
+/// Returns the greatest number up to `last` for which `holds`, starting from `first`, which is assumed to satisfy it.
 ///
-/// Where it holds for some that are greater than one for which it does not, the answer is one for which it holds while it does
-/// not for the next.
+/// Doubles the step, then bisects. For the answer `first + n` it calls `holds` about `2 log2(n)` times, and for no
+/// number beyond `first + 2 n + 1`. If `holds` is not monotone, it returns some number that satisfies the condition and
+/// whose successor does not.
 pub fn farthest(first: usize, last: usize, holds: impl Fn(usize) -> bool) -> usize {
     let (mut good, mut step) = (first, 1);
     while good + step <= last && holds(good + step) {
         good += step;
         step *= 2;
     }
-    // There it does not hold, or there is nothing.
+    // The condition fails there, or the range ends.
     let mut bad = (good + step).min(last + 1);
     while bad - good > 1 {
         let middle = good.midpoint(bad);
@@ -45,7 +45,7 @@ mod tests {
             prop_assert!(greatest.get() <= first + 2 * (found - first) + 1);
         }
 
-        /// Of a condition that holds here and there: an end of a stretch where it holds.
+        /// With a condition that holds here and there, the search returns the end of one stretch.
         #[test]
         fn ends_where_it_does_not_hold(holding in proptest::collection::vec(any::<bool>(), 0..60)) {
             let last = holding.len();

@@ -2,15 +2,15 @@
 
 use super::{Orientation, Point, orientation};
 
-/// Convex hull, counter-clockwise from the leftmost (of these the lowest) point, without collinear corners.
+/// Returns the convex hull, counter-clockwise from the leftmost corner (the lowest of these), without collinear
+/// corners.
 ///
-/// Points that coincide or lie on one line give one corner or two; no points give none. Andrew's monotone chain with
-/// the exact predicate, so the result is strictly convex as it stands, not up to a tolerance. `O(n log n)`.
-/// The coordinates must be finite.
+/// Points that coincide give one corner, collinear points give two, and no points give none. Andrew's monotone chain
+/// with the exact predicate, so the result is exactly strictly convex. `O(n log n)`. The coordinates must be finite.
 #[must_use]
 pub fn hull(points: &[Point]) -> Vec<Point> {
     let mut sorted = points.to_vec();
-    // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would tell apart.
+    // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would distinguish.
     let key = |p: &Point| (p.x + 0.0, p.y + 0.0);
     sorted.sort_unstable_by(|a, b| {
         let (a, b) = (key(a), key(b));
@@ -28,7 +28,7 @@ pub fn hull(points: &[Point]) -> Vec<Point> {
     corners
 }
 
-/// Appends the lower hull of `points`, taken in the order in which they come.
+/// Appends the lower hull of `points` in the given order.
 fn append_chain<'a>(corners: &mut Vec<Point>, points: impl Iterator<Item = &'a Point>) {
     let start = corners.len();
     for &point in points {
@@ -57,7 +57,7 @@ mod tests {
         assert_eq!(hull(&square), [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0)]);
     }
 
-    /// Corners of the hull by its definition: points that no triangle and no segment of other points contains.
+    /// Returns the corners of the hull by definition: points that no triangle and no segment of other points contains.
     fn extreme_points(points: &[(i32, i32)]) -> Vec<(i32, i32)> {
         let mut distinct = points.to_vec();
         distinct.sort_unstable();

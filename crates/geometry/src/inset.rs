@@ -1,10 +1,11 @@
-//! Convex polygons made smaller.
+//! Convex polygons shrunk inwards.
 
 use super::{Point, Vector, hull, perpendicular};
 
-/// The points of a convex polygon at least `by` inside all its sides; none if there are none with area. `O(n^2)`.
+/// Returns the points of a convex, counter-clockwise polygon that lie at least `by` inside all its sides, or `None` if
+/// they have no area. `O(n^2)`.
 ///
-/// The polygon is counter-clockwise. What it leaves can be moved by up to `by` in any direction and stays in the polygon.
+/// The result can move by up to `by` in any direction and stays within the polygon.
 #[must_use]
 pub fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
     let mut left = polygon.to_vec();
@@ -17,7 +18,7 @@ pub fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
     (left.len() > 2).then_some(left)
 }
 
-/// The part of a convex polygon (or segment, or point) where `normal . p >= offset`. `O(n)`.
+/// Returns the part of a convex polygon (or segment, or point) where `normal . p >= offset`. `O(n)`.
 #[must_use]
 fn clip(polygon: &[Point], normal: Vector, offset: f64) -> Vec<Point> {
     let n = polygon.len();
@@ -36,8 +37,8 @@ fn clip(polygon: &[Point], normal: Vector, offset: f64) -> Vec<Point> {
     left
 }
 
-/// The common points of a convex polygon (or segment, or point) and a convex polygon with area, as a polygon that may
-/// repeat corners; empty if there are none. `O(n m)`.
+/// Returns the intersection of a convex polygon (or segment, or point) with a convex polygon that has area. The result
+/// may repeat corners, and is empty if the two do not meet. `O(n m)`.
 #[must_use]
 pub fn common(polygon: &[Point], with: &[Point]) -> Vec<Point> {
     let mut left = polygon.to_vec();

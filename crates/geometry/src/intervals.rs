@@ -3,9 +3,7 @@
 /// A closed interval `[lower, upper]`, `lower <= upper`; a single point if they are equal.
 pub type Interval = [f64; 2];
 
-/// Makes `intervals` sorted and disjoint without changing the set that it covers.
-///
-/// The intervals are closed, so those that touch become one. In place, `O(n log n)`.
+/// Sorts `intervals` and merges those that touch or overlap, without changing the covered set. In place, `O(n log n)`.
 pub fn merge_in_place(intervals: &mut Vec<Interval>) {
     debug_assert!(intervals.iter().all(|[lower, upper]| lower <= upper), "an interval is not ordered");
     intervals.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
@@ -30,7 +28,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(500))]
 
-        /// Intervals with integer ends; half-integers then test membership of their ends and of what lies between.
+        /// Intervals with integer ends. Half-integers then test membership of the ends and of the points between them.
         #[test]
         fn merging_keeps_the_set(list in prop::collection::vec((-10..10i32, 0..4i32), 0..12)) {
             let list: Vec<Interval> = list.into_iter().map(|(lower, n)| [lower.into(), (lower + n).into()]).collect();

@@ -1,5 +1,5 @@
-//! Plane geometry: exact predicates, convex shapes, Minkowski differences, at which angles (or along which stretch) a
-//! moving convex shape meets a fixed one, sets of intervals.
+//! Plane geometry: exact predicates, convex shapes, Minkowski differences, sets of intervals, and the angles (or the
+//! stretch) at which a moving convex shape meets a fixed one.
 //!
 //! Lengths are metres, angles radians. Polygons are counter-clockwise lists of corners without repetition of the
 //! first. Every *sign* (which side, do they meet) comes from adaptive exact arithmetic; every *measure* (distance,
@@ -75,13 +75,13 @@ pub type Vector = nalgebra::Vector2<f64>;
 /// A rigid motion of the plane: rotation, then translation.
 pub type Pose = nalgebra::Isometry2<f64>;
 
-/// `v` turned a quarter turn counter-clockwise.
+/// Returns `v` turned by a quarter turn counter-clockwise.
 #[must_use]
 pub fn perpendicular(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
-/// The z component of the cross product: positive when `b` lies counter-clockwise of `a`.
+/// Returns the z component of the cross product. It is positive if `b` lies counter-clockwise of `a`.
 #[must_use]
 pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x

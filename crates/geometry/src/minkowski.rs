@@ -6,14 +6,14 @@ use super::penetration::origin_depth;
 use super::predicates::turn_of_directions;
 use super::{Convex, Orientation, Point, Vector};
 
-/// The Minkowski difference `b - a = { q - p : q in b, p in a }` of two convex counter-clockwise polygons.
+/// Computes the Minkowski difference `b - a = { q - p : q in b, p in a }` of two convex counter-clockwise polygons: the
+/// translations that make `a` meet `b`.
 ///
-/// These are the translations that make `a` meet `b`. The result is counter-clockwise from its lowest (of these the
-/// leftmost) corner. Its sides are those of `b` and of `-a` in the order of their directions, so one sweep over the
-/// angles finds them (T. Lozano-Perez, *Spatial Planning: A Configuration Space Approach*, 1983): `O(n + m)`, at most
-/// `n + m` corners. Sides of equal direction become one; that is decided exactly. Each coordinate is one difference
-/// of input coordinates, rounded once. Segments and points count as polygons of two corners and of one; the result is
-/// empty if either is.
+/// The result is counter-clockwise from its lowest corner (the leftmost of these). Its sides are those of `b` and of
+/// `-a`, ordered by direction, so one sweep over the angles finds them (T. Lozano-Perez, *Spatial Planning: A
+/// Configuration Space Approach*, 1983): `O(n + m)`, at most `n + m` corners. Sides of equal direction are joined; this
+/// is decided exactly. Each coordinate is one difference of input coordinates, rounded once. Segments count as polygons
+/// of two corners, points as polygons of one. The result is empty if either input is.
 #[must_use]
 pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
     let (Some(mut plus), Some(mut minus)) = (Sweep::new(b, false), Sweep::new(a, true)) else { return Vec::new() };
@@ -41,11 +41,11 @@ pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
     corners
 }
 
-/// Penetration depth of two shapes, metres: the length of the shortest translation that separates them; minus their
-/// distance if they are disjoint.
+/// Returns the penetration depth of two shapes, metres: the length of the shortest translation that separates them.
+/// Returns the negative distance if they are disjoint.
 ///
-/// The depth of the origin in the Minkowski difference of the cores, plus both radii. `O(n + m)`. The same measure as
-/// [`super::separation`] with the sign reversed, by another method.
+/// This is the depth of the origin in the Minkowski difference of the cores, plus both radii. `O(n + m)`. It equals the
+/// negated distance of [`super::separation`], by another method.
 #[must_use]
 pub fn penetration_depth(a: &Convex, b: &Convex) -> f64 {
     origin_depth(&minkowski_difference(b.core(), a.core())) + a.radius() + b.radius()
@@ -60,17 +60,17 @@ struct Side {
 
 impl Side {
     fn direction(&self) -> Vector {
-        // The signs of a difference are those of the comparison, so the half plane below is exact.
+        // The comparison gives the exact signs of the difference, so the half plane below is exact.
         self.end - self.start
     }
 
-    /// Whether the direction is in `[pi, 2 pi)`.
+    /// Returns true if the direction lies in `[pi, 2 pi)`.
     fn downward(&self) -> bool {
         let d = self.direction();
         d.y < 0.0 || (d.y == 0.0 && d.x < 0.0)
     }
 
-    /// Order of the directions, counting from 0 to 2 pi; exact.
+    /// Compares directions by angle from 0 to 2 pi; exact.
     fn order(&self, other: &Side) -> Ordering {
         let turn = || turn_of_directions([self.start, self.end], [other.start, other.end]);
         self.downward().cmp(&other.downward()).then_with(|| match turn() {
@@ -81,10 +81,10 @@ impl Side {
     }
 }
 
-/// A walk round a polygon, or round its reflection in the origin, in the order of the directions of the sides.
+/// A walk around a polygon, or around its reflection in the origin, by the directions of the sides.
 struct Sweep<'a> {
     polygon: &'a [Point],
-    /// Index of the corner that the walk started from.
+    /// Index of the corner at which the walk started.
     first: usize,
     /// Number of sides passed.
     passed: usize,
@@ -92,11 +92,12 @@ struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    /// A walk from the lowest (leftmost) corner of the polygon or of its reflection; none if there is no corner.
+    /// Starts a walk at the lowest (leftmost) corner of the polygon or of its reflection. Returns `None` if there is no
+    /// corner.
     fn new(polygon: &'a [Point], reflected: bool) -> Option<Self> {
         let lower = |&i: &usize, &j: &usize| {
             let (p, q) = (polygon[i], polygon[j]);
-            // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would tell apart.
+            // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would distinguish.
             (p.y + 0.0).total_cmp(&(q.y + 0.0)).then((p.x + 0.0).total_cmp(&(q.x + 0.0)))
         };
         let first = if reflected { (0..polygon.len()).max_by(lower) } else { (0..polygon.len()).min_by(lower) }?;
@@ -105,12 +106,12 @@ impl<'a> Sweep<'a> {
         Some(sweep)
     }
 
-    /// The corner of the polygon (not reflected) that the walk has come to.
+    /// Returns the current corner of the polygon, not reflected.
     fn corner(&self) -> Point {
         self.polygon[(self.first + self.passed) % self.polygon.len()]
     }
 
-    /// The next side, reflected if the walk is.
+    /// Returns the next side, reflected if the walk is.
     fn side(&self) -> Option<Side> {
         let n = self.polygon.len();
         if self.passed == n {
@@ -120,7 +121,7 @@ impl<'a> Sweep<'a> {
         Some(if self.reflected { Side { start: to, end: from } } else { Side { start: from, end: to } })
     }
 
-    /// Passes a side, and those that continue it in the same direction.
+    /// Passes one side, and those that continue it in the same direction.
     fn pass(&mut self) {
         let Some(side) = self.side() else { return };
         self.passed += 1;

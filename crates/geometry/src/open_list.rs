@@ -1,10 +1,10 @@
-//! The list of what a search looks at next.
+//! The open list of a best-first search.
 
 use super::Ordered;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// What waits to be looked at: least key first, of equal keys the least entry, so that nothing is left to chance.
+/// Entries ordered by key. Entries with equal keys are ordered by value, so the order is deterministic.
 #[derive(Debug, Clone)]
 pub struct OpenList<T> {
     heap: BinaryHeap<Reverse<(Ordered, T)>>,
@@ -22,23 +22,23 @@ impl<T: Ord> OpenList<T> {
         self.heap.push(Reverse((Ordered(key), entry)));
     }
 
-    /// Takes the next entry. `O(log n)`.
+    /// Removes and returns the entry with the least key. `O(log n)`.
     pub fn pop(&mut self) -> Option<(f64, T)> {
         self.heap.pop().map(|Reverse((Ordered(key), entry))| (key, entry))
     }
 
-    /// The next entry.
+    /// Returns the entry with the least key.
     #[must_use]
     pub fn peek(&self) -> Option<(f64, &T)> {
         self.heap.peek().map(|Reverse((Ordered(key), entry))| (*key, entry))
     }
 
-    /// Takes all entries away.
+    /// Removes all entries.
     pub fn clear(&mut self) {
         self.heap.clear();
     }
 
-    /// Takes all entries, in no order.
+    /// Removes and returns all entries in arbitrary order.
     pub fn drain(&mut self) -> Vec<T> {
         self.heap.drain().map(|Reverse((_, entry))| entry).collect()
     }

@@ -1,8 +1,8 @@
-//! Numbers that can be keys.
+//! Floating-point numbers that can be keys.
 
 use std::cmp::Ordering;
 
-/// A double in the total order of IEEE 754, for heaps and sorted keys, which floating point by itself cannot be in.
+/// A double in the total order of IEEE 754, for heaps and sorted keys. Floats have no total order by themselves.
 #[derive(Debug, Clone, Copy)]
 pub struct Ordered(pub f64);
 

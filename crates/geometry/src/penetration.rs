@@ -1,14 +1,15 @@
-//! How deep a point lies in a convex polygon, and whether two convex polygons meet: the classical tests on the signed
-//! distances of corners to sides (point penetration, polygon penetration).
+//! The classical penetration tests for convex polygons, by signed distances of corners to sides: the depth of a point
+//! in a polygon (point penetration), and whether two polygons meet (polygon penetration).
 //!
-//! Every sign is exact; degenerate cases (collinear sides, a side through a corner, touching, polygons without area)
-//! need no treatment of their own.
+//! Every sign is exact, so degenerate cases (collinear sides, a side through a corner, touching, polygons without area)
+//! need no special treatment.
 
 use super::meet::sides;
 use super::predicates::{determinant, point_on_segment, segments_cross};
 use super::{Convex, Point, Vector};
 
-/// Signed distance of `p` to the line directed from `a` to `b`, metres: positive on the left. NaN if `a == b`.
+/// Returns the signed distance of `p` to the line directed from `a` to `b`, metres: positive on the left. Returns NaN
+/// if `a == b`.
 ///
 /// The sign is exact (0 only on the line); the value is rounded.
 #[must_use]
@@ -16,41 +17,43 @@ pub fn signed_distance(p: Point, a: Point, b: Point) -> f64 {
     determinant(a, b, p) / (b - a).norm()
 }
 
-/// Where a point lies with respect to a closed set.
+/// Location of a point relative to a closed set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Location {
     /// In the interior.
     Inside,
-    /// On the boundary. A polygon without area is all boundary.
+    /// On the boundary. All points of a polygon without area are on its boundary.
     Boundary,
     /// Not in the set.
     Outside,
 }
 
-/// How deep a point lies in a convex polygon.
+/// Penetration of a point in a convex polygon.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointPenetration {
     /// Signed distance to the line through each side, metres: positive on the polygon's side of it.
     ///
     /// Side `i` starts at corner `i`. A segment has two sides, there and back; a point has none.
     pub distances: Vec<f64>,
-    /// The least of the distances, metres. Inside, the distance to the nearest side; outside, minus a lower bound of the
-    /// distance to the polygon. For a polygon that is a point: minus the distance to it.
+    /// Least of the distances, metres. Inside, it is the distance to the nearest side. Outside, its absolute value is a
+    /// lower bound on the distance to the polygon. If the polygon is a point, it is the negative distance to that
+    /// point.
     pub depth: f64,
-    /// The side of least distance, the first of several; none if the polygon is a point.
+    /// Side of least distance, the first if there are several. `None` if the polygon is a point.
     pub side: Option<usize>,
-    /// Where the point lies; exact.
+    /// Location of the point; exact.
     pub location: Location,
 }
 
-/// Penetration of `point` in the core of a shape: a convex polygon, a segment or a point. The radius does not count. `O(n)`.
+/// Computes the penetration of `point` in the core of a shape: a convex polygon, a segment or a point. The radius is
+/// ignored. `O(n)`.
 #[must_use]
 pub fn point_penetration(point: Point, shape: &Convex) -> PointPenetration {
     core_penetration(point, shape.core())
 }
 
-/// Penetration of `point` in a convex counter-clockwise polygon, which may be a segment, a point or nothing, and may have
-/// corners that coincide (the distance to a side without length is NaN, and counts for nothing).
+/// Computes the penetration of `point` in a convex counter-clockwise polygon. The polygon may be a segment, a point or
+/// empty, and corners may coincide: the distance to a side without length is NaN and is ignored.
 pub(super) fn core_penetration(point: Point, polygon: &[Point]) -> PointPenetration {
     let n = polygon.len();
     if polygon.iter().all(|c| *c == polygon[0]) {
@@ -61,8 +64,8 @@ pub(super) fn core_penetration(point: Point, polygon: &[Point]) -> PointPenetrat
     let distances: Vec<f64> = (0..n).map(|i| signed_distance(point, polygon[i], polygon[(i + 1) % n])).collect();
     let (side, depth) =
         distances.iter().copied().enumerate().fold((0, f64::INFINITY), |best, d| if d.1 < best.1 { d } else { best });
-    // On the line of a side and to the right of none the point is on the boundary, unless it is on the line of all: then
-    // the polygon has no area, and ends somewhere on that line.
+    // A point on the line of a side, and right of no side, is on the boundary. If it is on the lines of all sides, the
+    // polygon has no area and may end before the point.
     let on_boundary =
         || distances.iter().any(|&d| d > 0.0) || sides(polygon).any(|(a, b)| point_on_segment(point, a, b));
     let location = if depth > 0.0 {
@@ -80,28 +83,29 @@ pub(super) fn core_penetration(point: Point, polygon: &[Point]) -> PointPenetrat
 pub struct CornerInside {
     /// Index of the corner.
     pub corner: usize,
-    /// How deep it lies, metres; 0 on the boundary.
+    /// Its depth, metres; 0 on the boundary.
     pub depth: f64,
 }
 
-/// What the polygon penetration test finds.
+/// Result of the polygon penetration test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolygonTest {
-    /// Whether the polygons have a point in common: whether anything is listed below. Touching counts. Exact.
+    /// True if the polygons have a point in common, so that one of the lists below is not empty. Touching counts.
+    /// Exact.
     pub meet: bool,
     /// Corners of the first polygon in the second or on its boundary.
     pub a_inside: Vec<CornerInside>,
     /// Corners of the second polygon in the first or on its boundary.
     pub b_inside: Vec<CornerInside>,
-    /// Sides of the first and of the second polygon that cross properly, in a point interior to both.
+    /// Pairs of a side of the first and a side of the second polygon that cross properly, at a point interior to both.
     pub crossings: Vec<(usize, usize)>,
 }
 
-/// The polygon penetration test of the cores of two shapes: corners of each inside the other, and sides that cross. The
-/// radii do not count.
+/// Runs the polygon penetration test on the cores of two shapes: finds the corners of each inside the other, and the
+/// sides that cross. The radii are ignored. `O(n m)`.
 ///
-/// The cores may be segments or points. Complete: where two convex polygons meet without
-/// a corner of either in the other, their boundaries cross, and none of the crossings is at a corner. `O(n m)`.
+/// The cores may be segments or points. The test is complete: if two convex polygons meet and no corner of either lies
+/// in the other, then their boundaries cross at points that are not corners.
 #[must_use]
 pub fn polygon_test(a: &Convex, b: &Convex) -> PolygonTest {
     let (a, b) = (a.core(), b.core());
@@ -122,13 +126,13 @@ pub fn polygon_test(a: &Convex, b: &Convex) -> PolygonTest {
 fn corners_inside(corners: &[Point], polygon: &[Point]) -> Vec<CornerInside> {
     let inside = |(corner, &p): (usize, &Point)| {
         let penetration = core_penetration(p, polygon);
-        // On a segment both signed distances are 0, and at a point the distance is: never below.
+        // On a segment both signed distances are 0, and at a point the distance is 0. Neither is negative.
         (penetration.location != Location::Outside).then(|| CornerInside { corner, depth: penetration.depth.abs() })
     };
     corners.iter().enumerate().filter_map(inside).collect()
 }
 
-/// Penetration depth of the origin in a convex counter-clockwise polygon, or minus its distance from it, metres.
+/// Returns the depth of the origin in a convex counter-clockwise polygon, or the negative distance to it, metres.
 pub(super) fn origin_depth(polygon: &[Point]) -> f64 {
     let origin = Point::origin();
     let penetration = core_penetration(origin, polygon);
@@ -139,7 +143,7 @@ pub(super) fn origin_depth(polygon: &[Point]) -> f64 {
     }
 }
 
-/// Distance of `p` from the closed segment `ab`.
+/// Returns the distance of `p` from the closed segment `ab`.
 pub(super) fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
     let along: Vector = b - a;
     let t = (p - a).dot(&along) / along.norm_squared();

@@ -1,17 +1,18 @@
-//! The point of a polygon that is farthest from its outline.
+//! The pole of inaccessibility: the point of a polygon that is farthest from its outline.
 
 use super::penetration::distance_to_segment;
 use super::{Ordered, Point};
 use std::collections::BinaryHeap;
 
-/// Cells that are looked at, at most: a sliver has its pole nearly everywhere, and none is much better than another.
+/// Largest number of cells examined. In a sliver almost every point is near the optimum, so more cells bring nothing.
 const MOST: usize = 4096;
 
-/// The pole of inaccessibility (Garcia-Castellanos and Lombardo 2007) of a polygon, and how far it is from the outline: no
-/// point inside is farther by more than `precision`. The outline may touch itself; inside is what it goes round an odd number of
-/// times. None where there is no inside.
+/// Finds the pole of inaccessibility (Garcia-Castellanos and Lombardo 2007) of a polygon, and its distance from the
+/// outline. No point inside is farther from the outline by more than `precision`. Returns `None` if the polygon has no
+/// inside.
 ///
-/// Squares are quartered where they may hold a better point, the most promising first, as polylabel does (Agafonkin 2016).
+/// The outline may touch itself. The inside is where its winding number is odd. Squares that may hold a better point
+/// are divided into four, the most promising first, as polylabel does (Agafonkin 2016).
 #[must_use]
 pub fn pole_of_inaccessibility(corners: &[Point], precision: f64) -> Option<(Point, f64)> {
     let (mut low, mut high) = (corners.first()?.coords, corners.first()?.coords);
@@ -44,7 +45,7 @@ pub fn pole_of_inaccessibility(corners: &[Point], precision: f64) -> Option<(Poi
     best
 }
 
-/// Distance from the outline, positive inside.
+/// Returns the distance from the outline, positive inside.
 fn depth(corners: &[Point], p: Point) -> f64 {
     let (mut is_inside, mut least) = (false, f64::INFINITY);
     for (i, &a) in corners.iter().enumerate() {
@@ -75,7 +76,7 @@ mod tests {
 
     #[test]
     fn the_pole_of_a_hook_is_inside() {
-        // The middle of its box is outside.
+        // The centre of its bounding box is outside.
         let hook = polygon(&[(0.0, 0.0), (5.0, 0.0), (5.0, 1.0), (1.5, 1.0), (1.5, 5.0), (0.0, 5.0)]);
         let (pole, depth) = pole_of_inaccessibility(&hook, 1e-3).unwrap();
         assert!(depth > 0.75 && pole.x < 1.5, "{pole} {depth}");
@@ -88,7 +89,7 @@ mod tests {
         assert_eq!(pole_of_inaccessibility(&polygon(&[(0.0, 0.0), (1.0, 1.0)]), 0.1), None);
     }
 
-    /// How deep a point lies, by winding angles and by points along the sides.
+    /// Returns the depth of a point, by winding angles and by points along the sides.
     fn sampled_depth(corners: &[Point], p: Point) -> f64 {
         const FINE: u32 = 100;
         let (mut turns, mut least) = (0.0, f64::INFINITY);
@@ -105,7 +106,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(24))]
 
-        /// No point of a fine grid is deeper than the pole, and the pole is as deep as it says.
+        /// No point of a fine grid is deeper than the pole, and the pole is as deep as stated.
         #[test]
         fn no_point_of_a_grid_is_deeper(radii in prop::collection::vec(0.1..1.0f64, 3..12), stretch in 0.2..3.0f64) {
             let angle = |i: usize| i as f64 / radii.len() as f64 * std::f64::consts::TAU;
@@ -115,7 +116,7 @@ mod tests {
                 .map(|(i, r)| Point::new(stretch * r * angle(i).cos(), r * angle(i).sin()))
                 .collect();
             let (pole, depth) = pole_of_inaccessibility(&star, 1e-3).unwrap();
-            // Half of what lies between two points along the longest side.
+            // Half of the distance between two points along the longest side.
             let slack = 0.032;
             prop_assert!((sampled_depth(&star, pole) - depth).abs() < slack);
             for i in -10..=10 {

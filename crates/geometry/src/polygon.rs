@@ -5,29 +5,29 @@ use super::predicates::{Orientation, orientation, point_on_segment, segments_cro
 use super::{Convex, Point, cross, decompose};
 use serde::{Deserialize, Serialize};
 
-/// Why a list of corners is no simple polygon.
+/// Reasons why a list of corners is not a simple polygon.
 ///
-/// Indices refer to the list as it was given; side `i` runs from corner `i` to corner `i + 1` (the last to the first).
+/// Indices refer to the given list. Side `i` runs from corner `i` to corner `i + 1`, the last one to the first corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum PolygonError {
     /// Fewer than three corners.
     #[error("a polygon needs at least three corners, this one has {count}")]
     TooFewCorners {
-        /// Number of corners given.
+        /// The number of given corners.
         count: usize,
     },
     /// A coordinate is infinite or not a number.
     #[error("corner {} has a coordinate that is not finite", corner + 1)]
     NotFinite {
-        /// The place of the corner in the list, from 0.
+        /// Index of the corner in the list.
         corner: usize,
     },
     /// Two corners lie in the same place.
     #[error("corners {} and {} coincide", first + 1, second + 1)]
     RepeatedCorner {
-        /// The one that comes first in the list.
+        /// The corner that comes first in the list.
         first: usize,
-        /// The one that coincides with it.
+        /// The corner that coincides with it.
         second: usize,
     },
     /// All corners lie on one line.
@@ -47,7 +47,7 @@ pub enum PolygonError {
         /// The higher index.
         second: usize,
     },
-    /// Two sides that are no neighbours touch or overlap.
+    /// Two sides that are not neighbours touch or overlap.
     #[error("sides {} and {} touch", first + 1, second + 1)]
     SidesTouch {
         /// The lower index.
@@ -81,13 +81,13 @@ impl From<SimplePolygon> for Vec<Point> {
 }
 
 impl SimplePolygon {
-    /// The polygon with these corners, given in either direction.
+    /// Creates a polygon from its corners, given in either direction.
     ///
-    /// All conditions are decided exactly. `O(n log n)`, and another factor of `log n` to say which sides meet.
+    /// All conditions are decided exactly. `O(n log n)`, with another factor of `log n` to find the sides that meet.
     ///
     /// # Errors
-    /// The first defect found, in the order of [`PolygonError`]'s variants; of sides that meet the first in the list that
-    /// meets an earlier one.
+    /// The first defect found, in the order of the variants of [`PolygonError`]. For sides that meet, the first side in
+    /// the list that meets an earlier one.
     pub fn new(mut corners: Vec<Point>) -> Result<Self, PolygonError> {
         check_corners(&corners)?;
         check_neighbours(&corners)?;
@@ -98,19 +98,19 @@ impl SimplePolygon {
         Ok(Self { corners })
     }
 
-    /// A polygon that is known to be simple and counter-clockwise.
+    /// Creates a polygon without checking that it is simple and counter-clockwise.
     pub(super) fn trusted(corners: Vec<Point>) -> Self {
         debug_assert!(Self::new(corners.clone()).is_ok_and(|polygon| polygon.corners == corners), "{corners:?}");
         Self { corners }
     }
 
-    /// The corners, counter-clockwise, from the one that was given first.
+    /// Returns the corners, counter-clockwise, starting with the first given one.
     #[must_use]
     pub fn corners(&self) -> &[Point] {
         &self.corners
     }
 
-    /// Area, square metres.
+    /// Returns the area, square metres.
     #[must_use]
     pub fn area(&self) -> f64 {
         // Relative to a corner, so that a small polygon far from the origin loses no digits.
@@ -118,14 +118,14 @@ impl SimplePolygon {
         self.corners[1..].windows(2).map(|w| cross(w[0] - origin, w[1] - origin)).sum::<f64>() / 2.0
     }
 
-    /// Whether the polygon is convex (straight corners allowed); exact.
+    /// Returns true if the polygon is convex. Straight corners are allowed. Exact.
     #[must_use]
     pub fn is_convex(&self) -> bool {
         let n = self.corners.len();
         (0..n).all(|i| turn(&self.corners, i) != Orientation::Clockwise)
     }
 
-    /// Whether the closed polygon contains a point; exact. `O(n)`.
+    /// Returns true if the closed polygon contains a point; exact. `O(n)`.
     #[must_use]
     pub fn contains(&self, p: Point) -> bool {
         let n = self.corners.len();
@@ -135,7 +135,8 @@ impl SimplePolygon {
             if point_on_segment(p, a, b) {
                 return true;
             }
-            // Does the side cross the ray from `p` in the direction of x? Lower ends belong to sides, upper ones do not.
+            // Test whether the side crosses the ray from `p` in the direction of x. Lower ends belong to sides, upper
+            // ends do not.
             let rises = b.y > a.y;
             let side = if rises { Orientation::CounterClockwise } else { Orientation::Clockwise };
             inside ^= (a.y > p.y) != (b.y > p.y) && orientation(a, b, p) == side;
@@ -143,27 +144,27 @@ impl SimplePolygon {
         inside
     }
 
-    /// Strictly convex polygons with disjoint interiors whose union is this polygon; no new corners.
+    /// Decomposes the polygon into strictly convex polygons with disjoint interiors, without new corners.
     ///
-    /// At most four times as many as the least possible number: see [`decompose`].
+    /// The number of pieces is at most four times the least possible: see [`decompose`].
     #[must_use]
     pub fn convex_pieces(&self) -> Vec<Convex> {
         decompose(self)
     }
 }
 
-/// Which way the boundary turns at corner `i`.
+/// Returns the turn of the boundary at corner `i`.
 pub(super) fn turn(corners: &[Point], i: usize) -> Orientation {
     let n = corners.len();
     orientation(corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n])
 }
 
-/// A ring without its straight corners; exact. No corner may repeat the one before it.
+/// Removes the straight corners of a ring; exact. No corner may repeat the previous one.
 pub(super) fn without_straight(ring: &[Point]) -> Vec<Point> {
     (0..ring.len()).filter(|&i| turn(ring, i) != Orientation::Collinear).map(|i| ring[i]).collect()
 }
 
-/// What a ring that may touch itself has to have: corners, coordinates, area.
+/// Checks the corners, coordinates and area of a ring that may touch itself.
 pub(super) fn check_ring(corners: &[Point]) -> Result<(), PolygonError> {
     check_coordinates(corners)?;
     match (0..corners.len()).all(|i| turn(corners, i) == Orientation::Collinear) {
@@ -172,7 +173,7 @@ pub(super) fn check_ring(corners: &[Point]) -> Result<(), PolygonError> {
     }
 }
 
-/// Number of corners, coordinates.
+/// Checks the number of corners and their coordinates.
 fn check_coordinates(corners: &[Point]) -> Result<(), PolygonError> {
     if corners.len() < 3 {
         return Err(PolygonError::TooFewCorners { count: corners.len() });
@@ -183,11 +184,11 @@ fn check_coordinates(corners: &[Point]) -> Result<(), PolygonError> {
     Ok(())
 }
 
-/// Number of corners, coordinates, repetitions.
+/// Checks the number of corners, their coordinates and repetitions.
 fn check_corners(corners: &[Point]) -> Result<(), PolygonError> {
     check_coordinates(corners)?;
     let mut order: Vec<usize> = (0..corners.len()).collect();
-    // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would tell apart.
+    // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would distinguish.
     let key = |i: usize| (corners[i].x + 0.0, corners[i].y + 0.0);
     order.sort_unstable_by(|&i, &j| {
         let (a, b) = (key(i), key(j));
@@ -200,7 +201,7 @@ fn check_corners(corners: &[Point]) -> Result<(), PolygonError> {
     }
 }
 
-/// Area and spikes: what a corner and its neighbours tell.
+/// Checks the area and spikes, by each corner and its neighbours.
 fn check_neighbours(corners: &[Point]) -> Result<(), PolygonError> {
     let n = corners.len();
     if (0..n).all(|i| turn(corners, i) == Orientation::Collinear) {
@@ -216,7 +217,7 @@ fn check_neighbours(corners: &[Point]) -> Result<(), PolygonError> {
     }
 }
 
-/// No two sides meet but neighbours in their common corner. Neighbours are without spikes already.
+/// Checks that no two sides meet, except neighbours in their common corner. Spikes are excluded already.
 fn check_sides(corners: &[Point]) -> Result<(), PolygonError> {
     let Some((first, second)) = first_meeting(corners) else { return Ok(()) };
     let side = |i: usize| (corners[i], corners[(i + 1) % corners.len()]);
@@ -228,7 +229,7 @@ fn check_sides(corners: &[Point]) -> Result<(), PolygonError> {
     })
 }
 
-/// Direction of a simple boundary, from its leftmost (of these the lowest) corner, where it cannot be straight.
+/// Returns true if a simple boundary is counter-clockwise, by its leftmost (lowest) corner, which cannot be straight.
 fn is_counter_clockwise(corners: &[Point]) -> bool {
     let lower = |i: usize, j: usize| {
         let (p, q) = (corners[i], corners[j]);
@@ -269,7 +270,7 @@ mod tests {
 
     #[test]
     fn touching_is_decided_exactly() {
-        // The fourth corner lies on the line y = x / 3 up to rounding, on one side of it or the other.
+        // The fourth corner lies on the line y = x / 3 up to rounding, on one side of it or on the other.
         let tip = 1.0 / 3.0;
         for (y, simple) in [(tip + f64::EPSILON, true), (tip - f64::EPSILON, false)] {
             let corners = points(&[(0., 0.), (3., 1.), (3., 3.), (1., y), (0., 3.)]);

@@ -1,15 +1,17 @@
 //! Exact predicates: signs that rounding cannot change.
 //!
-//! All rest on the orientation of three points, computed with adaptive exact arithmetic (J. R. Shewchuk, *Adaptive
-//! Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates*, 1997). It is exact while no product of
-//! two coordinate differences over- or underflows: for coordinates of magnitude 1e-140 to 1e+140, or 0, in any mixture
-//! (such coordinates are multiples of 2^-518, so that all parts of a product are multiples of 2^-1036, which doubles can
-//! hold). Signs of distances, as in [`super::point_penetration`], are exact from 1e-90 to 1e+90: the quotient by a length
-//! must not underflow either.
+//! All predicates use the orientation of three points, computed with adaptive exact arithmetic (J. R. Shewchuk,
+//! *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates*, 1997). It is exact as long as
+//! no product of two coordinate differences over- or underflows, that is, for coordinates of magnitude 1e-140 to
+//! 1e+140, or 0, in any mixture. Such coordinates are multiples of 2^-518, so all parts of a product are multiples of
+//! 2^-1036, which doubles can represent.
+//!
+//! Signs of distances, as in [`super::point_penetration`], are exact from 1e-90 to 1e+90, because the quotient by a
+//! length must not underflow either.
 
 use super::Point;
 
-/// On which side of a directed line a point lies, or which way three points turn.
+/// The side of a directed line on which a point lies, or the turn that three points make.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Orientation {
     /// The third point lies to the right: a right turn.
@@ -20,7 +22,7 @@ pub enum Orientation {
     CounterClockwise,
 }
 
-/// On which side of the directed line from `a` to `b` the point `c` lies; exact.
+/// Returns the side of the directed line from `a` to `b` on which the point `c` lies; exact.
 #[must_use]
 #[inline]
 pub fn orientation(a: Point, b: Point, c: Point) -> Orientation {
@@ -40,54 +42,55 @@ impl Orientation {
     }
 }
 
-/// Twice the signed area of the triangle `abc`: the sign exact, the value rounded.
+/// Returns twice the signed area of the triangle `abc`. The sign is exact, the value rounded.
 #[inline]
 pub(super) fn determinant(a: Point, b: Point, c: Point) -> f64 {
     let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
     robust::orient2d(coord(a), coord(b), coord(c))
 }
 
-/// Whether `p` lies strictly inside the circle through the corners of a counter-clockwise triangle; exact.
+/// Returns true if `p` lies strictly inside the circle through the corners of a counter-clockwise triangle; exact.
 #[must_use]
 pub fn in_circle([a, b, c]: [Point; 3], p: Point) -> bool {
     let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
     robust::incircle(coord(a), coord(b), coord(c), coord(p)) > 0.0
 }
 
-/// Which way the direction of the segment `s` turns into that of the segment `t`; exact.
+/// Returns the turn from the direction of the segment `s` to that of the segment `t`; exact.
 pub(super) fn turn_of_directions(s: [Point; 2], t: [Point; 2]) -> Orientation {
-    // Each product below is off by three roundings, their difference by a fourth: at most 2 epsilon of their sum.
+    // Each product below has three roundings, and their difference has a fourth: at most 2 epsilon of their sum.
     let (u, v) = (s[1] - s[0], t[1] - t[0]);
     let (left, right) = (u.x * v.y, u.y * v.x);
     let difference = left - right;
     if difference.abs() > 4.0 * f64::EPSILON * (left.abs() + right.abs()) {
         return Orientation::of(difference);
     }
-    // The cross product of two differences is the volume of a tetrahedron with one edge at height 0, one at height 1.
+    // The cross product of two differences is the volume of a tetrahedron with one edge at height 0 and one at height
+    // 1.
     let [a, b] = s.map(|p| robust::Coord3D { x: p.x, y: p.y, z: 0.0 });
     let [c, d] = t.map(|p| robust::Coord3D { x: p.x, y: p.y, z: 1.0 });
     Orientation::of(robust::orient3d(a, b, c, d))
 }
 
-/// Whether `p` lies on the closed segment `ab` (which may be a point); exact.
+/// Returns true if `p` lies on the closed segment `ab`, which may be a point; exact.
 #[must_use]
 pub fn point_on_segment(p: Point, a: Point, b: Point) -> bool {
     boxes_meet(p, p, a, b) && orientation(a, b, p) == Orientation::Collinear
 }
 
-/// Whether the closed segments `ab` and `cd` have a point in common; exact.
+/// Returns true if the closed segments `ab` and `cd` have a point in common; exact.
 ///
 /// Touching and overlapping count, and a segment may be a point.
 #[must_use]
 pub fn segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool {
-    // Of segments on one line the boxes decide. Otherwise the segments meet iff neither line leaves the other segment
-    // strictly on one side; that the boxes meet follows, so testing them first is only for speed.
+    // For collinear segments the boxes decide. Otherwise the segments meet if and only if no line has the other segment
+    // strictly on one side. In that case the boxes meet too, so testing them first only saves time.
     boxes_meet(a, b, c, d)
         && !strictly_on_one_side(orientation(a, b, c), orientation(a, b, d))
         && !strictly_on_one_side(orientation(c, d, a), orientation(c, d, b))
 }
 
-/// Whether the segments `ab` and `cd` cross *properly*: in one point that is interior to both; exact.
+/// Returns true if the segments `ab` and `cd` cross *properly*, in one point interior to both; exact.
 #[must_use]
 pub fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     strictly_apart(orientation(a, b, c), orientation(a, b, d))
@@ -102,7 +105,7 @@ fn strictly_apart(s: Orientation, t: Orientation) -> bool {
     s != t && s != Orientation::Collinear && t != Orientation::Collinear
 }
 
-/// Whether the bounding boxes of the segments `ab` and `cd` meet.
+/// Returns true if the bounding boxes of the segments `ab` and `cd` meet.
 fn boxes_meet(a: Point, b: Point, c: Point, d: Point) -> bool {
     a.x.min(b.x) <= c.x.max(d.x)
         && c.x.min(d.x) <= a.x.max(b.x)
@@ -115,12 +118,13 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Side of `c` in integers: no rounding, no shared code.
+    /// Returns the side of `c` in integers: no rounding, no shared code.
     fn side(a: (i64, i64), b: (i64, i64), c: (i64, i64)) -> i64 {
         ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).signum()
     }
 
-    /// Segments meet, by solving for the parameters in integers (Cramer's rule), parallel ones by projection.
+    /// Tests whether segments meet by solving for the parameters in integers (Cramer's rule), and parallel ones by
+    /// projection.
     fn meet_by_parameters(a: (i64, i64), b: (i64, i64), c: (i64, i64), d: (i64, i64)) -> bool {
         let (u, v, w) = ((b.0 - a.0, b.1 - a.1), (d.0 - c.0, d.1 - c.1), (c.0 - a.0, c.1 - a.1));
         let cross = |p: (i64, i64), q: (i64, i64)| p.0 * q.1 - p.1 * q.0;
@@ -144,7 +148,7 @@ mod tests {
         t(a).min(t(b)) <= t(c).max(t(d)) && t(c).min(t(d)) <= t(a).max(t(b))
     }
 
-    /// The determinant of lifted points in integers.
+    /// Computes the determinant of lifted points in integers.
     fn in_circle_by_determinant(corners: [(i64, i64); 3], p: (i64, i64)) -> bool {
         let [a, b, c] = corners.map(|q| (q.0 - p.0, q.1 - p.1));
         let lift = |q: (i64, i64)| q.0 * q.0 + q.1 * q.1;
@@ -179,7 +183,7 @@ mod tests {
 
     #[test]
     fn orientation_is_exact_where_plain_arithmetic_is_not() {
-        // Points within a few ulp of the line y = x: the textbook determinant gives wrong signs here (Kettner et al.).
+        // Points within a few ulp of the line y = x. The textbook determinant gives wrong signs here (Kettner et al.).
         let (b, c) = (Point::new(12.0, 12.0), Point::new(24.0, 24.0));
         let ulp = f64::EPSILON / 2.0;
         for i in 0..64 {

@@ -3,32 +3,32 @@
 use super::meet::cores_meet;
 use super::{Convex, Point, Pose, Vector, perpendicular};
 
-/// How two convex shapes lie to each other.
+/// Signed distance of two convex shapes, and its direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Separation {
-    /// Distance when positive; when negative, minus the *penetration depth*: the shortest translation that
-    /// separates the shapes. Metres.
+    /// The distance if positive. If negative, minus the *penetration depth*: the length of the shortest translation
+    /// that separates the shapes. Metres.
     pub distance: f64,
-    /// Unit direction from the first shape to the second along which `distance` is measured.
+    /// Unit direction from the first shape to the second, along which `distance` is measured.
     pub direction: Vector,
 }
 
-/// Signed distance of two rounded convex polygons.
+/// Computes the signed distance of two rounded convex polygons. `O(n m)`, which is faster than the linear methods for
+/// the few corners of typical links and obstacles.
 ///
-/// Disjoint cores: the least distance between their sides, less both radii. Overlapping cores: the depth of the origin
-/// in their Minkowski difference, whose side directions are the side normals of the two cores. `O(n m)`, which for the
-/// handful of corners that links and obstacles have beats the linear methods.
+/// For disjoint cores it is the least distance between their sides, less both radii. For overlapping cores it is the
+/// depth of the origin in their Minkowski difference, whose sides have the normals of the sides of the two cores.
 ///
-/// A measure, not a predicate: rounding can turn a touching pair's 0 into a few 1e-16. Ask [`super::shapes_meet`] for
-/// the exact verdict.
+/// This is a measure, not a predicate: rounding can turn the 0 of a touching pair into a few 1e-16.
+/// [`super::shapes_meet`] decides exactly.
 #[must_use]
 pub fn separation(a: &Convex, b: &Convex) -> Separation {
     let core = core_separation(a.core(), b.core());
     Separation { distance: core.distance - a.radius() - b.radius(), direction: core.direction }
 }
 
-/// The [`separation`] of a shape that is turned and moved by a pose from another, and what `and` makes of its corners there. A shape of few
-/// corners is put there without a list of its own.
+/// Computes the [`separation`] of a shape moved by a pose from another, and passes the moved corners to `and`. A shape
+/// with few corners is moved without an allocation.
 pub fn separation_at<R>(a: &Convex, pose: &Pose, b: &Convex, and: impl FnOnce(&[Point], Separation) -> R) -> R {
     const FEW: usize = 8;
     let (mut few, many);
@@ -46,8 +46,8 @@ pub fn separation_at<R>(a: &Convex, pose: &Pose, b: &Convex, and: impl FnOnce(&[
     and(corners, Separation { distance: core.distance - a.radius() - b.radius(), direction: core.direction })
 }
 
-/// How far `b` is from `a`, turned and moved by a pose, along a unit direction: the gap between their supporting lines,
-/// negative where they overlap. The [`separation`] is the greatest of these, so none is greater than it. `O(n + m)`.
+/// Returns the gap between the supporting lines of `b` and of `a` moved by a pose, along a unit direction. Negative if
+/// they overlap. No gap exceeds the [`separation`], which is the greatest of them. `O(n + m)`.
 pub fn gap_along(a: &Convex, pose: &Pose, b: &Convex, direction: Vector) -> f64 {
     let own = pose.inverse_transform_vector(&direction);
     let of_a = a.core().iter().map(|p| own.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
@@ -55,8 +55,8 @@ pub fn gap_along(a: &Convex, pose: &Pose, b: &Convex, direction: Vector) -> f64 
     of_b - of_a - direction.dot(&pose.translation.vector) - a.radius() - b.radius()
 }
 
-/// Rounding error of a side distance, relative to the largest coordinate: a difference, two products and a sum at
-/// coordinates twice as large, and the normal's own error, are some 6 epsilon together.
+/// Rounding error of a distance from a side, relative to the largest coordinate. A difference, two products and a sum
+/// at coordinates twice as large, and the error of the normal, add up to about 6 epsilon.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 fn core_separation(a: &[Point], b: &[Point]) -> Separation {
@@ -67,12 +67,12 @@ fn core_separation(a: &[Point], b: &[Point]) -> Separation {
     let error = ROUNDING * largest(a).max(largest(b));
     let Some(Face { distance, normal, is_beside }) = face else { return nearest_features(a, b, error) };
     let face = Separation { distance, direction: normal };
-    // No two points are nearer than the distance along any direction, and these two are as near.
+    // No two points are closer than the gap along any direction, and these two are exactly that close.
     if distance < -error || is_beside && distance > 4.0 * error {
         return face;
     }
-    // Disjoint, or touching up to rounding. Cores that lie apart on one line (as two walls in a row do) are separated by
-    // no side normal; only their distance tells them from cores that touch, whose distance is within `error` of 0.
+    // Disjoint, or touching up to rounding. Collinear cores (as two walls in a row) have no separating side normal.
+    // Only their distance distinguishes them from touching cores, whose distance is at most `error`.
     let nearest = nearest_features(a, b, error);
     if nearest.distance > 4.0 * error {
         nearest
@@ -83,28 +83,28 @@ fn core_separation(a: &[Point], b: &[Point]) -> Separation {
     }
 }
 
-/// The largest coordinate, whatever its sign.
+/// Returns the largest absolute coordinate.
 fn largest(points: &[Point]) -> f64 {
     points.iter().fold(0.0, |largest: f64, p| largest.max(p.x.abs()).max(p.y.abs()))
 }
 
-/// A side of one core against another core.
+/// A side of one core compared with another core.
 #[derive(Clone, Copy)]
 struct Face {
-    /// How far outside of the side the other core is.
+    /// Distance by which the other core lies outside the side.
     distance: f64,
-    /// The side's unit normal, outwards.
+    /// Outward unit normal of the side.
     normal: Vector,
-    /// Whether the other core's corner that is the least outside is beside the side, not beyond its ends.
+    /// True if the nearest corner of the other core lies beside the side, not beyond its ends.
     is_beside: bool,
 }
 
-/// The side of `a` which `b` is farthest outside of (least deep inside), if it is by more than `most` of one.
+/// Returns the side of `a` that `b` is farthest outside of (or least deep inside), if one exceeds `most`.
 fn best_face(a: &[Point], b: &[Point], mut most: f64) -> Option<Face> {
     let mut best: Option<(f64, Vector, [&Point; 3])> = None;
     for (p, q) in sides(a) {
         let across = -perpendicular(q - p);
-        // Most sides face away from what lies apart, which is soon seen.
+        // Most sides face away from a separate shape, which this test detects quickly.
         if most >= 0.0 && b.iter().any(|v| across.dot(&(v - p)) <= 0.0) {
             continue;
         }
@@ -114,7 +114,7 @@ fn best_face(a: &[Point], b: &[Point], mut most: f64) -> Option<Face> {
             let outside = normal.dot(&(v - p));
             if outside < nearest.0 {
                 nearest = (outside, v);
-                // What is no better than the best so far need not be known.
+                // A side that does not improve the best so far need not be evaluated further.
                 if outside <= most {
                     break;
                 }
@@ -131,42 +131,42 @@ fn best_face(a: &[Point], b: &[Point], mut most: f64) -> Option<Face> {
     })
 }
 
-/// The sides of a core, from corner to corner; none of a single corner, both ways of two.
+/// Iterates over the sides of a core: none for one corner, both directions for two.
 fn sides(core: &[Point]) -> impl Iterator<Item = (&Point, &Point)> {
     let closing = (core.len() > 1).then(|| (&core[core.len() - 1], &core[0]));
     core.windows(2).map(|ends| (&ends[0], &ends[1])).chain(closing)
 }
 
-/// Least distance between the boundaries of two cores that are disjoint, or meet by no more than `error`.
+/// Returns the least distance between the boundaries of two cores that are disjoint, or overlap by at most `error`.
 fn nearest_features(a: &[Point], b: &[Point], error: f64) -> Separation {
     let mut best = Separation { distance: f64::INFINITY, direction: Vector::x() };
     nearest_to_sides(b, a, error, 1.0, &mut best);
     nearest_to_sides(a, b, error, -1.0, &mut best);
     let distance = best.distance.sqrt();
-    // Only points that coincide have no direction; any will do for them.
+    // Only coincident points have no direction. Any direction is valid for them.
     let direction = if distance > 0.0 { best.direction / distance } else { Vector::x() };
     Separation { distance, direction }
 }
 
-/// By how much more than the best a distance to a side's line has to be, as a share of its square, so that rounding does not hide
-/// a better one.
+/// Relative margin on squared distances from side lines, so that rounding does not hide a better side.
 const SLACK: f64 = 1e-12;
 
-/// Looks for a corner that is nearer to a side than the best so far, which holds the squared distance, and the offset from the
+/// Looks for a corner closer to a side than the best so far. `best` holds the squared distance, and the offset from the
 /// nearest point of the side to the corner, times `sign`.
 ///
-/// The line of a side is no farther than the side, so most sides are passed over. So are those of a core with area that have
-/// the corner on their inner side by more than some `error`: the nearest point of the core is on one that the corner is outside
-/// of, too.
+/// The line of a side is at least as close as the side, so most sides are skipped. Sides of a core with area are also
+/// skipped if the corner lies inside them by more than `error`: the nearest point of the core is on another side,
+/// outside of which the corner lies.
 fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, best: &mut Separation) {
     let mut look = |p: &Point, q: &Point, is_one_sided: bool| {
         let along = q - p;
         let length2 = along.norm_squared();
-        // Cores that meet by `error` along a side's normal may do so by a little more along what is computed here.
+        // Cores that overlap by `error` along a side's normal may overlap by slightly more along the direction computed
+        // here.
         let inside = 16.0 * error * error * length2;
         for v in corners {
             let from = v - p;
-            // Left of the side, which is inside, if positive.
+            // Positive if the corner is left of the side, that is, inside.
             let left = along.x * from.y - along.y * from.x;
             let left2 = left * left;
             if left2 > best.distance * length2 * (1.0 + SLACK) || is_one_sided && left > 0.0 && left2 > inside {
@@ -178,7 +178,7 @@ fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, be
             } else if t >= length2 {
                 v - q
             } else {
-                // Along the normal, rather than to a rounded foot on the side: keeps the direction of small offsets.
+                // Along the normal instead of to a rounded foot on the side, to keep the direction of small offsets.
                 let normal = perpendicular(along);
                 normal * (normal.dot(&from) / length2)
             };

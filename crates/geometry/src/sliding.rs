@@ -3,8 +3,11 @@
 use super::turning::ROUNDING;
 use super::{Convex, Point, Vector, cross};
 
-/// Closed interval of `s` for which `part` moved by `s * direction` comes within `grow` of `piece` (or as deep as minus that, but no
-/// deeper than both are round); as both are convex there is one or none. `direction` is a unit vector. Exact up to [`ROUNDING`]; touching counts. `O(n m)`.
+/// Returns the closed interval of `s` for which `part`, moved by `s * direction`, comes within `grow` of `piece`. Both
+/// shapes are convex, so there is at most one. `direction` is a unit vector. `O(n m)`.
+///
+/// A negative `grow` asks for an overlap of that depth, up to the sum of the radii. Exact up to [`ROUNDING`]; touching
+/// counts.
 #[must_use]
 pub fn sliding(part: &Convex, direction: Vector, piece: &Convex, grow: f64) -> Option<[f64; 2]> {
     let part_track = along_and_across(part.core().iter(), Vector::zeros(), direction);
@@ -12,7 +15,7 @@ pub fn sliding(part: &Convex, direction: Vector, piece: &Convex, grow: f64) -> O
     sliding_tracks(&part_track, &piece_track, part.radius() + piece.radius() + grow)
 }
 
-/// Corners relative to `origin`, as coordinates along and across `direction`.
+/// Returns corners relative to `origin`, as coordinates along and across `direction`.
 pub fn along_and_across<'a>(
     corners: impl Iterator<Item = &'a Point>,
     origin: Vector,
@@ -26,11 +29,11 @@ pub fn along_and_across<'a>(
         .collect()
 }
 
-/// [`sliding`] for cores given along and across the direction.
+/// Does the same as [`sliding`] for cores given along and across the direction.
 ///
 /// The values of `s` are those on the line of motion within the Minkowski difference of piece and part, grown by
-/// `radius`. Its outline consists of differences of a corner of the one and a side of the other, and all such
-/// differences belong to it: so the interval reaches from the least to the greatest crossing of any of them.
+/// `radius`. Its outline consists of differences of a corner of one core and a side of the other, and all such
+/// differences belong to it. So the interval extends from the least to the greatest crossing of any of them.
 pub fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<[f64; 2]> {
     debug_assert!(radius >= 0.0, "shapes that overlap do not touch: {radius}");
     let mut interval: Option<[f64; 2]> = None;
@@ -62,7 +65,7 @@ pub fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<
     interval
 }
 
-/// The sides of a core.
+/// Iterates over the sides of a core.
 fn sides(core: &[Vector]) -> impl Iterator<Item = (Vector, Vector)> + '_ {
     let count = match core.len() {
         0 | 1 => 0,
@@ -72,10 +75,10 @@ fn sides(core: &[Vector]) -> impl Iterator<Item = (Vector, Vector)> + '_ {
     (0..count).map(|i| (core[i], core[(i + 1) % core.len()]))
 }
 
-/// Where the segment from `p` to `q`, moved by `radius` to either hand, crosses the first axis.
+/// Reports where the segment from `p` to `q`, moved by `radius` to either side, crosses the first axis.
 fn cross_line(p: Vector, q: Vector, radius: f64, include: &mut impl FnMut(f64)) {
     let along = q - p;
-    // A segment along the axis has its ends there, and those are looked at by themselves.
+    // A segment along the axis ends there, and its ends are tested separately.
     if along.y == 0.0 {
         return;
     }

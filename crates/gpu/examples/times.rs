@@ -1,8 +1,9 @@
-//! Times on this machine's GPU beside those of Silva 2011 (chapter 6: 85 x 65 cells, until the squared changes of a sweep are below 1e-6),
-//! and nanoseconds a cell on large open squares: `cargo run --release -p cplan-gpu --example times -- 2048 8192`.
+//! Compares times on this machine's GPU with those of Silva 2011 (chapter 6: 85 x 65 cells, until the squared changes
+//! of a sweep are below 1e-6), and prints nanoseconds per cell on large open squares: `cargo run --release -p cplan-gpu
+//! --example times -- 2048 8192`.
 //!
-//! The source's fields are states of play that are not published: here the field is empty, with a goal in the middle of one end and
-//! ten robots for the local drifts. So rows are comparable in kind, not in sweeps.
+//! The source does not publish its states of play. Here the field is empty, with a goal in the middle of one end and
+//! ten robots for the local drifts. So the rows are of the same kind, but sweep counts differ.
 
 use cplan_gpu::{Edge, Gpu, GpuError, Multigrid, Problem, Settings, Stencil, Sweep};
 use std::time::Instant;
@@ -13,7 +14,7 @@ const FIELD: [usize; 2] = [65, 85];
 /// Runs of each row; the fastest counts.
 const RUNS: usize = 10;
 
-/// A drift of each cell, by its row and column.
+/// The drift of a cell, by its row and column.
 type Drift = fn(usize, usize) -> [f64; 2];
 
 fn none(_: usize, _: usize) -> [f64; 2] {
@@ -24,7 +25,7 @@ fn along(_: usize, _: usize) -> [f64; 2] {
     [0.0, 0.5]
 }
 
-/// Around ten robots, within six cells.
+/// Returns a drift around ten robots, within six cells.
 fn local(i: usize, j: usize) -> [f64; 2] {
     let near = (0..10).any(|k| i.abs_diff(6 + 13 * (k % 5)).pow(2) + j.abs_diff(20 + 40 * (k / 5)).pow(2) < 36);
     if near { [0.0, 0.8] } else { [0.0; 2] }
@@ -46,13 +47,14 @@ fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result
     Problem::new([rows, columns], [Edge::Wall; 2], 1.0, vec![0.0; rows * columns], unknown, stencil)
 }
 
-/// `4 / (2 + sqrt(4 - c^2))`, `c` the sum of the cosines of pi over the cells (Young 1954).
+/// Returns `4 / (2 + sqrt(4 - c^2))`, where `c` is the sum of the cosines of pi divided by the number of cells (Young
+/// 1954).
 fn formula(cells: [usize; 2]) -> f64 {
     let c: f64 = cells.map(|n| (std::f64::consts::PI / n as f64).cos()).iter().sum();
     4.0 / (2.0 + (4.0 - c * c).sqrt())
 }
 
-/// Of several runs the shortest, in milliseconds, and what came of it.
+/// Returns the shortest time of several runs, in milliseconds, with the result.
 fn timed<T>(runs: usize, mut work: impl FnMut() -> Result<T, GpuError>) -> Result<(f64, T), GpuError> {
     let mut best: Option<(f64, T)> = None;
     for _ in 0..runs.max(1) {
@@ -66,7 +68,7 @@ fn timed<T>(runs: usize, mut work: impl FnMut() -> Result<T, GpuError>) -> Resul
     best.ok_or_else(|| GpuError::Refused("no run".into()))
 }
 
-/// What is timed: its name, drift, whether upwind, the sweep with its factor, and the published times of a CPU and of a GPU.
+/// A benchmark: name, drift, whether upwind, sweep and factor, and the published times of a CPU and of a GPU.
 type Row = (&'static str, Drift, bool, (Sweep, f64), &'static str, &'static str);
 
 fn main() -> Result<(), GpuError> {

@@ -1,4 +1,4 @@
-//! Numbers on their way to the GPU and back.
+//! Transfers of numbers to and from the GPU.
 
 use super::{Gpu, GpuError};
 use wgpu::util::DeviceExt as _;
@@ -6,13 +6,13 @@ use wgpu::util::DeviceExt as _;
 /// Threads of a block, along columns and rows.
 pub(super) const BLOCK: [usize; 2] = [32, 8];
 
-/// Blocks that cover so many places, along columns and rows.
+/// Returns the number of blocks that cover this many places, along columns and rows.
 pub(super) fn blocks(columns: usize, rows: usize) -> [u32; 2] {
     [columns.div_ceil(BLOCK[0]) as u32, rows.div_ceil(BLOCK[1]) as u32]
 }
 
 impl Gpu {
-    /// A buffer for kernels, with these numbers; of one word where there are none.
+    /// Creates a buffer for kernels with these numbers. An empty one gets one word.
     pub(super) fn storage<T: bytemuck::NoUninit>(&self, numbers: &[T]) -> Result<wgpu::Buffer, GpuError> {
         let bytes: &[u8] = if numbers.is_empty() { &[0; 16] } else { bytemuck::cast_slice(numbers) };
         let (needed, limits) = (bytes.len() as u64, self.device.limits());
@@ -24,14 +24,14 @@ impl Gpu {
         Ok(self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents: bytes, usage }))
     }
 
-    /// A few numbers that all threads read.
+    /// Creates a buffer of a few numbers that all threads read.
     pub(super) fn uniform<T: bytemuck::NoUninit>(&self, numbers: &T) -> wgpu::Buffer {
         let contents = bytemuck::bytes_of(numbers);
         let usage = wgpu::BufferUsages::UNIFORM;
         self.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: None, contents, usage })
     }
 
-    /// The buffers that a kernel sees, by their bindings.
+    /// Binds buffers to a kernel.
     pub(super) fn group(&self, pipeline: &wgpu::ComputePipeline, buffers: &[(u32, &wgpu::Buffer)]) -> wgpu::BindGroup {
         let entries = buffers
             .iter()
@@ -41,14 +41,14 @@ impl Gpu {
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
     }
 
-    /// Has the GPU do what `record` says, in that order.
+    /// Submits the commands that `record` records.
     pub(super) fn submit(&self, record: impl FnOnce(&mut wgpu::ComputePass)) {
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         record(&mut encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default()));
         self.queue.submit([encoder.finish()]);
     }
 
-    /// The first `bytes` of a buffer, as numbers, when all that was submitted is done.
+    /// Reads the first `bytes` of a buffer as numbers, after all submitted work.
     pub(super) fn read<T: bytemuck::Pod>(&self, buffer: &wgpu::Buffer, bytes: u64) -> Result<Vec<T>, GpuError> {
         let failed = |reason: &dyn std::fmt::Display| GpuError::Failed(reason.to_string());
         let copy = self.device.create_buffer(&wgpu::BufferDescriptor {
@@ -60,7 +60,7 @@ impl Gpu {
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, bytes);
         self.queue.submit([encoder.finish()]);
-        // An error comes again, and with its reason, when the range is asked for.
+        // An error is reported again, with its reason, when the range is read.
         copy.slice(..).map_async(wgpu::MapMode::Read, |_| {});
         self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
         let range = copy.slice(..).get_mapped_range().map_err(|error| failed(&error))?;
@@ -68,12 +68,12 @@ impl Gpu {
     }
 }
 
-/// Does `work`, and says what the driver finds wrong with it: without that wgpu would panic.
+/// Runs `work` and returns the driver's errors, on which wgpu would otherwise panic.
 pub(super) fn watched<T>(device: &wgpu::Device, work: impl FnOnce() -> Result<T, GpuError>) -> Result<T, GpuError> {
     use wgpu::ErrorFilter::{Internal, OutOfMemory, Validation};
     let scopes = [Validation, Internal, OutOfMemory].map(|filter| device.push_error_scope(filter));
     let done = work();
-    // The last opened is the first closed, and all are closed before the first error is looked at.
+    // Scopes close in reverse order. All must be closed before the first error is returned.
     let errors: Vec<_> = scopes.into_iter().rev().filter_map(|scope| pollster::block_on(scope.pop())).collect();
     match errors.first() {
         Some(error) => Err(GpuError::Failed(error.to_string())),

@@ -11,7 +11,7 @@ const SMOOTHING: usize = 2;
 /// Sweeps on the coarsest grid, which has 8 x 8 cells at the most.
 const LAST: usize = 32;
 
-/// What the kernels know of a level. The order is that of `Level` in `kernels/levels.wgsl`.
+/// Parameters of a level for the kernels, in the order of `Level` in `kernels/levels.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct Shape {
@@ -27,7 +27,7 @@ struct Shape {
 
 /// A level on the GPU.
 struct Stage {
-    /// One a turn.
+    /// One bind group per turn.
     smooth: Vec<wgpu::BindGroup>,
     smooth_blocks: [u32; 2],
     /// Down to the next level and up again, if there is one.
@@ -41,7 +41,7 @@ struct Next {
     prolong_blocks: [u32; 2],
 }
 
-/// All levels on the GPU, with the numbers that change.
+/// All levels on the GPU, with their variables.
 pub(super) struct Cycle {
     stages: Vec<Stage>,
     /// The finest level's correction, sought, and its right-hand side.
@@ -85,8 +85,10 @@ impl Cycle {
         Ok(Self { stages, x: xs[0].clone(), right: rights[0].clone() })
     }
 
-    /// Records one F-cycle: on each coarser level an F-cycle, then a V-cycle. `O(cells)` work in `O(log^2 cells)` dispatches; V-cycles
-    /// alone would need more and more of them on greater grids, whose coarse equations are only nearly right.
+    /// Records one F-cycle: on each coarser level an F-cycle, then a V-cycle. `O(cells)` work in `O(log^2 cells)`
+    /// dispatches.
+    ///
+    /// The coarse equations are approximate, so V-cycles alone would need more cycles on larger grids.
     pub fn record(&self, gpu: &Gpu, pass: &mut wgpu::ComputePass) {
         self.descend(gpu, pass, 0, true);
     }

@@ -4,33 +4,33 @@ use super::buffers::watched;
 use std::fmt;
 use thiserror::Error;
 
-/// Why there is no solution by a GPU.
+/// Reasons why the GPU gave no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum GpuError {
-    /// There is no adapter, or none that can do it.
+    /// There is no suitable adapter.
     #[error(
         "no GPU can be used: {0}\n  cure: install a driver for Vulkan (Linux: that of the graphics card; without one Mesa's software \
          driver, Debian's mesa-vulkan-drivers), Metal or Direct3D 12; or solve on the CPU"
     )]
     NoAdapter(String),
-    /// What was asked for makes no sense: why, in words.
+    /// The request is invalid, with the reason.
     #[error("{0}")]
     Refused(String),
     /// The adapter has no buffers of this size.
     #[error("the GPU has buffers of {most} bytes, {needed} are needed\n  cure: fewer cells, or solve on the CPU")]
     TooLarge {
-        /// Of the greatest buffer, in bytes.
+        /// Size of the largest buffer needed, in bytes.
         needed: u64,
-        /// What the adapter can have, in bytes.
+        /// Largest buffer of the adapter, in bytes.
         most: u64,
     },
-    /// Out of memory, or lost on the way: what the driver says.
+    /// Out of memory, or the device was lost, with the driver's message.
     #[error("the GPU failed: {0}\n  cure: fewer cells, or solve on the CPU")]
     Failed(String),
-    /// Values grew without bound, or are numbers no more.
+    /// Values grew without bound, or are not numbers.
     #[error("the relaxation diverged: after {sweeps} sweeps cell ({}, {}) has the value {value:e}", cell[0], cell[1])]
     Diverged {
-        /// Passes over all cells until it was noticed.
+        /// Number of sweeps until it was noticed.
         sweeps: u32,
         /// The first cell with such a value, as row and column.
         cell: [usize; 2],
@@ -39,7 +39,7 @@ pub enum GpuError {
     },
 }
 
-/// A GPU that is ready to work. Threads may share it.
+/// An opened GPU. Threads may share it.
 pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
@@ -48,7 +48,7 @@ pub struct Gpu {
     pub(super) pipelines: Pipelines,
 }
 
-/// One a kernel.
+/// One pipeline per kernel.
 pub(super) struct Pipelines {
     pub successive: wgpu::ComputePipeline,
     pub simultaneous: wgpu::ComputePipeline,
@@ -59,10 +59,11 @@ pub(super) struct Pipelines {
 }
 
 impl Gpu {
-    /// The fastest adapter of the machine; a driver in software where there is no other. It takes some tenths of a second.
+    /// Opens the fastest adapter of the machine, or a software driver if there is no other. Takes some tenths of a
+    /// second.
     ///
     /// # Errors
-    /// [`GpuError::NoAdapter`] with the cure; [`GpuError::Failed`] if the driver refuses the kernels.
+    /// [`GpuError::NoAdapter`] with a hint; [`GpuError::Failed`] if the driver refuses the kernels.
     pub fn open() -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12,
@@ -83,7 +84,7 @@ impl Gpu {
             max_storage_buffer_binding_size: most.max_storage_buffer_binding_size,
             ..wgpu::Limits::downlevel_defaults()
         };
-        // What these kernels need beyond the least that there is.
+        // The kernels need more than the smallest guaranteed limits.
         let required_limits = wgpu::Limits { max_storage_buffers_per_shader_stage: 6, ..required_limits };
         let wanted = wgpu::DeviceDescriptor { required_limits, ..wgpu::DeviceDescriptor::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&wanted)).map_err(|e| no_adapter(&e))?;
@@ -92,13 +93,13 @@ impl Gpu {
         Ok(Self { device, queue, name, is_software: info.device_type == wgpu::DeviceType::Cpu, pipelines })
     }
 
-    /// The adapter's name and its interface, such as `NVIDIA RTX A2000 (vulkan)`.
+    /// Returns the adapter's name and interface, such as `NVIDIA RTX A2000 (vulkan)`.
     #[must_use]
     pub fn adapter(&self) -> &str {
         &self.name
     }
 
-    /// Whether the driver does all on the CPU.
+    /// Returns true if the driver runs on the CPU.
     #[must_use]
     pub fn is_software(&self) -> bool {
         self.is_software

@@ -1,11 +1,11 @@
-//! Red-black grids of half the width: one colour after the other.
+//! Memory layout of red-black grids: one grid of half the width per colour.
 
-/// Where cells lie.
+/// The memory layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Half {
     pub rows: usize,
     pub columns: usize,
-    /// Places of a row of one colour.
+    /// Number of places per row of one colour.
     pub half: usize,
 }
 
@@ -14,7 +14,7 @@ impl Half {
         Self { rows, columns, half: columns.div_ceil(2) }
     }
 
-    /// Places of both colours; on an odd number of columns some are of no cell.
+    /// Returns the number of places of both colours. With an odd number of columns some hold no cell.
     pub fn places(self) -> usize {
         2 * self.rows * self.half
     }
@@ -23,7 +23,7 @@ impl Half {
         ((i + j) % 2 * self.rows + i) * self.half + j / 2
     }
 
-    /// Numbers of cells at their places, nothing where there is no cell.
+    /// Spreads numbers of cells to their places. Places without a cell get the default value.
     pub fn spread<T: Copy + Default>(self, of: impl Fn(usize) -> T) -> Vec<T> {
         let mut spread = vec![T::default(); self.places()];
         for i in 0..self.rows {
@@ -34,13 +34,13 @@ impl Half {
         spread
     }
 
-    /// The way back: one number a cell, row by row.
+    /// Gathers one number per cell, row by row: the inverse of [`Half::spread`].
     pub fn gathered(self, spread: &[f32]) -> Vec<f64> {
         let cells = (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| (i, j)));
         cells.map(|(i, j)| f64::from(spread[self.place(i, j)])).collect()
     }
 
-    /// A bit a place, 32 a word.
+    /// Packs one bit per place, 32 per word.
     pub fn mask(self, of: &[bool]) -> Vec<u32> {
         let bits = self.spread(|cell| of[cell]);
         bits.chunks(32).map(|bits| bits.iter().rev().fold(0, |word, &bit| word << 1 | u32::from(bit))).collect()

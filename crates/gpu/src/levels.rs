@@ -1,13 +1,13 @@
-//! Grids that are coarser and coarser, and the equations on them.
+//! A hierarchy of coarser grids with their equations.
 
 use super::{Edge, Problem};
 
-/// Diffusion between blocks of 2 x 2 cells is that of their common sides, over this. 2 would be right in the open, where a block's
-/// centre is twice as far; with a little less corrections stay too small rather than too great where blocks meet walls, which is what
-/// makes cycles converge (tried on random walls of up to 1024 x 1024 cells).
+/// Factor by which the diffusion between blocks of 2 x 2 cells is reduced. In open space, 2 would be exact, because
+/// block centres are twice as far apart. A slightly smaller value keeps corrections small where blocks meet walls, so
+/// that cycles converge (tested on random walls of up to 1024 x 1024 cells).
 const STIFFNESS: f64 = 1.7;
 
-/// No coarser grid than of so many rows and columns.
+/// Least number of rows or columns of a grid that is still coarsened.
 const COARSEST: usize = 8;
 
 /// Equations on a grid, row by row: `own * x - sum of side * neighbour = right`.
@@ -15,17 +15,17 @@ const COARSEST: usize = 8;
 pub(super) struct Level {
     pub cells: [usize; 2],
     pub edges: [Edge; 2],
-    /// 0 where nothing is sought.
+    /// Diagonal coefficients; 0 for cells that are not unknowns.
     pub own: Vec<f64>,
-    /// 0 for neighbours that are no unknowns.
+    /// Couplings to the neighbours; 0 for neighbours that are not unknowns.
     pub sides: Vec<[f64; 4]>,
 }
 
-/// The side from which a neighbour sees the cell.
+/// The side of a neighbour that faces the cell.
 const BACK: [usize; 4] = [1, 0, 3, 2];
 
 impl Level {
-    /// The finest: the problem's weights, `1 - weight` for sides at which the cell meets itself.
+    /// Creates the finest level: the problem's weights, with `1 - weight` on mirrored sides.
     pub fn finest(problem: &Problem, weights: impl Fn(usize) -> [f64; 4]) -> Self {
         let count = problem.values.len();
         let mut level =
@@ -45,7 +45,7 @@ impl Level {
         level
     }
 
-    /// The neighbour on a side; none beyond walls and mirrors.
+    /// Returns the neighbour on a side, or `None` beyond walls and mirrors.
     pub fn neighbor(&self, cell: usize, side: usize) -> Option<usize> {
         let [rows, columns] = self.cells;
         let (i, j) = (cell / columns, cell % columns);
@@ -61,18 +61,19 @@ impl Level {
         }
     }
 
-    /// Whether there is a coarser one.
+    /// Returns true if there is no coarser level.
     fn is_coarsest(&self) -> bool {
         self.cells.iter().all(|&n| n <= COARSEST)
     }
 
-    /// The same on blocks of 2 x 2 cells: what flows through the sides that blocks have in common, diffusion over [`STIFFNESS`]. Where
-    /// drift is stronger than that its upwind part is taken, so that coefficients have their signs on every level. `O(cells)`.
+    /// Returns the level of blocks of 2 x 2 cells. Its couplings are the flows through common sides, with diffusion
+    /// divided by [`STIFFNESS`]. Drift that exceeds diffusion is taken upwind, so that coefficients keep their signs on
+    /// every level. `O(cells)`.
     fn coarser(&self) -> Self {
         let cells = self.cells.map(|n| n.div_ceil(2));
         let count = cells[0] * cells[1];
         let block = |cell: usize| cell / self.cells[1] / 2 * cells[1] + cell % self.cells[1] / 2;
-        // Of each block through each side: from it, and back; and what it loses to walls.
+        // For each block and side: flow out, flow in, and loss to walls.
         let (mut there, mut back, mut lost) = (vec![[0.0; 4]; count], vec![[0.0; 4]; count], vec![0.0; count]);
         for cell in (0..self.own.len()).filter(|&cell| self.own[cell] > 0.0) {
             let here = block(cell);
@@ -102,7 +103,7 @@ impl Level {
         coarse
     }
 
-    /// All of them, the finest first.
+    /// Returns all levels, the finest first.
     pub fn hierarchy(finest: Self) -> Vec<Self> {
         let mut levels = vec![finest];
         while let Some(last) = levels.last().filter(|last| !last.is_coarsest()) {
@@ -112,7 +113,7 @@ impl Level {
         levels
     }
 
-    /// Five planes of single precision, as the kernels have them.
+    /// Returns five planes of coefficients in single precision, as used by the kernels.
     pub fn planes(&self) -> Vec<f32> {
         let sides = (0..4).flat_map(|side| self.sides.iter().map(move |sides| sides[side] as f32));
         sides.chain(self.own.iter().map(|&own| own as f32)).collect()

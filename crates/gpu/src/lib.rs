@@ -1,12 +1,12 @@
 //! Relaxation and multigrid of five-point problems among walls on a GPU.
 //!
-//! The problem: a rectangle of cells, some with given values, the others each a mean of its four neighbours with weights of its own
-//! (Laplace's equation, with or without drift), or that mean and a part of the slope. Rows and columns may be circles, end at walls, or
-//! at mirrors.
+//! The problem is a rectangle of cells. Some have given values. Each other cell is a weighted mean of its four
+//! neighbours (Laplace's equation, with or without drift), or the mean plus a fraction of the slope. Rows and columns
+//! may be circles, or end at walls or mirrors.
 //!
-//! - [`Gpu::open`]: the adapter, by Vulkan, Metal or Direct3D 12; a clear error where there is none.
-//! - [`Gpu::relax`]: Jacobi's, weighted Jacobi's, Gauss-Seidel's and SOR's relaxations, sweep by sweep until a rule is met.
-//! - [`Gpu::solve`]: multigrid for the linear ones, refined to double precision.
+//! - [`Gpu::open`] opens the adapter through Vulkan, Metal or Direct3D 12, or returns a clear error.
+//! - [`Gpu::relax`] runs Jacobi, weighted Jacobi, Gauss-Seidel or SOR relaxation until a stopping rule holds.
+//! - [`Gpu::solve`] solves linear problems by multigrid, refined to double precision.
 //!
 //! ```no_run
 //! use cplan_gpu::*;
@@ -22,21 +22,25 @@
 //! # Ok::<(), GpuError>(())
 //! ```
 //!
-//! # How
+//! # Method
 //!
-//! Red-black relaxations work on two grids of half the width, one a colour: cell `(i, j)` is place `j / 2` of row `i` of colour
-//! `(i + j) mod 2`, so that neighbouring threads read neighbouring numbers (Silva 2011). A sweep is a dispatch a colour (and a few more on
-//! circles of odd length, where neighbours across the seam have one colour: the later goes after the earlier, as one by one); changes are
-//! added up in two passes, one in each block of 32 x 8 cells, one over the blocks. Blocks of 32 x 32, as in the source, are more than WebGPU
-//! promises. The stopping rule is judged on the GPU after every sweep: no sweep is one too many, and the program waits for the GPU only
-//! once in some dozens of sweeps.
+//! Red-black relaxations work on one grid of half the width per colour. Cell `(i, j)` is place `j / 2` of row `i` of
+//! colour `(i + j) mod 2`, so neighbouring threads read neighbouring numbers (Silva 2011). A sweep takes one dispatch
+//! per colour. Circles of odd length need a few more, because neighbours across the seam have the same colour and must
+//! be updated one after the other.
 //!
-//! # What holds
+//! Changes are summed in two passes: within each block of 32 x 8 cells, then over the blocks. The source's blocks of 32
+//! x 32 exceed the limits that WebGPU guarantees. The GPU evaluates the stopping rule after every sweep, so no extra
+//! sweeps are run, and the program waits for the GPU only once in several dozen sweeps.
 //!
-//! WGSL has no double precision. Relaxed values are `f32`: each update is off by a few parts in 10^7 of its greatest neighbour, and values
-//! below 10^-38 are 0. A relaxation that can come no further says so ([`Ending::Floor`]). Multigrid's corrections are `f32`, too, but the
-//! residuals that they are for are reckoned in `f64` on the CPU: its solution is as good as one in `f64`.
-//! The same input on the same adapter and driver gives the same bytes; another driver may round otherwise.
+//! # Guarantees
+//!
+//! WGSL has no double precision. Relaxed values are `f32`: each update has an error of a few parts in 10^7 of its
+//! greatest neighbour, and values below 10^-38 are 0. A relaxation that cannot improve further ends with
+//! [`Ending::Floor`]. Multigrid corrections are also `f32`, but their residuals are computed in `f64` on the CPU, so
+//! the solution is as good as one computed in `f64`.
+//!
+//! The same input on the same adapter and driver gives the same bytes. Another driver may round differently.
 
 mod buffers;
 mod cycle;

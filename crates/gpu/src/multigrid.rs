@@ -6,12 +6,12 @@ use super::levels::Level;
 use super::{Gpu, GpuError, Problem, Stencil};
 use cplan_interrupt::checkpoint;
 
-/// How far multigrid goes.
+/// Stopping rule of multigrid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Multigrid {
-    /// Until no value differs by more than this part of the greatest one from what its neighbours ask for.
+    /// Largest residual to reach, as a fraction of the greatest value.
     pub below: f64,
-    /// It ends after so many cycles anyway.
+    /// Largest number of cycles.
     pub max_cycles: u32,
 }
 
@@ -24,37 +24,38 @@ impl Default for Multigrid {
 /// A solution by multigrid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
-    /// One a cell, row by row.
+    /// One value per cell, row by row.
     pub values: Vec<f64>,
-    /// Cycles that it took.
+    /// Number of cycles.
     pub cycles: u32,
-    /// The greatest difference between a value and what its neighbours ask for, as a part of the greatest value.
+    /// Largest residual: the greatest difference between a value and the one that its neighbours imply, as a fraction
+    /// of the greatest value.
     pub residual: f64,
-    /// Whether that is as small as was asked for. If not, cycles made it no smaller any more, or were used up.
+    /// True if the requested residual was reached. Otherwise further cycles did not help, or the limit was reached.
     pub converged: bool,
 }
 
-/// Cycles between residuals in double precision.
+/// Number of cycles between residuals in double precision.
 const ROUND: u32 = 2;
 
-/// A round that leaves more than this part of the residual has not helped.
+/// A round that leaves more than this fraction of the residual counts as no progress.
 const HELPED: f64 = 0.5;
 
-/// So many rounds in a row that did not help are the end.
+/// Number of consecutive rounds without progress after which the solver stops.
 const PATIENCE: u32 = 4;
 
 impl Gpu {
-    /// Solves a linear problem by multigrid: corrections by F-cycles in single precision on the GPU, each for a residual that was reckoned
-    /// in double precision. `O(cells)` a cycle, about 38 bytes a cell on the GPU. On walls at random and mild drifts a cycle leaves about a
-    /// third of the error.
+    /// Solves a linear problem by multigrid: F-cycles in single precision on the GPU compute corrections for residuals
+    /// that the CPU computes in double precision. Takes `O(cells)` per cycle and about 38 bytes per cell on the GPU.
+    /// With random walls and mild drifts, a cycle leaves about a third of the error.
     ///
-    /// How far values are from the solution follows from the residual: by Laplace's equation, at most `n^2 / 2` times as much in a
-    /// corridor of `n` cells' length.
+    /// The residual bounds the error: for Laplace's equation in a corridor of `n` cells, by a factor of at most `n^2 /
+    /// 2`.
     ///
     /// # Errors
-    /// [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear; [`GpuError::TooLarge`], [`GpuError::Failed`]. That it does
-    /// not converge (drifts by central differences of 2 and more a cell, unknowns that no given value reaches) is no error:
-    /// [`Solution::converged`] says so.
+    /// [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear; [`GpuError::TooLarge`],
+    /// [`GpuError::Failed`]. A failure to converge is not an error: see [`Solution::converged`]. Central differences
+    /// with drifts of 2 or more per cell, or unknowns that no given value reaches, may not converge.
     pub fn solve(&self, problem: &Problem, settings: &Multigrid) -> Result<Solution, GpuError> {
         let weights = |cell: usize| match &problem.stencil {
             Stencil::Weights(weights) => weights[cell],
@@ -80,7 +81,7 @@ impl Gpu {
                     let next = self.corrected(&cycle, cycles, &values, &left.0)?;
                     solved.cycles += cycles;
                     let after = residual(&next);
-                    // What is no number has not helped, either.
+                    // NaN also counts as no progress.
                     idle = if after.1 <= HELPED * solved.residual { 0 } else { idle + 1 };
                     if !after.1.is_finite() {
                         break;
@@ -94,14 +95,14 @@ impl Gpu {
                 Ok(())
             })?;
         }
-        // Rounds that did not help may have made it worse.
+        // Rounds without progress may have made the result worse.
         let (values, residual) = best;
         Ok(Solution { values, residual, ..solved })
     }
 
-    /// The values after so many cycles for what is left to do.
+    /// Returns the values after this many cycles for the residual `left`.
     fn corrected(&self, cycle: &Cycle, cycles: u32, values: &[f64], left: &[f64]) -> Result<Vec<f64>, GpuError> {
-        // Scaled, so that no correction is lost below the least number of single precision.
+        // Scaled, so that corrections stay above the least number of single precision.
         let scale = left.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
         let right: Vec<f32> = left.iter().map(|value| (value / scale) as f32).collect();
         self.queue.write_buffer(&cycle.right, 0, bytemuck::cast_slice(&right));
@@ -114,7 +115,7 @@ impl Gpu {
     }
 }
 
-/// What is left to do in each cell, and the greatest of it as a part of the greatest value. `O(cells)`.
+/// Computes the residual of each cell, and the greatest one as a fraction of the greatest value. `O(cells)`.
 fn residual(
     problem: &Problem,
     finest: &Level,

@@ -1,8 +1,8 @@
-//! What is to be solved.
+//! The problem to solve.
 
 use super::GpuError;
 
-/// What lies beyond the first and the last cell of an axis.
+/// Boundary condition at the first and the last cell of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Edge {
     /// The cells of the other end.
@@ -13,18 +13,18 @@ pub enum Edge {
     Mirror,
 }
 
-/// What the neighbours ask of a cell; in the order row before, row after, column before, column after.
+/// The equation at a cell. Neighbours are in the order previous row, next row, previous column, next column.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stencil {
     /// Their mean.
     Mean,
-    /// A mean with weights, one four a cell: what they add up to is 1. Negative weights make no mean, and may diverge.
+    /// A weighted mean with four weights per cell, which add up to 1. With negative weights the relaxation may diverge.
     Weights(Vec<[f64; 4]>),
-    /// Their mean and, one a cell, a part of `(|difference of rows| + |difference of columns|) / 2`.
+    /// The mean plus, per cell, a fraction of `(|difference of rows| + |difference of columns|) / 2`.
     Altered(Vec<f64>),
 }
 
-/// Cells, their values, and what the others are to be.
+/// A grid of cells with their values, equations and boundary.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     pub(super) cells: [usize; 2],
@@ -35,15 +35,17 @@ pub struct Problem {
     pub(super) stencil: Stencil,
 }
 
-/// Cells that one problem may have: places are counted in 32 bits, four weights a cell.
+/// Largest number of cells: places are counted in 32 bits, with four weights per cell.
 const MOST: usize = 1 << 29;
 
 impl Problem {
-    /// Of `cells[0]` rows and `cells[1]` columns, row by row. `edges[0]` is beyond the first and the last row, `outside` the value
-    /// beyond walls; `values` are kept where `unknown` is false, and the start where it is true. `O(cells)`.
+    /// Creates a problem of `cells[0]` rows and `cells[1]` columns, row by row. `edges[0]` applies beyond the first and
+    /// the last row, and `outside` is the value beyond walls. `values` are fixed where `unknown` is false, and initial
+    /// values elsewhere. `O(cells)`.
     ///
     /// # Errors
-    /// [`GpuError::Refused`] where there is not one entry a cell, a number is not finite, or the cells are more than 2^29.
+    /// [`GpuError::Refused`] if a list does not have one entry per cell, a number is not finite, or there are more than
+    /// 2^29 cells.
     pub fn new(
         cells: [usize; 2],
         edges: [Edge; 2],
@@ -70,15 +72,15 @@ impl Problem {
         Ok(Self { cells, edges, outside, values, unknown, stencil })
     }
 
-    /// The same problem from other values, one a cell.
+    /// Replaces the values, one per cell.
     ///
     /// # Errors
-    /// As [`Problem::new`].
+    /// Same as [`Problem::new`].
     pub fn from(self, values: Vec<f64>) -> Result<Self, GpuError> {
         Self::new(self.cells, self.edges, self.outside, values, self.unknown, self.stencil)
     }
 
-    /// Which circles have an odd number of cells: as bits, the first that of rows.
+    /// Returns the axes that are circles with an odd number of cells, as bits; rows are bit 0.
     pub(super) fn odd_circles(cells: [usize; 2], edges: [Edge; 2]) -> u32 {
         let odd = |axis: usize| u32::from(edges[axis] == Edge::Circle && cells[axis] % 2 == 1);
         odd(0) + 2 * odd(1)
@@ -86,7 +88,7 @@ impl Problem {
 }
 
 impl Edge {
-    /// As the kernels count them.
+    /// Returns the code used by the kernels.
     pub(super) fn code(self) -> u32 {
         match self {
             Self::Circle => 0,

@@ -9,41 +9,42 @@ use cplan_interrupt::checkpoint;
 /// A relaxed field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relaxed {
-    /// One a cell, row by row. Those that were given are as they were, but for rounding to single precision.
+    /// One value per cell, row by row. Given values are unchanged up to rounding to single precision.
     pub values: Vec<f64>,
-    /// Passes over all cells.
+    /// Number of sweeps.
     pub sweeps: u32,
-    /// The measure in the last of them; infinite before the first.
+    /// The measure in the last sweep; infinite before the first.
     pub change: f64,
-    /// How it ended.
+    /// Reason why the relaxation ended.
     pub ending: Ending,
 }
 
-/// Sweeps that are asked for at once, at the most. It is even, so that Jacobi's two buffers are where they were.
+/// Largest number of sweeps submitted at once. Even, so that Jacobi's two buffers return to their places.
 const AT_ONCE: usize = 64;
 
-/// Updates of cells that are asked for at once: a part of a second on any GPU, so that no driver thinks that it hangs.
+/// Largest number of cell updates submitted at once. They take a fraction of a second on any GPU, so that no driver
+/// assumes a hang.
 const UPDATES_AT_ONCE: usize = 1 << 28;
 
-/// A value greater than all at the start by this factor will not come back.
+/// Factor by which a value may exceed the initial ones. Larger values will not recover.
 const BEYOND: f32 = 1e30;
 
-/// Fewer sweeps than this are no floor, though nothing became better in them.
+/// Least number of sweeps without progress that counts as a floor.
 const PATIENCE: usize = 64;
 
-/// Which cells a dispatch does. The order is that of `Turn` in `kernels/sweep.wgsl`.
+/// The cells that a dispatch updates, in the order of `Turn` in `kernels/sweep.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct Turn {
     pub colour: u32,
     /// 0 for most cells; on circles of odd length 1 for the last row, 2 for the last column, 3 for the cell that is in both.
     pub region: u32,
-    /// Where its partial sums begin.
+    /// Index of its first partial sum.
     pub slot: u32,
     pub unused: u32,
 }
 
-/// Those of a sweep, in their order: that of [`Sweep::RedBlack`] one by one.
+/// Returns the turns of a sweep, in the order of a sequential [`Sweep::RedBlack`].
 pub(super) fn turns(odd: u32, blocks: u32) -> Vec<Turn> {
     let regions = [0, 2, 1, 3].into_iter().filter(|region| region & !odd == 0);
     let turns = (0..2).flat_map(|colour| regions.clone().map(move |region| (colour, region)));
@@ -98,7 +99,7 @@ impl Gpu {
 
         let is_jacobi = settings.sweep == Sweep::Jacobi;
         let sweep = if is_jacobi { &self.pipelines.simultaneous } else { &self.pipelines.successive };
-        // What an odd or an even sweep sees.
+        // Buffers for an odd or an even sweep.
         let groups = [0, 1].map(|parity: usize| {
             let of = |turn| {
                 let target = &pair[if is_jacobi { 1 - parity } else { 0 }];
@@ -143,8 +144,9 @@ impl Gpu {
     }
 }
 
-/// Relative changes that may be nothing but rounding: eight units in the last place. Over-relaxation by `2 - d` keeps what comes in some
-/// `1 / d` sweeps and magnifies it by as much again, as measured; a thousandth is more than rounding.
+/// Returns the relative change that may be pure rounding: eight units in the last place. Over-relaxation by `2 - d`
+/// accumulates rounding over about `1 / d` sweeps and amplifies it as much again, by measurement. A change of a
+/// thousandth exceeds rounding.
 fn rounding(factor: f64) -> f32 {
     let kept = (2.0 - factor).clamp(1e-2, 1.0).powi(-2);
     ((8.0 * kept) as f32 * f32::EPSILON).min(1e-3)
@@ -154,7 +156,7 @@ fn greatest(values: &[f64]) -> f32 {
     values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs())) as f32
 }
 
-/// Above this, values are lost.
+/// Returns the bound above which values count as diverged.
 fn beyond(problem: &Problem) -> f32 {
     let greatest = greatest(&problem.values).max(problem.outside.abs() as f32);
     if greatest > 0.0 { (BEYOND * greatest).min(f32::MAX / 2.0) } else { BEYOND }
@@ -162,7 +164,7 @@ fn beyond(problem: &Problem) -> f32 {
 
 fn diverged(values: &[f64], problem: &Problem, sweeps: u32) -> GpuError {
     let bound = f64::from(beyond(problem));
-    // What is no number is lost, too. The value that was may have been overwritten: then the greatest.
+    // NaN also counts as diverged. The first such value may have been overwritten; then report the greatest.
     let lost = values.iter().position(|value| value.is_nan() || value.abs() > bound);
     let largest = || (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs()));
     let at = lost.or_else(largest).unwrap_or(0);
@@ -198,7 +200,7 @@ fn rule(problem: &Problem, settings: &Settings, half: Half, odd: u32, blocks: u3
     }
 }
 
-/// One number a place, or four, place after place of each.
+/// Returns one number per place, or four, place by place.
 fn coefficients(stencil: &Stencil, half: Half) -> Vec<f32> {
     match stencil {
         Stencil::Mean => Vec::new(),

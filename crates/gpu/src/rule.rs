@@ -1,19 +1,20 @@
-//! Who goes how far, and when it ends.
+//! Settings of a relaxation: order of updates, factor and stopping rule.
 
 use super::GpuError;
 
-/// Who goes when.
+/// The order of updates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Sweep {
-    /// All cells at once, from the values of the sweep before: Jacobi's relaxation; with a factor below 1 the weighted one.
+    /// Updates all cells at once from the values of the previous sweep: Jacobi relaxation, weighted if the factor is
+    /// below 1.
     Jacobi,
-    /// First the cells whose indices have an even sum, then the others, each from the newest values: Gauss-Seidel's relaxation; with
-    /// a factor above 1 SOR.
+    /// Updates first the cells whose indices have an even sum, then the others, each from the newest values:
+    /// Gauss-Seidel relaxation, or SOR if the factor is above 1.
     #[default]
     RedBlack,
 }
 
-/// What is measured in a sweep; `change` is the difference between a value after and before it.
+/// The quantity measured in a sweep. `change` is the difference of a value before and after it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Measure {
     /// Sum of `|change|`.
@@ -25,29 +26,29 @@ pub enum Measure {
     Greatest,
     /// Greatest `|change| / |value after|`.
     Relative,
-    /// Difference between the sum of `|change|` and that of the sweep before.
+    /// Difference between the sum of `|change|` and that of the previous sweep.
     DifferenceOfSums,
 }
 
-/// How a problem is relaxed.
+/// Settings of a relaxation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Who goes when.
+    /// The order of updates.
     pub sweep: Sweep,
-    /// A cell goes so many times the way that its neighbours ask for.
+    /// Relaxation factor: the multiple of the update that a cell makes.
     pub factor: f64,
-    /// New values are brought into this range, if any.
+    /// Range to which new values are clamped, if any.
     pub clamp: Option<[f64; 2]>,
-    /// What is measured.
+    /// The measured quantity.
     pub measure: Measure,
-    /// It has converged when the measure falls below this, or a sweep changes nothing.
+    /// The relaxation has converged when the measure falls below this, or a sweep changes nothing.
     pub below: f64,
-    /// It ends after so many sweeps anyway.
+    /// Largest number of sweeps.
     pub max_sweeps: u32,
 }
 
 impl Default for Settings {
-    /// Gauss-Seidel's, until the squares of a sweep's changes add up to less than 10^-6, as in Silva 2011.
+    /// Gauss-Seidel relaxation until the squared changes of a sweep add up to less than 10^-6, as in Silva 2011.
     fn default() -> Self {
         Self {
             sweep: Sweep::RedBlack,
@@ -60,19 +61,20 @@ impl Default for Settings {
     }
 }
 
-/// How a relaxation ended.
+/// Reasons why a relaxation ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Ending {
-    /// The measure fell below its bound, or nothing changed any more.
+    /// The measure fell below its bound, or nothing changed.
     Converged,
-    /// Single precision goes no further: in 64 sweeps (or as many as the grid has rows or columns, if these are more) values changed by
-    /// what may be rounding, eight units in the last place and with over-relaxation more, and the measure did not become less.
+    /// Single precision allows no further progress. In 64 sweeps, or as many as the grid has rows or columns if these
+    /// are more, the measure did not decrease and changes were within rounding: eight units in the last place, or more
+    /// with over-relaxation.
     Floor,
-    /// Neither, after as many sweeps as the rule allows.
+    /// The limit on the number of sweeps was reached.
     Unconverged,
 }
 
-/// What the kernels know of settings and grid. The order is that of `Rule` in `kernels/rule.wgsl`.
+/// Parameters of the relaxation for the kernels, in the order of `Rule` in `kernels/rule.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct Rule {
@@ -85,7 +87,7 @@ pub(super) struct Rule {
     pub stencil: u32,
     pub measure: u32,
     pub max_sweeps: u32,
-    /// Partial sums of a sweep.
+    /// Number of partial sums of a sweep.
     pub blocks: u32,
     pub outside: f32,
     pub factor: f32,
@@ -93,18 +95,18 @@ pub(super) struct Rule {
     pub high: f32,
     pub below: f32,
     pub beyond: f32,
-    /// Relative changes up to this may be nothing but rounding.
+    /// Relative changes up to this may be pure rounding.
     pub rounding: f32,
-    /// So many sweeps that only round make a floor.
+    /// Number of sweeps with pure rounding that makes a floor.
     pub patience: u32,
     pub unused: [u32; 2],
 }
 
-/// What the kernels say of a relaxation so far. The order is that of `State` in `kernels/rule.wgsl`.
+/// State of a relaxation on the GPU, in the order of `State` in `kernels/rule.wgsl`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct State {
-    /// 0 while it goes on, and how it ended.
+    /// 0 while running, then the code of the ending.
     pub done: u32,
     pub sweeps: u32,
     pub lost: u32,
@@ -116,13 +118,13 @@ pub(super) struct State {
 }
 
 impl Settings {
-    /// Why they make no sense, if they do not.
+    /// Returns the reason why the settings are invalid, or `None`.
     pub(super) fn refusal(&self) -> Option<GpuError> {
         let reason = match self {
             _ if !(self.factor.is_finite() && self.factor > 0.0) => {
                 format!("a relaxation factor must be positive, this one is {}", self.factor)
             }
-            // Written so that what is no number is refused, too.
+            // Written so that NaN is refused, too.
             Self { clamp: Some([low, high]), .. } if !matches!(low.partial_cmp(high), Some(o) if o.is_le()) => {
                 format!("values cannot be brought into the empty range {low}..{high}")
             }

@@ -1,4 +1,4 @@
-//! The wave over a lattice at 1024 x 1024, and harmonic fields of rooms, mazes and a spiral.
+//! Benchmarks of the wave over a 1024 x 1024 lattice, and of harmonic fields of rooms, mazes and a spiral.
 
 #[path = "../../../tests/common/mazes.rs"]
 mod mazes;
@@ -7,7 +7,7 @@ use cplan_harmonic::{Component, Lattice, harmonic};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
-/// A torus of `n x n` cells with 25 boxes, scattered by the golden ratio.
+/// Returns a torus of `n x n` cells with 25 boxes, distributed by the golden ratio.
 fn boxes(n: usize) -> Vec<bool> {
     let corner = |k: usize, by: f64| (k as f64 * by).fract() * n as f64;
     let mut blocked = vec![false; n * n];
@@ -21,7 +21,7 @@ fn boxes(n: usize) -> Vec<bool> {
     blocked
 }
 
-/// The middle one of the free cells.
+/// Returns the middle one of the free cells.
 fn middle(blocked: &[bool]) -> usize {
     let free: Vec<usize> = (0..blocked.len()).filter(|&cell| !blocked[cell]).collect();
     free[free.len() / 2]

@@ -3,33 +3,34 @@
 use super::{Lattice, Wave};
 use cplan_interrupt::checkpoint;
 
-/// The free cells that a wave from the goal reached, numbered in the order in which it came: the goals first, then level
-/// by level. Positions within this numbering, not indices of the grid, are the currency of the field algorithms.
+/// The free cells that a wave from the goal reached, numbered in the order of the wave: first the goals, then level by
+/// level. Field algorithms use positions in this numbering, not indices of the grid.
 ///
-/// Relaxing in this order carries information away from the goal through a whole corridor in one sweep; and because
-/// neighbours lie on consecutive levels (never on one, but for circles of odd size) it is a consistent ordering, for
-/// which Young's theory of over-relaxation holds.
+/// Relaxation in this order carries information away from the goal through a whole corridor in one sweep. Neighbours
+/// lie on consecutive levels (never on the same one, except on circles of odd size), so this is a consistent ordering,
+/// for which Young's theory of over-relaxation holds.
 ///
-/// Two numbers of 32 bits a cell: neighbours are looked up where they lie.
+/// Each cell takes two 32-bit numbers. Neighbours are looked up by their place in the grid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Component {
-    /// How many of the first positions are goals.
+    /// Number of goals, which are the first positions.
     pub goals: usize,
-    /// Levels of the wave.
+    /// Number of levels of the wave.
     pub levels: usize,
-    /// Shape of the grid.
+    /// Rows and columns of the grid.
     pub shape: [usize; 2],
-    /// Where each position lies in the grid with a frame of one cell around it.
+    /// Place of each position in the grid with a frame of one cell around it.
     places: Vec<u32>,
-    /// Position at each place, or [`Component::wall`]; in the frame that of the cell on the other side of a circle.
+    /// Position at each place, or [`Component::wall`]. A frame cell has the position of the cell on the other side of a
+    /// circle.
     positions: Vec<u32>,
 }
 
-/// So many cells take less than a millisecond.
+/// Processing this many cells takes less than a millisecond.
 const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl Component {
-    /// From a wave over this lattice, in linear time.
+    /// Numbers the cells that a wave over this lattice reached. Linear.
     #[must_use]
     pub fn new(lattice: &Lattice, wave: Wave) -> Self {
         let Wave { order: places, sources: goals, levels, labels: mut positions } = wave;
@@ -42,62 +43,63 @@ impl Component {
         Self { goals, levels, shape: lattice.cells(), places, positions }
     }
 
-    /// Number of cells.
+    /// Returns the number of cells.
     #[must_use]
     pub fn len(&self) -> usize {
         self.places.len()
     }
 
-    /// Whether there is no cell at all.
+    /// Returns true if there are no cells.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.places.is_empty()
     }
 
-    /// The position that stands for all that is not free.
+    /// Returns the position that represents all cells that are not free.
     #[must_use]
     pub fn wall(&self) -> usize {
         self.places.len()
     }
 
-    /// Positions of the four neighbours of a position, in the order `-q1, +q1, -q2, +q2`; [`Component::wall`] where there is no
-    /// free cell.
+    /// Returns the positions of the four neighbours, in the order `-q1, +q1, -q2, +q2`. A neighbour that is not free is
+    /// [`Component::wall`].
     #[must_use]
     pub fn neighbors(&self, position: usize) -> [usize; 4] {
         let (place, stride) = (self.places[position] as usize, self.shape[1] + 2);
         [place - stride, place + stride, place - 1, place + 1].map(|place| self.positions[place] as usize)
     }
 
-    /// Position of cell `index` of the grid, if the wave came there.
+    /// Returns the position of cell `index` of the grid, or `None` if the wave did not reach it.
     #[must_use]
     pub fn position_of(&self, index: usize) -> Option<usize> {
         let [i, j] = [index / self.shape[1], index % self.shape[1]];
         Some(self.row(i)[j] as usize).filter(|&position| position != self.wall())
     }
 
-    /// Positions of the cells in row `i` of the grid, by column; [`Component::wall`] where the wave did not come.
+    /// Returns the positions in row `i` of the grid, by column. Cells that the wave did not reach are
+    /// [`Component::wall`].
     pub(super) fn row(&self, i: usize) -> &[u32] {
         let columns = self.shape[1];
         let first = (i + 1) * (columns + 2) + 1;
         &self.positions[first..first + columns]
     }
 
-    /// Row and column of a position.
+    /// Returns the row and column of a position.
     #[must_use]
     pub fn place(&self, position: usize) -> [usize; 2] {
-        // Divisions of 32 bits take a fraction of the time.
+        // Divisions of 32-bit numbers take a fraction of the time.
         let (place, stride) = (self.places[position], self.shape[1] as u32 + 2);
         [(place / stride - 1) as usize, (place % stride - 1) as usize]
     }
 
-    /// Index in the grid of a position.
+    /// Returns the index in the grid of a position.
     #[must_use]
     pub fn cell(&self, position: usize) -> usize {
         let [i, j] = self.place(position);
         i * self.shape[1] + j
     }
 
-    /// How much room there is at each position, in two ways. Linear.
+    /// Computes two measures of the room at each position. Linear.
     #[must_use]
     pub fn room(&self) -> Room {
         let mut clearance = vec![u32::MAX; self.len()];
@@ -136,11 +138,12 @@ impl Component {
     }
 }
 
-/// The room at each position of a [`Component`].
+/// Measures of the room at each position of a [`Component`].
 #[derive(Debug, Clone)]
 pub struct Room {
-    /// Steps to the nearest wall, 1 for a cell beside one. Where there are no walls at all: steps to a goal, and 1.
+    /// Steps to the nearest wall; 1 for a cell beside one. Without any walls: steps to a goal, plus 1.
     pub clearance: Vec<u32>,
-    /// Greatest clearance that can be reached by going away from walls: that of the room or corridor a cell belongs to.
+    /// Greatest clearance reachable by moving away from walls: the clearance of the room or corridor to which the cell
+    /// belongs.
     pub widest: Vec<u32>,
 }

@@ -9,33 +9,33 @@ pub(super) struct Extent {
     pub first: [usize; 2],
     /// Rows and columns.
     pub cells: [usize; 2],
-    /// What is beyond the box: nothing, or its other end on a circle.
+    /// Whether each axis is a circle, so that the box continues at its other end.
     pub ends: [Ends; 2],
 }
 
 impl Extent {
-    /// Where in the box, row by row, a row and column of the grid is.
+    /// Returns the index in the box, row by row, of a row and column of the grid.
     pub fn at(&self, [i, j]: [usize; 2]) -> usize {
         (i - self.first[0]) * self.cells[1] + j - self.first[1]
     }
 }
 
-/// The smallest box around some cells.
+/// The smallest box around a set of cells.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     low: [usize; 2],
     high: [usize; 2],
-    /// Whether some of the cells are neighbours across the seam of a circle.
+    /// True if some cells are neighbours across the seam of the circle.
     joined: [bool; 2],
 }
 
 impl Bounds {
-    /// Around no cell.
+    /// Creates bounds around no cell.
     pub fn new() -> Self {
         Self { low: [usize::MAX; 2], high: [0; 2], joined: [false; 2] }
     }
 
-    /// One more cell, by row and column.
+    /// Adds a cell, by row and column.
     pub fn include(&mut self, place: [usize; 2]) {
         for k in [0, 1] {
             self.low[k] = self.low[k].min(place[k]);
@@ -43,12 +43,13 @@ impl Bounds {
         }
     }
 
-    /// Whether two of the cells are neighbours across the seam of an axis.
+    /// Records whether two of the cells are neighbours across the seam of an axis.
     pub fn join(&mut self, axis: usize, joined: bool) {
         self.joined[axis] |= joined;
     }
 
-    /// The box in a grid of this shape: all of a circle whose seam is crossed. None around no cell.
+    /// Returns the box in a grid of this shape. It covers a whole circle whose seam is crossed. Returns `None` without
+    /// cells.
     pub fn extent(self, shape: [usize; 2]) -> Option<Extent> {
         if self.high == [0; 2] {
             return None;

@@ -1,71 +1,77 @@
-//! The curve along a field's gradient, between the cells.
+//! The curve along the gradient of a field, between the cells.
 //!
-//! [`follow`] goes along any [`Guide`]: the harmonic potential ([`Uphill`](crate::Uphill)), a relaxed field, or forces. A guide
-//! tells the direction at the centres of free cells (the gradient of the logarithm, by central
-//! differences); `follow` interpolates bilinearly and integrates by Runge and Kutta's fourth order in steps of a fifth of
-//! a cell. After some four cells the curve must have come to a better cell than before; where it has not (at a saddle, in
-//! a corridor one cell wide) the guide names the next cells, and so the promise that the cells lead to the goal is the
-//! curve's, too.
+//! [`follow`] works with any [`Guide`]: the harmonic potential ([`Uphill`](crate::Uphill)), a relaxed field, or forces.
+//! A guide returns the direction at the centres of free cells: the gradient of the logarithm, by central differences.
+//! `follow` interpolates bilinearly and integrates with the fourth-order Runge-Kutta method, in steps of a fifth of a
+//! cell.
+//!
+//! Within about four cells the curve must reach a better cell. Where it does not (at a saddle, or in a corridor one
+//! cell wide), the guide names the next cells. So the curve reaches the goal whenever the cells do.
 
 use cplan_interrupt::checkpoint;
 
-/// Row and column of a cell on the unbounded lattice: on a circle counted on.
+/// Row and column of a cell on the unbounded lattice. On a circle they count on past the seam.
 pub type Place = [i64; 2];
 
-/// A point in units of cells; centres of cells are whole numbers.
+/// A point in units of cells. Centres of cells have integer coordinates.
 pub type LatticePoint = [f64; 2];
 
-/// Length of a step, in cells: the direction, interpolated between centres, changes little on the way, and the error of
-/// the integrator is far below that of the field.
+/// Length of a step, in cells. The direction, interpolated between centres, changes little within a step, and the error
+/// of the integrator is far below that of the field.
 pub const STEP: f64 = 0.2;
 
-/// Steps after which the way must have come to a better cell than it was in: some four cells.
+/// Number of steps within which the curve must reach a better cell: about four cells.
 const WINDOW: usize = 20;
 
-/// A field on the cells of a lattice, by the direction in which it is followed.
+/// A field on the cells of a lattice, given by the direction to follow.
 pub trait Guide {
-    /// What a way may end in other than a goal.
+    /// Reasons why a curve ends without reaching a goal.
     type Stuck;
 
-    /// The gradient at the centre of a cell, per cell along either axis and in any unit. Neighbours' lengths weigh against
-    /// each other, so that they should be those of the logarithm's gradient where values fall fast. None for what is not free, and for
-    /// goals, which are not left.
+    /// Returns the gradient at the centre of a cell, per cell along each axis, in any unit. Returns `None` for cells
+    /// that are not free and for goals.
+    ///
+    /// Lengths are weights relative to the neighbours. Where values fall fast, use the gradient of the logarithm.
     fn slope(&self, place: Place) -> Option<[f64; 2]>;
 
-    /// Whether a cell is a goal.
+    /// Returns true if a cell is a goal.
     fn is_goal(&self, place: Place) -> bool;
 
-    /// Whether the way has come on from one cell to the other. It may do so only a finite number of times.
+    /// Returns true if moving from one cell to the other is progress. This may happen only a finite number of times.
     fn comes_on(&mut self, from: Place, to: Place) -> bool;
 
-    /// Cells from one to a better one, each a neighbour of the one before and none but free ones.
+    /// Returns cells from one to a better one. Each is free and a neighbour of the previous one.
     ///
     /// # Errors
-    /// Why there is none.
+    /// The reason why no such cells exist.
     fn onward(&mut self, from: Place) -> Result<Vec<Place>, Self::Stuck>;
 }
 
-/// A curve along a field, and the goal that it comes to.
+/// A curve along a field, and the goal that it reaches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Streamline {
-    /// From the given point to one in the goal's cell, not more than [`STEP`] apart but where the field shows no direction.
+    /// Points from the given one to one in the goal's cell. Neighbours are at most [`STEP`] apart, except where the
+    /// field has no direction.
     pub points: Vec<LatticePoint>,
-    /// Where the goal is.
+    /// Cell of the goal.
     pub place: Place,
 }
 
-/// Follows a field from a point in a free cell until it is in a goal's: the curve along the guide's gradient, in a space
-/// in which cells have the sides `sides`; bilinear between the centres of free cells, by the classical Runge-Kutta method of fourth order in steps of [`STEP`].
+/// Follows a field from a point in a free cell to a goal's cell, along the guide's gradient. A cell has the side
+/// lengths `sides`. Takes a few microseconds per cell.
 ///
-/// Along walls, where only the free centres count, it leads away from the walls; a step that would leave the free cells
-/// all the same slides along their sides. Where it does not come on (at a saddle, in a narrow bend) it goes to a better
-/// cell as [`Guide::onward`] says. So it stays in free cells, and ends where the guide's cells do. A few microseconds a cell.
+/// The gradient is interpolated bilinearly between the centres of free cells, and integrated by the classical
+/// fourth-order Runge-Kutta method in steps of [`STEP`].
+///
+/// Along walls, only the free centres count, which leads the curve away from the walls. A step that would still leave
+/// the free cells slides along their sides. Where the curve makes no progress (at a saddle, or in a narrow bend), it
+/// moves to a better cell by [`Guide::onward`]. So the curve stays in free cells, and ends where the guide's cells do.
 ///
 /// # Errors
-/// [`Guide::Stuck`] where there is no way on.
+/// [`Guide::Stuck`] if the guide has no further cells.
 pub fn follow<G: Guide>(guide: &mut G, sides: [f64; 2], from: LatticePoint) -> Result<Streamline, G::Stuck> {
     let mut points = vec![from];
-    // The best cell so far, and how many points there were then.
+    // The best cell so far, and the number of points on reaching it.
     let mut best = (nearest(from), 1);
     let mut square = Square::new(sides);
     loop {
@@ -90,15 +96,17 @@ pub fn follow<G: Guide>(guide: &mut G, sides: [f64; 2], from: LatticePoint) -> R
     }
 }
 
-/// The unit vector along which a field is followed from a point, in cells: bilinear between the gradients at the centres of free
-/// cells around it, in a space in which cells have the sides `sides`. None where none of them has a gradient, or all cancel out.
+/// Returns the unit direction in which a field is followed from a point, in cells. It is interpolated bilinearly
+/// between the gradients at the surrounding free cells, whose side lengths are `sides`. Returns `None` if none of them
+/// has a gradient, or if they cancel.
 pub fn direction<G: Guide>(guide: &G, sides: [f64; 2], at: LatticePoint) -> Option<[f64; 2]> {
     Square::new(sides).direction(guide, at)
 }
 
-/// Where [`follow`] comes to from a point in a free cell in so many steps of [`STEP`], for who goes a little way along a field that
-/// is another one in the next moment. It stays in free cells, ends early in a goal's cell, and where there is no step that
-/// stays in free cells. Nobody asks whether the way comes on.
+/// Advances along a field by the given number of [`STEP`]s, for callers whose field changes at the next moment. Does
+/// not check for progress.
+///
+/// The point stays in free cells. It stops early in a goal's cell, or if no step stays in free cells.
 pub fn advance<G: Guide>(guide: &G, sides: [f64; 2], from: LatticePoint, steps: usize) -> LatticePoint {
     let mut square = Square::new(sides);
     let mut at = from;
@@ -112,7 +120,7 @@ pub fn advance<G: Guide>(guide: &G, sides: [f64; 2], from: LatticePoint, steps: 
     at
 }
 
-/// The cell that a point lies in.
+/// Returns the cell in which a point lies.
 fn nearest(at: LatticePoint) -> Place {
     at.map(|x| x.round() as i64)
 }
@@ -121,9 +129,9 @@ fn center(place: Place) -> LatticePoint {
     place.map(|x| x as f64)
 }
 
-/// The directions at four neighbouring centres, the least of them at `corner`; kept from step to step.
+/// The gradients at four neighbouring centres, cached between steps. `corner` is the one with the least coordinates.
 struct Square {
-    /// What a gradient per cell counts for as a velocity in cells.
+    /// Factors that convert a gradient per cell to a velocity in cells.
     weights: [f64; 2],
     corner: Option<Place>,
     slopes: [Option<[f64; 2]>; 4],
@@ -134,7 +142,8 @@ impl Square {
         Self { weights: [b / a, a / b], corner: None, slopes: [None; 4] }
     }
 
-    /// The unit direction at a point; none where none of the centres around has one, or all cancel out.
+    /// Returns the unit direction at a point. Returns `None` if none of the surrounding centres has one, or if they
+    /// cancel.
     fn direction<G: Guide>(&mut self, guide: &G, at: LatticePoint) -> Option<[f64; 2]> {
         let corner = at.map(|x| x.floor() as i64);
         if self.corner != Some(corner) {
@@ -154,11 +163,11 @@ impl Square {
         (length > 0.0 && length.is_finite()).then(|| sum.map(|x| x / length))
     }
 
-    /// The end of a step; none where there is no direction, or none that stays in free cells.
+    /// Returns the end of a step. Returns `None` if no direction stays in free cells.
     fn step<G: Guide>(&mut self, guide: &G, at: LatticePoint) -> Option<LatticePoint> {
         let moved = |d: [f64; 2], by: f64| [0, 1].map(|k| at[k] + by * d[k]);
         let a = self.direction(guide, at)?;
-        // Beyond the free cells there may be no direction: the one before goes on.
+        // Beyond the free cells there may be no direction; keep the previous one.
         let b = self.direction(guide, moved(a, STEP / 2.0)).unwrap_or(a);
         let c = self.direction(guide, moved(b, STEP / 2.0)).unwrap_or(b);
         let d = self.direction(guide, moved(c, STEP)).unwrap_or(c);
@@ -167,12 +176,12 @@ impl Square {
         let stays = |to: LatticePoint| {
             let (here, there) = (nearest(at), nearest(to));
             let beside = |place: Place| guide.slope(place).is_some() || guide.is_goal(place);
-            // A piece across a corner passes one of the two cells beside it.
+            // A segment across a corner passes through one of the two cells beside it.
             let is_across = here[0] != there[0] && here[1] != there[1];
             let is_round = !is_across || (beside([here[0], there[1]]) && beside([there[0], here[1]]));
             (beside(there) && is_round).then_some(to)
         };
-        // At the side of a wall one coordinate may still move.
+        // Beside a wall, one coordinate may still move.
         stays(next).or_else(|| {
             let mut slides = [[next[0], at[1]], [at[0], next[1]]];
             slides.sort_by(|p, q| far(*q, at).total_cmp(&far(*p, at)));

@@ -1,9 +1,9 @@
-//! Where the next window begins.
+//! The queue of positions from which the next window starts.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// Positions with keys: least key first, of equal keys the least position, so that nothing is left to chance.
+/// Positions ordered by key, then by number, so that the order is deterministic.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Front {
     heap: BinaryHeap<Reverse<(Key, u32)>>,
@@ -39,17 +39,17 @@ impl Front {
         self.heap.push(Reverse((Key(key), position)));
     }
 
-    /// Takes the first position away. `O(log n)`.
+    /// Removes the first position. `O(log n)`.
     pub fn pop(&mut self) {
         self.heap.pop();
     }
 
-    /// The first position and its key.
+    /// Returns the first position and its key.
     pub fn peek(&self) -> Option<(f64, u32)> {
         self.heap.peek().map(|&Reverse((Key(key), position))| (key, position))
     }
 
-    /// Takes all positions away.
+    /// Removes all positions.
     pub fn clear(&mut self) {
         self.heap.clear();
     }

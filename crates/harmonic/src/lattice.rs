@@ -1,8 +1,8 @@
-//! The grid in the form that neighbour-by-neighbour algorithms want, and the breadth-first wave over it.
+//! The grid in a form suited to neighbour-by-neighbour algorithms, and the breadth-first wave over it.
 
 use cplan_interrupt::checkpoint;
 
-/// Label of a cell where the wave did not come.
+/// Label of a cell that the wave did not reach.
 pub const UNREACHED: u32 = u32::MAX;
 
 /// Label of a [`Site::Twin`].
@@ -10,20 +10,20 @@ const TWIN: u32 = u32::MAX - 1;
 /// Label of a [`Site::Wall`].
 const WALL: u32 = u32::MAX - 2;
 
-/// What a place is. A byte each: a map is kept, and copied for every wave.
+/// Kind of a place. One byte each, because a map of them is kept and copied for every wave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Site {
     Free,
-    /// Beyond the seam of a circle: stands for the free cell on the other side.
+    /// Beyond the seam of a circle: represents the free cell on the other side.
     Twin,
     /// Blocked, or beyond a limit.
     Wall,
 }
 
 /// A grid with a frame of one cell around it, so that every cell has four neighbours at constant offsets. The frame is
-/// wall beyond the limits of an interval and stands for the cells of the other side on a circle.
+/// wall beyond the limits of an interval. On a circle it represents the cells of the other side.
 ///
-/// Indices are "framed" here: row `i`, column `j` of the grid is `(i + 1) * (cells[1] + 2) + j + 1`, less than
+/// Indices are *framed*: row `i`, column `j` of the grid is `(i + 1) * (cells[1] + 2) + j + 1`, which is less than
 /// `2^32 - 3`.
 #[derive(Debug, Clone)]
 pub struct Lattice {
@@ -32,25 +32,25 @@ pub struct Lattice {
     sites: Vec<Site>,
 }
 
-/// Steps to the nearest source for every free cell connected with one.
+/// Steps to the nearest source, for every free cell connected to one.
 #[derive(Debug, Clone)]
 pub struct Wave {
-    /// Framed cells in the order in which the wave came.
+    /// Framed cells in the order in which the wave reached them.
     pub(super) order: Vec<u32>,
-    /// How many of the first of them are sources.
+    /// Number of sources, which come first.
     pub(super) sources: usize,
-    /// How many different labels there are.
+    /// Number of distinct labels.
     pub levels: usize,
-    /// Of every place.
+    /// Label of each place.
     pub(super) labels: Vec<u32>,
 }
 
 impl Lattice {
-    /// For `cells` rows and columns, row by row in `blocked`; `circles` says which of the two axes is one: whether the last row
-    /// (or column) lies beside the first. Linear in the number of cells.
+    /// Builds the lattice of `cells` rows and columns, with `blocked` row by row. `circles` says which axes are
+    /// circles, so that the last row (or column) is a neighbour of the first. Linear.
     ///
     /// # Panics
-    /// If `blocked` has another length than the product of `cells`, or the frame has `2^32 - 3` cells or more.
+    /// If the length of `blocked` is not the product of `cells`, or the frame has `2^32 - 3` cells or more.
     #[must_use]
     pub fn new(cells: [usize; 2], circles: [bool; 2], blocked: &[bool]) -> Self {
         let [rows, columns] = cells;
@@ -81,28 +81,28 @@ impl Lattice {
         Self { cells, stride, sites }
     }
 
-    /// Shape of the grid.
+    /// Returns the number of rows and columns.
     #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
     }
 
-    /// Framed index of cell `index` of the grid.
+    /// Returns the framed index of cell `index` of the grid.
     pub(super) fn framed(&self, index: usize) -> usize {
         (index / self.cells[1] + 1) * self.stride + index % self.cells[1] + 1
     }
 
-    /// Index in the grid of a framed cell that is not in the frame.
+    /// Returns the index in the grid of a framed cell outside the frame.
     fn index(&self, framed: usize) -> usize {
         (framed / self.stride - 1) * self.cells[1] + framed % self.stride - 1
     }
 
-    /// The neighbouring places, in the order `-q1, +q1, -q2, +q2`.
+    /// Returns the neighbouring places, in the order `-q1, +q1, -q2, +q2`.
     pub(super) fn around(&self, framed: usize) -> [usize; 4] {
         [framed - self.stride, framed + self.stride, framed - 1, framed + 1]
     }
 
-    /// The cell that `framed` is or stands for; nothing if that is no free cell.
+    /// Returns the free cell that `framed` is or represents, or `None`.
     pub(super) fn resolve(&self, framed: usize) -> Option<usize> {
         match self.sites[framed] {
             Site::Free => Some(framed),
@@ -111,7 +111,7 @@ impl Lattice {
         }
     }
 
-    /// The places in the frame that stand for free cells, each with its cell.
+    /// Iterates over the places in the frame that represent free cells, each with its cell.
     pub(super) fn twins(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         let ([rows, columns], stride) = (self.cells, self.stride);
         let lines = (1..=columns).flat_map(move |j| [j, (rows + 1) * stride + j]);
@@ -120,7 +120,7 @@ impl Lattice {
         twins.map(|place| [place, self.other_side(place)])
     }
 
-    /// The cell that a place in the frame stands for.
+    /// Returns the cell that a place in the frame represents.
     fn other_side(&self, framed: usize) -> usize {
         let wrap = |at: usize, n: usize| match at {
             0 => n,
@@ -131,9 +131,9 @@ impl Lattice {
         wrap(i, self.cells[0]) * self.stride + wrap(j, self.cells[1])
     }
 
-    /// Breadth-first labels from all free cells among `sources` (indices in the grid; they get 0), level by level over
-    /// the neighbours that share a side, until the component is exhausted (the navigation function in the `L1` metric).
-    /// Linear in the number of cells; some nanoseconds each.
+    /// Labels all free cells connected to `sources` (indices in the grid) with the number of steps to the nearest one,
+    /// breadth-first over neighbours that share a side: the navigation function in the `L1` metric. Linear; a few
+    /// nanoseconds per cell.
     #[must_use]
     pub fn wave(&self, sources: &[usize]) -> Wave {
         let label = |site: &Site| match site {
@@ -159,7 +159,7 @@ impl Lattice {
             levels += 1;
             for at in begin..end {
                 for next in self.around(order[at] as usize) {
-                    // One comparison rejects walls and labelled cells alike.
+                    // One comparison rejects both walls and labelled cells.
                     if labels[next] >= TWIN {
                         let next = if labels[next] == TWIN { self.other_side(next) } else { next };
                         if labels[next] == UNREACHED {
@@ -176,13 +176,13 @@ impl Lattice {
 }
 
 impl Wave {
-    /// Number of cells reached.
+    /// Returns the number of cells reached.
     #[must_use]
     pub fn reached(&self) -> usize {
         self.order.len()
     }
 
-    /// Steps from cell `index` of the grid to the nearest source, or [`UNREACHED`].
+    /// Returns the steps from cell `index` of the grid to the nearest source, or [`UNREACHED`].
     #[must_use]
     pub fn label(&self, lattice: &Lattice, index: usize) -> u32 {
         match self.labels[lattice.framed(index)] {
@@ -191,7 +191,7 @@ impl Wave {
         }
     }
 
-    /// The labels of all cells of the grid, without the frame.
+    /// Returns the labels of all cells of the grid, without the frame.
     #[must_use]
     pub fn labels(&self, lattice: &Lattice) -> Vec<u32> {
         let [rows, columns] = lattice.cells;
@@ -202,8 +202,8 @@ impl Wave {
         labels
     }
 
-    /// The cells from `index` down to a source, always the smallest neighbour (the first of equals): a shortest path in
-    /// the `L1` metric. Nothing if the wave did not come to `index`.
+    /// Returns the cells from `index` to a source, always to the neighbour with the smallest label (the first of
+    /// equals). This is a shortest path in the `L1` metric. Returns `None` if the wave did not reach `index`.
     #[must_use]
     pub fn descend(&self, lattice: &Lattice, index: usize) -> Option<Vec<usize>> {
         let mut at = lattice.framed(index);

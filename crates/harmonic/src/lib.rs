@@ -2,11 +2,14 @@
 //!
 //! # The problem
 //!
-//! A grid of free cells and walls, whose axes are intervals or circles. The potential of a cell is the probability that a
-//! random walk from it comes to a goal before it comes to a wall or over a limit: 1 at the goals, 0 at walls, elsewhere the
-//! mean of the four neighbours. It has no local maximum but the goals, so that going up it leads there from everywhere
-//! (Connolly, Grupen 1993). But it falls by a factor of 3.7 a cell in a narrow corridor, far below all doubles: usual solvers
-//! find 0 there, and no way. Here each value has an exponent of its own and the precision of a double, be it `1e-50000`.
+//! A grid has free cells and walls, and its axes are intervals or circles. The potential of a cell is the probability
+//! that a random walk from it reaches a goal before it reaches a wall or crosses a limit. It is 1 at the goals, 0 at
+//! walls, and elsewhere the mean of the four neighbours.
+//!
+//! The potential has no local maximum except the goals, so steepest ascent leads to a goal from everywhere (Connolly,
+//! Grupen 1993). But it falls by a factor of 3.7 per cell in a narrow corridor, soon far below the range of doubles.
+//! Usual solvers find 0 there, and no path. Here each value has its own exponent and the precision of a double, even at
+//! `1e-50000`.
 //!
 //! ```
 //! use cplan_harmonic::{Component, Lattice, Uphill, follow, harmonic};
@@ -37,31 +40,35 @@
 //! assert_eq!(curve.place, [0, 0]);
 //! ```
 //!
-//! # What it costs, and what holds
+//! # Cost and guarantees
 //!
-//! - Linear in the cells, whatever the values: some 300 ns a cell in mazes and corridors; wide rooms cost a few solves by
-//!   [`Multigrid`](cplan_multigrid::Multigrid).
-//! - Each value agrees with what its neighbours ask for to 64 roundings of itself ([`residual`]).
-//! - Every cell that is no goal has a strictly greater neighbour, compared exactly ([`Potential::navigates`]), also where
-//!   symmetry makes the harmonic function level: walks die at `3e-14` a step, more than all rounding, which takes less than a millionth off a
-//!   value ten million steps away.
-//! - [`follow`] stays in free cells and ends at a goal, since it goes on from cell to cell where the gradient does not lead on.
-//!   It goes along any other field, too: what it needs is a [`Guide`].
-//! - The same input gives the same bits. Long solves can be stopped from outside: they come by a
+//! - Linear in the number of cells, independent of the values: about 300 ns per cell in mazes and corridors. Wide rooms
+//!   cost a few solves by [`Multigrid`](cplan_multigrid::Multigrid).
+//! - Each value agrees with the one that its neighbours imply to 64 relative roundings ([`residual`]).
+//! - Every cell except the goals has a strictly greater neighbour, compared exactly ([`Potential::navigates`]). This
+//!   also holds where symmetry makes the harmonic function level, because each step of a walk ends with probability
+//!   `3e-14`. That exceeds all rounding, and lowers a value ten million steps away by less than a millionth.
+//! - [`follow`] stays in free cells and ends at a goal, because it moves from cell to cell where the gradient leads
+//!   nowhere. It works with any other field that implements [`Guide`].
+//! - The same input gives the same bits. Long solves can be interrupted: they pass a
 //!   [`checkpoint`](cplan_interrupt::checkpoint).
 //!
-//! # How
+//! # Method
 //!
 //! ```text
 //! Lattice -> wave -> Component -> windows in order of falling values (peeling) -> elimination (network) or multigrid (wide)
-//!         -> Potential -> its slope at the cells' centres (streamline), which follow goes along
+//!         -> Potential -> its slope at the cells' centres (streamline), for `follow`
 //! ```
 //!
-//! The potential is solved in *windows* in order of falling values (`peeling`; one of all cells, where the wave winds through
-//! no maze), each scaled to its own greatest value: together with the values goes the probability of leaving the window where
-//! it was cut off, which bounds what is missing, and only values to which that adds nothing are accepted. Narrow windows are
-//! eliminated without subtractions (`network`), wide ones go to multigrid and are refined until each value agrees with its
-//! neighbours to 64 roundings of itself (`wide`; cells are corrected from a quarter of that on, so that rounding moves none
+//! The potential is solved in *windows* in order of falling values (`peeling`), each scaled to its own greatest value.
+//! Outside of mazes a single window has all cells.
+//!
+//! Each window also yields the probability of leaving it where it was cut off. This bounds the missing part of each
+//! value, and only values to which that part adds nothing are accepted.
+//!
+//! Narrow windows are eliminated without subtractions (`network`). Wide ones are solved by multigrid and refined until
+//! each value agrees with its neighbours to 64 relative roundings (`wide`). Cells are corrected from a quarter of that,
+//! so rounding cannot push one across the bound.
 //! across the bound).
 #![forbid(unsafe_code)]
 

@@ -1,33 +1,34 @@
-//! Elimination in a network of unit resistances, without a subtraction.
+//! Elimination in a network of unit resistances, without subtractions.
 
 use cplan_interrupt::checkpoint;
 use std::collections::VecDeque;
 
-/// No link, no node.
+/// Marks a missing link or node.
 const NONE: u32 = u32::MAX;
 
-/// Sides of a linear system that are solved for together.
+/// Number of right-hand sides solved together.
 pub(super) const SIDES: usize = 2;
 
-/// Nodes left for each link of the node with the fewest, at which links are no longer followed one by one.
+/// If the node with the fewest links has at least one link for this many remaining nodes, the rest is solved as a dense
+/// matrix.
 const FULL: usize = 4;
 
-/// Unknowns, each with `(ground + sum of weights) u = source + sum of weight * neighbour's u`: the potential in a network
-/// of conductances, `ground` leading to where the potential is known.
+/// Unknowns, each with `(ground + sum of weights) u = source + sum of weight * neighbour's u`: the potential in a
+/// network of conductances, in which `ground` leads to known potentials.
 ///
-/// Eliminated by Gauss's algorithm in the form of Grassmann, Taksar and Heyman (1985): a pivot is computed as the sum of
-/// what leads away from the node, not by subtraction, so that only non-negative numbers are ever added, multiplied and
-/// divided. Every unknown then has a relative error of some roundings for each node that it depends on, however small it
-/// is (O'Cinneide 1993), and however little of a walk from it ever gets to a source.
+/// The network is eliminated by Gauss's algorithm in the form of Grassmann, Taksar and Heyman (1985): a pivot is the
+/// sum of the weights that lead away from the node. Only non-negative numbers are ever added, multiplied and divided.
+/// So every unknown has a relative error of a few roundings per node on which it depends, however small it is
+/// (O'Cinneide 1993).
 #[derive(Debug, Clone, Default)]
 pub(super) struct Network {
-    /// First link of each node. Of an eliminated one: links to the nodes that were left when it was.
+    /// First link of each node. For an eliminated node: links to the nodes that remained at that time.
     first: Vec<u32>,
     degree: Vec<u32>,
     ground: Vec<f64>,
     source: Vec<[f64; SIDES]>,
     links: Vec<Link>,
-    /// First link that is out of use.
+    /// First unused link.
     spare: u32,
 }
 
@@ -39,7 +40,7 @@ struct Link {
 }
 
 impl Network {
-    /// Nodes without links.
+    /// Creates nodes without links.
     pub fn new(nodes: usize) -> Self {
         Self {
             first: vec![NONE; nodes],
@@ -51,7 +52,7 @@ impl Network {
         }
     }
 
-    /// Joins a node to known potentials: `weight` to one of 0, or times that of the source.
+    /// Joins a node to known potentials, with the given `weight` to potential 0 and `source` as weighted potentials.
     pub fn ground(&mut self, node: usize, weight: f64, source: [f64; SIDES]) {
         self.ground[node] += weight;
         for (sum, source) in self.source[node].iter_mut().zip(source) {
@@ -59,7 +60,7 @@ impl Network {
         }
     }
 
-    /// Joins two different nodes, one way: the other is another link.
+    /// Adds a link in one direction between two different nodes. The opposite direction is another link.
     pub fn join(&mut self, node: usize, to: usize, weight: f64) {
         let mut at = self.first[node];
         while at != NONE {
@@ -87,8 +88,8 @@ impl Network {
         self.degree[node] += 1;
     }
 
-    /// The unknowns. Nodes are eliminated in the order of least degree: in trees and corridors that costs the same for each;
-    /// for rooms and halls see [`super::peeling`], which gives the wide ones to another solver.
+    /// Returns the unknowns. Nodes are eliminated in order of least degree, which costs a constant time per node in
+    /// trees and corridors. [`super::peeling`] gives wide rooms to another solver.
     pub fn solve(mut self) -> Vec<[f64; SIDES]> {
         let order = self.eliminate();
         let mut solution = vec![[0.0; SIDES]; self.first.len()];
@@ -104,20 +105,20 @@ impl Network {
                 }
                 at = link.next;
             }
-            // The pivot took the place of the ground.
+            // The pivot has replaced the ground.
             solution[node] = value.map(|value| value / self.ground[node]);
         }
         solution
     }
 
-    /// Solves for the nodes that were not eliminated: their links fill a matrix.
+    /// Solves for the remaining nodes, whose links form a dense matrix.
     fn solve_rest(&self, order: &[u32], solution: &mut [[f64; SIDES]]) {
         let mut number = vec![0; self.first.len()];
         order.iter().for_each(|&node| number[node as usize] = NONE);
         let rest: Vec<usize> = (0..number.len()).filter(|&node| number[node] != NONE).collect();
         rest.iter().enumerate().for_each(|(k, &node)| number[node] = k as u32);
         let n = rest.len();
-        // Rows of weights; the last columns are ground and source.
+        // Rows of weights. The last columns are ground and sources.
         let width = n + 1 + SIDES;
         let mut rows = vec![0.0; n * width];
         for (row, &node) in rows.chunks_exact_mut(width).zip(&rest) {
@@ -151,12 +152,12 @@ impl Network {
         }
     }
 
-    /// Eliminates nodes until those that are left are mostly linked with each other; the order.
+    /// Eliminates nodes until the remaining ones are mostly linked with each other. Returns the order.
     fn eliminate(&mut self) -> Vec<u32> {
         let nodes = self.first.len();
         let mut order = Vec::with_capacity(nodes);
         let mut done = vec![false; nodes];
-        // Nodes by degree, first come first served; those that have another degree by now are passed over.
+        // Nodes by degree, in order of arrival. Entries with an outdated degree are skipped.
         let mut waiting: Vec<VecDeque<u32>> = Vec::new();
         let enqueue = |waiting: &mut Vec<VecDeque<u32>>, degree: usize, node: u32| {
             if waiting.len() <= degree {
@@ -221,7 +222,7 @@ impl Network {
         order
     }
 
-    /// Takes the link from `node` to `gone` out of use and notes in `slot` where the others are.
+    /// Removes the link from `node` to `gone`, and records the places of its other links in `slot`.
     fn unlink(&mut self, node: usize, gone: u32, slot: &mut [u32]) {
         let (mut before, mut at) = (NONE, self.first[node]);
         while at != NONE {

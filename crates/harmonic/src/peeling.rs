@@ -1,14 +1,16 @@
 //! The harmonic potential in windows, in order of falling values.
 //!
-//! What is known is a set of cells around the goals, at first the goals alone. A *window* is gathered from its border: the
-//! unknown cells down to a guessed depth, with the known values around. Its equations are solved in doubles, scaled to the
-//! greatest of these, as if the potential were 0 beyond it. Together with the values goes the probability that a walk
-//! comes out where the window was cut off: as the potential there is bounded by the maximum principle, so is what that
-//! adds to each value, and the values to which it adds nothing that a double could show are accepted. Errors do not grow
-//! on the way, they add up: values are sums of known ones with positive weights.
+//! Initially only the goals are known. A *window* consists of the unknown cells next to known ones, down to an
+//! estimated depth. Its equations are solved in doubles, scaled to the greatest known value around it, as if the
+//! potential were 0 beyond it.
 //!
-//! Every cell is in some two windows on average; the cost is linear in the cells, whatever the values. Where the way to the goal
-//! is nowhere a long one, the first window is all there is, and mostly the last.
+//! The solver also yields, for each cell, the probability that a walk leaves the window where it was cut off. The
+//! maximum principle bounds the potential there, and so the missing part of each value. Values whose missing part is
+//! below the precision of a double are accepted. Errors add up but do not grow, because values are sums of known ones
+//! with positive weights.
+//!
+//! On average every cell is in about two windows, so the cost is linear in the number of cells, independent of the values. If
+//! no path is long, the first window covers everything and is usually the last.
 
 use super::extent::Bounds;
 use super::front::Front;
@@ -20,69 +22,71 @@ use super::{Component, Potential};
 use cplan_interrupt::checkpoint;
 use std::f64::consts::LN_2;
 
-/// Stands for a cell that is in no window.
+/// Number of a cell that is in no window.
 const NONE: u32 = u32::MAX;
 
-/// Guessed depth of a window, nepers: the guessed fall of the potential, as a natural logarithm.
+/// Estimated depth of a window, as the fall of the potential in nepers (natural logarithm).
 const DEPTH: f64 = 64.0;
 
-/// A value is accepted if what the window leaves out adds at most this part to it.
+/// A value is accepted if the missing part is at most this fraction of it.
 const NEGLIGIBLE: f64 = f64::EPSILON / 4.0;
 
-/// Values below this part of the greatest are left to a later window, where they are great: far above the least double.
+/// Values below this fraction of the greatest are postponed to a later window, in which they are large. Far above the least
+/// double.
 const SMALLEST: f64 = 1e-200;
 
-/// Where nowhere is more room than this a window is eliminated: mazes, ...
+/// A window without more room than this is eliminated: a maze.
 const NARROW: u32 = 3;
-/// ... and up to this room if it is a corridor, not a hall: the factor fills with the square of the width, ...
+/// A corridor is also eliminated up to this room. The factor fills with the square of the width.
 const MEDIUM: u32 = 12;
-/// ... which is told by the number of cells, at most this, ...
+/// Largest number of cells for which a window always counts as a corridor.
 const SMALL: usize = 2000;
-/// ... and so many times the room's square: the depth of a window is 41 times the room, its width twice.
+/// Largest number of cells of a corridor, as a multiple of its squared room. A window is 41 times as deep as the room,
+/// and twice as wide.
 const CORRIDOR: usize = 128;
 
-/// Wide windows are refined down to this part of the greatest value, ...
+/// Wide windows are refined down to this fraction of the greatest value.
 const FLOOR: f64 = 1e-36;
-/// ... which leaves values from here on precise.
+/// Values above this fraction of the greatest are then precise.
 const PRECISE: f64 = 1e-30;
 
-/// The potential as far as it is known.
+/// The part of the potential that is known so far.
 pub(super) struct Peeling<'a> {
     component: &'a Component,
-    /// What a walk loses to death, beside the weight 1 of each neighbour.
+    /// Weight of a walk's end at each step, beside the weight 1 of each neighbour.
     loss: f64,
-    /// Guessed fall of the potential a cell, nepers, by the room around it.
+    /// Estimated fall of the potential per cell, nepers, by the room around it.
     decay: Vec<f64>,
-    /// Of each position; nothing until windows are gathered.
+    /// Room of each position; empty until windows are gathered.
     room: Vec<u32>,
     pub potential: Potential,
-    /// How many positions are not known.
+    /// Number of unknown positions.
     unknown: usize,
-    /// Accepted positions that may have neighbours yet to be accepted, greatest first: by the binary logarithm, negative.
+    /// Accepted positions that may have unknown neighbours, greatest value first. Keys are negated binary logarithms.
     front: Front,
-    /// Number in the window of each position, or [`NONE`]; nothing until windows are gathered.
+    /// Number of each position in the window, or [`NONE`]; empty until windows are gathered.
     number: Vec<u32>,
     depth: f64,
     pub windows: usize,
 }
 
-/// Unknown cells whose values are found together.
+/// Unknown cells whose values are computed together.
 struct Window {
-    /// The positions of its cells in the grid.
+    /// Positions of its cells.
     cells: Vec<u32>,
-    /// Positions of the accepted cells that it was gathered around.
+    /// Positions of the accepted cells around which it was gathered.
     sources: Vec<u32>,
-    /// Of the numbers in it.
+    /// Exponent of its numbers.
     exponent: i32,
-    /// Whether unknown cells were left out.
+    /// True if unknown cells were cut off.
     cut: bool,
-    /// Greatest accepted value that borders on unknown cells beyond the window.
+    /// Greatest accepted value next to unknown cells beyond the window.
     beside: f64,
-    /// Greatest accepted value around.
+    /// Greatest accepted value next to the window.
     greatest: f64,
 }
 
-/// So many cells take less than a millisecond.
+/// Processing this many cells takes less than a millisecond.
 const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl<'a> Peeling<'a> {
@@ -107,18 +111,18 @@ impl<'a> Peeling<'a> {
         }
     }
 
-    /// All values.
+    /// Computes all values.
     pub fn run(self) -> Self {
         self.run_until(None)
     }
 
-    /// Those that steepest ascent from a position looks at.
+    /// Computes the values that steepest ascent from a position reads.
     pub fn run_to(self, position: usize) -> Self {
         if self.is_known(position) { self } else { self.run_until(Some(position)) }
     }
 
     fn run_until(mut self, last: Option<usize>) -> Self {
-        // A maze or a spiral is better taken apart.
+        // Mazes and spirals are better solved in several windows.
         let [rows, columns] = self.component.shape;
         if self.unknown > SMALL && self.component.levels <= rows + columns {
             self.windows += 1;
@@ -159,14 +163,14 @@ impl<'a> Peeling<'a> {
         self
     }
 
-    /// Whether steepest ascent from a position to a goal looks at nothing that is unknown.
+    /// Returns true if steepest ascent from a position to a goal reads only known values.
     fn leads_on(&self, from: usize) -> bool {
         let way = if self.is_known(from) { self.potential.ascend(self.component, from) } else { None };
         way.is_some_and(|way| way.iter().all(|&at| at < self.component.goals || !self.is_front(at)))
     }
 
-    /// All unknown cells as one window, that nothing is cut off from; of those whose values are less than that of the `last` no more than that
-    /// they are less. Row by row, as they lie in the grid: no window's list of cells and no numbers.
+    /// Solves all unknown cells as one window without cutting. If `last` is given, smaller values than at `last` only
+    /// need to be known to be smaller. Works row by row in grid order, without a list of cells.
     fn solve_whole(&mut self, last: Option<usize>) {
         let component = self.component;
         let cells = component.goals as u32..component.len() as u32;
@@ -216,7 +220,7 @@ impl<'a> Peeling<'a> {
         self.potential.mantissa[position] > 0.0
     }
 
-    /// The neighbours of a cell that are cells.
+    /// Iterates over the neighbours of a cell that are cells.
     fn around(&self, position: usize) -> impl Iterator<Item = usize> + use<'a> {
         let wall = self.component.wall();
         self.component.neighbors(position).into_iter().filter(move |&n| n != wall)
@@ -226,7 +230,7 @@ impl<'a> Peeling<'a> {
         self.around(position).any(|n| !self.is_known(n))
     }
 
-    /// The unknown cells around the greatest accepted values; nothing if there are none.
+    /// Gathers the unknown cells around the greatest accepted values. Returns `None` if no cells remain.
     fn gather(&mut self) -> Option<Window> {
         while self.front.peek().is_some_and(|(_, position)| !self.is_front(position as usize)) {
             self.front.pop();
@@ -237,7 +241,7 @@ impl<'a> Peeling<'a> {
         let mut sources = Vec::new();
         let mut cells: Vec<u32> = Vec::new();
         let (mut beside, mut cut) = (0.0_f64, false);
-        // Cells to go on from, by depth in whole nepers.
+        // Cells to continue from, by depth in whole nepers.
         let mut waiting: Vec<Vec<(f64, u32)>> = vec![Vec::new(); self.depth.ceil() as usize + 1];
         while let Some((below, position)) = self.front.peek() {
             let depth = (below - top) * LN_2;
@@ -284,7 +288,8 @@ impl<'a> Peeling<'a> {
         Some(Window { cells, sources, exponent, cut, beside, greatest })
     }
 
-    /// The window's equations: the first side for the known values around, the second for 1 at the unknown cells beyond.
+    /// Builds the window's equations. The first side is for the known values around it, the second for 1 at the cut-off
+    /// cells.
     fn network(&self, window: &Window) -> Network {
         let mut network = Network::new(window.cells.len());
         for (i, &position) in window.cells.iter().enumerate() {
@@ -304,7 +309,7 @@ impl<'a> Peeling<'a> {
         network
     }
 
-    /// The same equations on the smallest box of cells around them.
+    /// Builds the same equations on the smallest box around the cells.
     fn wide(&self, window: &Window) -> Option<Wide> {
         let mut bounds = Bounds::new();
         for &position in &window.cells {
@@ -333,10 +338,10 @@ impl<'a> Peeling<'a> {
         Some(wide)
     }
 
-    /// Takes over the values that what is beyond the window has no part in; how many.
+    /// Accepts the values to which cut-off cells contribute nothing. Returns their number.
     fn accept(&mut self, window: &Window, solution: impl Fn(usize) -> [f64; SIDES], least: f64) -> usize {
-        // Values beyond are at most the greatest of those next to them: of known cells, or of the window's own, which
-        // are at most their value here and their share of what is beyond.
+        // Values beyond are at most the greatest of those next to them. Those are known values, or values of the
+        // window, which are at most their value here plus their share of the values beyond.
         let mut beyond = window.beside;
         let (mut value, mut share) = (0.0_f64, 0.0_f64);
         let at_risk = if window.cut { &window.cells[..] } else { &[] };
@@ -368,11 +373,11 @@ impl<'a> Peeling<'a> {
         taken
     }
 
-    /// Goes on from a position later, if it is known and a neighbour is not.
+    /// Queues a position to continue from, if it is known and a neighbour is not.
     fn push_front(&mut self, position: u32) {
         if self.is_known(position as usize) && self.is_front(position as usize) {
             let log2 = self.potential.at(position as usize).log2();
-            // Zero keeps its sign.
+            // Subtract from 0 so that zero keeps its sign.
             self.front.push(0.0 - log2, position);
         }
     }

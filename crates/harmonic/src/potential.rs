@@ -2,20 +2,20 @@
 
 use super::Component;
 
-/// The exponent counts in steps of this many binary orders, so that neighbours mostly share theirs and can be averaged
-/// as plain doubles.
+/// The exponent counts steps of this many binary orders. Neighbours mostly share an exponent and can be averaged as
+/// plain doubles.
 const STEP: i32 = 256;
-/// One step down in scale, `2^-STEP`.
+/// One scale step down, `2^-STEP`.
 const DOWN: f64 = f64::from_bits(((1023 - STEP) as u64) << 52);
-/// One step up in scale, `2^STEP`.
+/// One scale step up, `2^STEP`.
 const UP: f64 = f64::from_bits(((1023 + STEP) as u64) << 52);
-/// A mantissa within `2^-192 ..= 2^192` keeps its exponent. Wider than a step, so that a value near a boundary does not
-/// hop to and fro; and narrow enough that the products and sums of a chunk of cells stay within the doubles.
+/// A mantissa within `2^-192 ..= 2^192` keeps its exponent. This range is wider than a step, so values near a boundary
+/// do not alternate. Products and sums of a chunk of cells stay within the range of doubles.
 const LEAST: f64 = f64::from_bits((1023 - 192) << 52);
 const GREATEST: f64 = f64::from_bits((1023 + 192) << 52);
 
-/// A positive number `mantissa * 2^(256 exponent)`. A harmonic potential falls to a quarter or so with each cell of a
-/// narrow corridor, so doubles would underflow after 540 cells; these never do (before 10^9 cells).
+/// A positive number `mantissa * 2^(256 exponent)`. A harmonic potential falls to about a quarter per cell in a narrow
+/// corridor, so doubles would underflow after 540 cells. These numbers do not within 10^9 cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scaled {
     pub mantissa: f64,
@@ -23,7 +23,7 @@ pub(super) struct Scaled {
 }
 
 impl Scaled {
-    /// The same number with a mantissa in `2^-192 ..= 2^192`, by the least change of exponent.
+    /// Returns the same number with a mantissa in `2^-192 ..= 2^192`, by the least change of exponent.
     pub fn normalized(mut self) -> Self {
         while self.mantissa < LEAST {
             self.mantissa *= UP;
@@ -36,19 +36,19 @@ impl Scaled {
         self
     }
 
-    /// The binary logarithm of the number.
+    /// Returns the binary logarithm of the number.
     pub fn log2(self) -> f64 {
         self.mantissa.log2() + f64::from(self.exponent) * f64::from(STEP)
     }
 
-    /// The number whose binary logarithm is given.
+    /// Returns the number with the given binary logarithm.
     pub fn exp2(log2: f64) -> Self {
         let exponent = (log2 / f64::from(STEP)).round();
         Self { mantissa: (log2 - exponent * f64::from(STEP)).exp2(), exponent: exponent as i32 }
     }
 
-    /// The mantissa that goes with `exponent`. Zero, or `2^704`, where the number is too small or too great to count
-    /// beside one of that exponent.
+    /// Returns the mantissa for `exponent`. It is 0 or `2^704` if the number is too small or too great beside numbers
+    /// of that exponent.
     pub fn mantissa_at(self, exponent: i32) -> f64 {
         match exponent.saturating_sub(self.exponent) {
             ..=-2 => GREATEST * UP * UP,
@@ -61,18 +61,18 @@ impl Scaled {
     }
 }
 
-/// A positive value for every position of a [`Component`], zero for the wall. Each has an exponent of its own, so that
-/// relative precision is that of doubles however far the goal is.
+/// A positive value for every position of a [`Component`], and zero for the wall. Each has its own exponent, so the
+/// relative precision is that of doubles, however far the goal is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Potential {
-    /// One a position, and the wall's 0 last.
+    /// Mantissa per position. The last one is the wall's 0.
     pub(super) mantissa: Vec<f64>,
-    /// One a position; none while all are 0. The wall's is never looked at.
+    /// Exponent per position; empty while all values are 0. The wall has none.
     exponent: Vec<i32>,
 }
 
 impl Potential {
-    /// `2^log2` for every position.
+    /// Creates the potential with `2^log2` at every position.
     #[must_use]
     pub fn from_log2(log2: &[f64]) -> Self {
         let mut potential = Self::zero(log2.len());
@@ -80,12 +80,12 @@ impl Potential {
         potential
     }
 
-    /// A potential that is zero in all cells.
+    /// Creates a potential that is zero in all cells.
     pub(super) fn zero(len: usize) -> Self {
         Self { mantissa: vec![0.0; len + 1], exponent: Vec::new() }
     }
 
-    /// Replaces the number at a position.
+    /// Sets the number at a position.
     pub(super) fn set(&mut self, position: usize, value: Scaled) {
         self.mantissa[position] = value.mantissa;
         if value.exponent != 0 && self.exponent.is_empty() {
@@ -96,19 +96,19 @@ impl Potential {
         }
     }
 
-    /// The number at a position.
+    /// Returns the number at a position.
     pub(super) fn at(&self, position: usize) -> Scaled {
         Scaled { mantissa: self.mantissa[position], exponent: self.exponent.get(position).copied().unwrap_or(0) }
     }
 
-    /// Natural logarithm of the value at `position`; minus infinity for the wall.
+    /// Returns the natural logarithm of the value at `position`; minus infinity for the wall.
     #[must_use]
     pub fn ln(&self, position: usize) -> f64 {
         let Scaled { mantissa, exponent } = self.at(position);
         mantissa.ln() + f64::from(exponent) * f64::from(STEP) * std::f64::consts::LN_2
     }
 
-    /// Whether the value at `a` is strictly greater than that at `b`. Exact.
+    /// Returns true if the value at `a` is strictly greater than that at `b`. Exact.
     #[must_use]
     pub fn is_greater(&self, a: usize, b: usize) -> bool {
         let (a, b) = (self.at(a), self.at(b));
@@ -119,8 +119,8 @@ impl Potential {
         a.mantissa_at(exponent) > b.mantissa_at(exponent)
     }
 
-    /// The neighbour of `position` with the greatest value (the first of equals), if it is strictly greater than at
-    /// `position` itself.
+    /// Returns the neighbour of `position` with the greatest value (the first of equals), if it is strictly greater
+    /// than at `position`.
     #[must_use]
     pub fn ascent(&self, component: &Component, position: usize) -> Option<usize> {
         component
@@ -129,15 +129,15 @@ impl Potential {
             .fold(None, |best, n| if self.is_greater(n, best.unwrap_or(position)) { Some(n) } else { best })
     }
 
-    /// Whether the goals are the only local maxima: every other cell has a strictly greater neighbour. Then the steepest
-    /// ascent leads to a goal from everywhere. Linear.
+    /// Returns true if every cell except the goals has a strictly greater neighbour. Steepest ascent then leads to a
+    /// goal from everywhere. Linear.
     #[must_use]
     pub fn navigates(&self, component: &Component) -> bool {
         (component.goals..component.len()).all(|i| component.neighbors(i).into_iter().any(|n| self.is_greater(n, i)))
     }
 
-    /// Positions from `from` to a goal by steepest ascent. Nothing if it ends in a local maximum, which cannot be where
-    /// [`Potential::navigates`].
+    /// Returns the positions from `from` to a goal by steepest ascent. Returns `None` if it ends in a local maximum,
+    /// which [`Potential::navigates`] excludes.
     #[must_use]
     pub fn ascend(&self, component: &Component, from: usize) -> Option<Vec<usize>> {
         let mut positions = vec![from];

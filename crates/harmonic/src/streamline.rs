@@ -1,25 +1,24 @@
-//! The way up a harmonic potential between the cells.
+//! Steepest ascent of a harmonic potential between the cells.
 
 use super::{Component, Guide, Place, Potential};
 
-/// The potential as a [`Guide`]: the gradient of its logarithm, by central differences in which walls are 0.
+/// The potential as a [`Guide`]: the gradient of its logarithm, by central differences with 0 at walls.
 pub struct Uphill<'a, F> {
     component: &'a Component,
     potential: &'a Potential,
-    /// The position at a place; none for walls and beyond limits.
+    /// The position at a place, or `None` for walls and beyond limits.
     at: F,
 }
 
-/// A cell that is no goal and has no greater neighbour, which cannot be where the potential
-/// [navigates](Potential::navigates).
+/// A cell that is not a goal and has no greater neighbour. A potential that [navigates](Potential::navigates) has none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LocalMaximum {
-    /// Where it is.
+    /// Position of the cell.
     pub place: Place,
 }
 
 impl<'a, F: Fn(Place) -> Option<usize>> Uphill<'a, F> {
-    /// `at` tells the position at a place of the lattice.
+    /// Creates the guide. `at` returns the position at a place of the lattice.
     pub fn new(component: &'a Component, potential: &'a Potential, at: F) -> Self {
         Self { component, potential, at }
     }
@@ -38,7 +37,7 @@ impl<F: Fn(Place) -> Option<usize>> Guide for Uphill<'_, F> {
     fn slope(&self, place: Place) -> Option<[f64; 2]> {
         let position = (self.at)(place).filter(|&position| position >= self.component.goals)?;
         let here = self.potential.at(position);
-        // As doubles of a common scale, so that quotients are those of numbers beyond all doubles.
+        // As doubles with a common scale, so that quotients are correct for numbers outside the range of doubles.
         let around = self.component.neighbors(position).map(|n| self.potential.at(n));
         let [down, up, left, right] = around
             .map(|value| if value.mantissa == 0.0 { 0.0 } else { value.mantissa_at(here.exponent) / here.mantissa });

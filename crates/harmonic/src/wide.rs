@@ -1,56 +1,56 @@
 //! Wide windows: multigrid, refined until every value has its relative precision.
 //!
-//! A solve leaves an error that is small beside the greatest value. The residual, in contrast, is known at each cell to
-//! some roundings of the values *there*: it is a sum of differences of neighbours. So the same solver is asked for the
-//! correction again, with the residuals of the cells that are settled already taken as 0: the greatest of the rest, and
-//! with it the error, falls by some digits each time, down to the floor, below which nothing is wanted.
+//! A solve leaves an error that is small compared with the greatest value. The residual, in contrast, is known at each
+//! cell to a few roundings of the values *there*, because it is a sum of differences of neighbours. So the same solver
+//! computes another correction, with zero residuals at cells that are already settled. Each round lowers the greatest
+//! remaining residual, and with it the error, by several digits, down to a floor.
 
 use super::extent::Extent;
 use super::network::SIDES;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
 
-/// Relative residual of a value at which it is precise: half of what walks lose a step
-/// ([`LOSS`](super::laplace::LOSS) over four neighbours), so that the loss outweighs it, and many roundings.
+/// Relative residual below which a value is precise: half of the loss of walks per step ([`LOSS`](super::laplace::LOSS)
+/// over four neighbours), so that the loss outweighs it, and many roundings.
 const PRECISE: f64 = 64.0 * f64::EPSILON;
 
-/// Relative residual at which a cell asks for no correction, less than [`PRECISE`] by far more than a correction rounds
-/// (some 2 units in the last place). If both were the same, each round would lift some of the many cells that lie just
-/// below above it, and in windows of 10^5 cells there would be no end to it.
+/// Relative residual below which a cell needs no correction. A correction rounds by about 2 units in the last place,
+/// far less than the gap to [`PRECISE`]. Without the gap, each round would lift some of the many cells just below the
+/// bound above it, and windows of 10^5 cells would never converge.
 const SETTLED: f64 = PRECISE / 4.0;
 
-/// Unknowns in a box of cells: `(4 + loss) u = source + sum of the neighbours' u`, where cells of the box that are no unknowns count
-/// as 0.
+/// Unknowns in a box of cells: `(4 + loss) u = source + sum of the neighbours' u`. Cells of the box that are not
+/// unknowns count as 0.
 #[derive(Debug, Clone)]
 pub(super) struct Wide {
     pub extent: Extent,
-    /// What is added to the four neighbours.
+    /// Additional weight beside the four neighbours.
     loss: f64,
-    /// For each place in the box whether it is an unknown.
+    /// True at the places in the box that are unknowns.
     free: Vec<bool>,
-    /// Sums of known values around the unknowns that have any: the potential, and 1 at what is cut off.
+    /// Sums of known values around each unknown that has any: the potential, and 1 at cut-off cells.
     sources: [Vec<(u32, f64)>; SIDES],
 }
 
-/// Both sides for each place in the box; nothing for a side that is 0 everywhere.
+/// Both sides for each place in the box. A side that is 0 everywhere is empty.
 pub(super) struct Values([Vec<f64>; SIDES]);
 
 /// Error of a round, relative to the greatest correction: as much as single precision gains in a few steps.
 const DIGITS: f64 = 1e-8;
 
-/// Rounds of refinement: each gains some digits of the 36 that there are at the most.
+/// Largest number of rounds of refinement. Each gains several of at most 36 digits.
 const ROUNDS: usize = 24;
 
-/// The error of the second side, which is not refined: above that of a round.
+/// Error of the second side, which is not refined. It exceeds the error of a round.
 const SHARE_ERROR: f64 = 1e-7;
 
 impl Wide {
-    /// No unknowns yet.
+    /// Creates a box without unknowns.
     pub fn new(extent: Extent, loss: f64) -> Self {
         let free = vec![false; extent.cells[0] * extent.cells[1]];
         Self { extent, loss, free, sources: Default::default() }
     }
 
-    /// For each column of row `i` of the grid whether it is an unknown.
+    /// Returns the flags of row `i` of the grid, by column: true for unknowns.
     pub fn row_mut(&mut self, i: usize) -> &mut [bool] {
         let columns = self.extent.cells[1];
         let first = (i - self.extent.first[0]) * columns;
@@ -62,7 +62,7 @@ impl Wide {
         self.free[at] = true;
     }
 
-    /// Adds known values around an unknown.
+    /// Adds known values next to an unknown.
     pub fn add(&mut self, at: usize, source: [f64; SIDES]) {
         for (of, source) in self.sources.iter_mut().zip(source) {
             if source != 0.0 {
@@ -71,8 +71,8 @@ impl Wide {
         }
     }
 
-    /// Both sides for each place: the first precise down to `floor`, and no farther than to its value at the place `above`, the second within
-    /// [`SHARE_ERROR`] of 1. Nothing if the refinement does not get there.
+    /// Solves for both sides at each place. The first is precise down to `floor`, or down to its value at the place
+    /// `above`; the second is within [`SHARE_ERROR`] of 1. Returns `None` if the refinement does not converge.
     pub fn solve(&self, floor: f64, above: Option<usize>) -> Option<Values> {
         let inner = Multigrid::new(self.extent.cells, self.extent.ends, &self.free, 0.0);
         let mut workspace = inner.workspace();
@@ -82,12 +82,12 @@ impl Wide {
         Some(Values([u, e]))
     }
 
-    /// Both sides for a place in the box; the second from above.
+    /// Returns both sides at a place in the box. The second is an upper bound.
     pub fn at(&self, Values([u, e]): &Values, at: usize) -> [f64; SIDES] {
         [u.get(at).copied().unwrap_or(0.0), e.get(at).copied().unwrap_or(0.0) + SHARE_ERROR]
     }
 
-    /// Values of one side for all places in the box, precise down to the floor that they ask for.
+    /// Solves one side for all places in the box, precise down to the floor.
     fn side(
         &self,
         side: usize,
@@ -122,13 +122,13 @@ impl Wide {
         None
     }
 
-    /// Puts the residual at `x` in place of the sources, 0 where a value is settled; whether all are precise.
+    /// Writes the residual at `x`, with 0 at settled values. Returns true if all values are precise.
     fn residual(&self, x: &[f64], floor: f64, residual: &mut [f64]) -> bool {
         let Extent { cells: [rows, columns], ends, .. } = self.extent;
         let joined = ends.map(|ends| ends == Ends::Joined);
         let nothing = vec![0.0; columns];
         let row = |i: Option<usize>| i.map_or(&nothing[..], |i| &x[i * columns..(i + 1) * columns]);
-        // The row with the cell before and the one after it.
+        // The row with the previous and the next cell.
         let mut here = vec![0.0; columns + 2];
         let mut precise = true;
         for i in 0..rows {
@@ -154,14 +154,15 @@ impl Wide {
     }
 }
 
-/// Zeros that are in memory: what comes as zero pages of the system and is read before it is written is mapped twice.
+/// Returns zeros that are in memory. Zero pages of the system that are read before they are written would be mapped
+/// twice.
 fn written(len: usize) -> Vec<f64> {
     let mut zeros = Vec::with_capacity(len);
     zeros.resize(len, 0.0);
     zeros
 }
 
-/// Adds sources to where they are.
+/// Adds sources at their places.
 fn spread(sources: &[(u32, f64)], to: &mut [f64]) {
     sources.iter().for_each(|&(at, source)| to[at as usize] += source);
 }
@@ -170,8 +171,8 @@ fn spread(sources: &[(u32, f64)], to: &mut [f64]) {
 mod tests {
     use super::*;
 
-    /// A straight corridor between walls with 1 at its near end, where the potential is the sum of
-    /// `sin(k pi i / (w + 1)) sinh(theta_k (n + 1 - j)) / sinh(theta_k (n + 1))` and far away the first of them alone.
+    /// A straight corridor between walls with 1 at its near end. Its potential is the sum of `sin(k pi i / (w + 1))
+    /// sinh(theta_k (n + 1 - j)) / sinh(theta_k (n + 1))`; far away only the first term matters.
     #[test]
     fn a_long_wide_corridor_is_precise_to_its_far_end() {
         let (w, n) = (50, 1500);

@@ -1,5 +1,5 @@
-//! The harmonic field at any length: exact values where they are far below the least double, mazes and spirals, and the
-//! curve between the cells.
+//! Tests of the harmonic field: exact values far below the least double, mazes and spirals, and the curve between the
+//! cells.
 
 #[path = "../../../tests/common/mazes.rs"]
 mod mazes;
@@ -31,14 +31,15 @@ fn solved(grid: &Grid, goals: &[usize]) -> (Component, Field) {
     (component, field)
 }
 
-/// What every field has to fulfil.
+/// Asserts the properties of every field.
 fn is_sound(component: &Component, field: &Field) {
     let residual = residual(component, &field.potential);
     assert!(residual < 2e-14, "residual {residual:e}");
     assert!(field.potential.navigates(component));
 }
 
-/// Each step of a way goes to a neighbour that is as great as any, but for rounding; the last cell is a goal.
+/// Asserts that each step goes to a neighbour that is as great as any, up to rounding, and that the last cell is a
+/// goal.
 fn is_steepest(component: &Component, way: &[usize], ln: impl Fn(usize) -> f64) {
     assert!(way.last().is_some_and(|&last| last < component.goals));
     for step in way.windows(2) {
@@ -48,7 +49,7 @@ fn is_steepest(component: &Component, way: &[usize], ln: impl Fn(usize) -> f64) 
     }
 }
 
-/// The harmonic function by Gaussian elimination in rational numbers, without any loss on the way.
+/// Computes the harmonic function by Gaussian elimination in rational numbers, without loss of walks.
 fn exact(component: &Component) -> Vec<BigRational> {
     let n = component.len();
     let number = |x: i64| BigRational::from_integer(x.into());
@@ -63,7 +64,7 @@ fn exact(component: &Component) -> Vec<BigRational> {
             row[neighbor] -= number(1);
         }
     }
-    // From the far end: a chain of corridors then keeps few entries a row.
+    // Starts at the far end: a chain of corridors then has few entries per row.
     for k in (0..n).rev() {
         let row = rows[k].clone();
         for other in rows[..k].iter_mut().filter(|other| other[k] != number(0)) {
@@ -81,7 +82,7 @@ fn exact(component: &Component) -> Vec<BigRational> {
     solution
 }
 
-/// Natural logarithm of a positive rational of any size.
+/// Returns the natural logarithm of a positive rational of any size.
 fn ln(x: &BigRational) -> f64 {
     let part = |x: &BigRational, upper: bool| {
         let digits = if upper { x.numer() } else { x.denom() }.to_string();
@@ -109,7 +110,7 @@ proptest! {
         let (component, field) = solved(&grid, &[goal]);
         let exact: Vec<f64> = exact(&component).iter().map(ln).collect();
         for (i, value) in exact.iter().enumerate() {
-            // Walks are lost at a rate of 1e-13 a step.
+            // Walks are lost at a rate of 1e-13 per step.
             prop_assert!((field.potential.ln(i) - value).abs() < 1e-9, "{} is not {value}", field.potential.ln(i));
         }
         let last = component.len() - 1;
@@ -117,7 +118,7 @@ proptest! {
     }
 }
 
-/// A wide room, thin walls, mazes, pillars: of some thousand cells, with the goal anywhere.
+/// Generates grids of some thousand cells with the goal anywhere: a wide room, thin walls, mazes, pillars.
 fn large_grid() -> impl Strategy<Value = (Grid, Vec<usize>)> {
     let kinds = (0..5_usize, 20..70_usize, any::<[bool; 2]>(), any::<u64>());
     let grids = kinds.prop_map(|(kind, half, circles, seed)| {
@@ -126,9 +127,9 @@ fn large_grid() -> impl Strategy<Value = (Grid, Vec<usize>)> {
         let cell = |i: usize, j: usize| match kind {
             0 => at(i, j) % 100 < 2,
             1 => at(i, j) % 100 < 38,
-            // Thin walls with a gap each.
+            // Thin walls with one gap each.
             2 => i % 9 == 4 && at(i, 0) as usize % n != j,
-            // Wide and narrow corridors in turn, in a serpent.
+            // Alternating wide and narrow corridors in a serpentine.
             3 => matches!(i % 20, 11 | 13 | 19) && if i % 20 == 13 { j != 0 } else { j + 1 != n },
             _ => false,
         };
@@ -157,8 +158,8 @@ proptest! {
     }
 }
 
-/// Where the symmetry of walls and goals makes all four neighbours equal, the harmonic function itself is level: the loss
-/// of walks on their way makes it fall there.
+/// The symmetry of walls and goals makes all four neighbours equal and the harmonic function level. The loss of walks
+/// makes it fall there.
 #[test]
 fn the_middle_of_four_goals_is_not_level() {
     for half in [2, 3, 20, 40] {
@@ -167,14 +168,14 @@ fn the_middle_of_four_goals_is_not_level() {
         let goals = [half, half * n, half * n + n - 1, (n - 1) * n + half];
         let (component, field) = solved(&grid, &goals);
         is_sound(&component, &field);
-        // To one of them, as many moves away at least.
+        // At least as many steps as the distance to one of them.
         let way = field.potential.ascend(&component, component.position_of(half * n + half).unwrap()).expect("a way");
         let reached = goals.iter().any(|goal| component.position_of(*goal) == way.last().copied());
         assert!(reached && way.len() > half, "{way:?}");
     }
 }
 
-/// A corridor one cell wide: each value is `2 - sqrt 3` of the one before, but for the few at its closed end.
+/// A corridor one cell wide: each value is `2 - sqrt 3` times the previous one, except for a few at its closed end.
 #[test]
 fn a_spiral_of_a_hundred_thousand_cells() {
     let (blocked, inner) = mazes::spiral(451);
@@ -212,7 +213,7 @@ fn a_braided_maze_of_501_x_501_cells() {
     is_sound(&component, &field);
 }
 
-/// In `u = sin(pi x / w) sinh(pi y / w)` the path is the streamline that a fine Runge-Kutta integration finds.
+/// In `u = sin(pi x / w) sinh(pi y / w)`, the path is the streamline found by a fine Runge-Kutta integration.
 #[test]
 fn paths_are_streamlines_of_a_known_function() {
     let (w, h) = (64_usize, 96_usize);
@@ -233,7 +234,7 @@ fn paths_are_streamlines_of_a_known_function() {
     for start in [[1.3, 4.6], [3.0, 10.0], [20.2, 55.1], [0.0, 31.0]] {
         let streamline = follow(&mut Uphill::new(&component, &potential, position), [1.0; 2], start).unwrap();
         assert_eq!(streamline.place[0], rows as i64 - 1);
-        // (y, x) as the lattice has it; gradient by the closed form, steps of 1/100 of a cell.
+        // (y, x) as in the lattice; gradient by the closed form, steps of 1/100 of a cell.
         let slope = |[i, j]: [f64; 2]| {
             let (x, y) = (PI * (j + 1.0) / w as f64, PI * (i + 1.0) / w as f64);
             let g = [x.sin() * y.cosh(), x.cos() * y.sinh()];
@@ -253,7 +254,7 @@ fn paths_are_streamlines_of_a_known_function() {
             fine.push(at);
         }
         for p in &streamline.points {
-            // The goals' cells are known, not where in them the goals are: the last rows are nearly level along the limit.
+            // The goal is known only as a cell, and the field is nearly level along the limit in the last rows.
             let allowed = if p[0] < rows as f64 - 3.0 { 0.1 } else { 0.2 };
             let nearest = fine.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1])).fold(f64::INFINITY, f64::min);
             assert!(nearest < allowed, "{p:?} is {nearest} cells off the streamline from {start:?}");

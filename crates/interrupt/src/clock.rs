@@ -1,28 +1,28 @@
-//! Time, and the end of work that is stopped, where the platform has neither: WebAssembly without a system.
+//! Time and interruption on platforms without a clock and without unwinding: WebAssembly without a system.
 
 use std::ops::{Add, Sub};
 use std::sync::OnceLock;
 use std::time::Duration;
 
-/// What the host of the program does in place of the platform.
+/// Functions that the host of the program provides instead of the operating system.
 #[derive(Debug)]
 pub struct Host {
-    /// The time since some moment that stays the same.
+    /// Returns the time since a fixed moment.
     pub elapsed: fn() -> Duration,
-    /// Ends the work that is stopped, and with it this instance of the program: nothing can be unwound there.
+    /// Ends the interrupted work together with this instance of the program, because its stack cannot be unwound.
     pub stop: fn() -> !,
 }
 
 static HOST: OnceLock<Host> = OnceLock::new();
 
 impl Host {
-    /// Puts it in place, once and for all. Without one time stands still, and work that is stopped aborts.
+    /// Installs the host permanently. Without a host, time stands still and interrupted work aborts.
     pub fn serve(self) {
-        // A second host would only say the same.
+        // A second call has no effect.
         let _ = HOST.set(self);
     }
 
-    /// Has the one in place end this instance; returns where there is none.
+    /// Lets the installed host end this instance. Returns if there is no host.
     pub(crate) fn end() {
         if let Some(host) = HOST.get() {
             (host.stop)();
@@ -30,18 +30,18 @@ impl Host {
     }
 }
 
-/// A moment, by the host's clock; used like that of [`std::time`].
+/// A moment of the host's clock, with the interface of [`std::time`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Instant(Duration);
 
 impl Instant {
-    /// This moment.
+    /// Returns the current moment.
     #[must_use]
     pub fn now() -> Self {
         Self(HOST.get().map_or(Duration::ZERO, |host| (host.elapsed)()))
     }
 
-    /// The time since then.
+    /// Returns the time since this moment.
     #[must_use]
     pub fn elapsed(self) -> Duration {
         Self::now() - self

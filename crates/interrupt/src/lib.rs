@@ -1,8 +1,9 @@
-//! Stopping long computations from outside: a flag, a deadline, and the places where work looks at them.
+//! Interruption of long computations by a flag or a deadline.
 //!
-//! A plan is a deep call of pure functions, any of which may take long. To stop it, one runs it under an [`Interrupt`];
-//! long loops below call [`checkpoint`], which unwinds the stack back to there once the interrupt is set. So half a result
-//! can never be taken for a whole one: what is stopped returns [`Interrupted`] and nothing else.
+//! Planning is a deep call of pure functions that may take long. Run it under an [`Interrupt`] to be able to
+//! stop it. Long loops call [`checkpoint`], which unwinds the stack back to the run once the interrupt is set. An
+//! interrupted computation returns [`Interrupted`] and nothing else, so a partial result cannot be mistaken for a
+//! complete one.
 //!
 //! ```
 //! use cplan_interrupt::{Interrupt, Interrupted, checkpoint};
@@ -13,12 +14,12 @@
 //! assert_eq!(interrupt.run(|| (1..=3).inspect(|_| checkpoint()).sum::<i32>()), Err(Interrupted::Set));
 //! ```
 //!
-//! A loop that may take more than some milliseconds needs a checkpoint. No signature says so: that is why stopping
-//! unwinds. A checkpoint costs some nanoseconds, and nothing happens at one outside of [`Interrupt::run`]: who does not want
-//! to stop a library that has checkpoints need not know of them.
+//! A loop that may take more than a few milliseconds needs a checkpoint. Unwinding keeps interruption out of all
+//! signatures. A checkpoint costs a few nanoseconds and has no effect outside of [`Interrupt::run`], so callers that
+//! never interrupt need not know about checkpoints.
 //!
-//! WebAssembly without a system (`wasm32-unknown-unknown`) has neither a clock nor unwinding: there a `Host` gives the time, and ends
-//! the whole instance where work is stopped.
+//! WebAssembly without a system (`wasm32-unknown-unknown`) has neither a clock nor unwinding. There a `Host` supplies
+//! the time and ends the whole instance to stop work.
 #![forbid(unsafe_code)]
 
 #[cfg(any(all(target_family = "wasm", target_os = "unknown"), test))]
@@ -26,7 +27,7 @@ mod clock;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 pub use clock::{Host, Instant};
-/// A moment: that of the standard library, but for WebAssembly without a system, whose host gives the time.
+/// A moment: that of the standard library, except on WebAssembly without a system, where the host supplies the time.
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 pub use std::time::Instant;
 
@@ -37,10 +38,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
-/// Why work was stopped.
+/// Reasons why work was interrupted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Interrupted {
-    /// Somebody called [`Interrupt::set`].
+    /// [`Interrupt::set`] was called.
     #[error("interrupted")]
     Set,
     /// The deadline of [`Interrupt::by`] passed.
@@ -48,7 +49,7 @@ pub enum Interrupted {
     TimeUp,
 }
 
-/// A handle to stop work with, from any thread. Clones are handles to the same.
+/// A handle to stop work, from any thread. Clones are handles to the same interrupt.
 #[derive(Debug, Clone, Default)]
 pub struct Interrupt {
     flag: Arc<AtomicBool>,
@@ -56,14 +57,14 @@ pub struct Interrupt {
     question: Option<Arc<Question>>,
 }
 
-/// Whether work is to stop.
+/// A callback that returns true if work must stop.
 type Stops = Box<dyn Fn() -> bool + Send + Sync>;
 
-/// What is asked now and then.
+/// A callback with its schedule.
 struct Question {
     every: Duration,
     begun: Instant,
-    /// Nanoseconds from then to when it is asked next.
+    /// Nanoseconds from the start to the next call.
     next: AtomicU64,
     stops: AssertUnwindSafe<Stops>,
 }
@@ -75,7 +76,7 @@ impl fmt::Debug for Question {
 }
 
 impl Question {
-    /// Whether it is time to ask, and by whom: of several threads one is told so.
+    /// Returns true if the callback is due. Only one of several threads gets true.
     fn is_due(&self) -> bool {
         let (now, next) = (self.begun.elapsed().as_nanos() as u64, self.next.load(Ordering::Relaxed));
         let after = now + self.every.as_nanos() as u64;
@@ -83,7 +84,7 @@ impl Question {
     }
 }
 
-/// What [`checkpoint`] unwinds with: the depth of the interrupt that is set, so that only its own [`Interrupt::run`]
+/// The payload with which [`checkpoint`] unwinds: the depth of the interrupt, so that only its own [`Interrupt::run`]
 /// catches it.
 struct Unwinding {
     depth: usize,
@@ -91,25 +92,25 @@ struct Unwinding {
 }
 
 thread_local! {
-    /// The interrupts that this thread works under, the outermost first.
+    /// The interrupts under which this thread works, the outermost first.
     static ACTIVE: RefCell<Vec<Interrupt>> = const { RefCell::new(Vec::new()) };
 }
 
 impl Interrupt {
-    /// One that is not set and has no deadline.
+    /// Creates an interrupt that is not set and has no deadline.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// This handle with a deadline of its own; handles cloned before have none.
+    /// Adds a deadline to this handle. Earlier clones are not affected.
     #[must_use]
     pub fn by(self, deadline: Instant) -> Self {
         Self { deadline: Some(deadline), ..self }
     }
 
-    /// This handle, under which work asks every so often whether it is to stop, on its own thread, at a checkpoint: for hosts whose
-    /// signals are seen by that thread alone. What is asked may itself do work under interrupts.
+    /// Adds a callback that checkpoints call at this interval, on the thread of the work, to ask whether to stop. For
+    /// hosts whose signals only that thread sees. The callback itself may run work under interrupts.
     #[must_use]
     pub fn asking(self, every: Duration, stops: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         let next = AtomicU64::new(every.as_nanos() as u64);
@@ -117,12 +118,12 @@ impl Interrupt {
         Self { question: Some(Arc::new(question)), ..self }
     }
 
-    /// Stops the work that runs under any handle to this interrupt, now and later.
+    /// Stops all work under any handle to this interrupt, now and later.
     pub fn set(&self) {
         self.flag.store(true, Ordering::Relaxed);
     }
 
-    /// Why work under this handle is to stop, if it is.
+    /// Returns the reason to stop, if the interrupt is set or the deadline has passed.
     #[must_use]
     pub fn why(&self) -> Option<Interrupted> {
         if self.flag.load(Ordering::Relaxed) {
@@ -131,17 +132,17 @@ impl Interrupt {
         self.deadline.is_some_and(|deadline| Instant::now() >= deadline).then_some(Interrupted::TimeUp)
     }
 
-    /// Does `work` on this thread until it is done or the interrupt is set; does not begin where it is set already. Runs may be
-    /// nested: the outermost interrupt that is set counts.
+    /// Runs `work` on this thread until it finishes or the interrupt is set. Does not start if the interrupt is already
+    /// set. Runs may be nested: the outermost interrupt that is set counts.
     ///
-    /// How soon work stops is a matter of how often it comes by a [`checkpoint`]; work that never does is finished. Values
-    /// that `work` owns are dropped; those it only borrows and changes are its caller's to mend.
+    /// Work stops at its next [`checkpoint`]; without checkpoints it finishes. Values that `work` owns are dropped. The
+    /// caller must repair values that `work` borrows and changes.
     ///
     /// # Errors
-    /// [`Interrupted`] if it was stopped.
+    /// [`Interrupted`] if the work was stopped.
     ///
     /// # Panics
-    /// As `work` does. Needs `panic = "unwind"`, which is Cargo's default.
+    /// If `work` panics. Requires `panic = "unwind"`, which is Cargo's default.
     pub fn run<T>(&self, work: impl FnOnce() -> T) -> Result<T, Interrupted> {
         if let Some(why) = self.why() {
             return Err(why);
@@ -160,8 +161,8 @@ impl Interrupt {
     }
 }
 
-/// A place where work may stop: returns unless an interrupt that the thread works under is set. Some nanoseconds; some tens
-/// with a deadline or a question. Outside of [`Interrupt::run`] it does nothing.
+/// Stops the thread's work if its interrupt is set, otherwise returns. Costs a few nanoseconds, or some tens with a
+/// deadline or a callback. Has no effect outside of [`Interrupt::run`].
 #[inline]
 pub fn checkpoint() {
     let (set, asked) = ACTIVE.with_borrow(|active| {
@@ -180,11 +181,11 @@ pub fn checkpoint() {
     }
 }
 
-/// Back to the run whose interrupt is set.
+/// Unwinds to the run whose interrupt is set.
 fn unwind(unwinding: Unwinding) -> ! {
     #[cfg(all(target_family = "wasm", target_os = "unknown"))]
     Host::end();
-    // Not a panic: no message, no hook.
+    // This is not a panic: it prints no message and calls no hook.
     resume_unwind(Box::new(unwinding))
 }
 
@@ -215,7 +216,7 @@ mod tests {
             })
         });
         assert_eq!((result, reached.get()), (Err(Interrupted::Set), 7));
-        assert_eq!(counted_to(3, |_| ()), 3, "nothing is left of it outside");
+        assert_eq!(counted_to(3, |_| ()), 3, "outside the run it has no effect");
     }
 
     #[test]

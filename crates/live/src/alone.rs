@@ -1,4 +1,4 @@
-//! What answers a page that has the program within it: without server, threads, files, or a way to stop what runs.
+//! The live page with the program inside: no server, threads or files, and no way to interrupt work.
 
 use super::{Desk, Files, Host, Message, Reply, Request, Spent};
 use cplan_interrupt::Interrupt;
@@ -6,21 +6,21 @@ use serde::Deserialize;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// What such a page says.
+/// A message from such a page.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 enum Order {
-    /// The files to begin with; the page is told the world.
+    /// Load these files. The page receives the world.
     Open {
         /// Number of the request.
         id: u64,
         files: Files,
         /// Time that a plan may take.
         seconds: f64,
-        /// What the page works on already, which then is told nothing.
+        /// The state that the page already has, in which case it receives nothing.
         held: Option<Held>,
     },
-    /// Do what the page asks of any program.
+    /// Handle a request of the ordinary protocol.
     Take {
         request: Request,
         #[serde(default)]
@@ -43,7 +43,7 @@ pub struct Alone {
 }
 
 impl Alone {
-    /// Does what an order says, and tells what comes of it.
+    /// Executes an order and passes its results to `tell`.
     pub fn take(&mut self, order: &str, tell: &mut dyn FnMut(Message)) {
         let failed = |error: String| Message::from(&Reply::Failed { id: 0, error });
         match (serde_json::from_str(order), &mut self.desk) {
@@ -66,10 +66,10 @@ impl Alone {
     }
 }
 
-/// A desk with a world of its own.
+/// Creates a desk with its own world.
 ///
 /// # Errors
-/// What is wrong with the files, in words.
+/// The defects of the files.
 fn opened(files: Files, seconds: f64, held: Option<Held>) -> Result<Desk, String> {
     let time = Duration::try_from_secs_f64(seconds).map_err(|error| format!("seconds: {error}"))?;
     let host = Host::brought(files, time)?;
@@ -86,7 +86,7 @@ mod tests {
     const URDF: &str = include_str!("../../../robots/planar_2r.urdf");
     const WORLD: &str = include_str!("../../../workspaces/shelf.toml");
 
-    /// What it tells, as JSON.
+    /// Returns the messages as JSON.
     fn told(alone: &mut Alone, order: &Value) -> Vec<Value> {
         let mut replies = Vec::new();
         alone.take(&order.to_string(), &mut |message| match message {

@@ -1,4 +1,4 @@
-//! A start or goal that cannot be taken, for a page: where it is, what is in the way, and in words that need no file.
+//! Blocked starts and goals, for a page: position, obstacles in contact, and a description without references to files.
 
 use super::protocol::{About, AnswerReply, BlockedReply, HitReply};
 use cplan_core::model::{Goal, Obstruction, Scene, inverse};
@@ -12,7 +12,7 @@ const MOST_SHOWN: usize = 4;
 /// Depths below this, metres, are called touching.
 const SHALLOW: f64 = 1e-9;
 
-/// The answer to a world of which something cannot be used.
+/// Returns the answer to an unusable world.
 pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) -> AnswerReply {
     let [start, goal] = loaded.given();
     let kinds = error.diagnostics().iter().map(|diagnostic| diagnostic.kind);
@@ -33,12 +33,12 @@ pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) ->
     AnswerReply { error: Some(error), about: Some(about), blocked, ..AnswerReply::default() }
 }
 
-/// The answer to a text that cannot be read, though the page has written it.
+/// Returns the answer to a text that cannot be read, although the page wrote it.
 pub fn unread(error: &InputError) -> AnswerReply {
     AnswerReply { error: Some(without_places(error)), about: Some(About::World), ..AnswerReply::default() }
 }
 
-/// The configurations that a place stands for, each with what is in its way: deepest first.
+/// Returns the configurations of a place with the obstacles in contact, deepest first.
 fn configurations(
     scene: &Scene,
     place: Goal,
@@ -71,7 +71,7 @@ fn reply(obstruction: &Obstruction) -> HitReply {
     }
 }
 
-/// What is in the way, in words.
+/// Describes the obstacles in contact.
 fn in_the_way(scene: &Scene, what: &str, blocked: &[(Configuration, Vec<Obstruction>)]) -> String {
     let one = |hits: &[Obstruction]| hits.iter().map(|hit| in_words(scene, hit)).collect::<Vec<_>>().join("; ");
     let touches = blocked.iter().all(|(_, hits)| hits.iter().any(|hit| hit.touches));
@@ -103,7 +103,7 @@ fn in_words(scene: &Scene, hit: &Obstruction) -> String {
     }
 }
 
-/// A length with three digits.
+/// Formats a length with three digits.
 fn millimetres(metres: f64) -> String {
     let length = metres * 1e3;
     let digits = if length >= 100.0 {
@@ -116,7 +116,7 @@ fn millimetres(metres: f64) -> String {
     if length < 0.01 { format!("{length:.1e} mm") } else { format!("{length:.digits$} mm") }
 }
 
-/// The diagnostics without file, line and column: the page has written the text, and its user has not seen it.
+/// Formats the diagnostics without file, line and column, because the user has not seen the text.
 fn without_places(error: &InputError) -> String {
     let sentence = |diagnostic: &Diagnostic| {
         let mut letters = diagnostic.message.chars();

@@ -6,7 +6,7 @@ use cplan_geometry::Convex;
 use cplan_view::output;
 use std::cell::RefCell;
 
-/// What a page's worker remembers. The contours of an obstacle depend on nothing but the arm, the clearance and its pieces.
+/// A cache of contours. The contours of an obstacle depend only on the arm, the clearance and its pieces.
 #[derive(Default)]
 pub struct Contours {
     known: RefCell<Known>,
@@ -14,11 +14,11 @@ pub struct Contours {
 
 #[derive(Default)]
 struct Known {
-    /// What all of them depend on.
+    /// The arm and the clearance of all entries.
     of: Option<(Arm, f64)>,
-    /// In the order of the last scene's obstacles.
+    /// Entries in the order of the last scene's obstacles.
     entries: Vec<Entry>,
-    /// Those of the arm's self obstacles, each with its number among them.
+    /// Contours of the arm's self obstacles, each with its number.
     own: Vec<CObstacle>,
 }
 
@@ -26,7 +26,7 @@ struct Known {
 struct Entry {
     pieces: Vec<Convex>,
     heights: Heights,
-    /// Of this obstacle, whatever its number.
+    /// Contours of this obstacle, independent of its number.
     contours: Vec<CObstacle>,
 }
 
@@ -37,8 +37,8 @@ impl Entry {
 }
 
 impl Contours {
-    /// The contours for pictures of a scene without payload, obstacle by obstacle. Time is taken by the obstacles that the
-    /// last scene did not have.
+    /// Returns the contours for pictures of a scene without payload, obstacle by obstacle. Computes only those of
+    /// obstacles that the last scene did not have.
     pub fn of(&self, scene: &Scene) -> Vec<CObstacle> {
         let obstacles = &scene.workspace().obstacles;
         let of = Some((scene.arm().clone(), scene.workspace().clearance));
@@ -67,7 +67,7 @@ impl Contours {
 }
 
 impl Known {
-    /// What is known of each obstacle. Those that come and go shift the others by a place or two.
+    /// Looks up each obstacle. Obstacles that appear or disappear shift the others by a place or two.
     fn found(&self, obstacles: &[Obstacle]) -> Vec<Option<Entry>> {
         let mut next = 0;
         let mut one = |obstacle: &Obstacle| {
@@ -79,7 +79,7 @@ impl Known {
     }
 }
 
-/// The contours of the arm's self obstacles.
+/// Computes the contours of the arm's self obstacles.
 fn own(scene: &Scene) -> Vec<CObstacle> {
     if scene.arm().self_obstacles.is_empty() {
         return Vec::new();
@@ -88,7 +88,7 @@ fn own(scene: &Scene) -> Vec<CObstacle> {
     output::contours(&Scene::trusted(scene.arm().clone(), workspace))
 }
 
-/// The contours of some obstacles, one entry for each.
+/// Computes the contours of some obstacles, one entry for each.
 fn traced(scene: &Scene, wanted: &[usize]) -> Vec<Entry> {
     let obstacles: Vec<Obstacle> = wanted.iter().map(|&k| scene.workspace().obstacles[k].clone()).collect();
     let entry = |o: &Obstacle| Entry { pieces: o.pieces.clone(), heights: o.heights, contours: Vec::new() };

@@ -4,7 +4,7 @@ use super::protocol::{Begin, End, Form, MOST_CORNERS, MOST_OBSTACLES, Pair, Piec
 use std::collections::BTreeSet;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
-/// A text and what it says, without any check but that it is TOML.
+/// A TOML text and its contents, otherwise unchecked.
 #[derive(Debug, Clone)]
 pub struct Document {
     text: String,
@@ -12,12 +12,12 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads a text. `None` if it is no TOML: the input layer says what is wrong with it.
+    /// Parses a text. Returns `None` if it is not TOML; reading it as a world reports the reason.
     pub fn parse(text: &str) -> Option<Self> {
         Some(Self { text: text.to_owned(), toml: text.parse().ok()? })
     }
 
-    /// The text as it is now, edits included.
+    /// Returns the current text, with all edits.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -31,7 +31,7 @@ impl Document {
         of_map.chain(images).map(str::to_owned).collect()
     }
 
-    /// Its `[[obstacle]]`s; none if they are something else.
+    /// Returns its `[[obstacle]]`s, or `None` if they are not tables.
     fn obstacles(&self) -> Option<ArrayOfTables> {
         match self.toml.get("obstacle") {
             None => Some(ArrayOfTables::new()),
@@ -39,17 +39,17 @@ impl Document {
         }
     }
 
-    /// Those of them that stand, and those that move, which the page shows and does not change.
+    /// Splits them into static ones, and moving ones, which the page shows but does not change.
     fn by_motion(&self) -> Option<(Vec<Table>, Vec<Table>)> {
         Some(self.obstacles()?.into_iter().partition(|table| !table.contains_key("motion")))
     }
 
-    /// Joint values of its start.
+    /// Returns the joint values of its start.
     pub fn start(&self) -> Option<Pair> {
         pair(self.toml.get("start")?.get("joints"))
     }
 
-    /// What the text says of the goal, if it says anything.
+    /// Returns the goal, if the text has one.
     pub fn goal(&self) -> Option<End> {
         let goal = self.toml.get("goal")?;
         pair(goal.get("joints")).map(End::Joints).or_else(|| pair(goal.get("tip")).map(End::Tip))
@@ -60,10 +60,10 @@ impl Document {
         self.by_motion().unwrap_or_default().0.iter().map(form).collect()
     }
 
-    /// The text with what the state says; the same text where it says the same.
+    /// Returns the text changed to match the state; the same text if it matches already.
     ///
     /// # Errors
-    /// In words, if the state is too large or speaks of obstacles that the text does not have.
+    /// The reason, if the state is too large or refers to obstacles that the text does not have.
     pub fn changed(&self, state: &State, start: Option<Pair>) -> Result<String, String> {
         let corners: usize = state.obstacles.iter().flat_map(|piece| &piece.shape).map(Form::corners).sum();
         if state.obstacles.len() > MOST_OBSTACLES || corners > MOST_CORNERS {
@@ -93,7 +93,7 @@ impl Document {
         Ok(if touched { toml.to_string() } else { self.text.clone() })
     }
 
-    /// Whether anything changed.
+    /// Returns true if anything changed.
     fn change_obstacles(&self, toml: &mut DocumentMut, pieces: &[Piece]) -> Result<bool, String> {
         let (before, moving) = self.by_motion().ok_or("the text's obstacles are no [[obstacle]] tables")?;
         let same = pieces.len() == before.len()
@@ -105,7 +105,7 @@ impl Document {
             return Ok(false);
         }
         let mut after = ArrayOfTables::new();
-        // Tables are written in the order of their positions; those without one follow what came before.
+        // Tables are written in the order of their positions. Tables without a position follow the previous one.
         let last = before.iter().chain(&moving).filter_map(Table::position).max();
         let places: Vec<_> = before.iter().map(Table::position).collect();
         for (k, piece) in pieces.iter().enumerate() {
@@ -143,7 +143,7 @@ impl Document {
     }
 }
 
-/// Whether the piece has a name that is not the table's; an unnamed obstacle goes by its number.
+/// Returns true if the piece has a different name from the table. An unnamed obstacle is called by its number.
 fn renames(table: &Table, piece: &Piece) -> bool {
     piece.name.as_deref().is_some_and(|name| table.get("name").and_then(Item::as_str) != Some(name))
 }
@@ -214,9 +214,9 @@ fn written(shape: &Form) -> Value {
     }
 }
 
-/// The shape of an `[[obstacle]]`, if it has exactly one that the page can change.
+/// Returns the shape of an `[[obstacle]]`, if it has exactly one that the page can change.
 fn form(table: &Table) -> Option<Form> {
-    // What has a frame of its own is not where its points say.
+    // With a separate frame, its points are not world coordinates.
     if table.contains_key("at") || table.contains_key("angle") {
         return None;
     }
@@ -363,7 +363,7 @@ image = \"map.yaml\"
         assert_eq!(pair(again.toml["goal"].get("tip")), Some([1.0, 2.0]));
     }
 
-    /// Numbers of the page are those of what stands; what moves stays as it is.
+    /// The page's numbers count static obstacles. Moving ones stay unchanged.
     #[test]
     fn what_moves_is_no_obstacle_of_the_page() {
         let cart = "[[obstacle]]\ncircle = { center = [0, 0], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n";

@@ -7,10 +7,10 @@ use cplan_view::output::PlanOutput as _;
 use cplan_world::{LoadedScene, Overrides};
 use std::path::Path;
 
-/// The file's content.
+/// Returns the content of a file.
 ///
 /// # Errors
-/// In words: a format that is none of ours, bad input, a result without what the format is for.
+/// An unknown format, bad input, or a result without the data for the format.
 pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<Vec<u8>, String> {
     let in_words = |error: &dyn ToString| error.to_string();
     let format = FileFormat::from_path(Path::new(&format!("plan.{format}"))).map_err(|error| in_words(&error))?;

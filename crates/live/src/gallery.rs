@@ -8,7 +8,7 @@ use std::time::Duration;
 /// A world to open.
 #[derive(Debug, Serialize)]
 struct Choice {
-    /// What the address says.
+    /// Its name in the address.
     name: &'static str,
     title: &'static str,
     /// One of [`ROBOTS`].
@@ -17,7 +17,7 @@ struct Choice {
     puzzle: Option<Puzzle>,
 }
 
-/// What is to be reached in a world; the page judges it by the program's answer.
+/// A puzzle in a world. The page judges it by the program's answer.
 #[derive(Debug, Serialize)]
 struct Puzzle {
     text: &'static str,
@@ -29,11 +29,11 @@ struct Puzzle {
     clearance: Option<f64>,
 }
 
-/// What may be changed.
+/// The parts that the user may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Free {
-    /// Where the obstacles are.
+    /// Positions of the obstacles.
     Obstacles,
     /// The clearance.
     Clearance,
@@ -117,7 +117,7 @@ const CHOICES: [Choice; 14] = [
     ),
 ];
 
-/// Just below the largest clearance that leaves a way through the narrow slot, metres.
+/// Slightly less than the largest clearance with a path through the narrow slot, metres.
 const CLEAREST: f64 = 0.0341;
 
 const fn world(name: &'static str, title: &'static str, robot: &'static str, world: &'static str) -> Choice {
@@ -140,17 +140,17 @@ impl Puzzle {
     }
 }
 
-/// All of it, for the page.
+/// The gallery, for the page.
 #[derive(Debug, Serialize)]
 pub struct Gallery {
-    /// What a page begins with that has the program within it, and the time that a plan may take there, seconds.
+    /// Initial files of a page with the program inside, and the time limit of a plan there, seconds.
     alone: Option<(Files, f64)>,
     robots: BTreeMap<&'static str, &'static str>,
     choices: [Choice; 14],
 }
 
 impl Gallery {
-    /// That of a page with the program within it, or of one that a server serves.
+    /// Creates the gallery of a page with the program inside, or of one that a server serves.
     pub fn new(alone: Option<(Files, Duration)>) -> Self {
         let alone = alone.map(|(files, time)| (files, time.as_secs_f64()));
         Self { alone, robots: BTreeMap::from(ROBOTS), choices: CHOICES }
@@ -165,7 +165,7 @@ mod tests {
     use cplan_world::{Overrides, scene_from};
     use std::collections::BTreeSet;
 
-    /// A way to solve each puzzle: what is found in the world, and what is put there.
+    /// A solution of each puzzle: a text in the world, and its replacement.
     const SOLUTIONS: [(&str, &[[&str; 2]]); 6] = [
         ("close", &[["[0.02, -0.9], [0.02, -0.12], [0.0, -0.12]", "[0.02, -0.75], [0.02, 0.03], [0.0, 0.03]"]]),
         ("round", &[["[0.7, -1.5]", "[0.7, 0.0]"]]),
@@ -187,7 +187,7 @@ mod tests {
         plan(&Problem::of_scene(scene, &Overrides::default()).unwrap(), &Options::default()).unwrap()
     }
 
-    /// As the page judges it.
+    /// Judges a solution as the page does.
     fn is_solved(puzzle: &Puzzle, plan: &Plan) -> bool {
         let Some(MotionPlan { problem, answer, .. }) = plan.motion() else { return false };
         let bound = answer.bound.map_or(0.0, |bound| bound.lower);

@@ -1,31 +1,31 @@
-//! The live page: one in which obstacles, start and goal are moved, and the plan follows; and what answers it, wherever that runs.
+//! The live page, in which users move obstacles, start and goal while the plan follows; and the session that answers
+//! it.
 //!
 //! ```text
 //! page (assets) <-- messages (protocol) --> desk: text of the world -> input -> plan -> view
 //! ```
 //!
-//! The page sends the whole of what it shows each time, as a change of the text that it was given; so any message may be
-//! dropped for a newer one, and the world that is planned in is always read from text by the same code as any file. Who carries
-//! the messages is none of this module's business: `serve` does, over a socket; `Alone` is for a page that has the program within it.
+//! Each time, the page sends its whole state as a change of the text that it received. So any message may be dropped in
+//! favour of a newer one, and the planned world is always read from text by the same code as any file. This crate does
+//! not transport messages: `serve` does, over a socket; `Alone` is for a page with the program inside.
 //!
-//! - Undo is the page's own affair. `document` changes the TOML and keeps comments and what it does not know.
-//! - While something is dragged a desk answers without bound and motion (`result::quick`), if that takes no more than 60
-//!   ms, else with the C-space alone (`Pace`); at the end with everything. Contours of obstacles that stay where they
-//!   are, are kept (`contours`).
-//! - Menus come from the command line's grammar (`menus`); what nobody has chosen is not sent, so the page has no
-//!   defaults of its own.
-//! - Errors say what they are about; of a start or goal that is not free the IK solutions and what is in their way
-//!   (`blocked`), in words that need no file.
-//! - Each change gives the page's world a new number (`edition`), and an answer belongs to the number it was asked with.
-//!   The badge says certified only of the final answer to the present number, on a line that is up. Edits are kept in the
-//!   browser (`keep`), under the text that the program began with.
-//! - The page speaks first: it opens what the program began with, or what its address names (`gallery`): arm, world and options,
-//!   which it brings along as text (`Host::brought`). Worlds that name files which the program was not started with are refused
-//!   (`Host::read`).
-//! - The page's code (`assets`) adds to that of `draw::shell`: `alone` (the program within the page, where there is no server),
-//!   `link` (one request under way, the latest next), `gallery` (what can be opened, and links), `keep`,
-//!   `notices` (what is wrong, where one looks), `scene` (state and history), `edit` (pointer and keys), `controls`,
-//!   `live`.
+//! - The page handles undo. `document` changes the TOML, and keeps comments and unknown keys.
+//! - While the user drags, a desk answers without bound and motion (`result::quick`), if that takes at most 60 ms,
+//!   otherwise with the C-space only (`Pace`); at the end with everything. Contours of unmoved obstacles are cached
+//!   (`contours`).
+//! - Menus come from the command line's grammar (`menus`). Unchosen options are not sent, so the page has no defaults
+//!   of its own.
+//! - Errors state their subject. For a start or goal that is not free they list the IK solutions and the obstacles in
+//!   contact (`blocked`), without references to files.
+//! - Each change gives the page's world a new number (`edition`), and an answer belongs to the number in its request.
+//!   The badge says certified only for the final answer to the current number, with a working connection. Edits are
+//!   kept in the browser (`keep`), under the program's initial text.
+//! - The page speaks first: it opens the program's initial world, or the one in its address (`gallery`): arm, world and
+//!   options, which it sends as text (`Host::brought`). Worlds that name files with which the program was not started
+//!   are refused (`Host::read`).
+//! - The page's code (`assets`) extends that of `draw::shell`: `alone` (the program inside the page, without a server),
+//!   `link` (one request under way, the latest next), `gallery` (worlds to open, and links), `keep`, `notices`
+//!   (problems, shown in place), `scene` (state and history), `edit` (pointer and keys), `controls`, `live`.
 
 mod alone;
 mod blocked;
@@ -54,7 +54,7 @@ use document::Document;
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-/// What all pages share.
+/// The state that all pages share.
 pub struct Host {
     urdf: Source,
     /// The world that pages begin with.
@@ -67,12 +67,13 @@ pub struct Host {
     options: String,
     /// Time that a plan may take.
     time: Duration,
-    /// Whether arm and world name no files beside them, so that a link can hold them.
+    /// True if arm and world name no other files, so that a link can contain them.
     is_whole: bool,
 }
 
 impl Host {
-    /// A world to begin with, planned in as `options` say, for at most `time` a plan. None if it is no TOML.
+    /// Creates a host with an initial world, planned with `options` for at most `time`. Returns `None` if it is not
+    /// TOML.
     pub fn new(urdf: Source, world: Source, scene: LoadedScene, options: String, time: Duration) -> Option<Self> {
         let document = Document::parse(world.text())?;
         let in_memory = |source: &Source| Source::in_memory(source.name(), source.text());
@@ -80,10 +81,10 @@ impl Host {
         Some(Self { files: document.files(), urdf, world, document, scene, options, time, is_whole })
     }
 
-    /// What a page brings along, which can name no other files.
+    /// Creates a host with texts that a page sends, which cannot name other files.
     ///
     /// # Errors
-    /// In words, with the place.
+    /// The reason, with the place.
     fn brought(Files { urdf, world, options }: Files, time: Duration) -> Result<Self, String> {
         let [urdf, world] =
             [("robot.urdf", urdf), ("world.toml", world)].map(|(name, text)| Source::in_memory(name, text));
@@ -104,7 +105,7 @@ impl Host {
             ));
         }
         let scene = self.scene.edited(&self.urdf, self.world.with_text(text)).map_err(|error| error.to_string())?;
-        // Whatever the input layer can read is TOML.
+        // Any text that can be read as a world is TOML.
         Ok((document.ok_or("this is no TOML")?, scene))
     }
 }

@@ -6,7 +6,7 @@ use cplan_text::base64;
 use cplan_view::{drawing, shell};
 use std::time::Duration;
 
-/// What moves things in the page, in the order in which one part needs the other.
+/// The scripts of the page, in the order of their dependencies.
 const CODE: [&str; 9] = [
     include_str!("assets/alone.js"),
     include_str!("assets/link.js"),
@@ -19,18 +19,18 @@ const CODE: [&str; 9] = [
     include_str!("assets/live.js"),
 ];
 
-/// What a page that has the program within it may: run that in a worker, and load nothing.
+/// Content policy of a page with the program inside: it may run the program in a worker, and load nothing.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; \
                       img-src blob: data:; base-uri 'none'; form-action 'none'";
 
-/// The page with its scripts and styles in one document, for a browser that has been led to a server.
+/// Returns the page with its scripts and styles in one document, for a browser that connects to a server.
 #[must_use]
 pub fn page() -> String {
     live("", &data(&Gallery::new(None)))
 }
 
-/// The page with the program within it, WebAssembly packed by gzip: one file, which needs no server and loads nothing. A plan may
-/// take that much time.
+/// Returns the page with the program inside as WebAssembly packed by gzip: one file, which needs no server and loads
+/// nothing. `time` limits a plan.
 #[must_use]
 pub fn page_alone(files: Files, time: Duration, program: &[u8]) -> String {
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
@@ -39,7 +39,7 @@ pub fn page_alone(files: Files, time: Duration, program: &[u8]) -> String {
     live(&policy, &(data(&Gallery::new(Some((files, time)))) + &worker + &program))
 }
 
-/// What the page reads. Texts and numbers: there is nothing that JSON cannot say. Within a script only the less-than sign could end it.
+/// Returns the data for the page as JSON. Within a script only the less-than sign could end it.
 fn data(gallery: &Gallery) -> String {
     let json = serde_json::to_string(gallery).unwrap_or_default().replace('<', "\\u003c");
     element("gallery", "application/json", &json)

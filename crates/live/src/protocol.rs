@@ -1,4 +1,4 @@
-//! What page and program tell each other: JSON objects, one a message.
+//! The protocol between page and program: JSON objects, one per message.
 
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
@@ -12,15 +12,15 @@ pub const MOST_CORNERS: usize = 20_000;
 /// A point of the plane, metres, or joint values.
 pub type Pair = [f64; 2];
 
-/// What the page asks.
+/// A request of the page.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Request {
-    /// Begin with these files, or with what the program was started with; the page is told the world.
+    /// Load these files, or the program's initial ones. The page receives the world.
     Open {
         /// Number of the request.
         id: u64,
-        /// None for those of the program.
+        /// The files; `None` for those of the program.
         files: Option<Files>,
     },
     /// Plan in the world that the page shows.
@@ -31,20 +31,20 @@ pub enum Request {
         id: u64,
         /// The world file's text.
         text: String,
-        /// As in [`Ask`].
+        /// Options, as in [`Ask`].
         options: String,
     },
     /// Plan, and send the result as a file.
     Download {
-        /// What is planned.
+        /// The plan.
         ask: Ask,
-        /// Which file: `toml`, `json`, `csv`, `yaml`, `svg`, ...
+        /// The file format: `toml`, `json`, `csv`, `yaml`, `svg`, ...
         format: String,
     },
 }
 
 impl Request {
-    /// The number of the request.
+    /// Returns the number of the request.
     pub fn id(&self) -> u64 {
         match self {
             Self::Plan(ask) | Self::Download { ask, .. } => ask.id,
@@ -65,7 +65,7 @@ pub struct Files {
     pub options: String,
 }
 
-/// A plan that is asked for.
+/// A request for a plan.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ask {
@@ -73,14 +73,14 @@ pub struct Ask {
     pub id: u64,
     /// The text of the world that `state` is a change of; see [`Reply::World`].
     pub base: u64,
-    /// Whether this is what the user stops at, not a place on the way there: all that can be known is wanted.
+    /// True if this is where the user stops, not an intermediate position: the answer must be complete.
     #[serde(rename = "final")]
     pub is_final: bool,
-    /// What the page shows; none for the text as it is.
+    /// The state of the page; `None` for the unchanged text.
     pub state: Option<State>,
     /// Planner and options, as on the command line: `visibility --gap 0.001`.
     pub options: String,
-    /// Whether how the planner came to its answer is to be told, too, in a final answer.
+    /// True if a final answer must include how the planner found it.
     #[serde(default)]
     pub think: bool,
 }
@@ -89,11 +89,11 @@ pub struct Ask {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
-    /// All obstacles in order; those of the text that are not among them are deleted.
+    /// All obstacles in order. Obstacles of the text that are missing here are deleted.
     pub obstacles: Vec<Piece>,
-    /// Where the arm begins.
+    /// Start of the arm.
     pub start: Option<Begin>,
-    /// Where it is to go.
+    /// Goal of the arm.
     pub goal: Option<End>,
     /// Least distance to keep, metres.
     pub clearance: f64,
@@ -103,11 +103,11 @@ pub struct State {
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
-    /// Which obstacle of the text it was, from 0; none for a new one.
+    /// Index of the obstacle in the text, from 0; `None` for a new one.
     pub from: Option<usize>,
-    /// Its name, if it is to have one.
+    /// Its name, if it has one.
     pub name: Option<String>,
-    /// Its shape; none for one that keeps its own.
+    /// Its shape; `None` for an unchanged one.
     #[serde(flatten)]
     pub shape: Option<Form>,
 }
@@ -120,7 +120,7 @@ pub enum Form {
     Polygon(Vec<Pair>),
     /// A disc, by its centre and radius.
     Circle {
-        /// Where its centre is.
+        /// Its centre.
         center: Pair,
         /// Its radius, metres.
         radius: f64,
@@ -130,7 +130,7 @@ pub enum Form {
 }
 
 impl Form {
-    /// Its corners; a disc counts as one.
+    /// Returns the number of its corners; a disc counts as one.
     pub fn corners(&self) -> usize {
         match self {
             Self::Polygon(corners) | Self::Polyline(corners) => corners.len(),
@@ -139,16 +139,16 @@ impl Form {
     }
 }
 
-/// Where the arm begins.
+/// Start of the arm.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, untagged)]
 pub enum Begin {
-    /// At these joint values.
+    /// Joint values.
     Joints {
         /// Base to tip.
         joints: Pair,
     },
-    /// Where the tip is here, in the IK solution nearest to some configuration.
+    /// A tip position, with the IK solution nearest to some configuration.
     Tip {
         /// Place of the tip.
         tip: Pair,
@@ -157,29 +157,29 @@ pub enum Begin {
     },
 }
 
-/// Where it is to go.
+/// Goal of the arm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum End {
-    /// To these joint values.
+    /// Joint values.
     Joints(Pair),
-    /// To any IK solution that puts the tip here.
+    /// A tip position, with any IK solution.
     Tip(Pair),
 }
 
-/// What the program tells.
+/// A message of the program.
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Reply {
-    /// The world to begin with, or another that was loaded: what the page can change of it, and what it is changed in.
+    /// The initial world, or one that was loaded: its editable parts, and their context.
     World(Box<WorldReply>),
-    /// What became of a plan.
+    /// The result of a plan.
     Answer(Box<AnswerReply>),
-    /// What was asked makes no sense, or went wrong; the page keeps what it has.
+    /// The request is invalid, or failed. The page keeps its state.
     Failed {
         /// The number of the request that this answers.
         id: u64,
-        /// What went wrong, in words for the page.
+        /// The reason, for display.
         error: String,
     },
 }
@@ -201,7 +201,7 @@ impl From<&Reply> for Message {
 }
 
 impl Message {
-    /// The file that a request asked for.
+    /// Creates the reply with a requested file.
     pub fn file(id: u64, name: &str, content: &[u8]) -> Self {
         let head = format!("{{\"id\":{id},\"name\":{name:?}}}");
         let length = u32::try_from(head.len()).unwrap_or_default().to_be_bytes();
@@ -222,13 +222,13 @@ pub struct WorldReply {
     pub robot: String,
     /// Obstacles of the text, in order.
     pub obstacles: Vec<PieceReply>,
-    /// Where the arm begins.
+    /// Start of the arm.
     pub start: Option<Pair>,
-    /// Where it is to go.
+    /// Goal of the arm.
     pub goal: Option<End>,
     /// Least distance to keep, metres.
     pub clearance: f64,
-    /// Whether it is a task, which the page shows and does not change.
+    /// True for a task, which the page shows and does not change.
     pub has_steps: bool,
     /// The joints, base to tip.
     pub joints: [JointReply; 2],
@@ -242,7 +242,7 @@ pub struct WorldReply {
     pub options: Option<String>,
     /// The arm, for a link that holds it with the world; none with a world that was loaded, and where either names files beside it.
     pub urdf: Option<String>,
-    /// The world file's text, as it is now.
+    /// The current text of the world file.
     pub toml: String,
 }
 
@@ -258,22 +258,22 @@ pub struct PlannerReply {
 /// An option with the values that a menu offers.
 #[derive(Debug, Serialize)]
 pub struct OptionReply {
-    /// As on the command line: `--cells`.
+    /// Name on the command line: `--cells`.
     pub name: String,
-    /// What to call it.
+    /// Label.
     pub label: &'static str,
-    /// What holds where it is not given, in words.
+    /// Description of the default.
     pub standard: String,
-    /// Values to choose from, each with what it is called.
+    /// Values to choose from, each with its label.
     pub values: Vec<[String; 2]>,
 }
 
-/// One obstacle of a world.
+/// An obstacle of a world.
 #[derive(Debug, Serialize)]
 pub struct PieceReply {
     /// The obstacle's name in the world file.
     pub name: String,
-    /// Its shape; none for one that the page cannot change, such as a map.
+    /// Its shape; `None` for one that the page cannot change, such as a map.
     #[serde(flatten)]
     pub shape: Option<Form>,
 }
@@ -289,27 +289,27 @@ pub struct JointReply {
     pub limits: Option<Pair>,
 }
 
-/// What became of a plan.
+/// The result of a plan.
 #[derive(Debug, Default, Serialize)]
 pub struct AnswerReply {
     /// The number of the request that this answers.
     pub id: u64,
-    /// Whether all that can be known was wanted.
+    /// True if a complete answer was requested.
     #[serde(rename = "final")]
     pub is_final: bool,
-    /// Whether nothing more follows for this request.
+    /// True if this is the last answer to the request.
     pub done: bool,
-    /// What is wrong with the world, start or goal, in words that need no file to be understood; then there is no verdict.
+    /// Description of the defect of the world, start or goal, without references to files; then there is no verdict.
     pub error: Option<String>,
-    /// What that is about.
+    /// Subject of the error.
     pub about: Option<About>,
     /// Configurations of the start or the goal that are not free.
     pub blocked: Vec<BlockedReply>,
     /// `found`, `infeasible` or `unknown`; none with an error, and where the plan is not done.
     pub verdict: Option<&'static str>,
-    /// Whether the whole motion is proven free.
+    /// True if the whole motion is proven free.
     pub certified: bool,
-    /// Why there is no path, or none is known.
+    /// The reason why no path exists or is known.
     pub reason: Option<String>,
     /// Figures of the plan.
     pub figures: Figures,
@@ -319,11 +319,11 @@ pub struct AnswerReply {
     pub goals: Vec<Pair>,
     /// The world as text; of final answers.
     pub toml: Option<String>,
-    /// What to draw; none where there is no scene.
+    /// The drawing; `None` without a scene.
     pub view: Option<Box<RawValue>>,
 }
 
-/// What an error is about.
+/// Subject of an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum About {
@@ -331,9 +331,9 @@ pub enum About {
     Options,
     /// Obstacles and all else of the world.
     World,
-    /// Where the arm begins.
+    /// The start.
     Start,
-    /// Where it is to go.
+    /// The goal.
     Goal,
 }
 
@@ -342,7 +342,7 @@ pub enum About {
 pub struct BlockedReply {
     /// The joint values, in which it is not free.
     pub at: Pair,
-    /// What is in the way, deepest first; nothing where the configuration is outside the joint limits.
+    /// Obstacles in contact, deepest first; empty if the configuration is outside the joint limits.
     pub hits: Vec<HitReply>,
 }
 
@@ -364,20 +364,20 @@ pub struct Figures {
     pub length: Option<f64>,
     /// No path is shorter: proven.
     pub lower_bound: Option<f64>,
-    /// Distance that the motion keeps from all obstacles, proven, metres; none where nothing can be hit.
+    /// Proven distance of the motion from all obstacles, metres; `None` if no obstacle is within reach.
     pub clearance: Option<f64>,
-    /// What comes nearest.
+    /// The nearest obstacle.
     pub closest: Option<String>,
     /// Duration of the motion, seconds.
     pub duration: Option<f64>,
-    /// Size of what the planner looked at, in words.
+    /// Size of the planner's data, in words.
     pub size: Option<String>,
     /// Time that it took to answer, milliseconds.
     pub milliseconds: f64,
 }
 
 impl Figures {
-    /// Nothing but a size.
+    /// Creates facts with only a size.
     pub fn of_size(size: impl ToString) -> Self {
         Self { size: Some(size.to_string()), ..Self::default() }
     }

@@ -11,7 +11,7 @@ use cplan_view::output::{replayed, view_with};
 use cplan_view::{Picture, View};
 use serde_json::value::RawValue;
 
-/// A scene with its configuration space, and no path: why not, in a word or two.
+/// Returns a scene with its configuration space but without a path, and the reason in a word or two.
 pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, contours: &Contours) -> AnswerReply {
     let contours = contours.of(scene);
     let (start, goals) = ends;
@@ -19,10 +19,10 @@ pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, cont
     AnswerReply { view: drawn(&View::of_picture(&picture)), ..AnswerReply::default() }
 }
 
-/// What can be shown while something moves: a path, certified, but neither its bound nor its motion.
+/// Returns an answer for display during a drag: a certified path, without its bound and its motion.
 ///
 /// # Errors
-/// A trajectory that cannot be made as asked, in words.
+/// The reason, if the requested trajectory cannot be made.
 pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
     let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
     let report = plan.report();
@@ -56,13 +56,13 @@ fn picture<'a>(
     Picture { title, goals, c_obstacles, ..Picture::new(scene, start) }
 }
 
-/// What is planned for, in a line; so that a page keeps its lines while something moves.
+/// Describes the arm in one line, so that a page keeps its lines during a drag.
 fn arm_of(scene: &Scene) -> String {
     let [first, second] = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
     format!("{} arm, joints {first} and {second}", scene.arm().kind())
 }
 
-/// The verdict in the page's words.
+/// Returns the verdict in the page's words.
 fn judged(status: Status) -> AnswerReply {
     AnswerReply { verdict: Some(status.name()), certified: status == Status::Found, ..AnswerReply::default() }
 }
@@ -71,10 +71,10 @@ fn drawn(view: &View) -> Option<Box<RawValue>> {
     RawValue::from_string(view.json()).ok()
 }
 
-/// All that can be known of a problem; how the planner came to it, if somebody wants to know.
+/// Returns a complete answer, on request with how the planner found it.
 ///
 /// # Errors
-/// A trajectory that cannot be made as asked, in words.
+/// The reason, if the requested trajectory cannot be made.
 pub fn in_full(problem: &Problem, options: &Options, contours: &Contours, think: bool) -> Result<AnswerReply, String> {
     let plan = plan(problem, options).map_err(|error| error.to_string())?;
     let report = plan.report();

@@ -25,7 +25,7 @@ pub fn seconds(nanoseconds: u64) -> f64 {
 /// Times of this and more are not rounded, seconds: no motion lasts so long, and their nanoseconds are more than doubles count.
 const NEVER: f64 = 1e6;
 
-/// The first whole nanosecond that is not before a time, as seconds.
+/// Rounds a time up to a whole nanosecond, in seconds.
 pub fn not_before(time: f64) -> f64 {
     if time >= NEVER {
         return time;
@@ -34,7 +34,7 @@ pub fn not_before(time: f64) -> f64 {
     if seconds(near) < time { seconds(near + 1) } else { seconds(near) }
 }
 
-/// The last whole nanosecond that is not after a time from 0 on, as seconds.
+/// Rounds a non-negative time down to a whole nanosecond, in seconds.
 pub fn not_after(time: f64) -> f64 {
     if time >= NEVER {
         return time;
@@ -43,24 +43,25 @@ pub fn not_after(time: f64) -> f64 {
     if seconds(near) > time { seconds(near.saturating_sub(1)) } else { seconds(near) }
 }
 
-/// The whole nanosecond nearest to a time among those of an interval, its ends included, as seconds; none if the interval holds none.
+/// Returns the whole nanosecond nearest to a time within an interval, ends included, in seconds. Returns `None` if the
+/// interval contains none.
 pub fn nearest_within(time: f64, [from, to]: Interval) -> Option<f64> {
     let (first, last) = (not_before(from), not_after(to));
     (first <= last).then(|| seconds(nanoseconds(time)).clamp(first, last))
 }
 
-/// A duration rounded up to whole nanoseconds; times that exceed them by no more than rounding are left as they are.
+/// Rounds a duration up to whole nanoseconds. Excesses within rounding are ignored.
 #[must_use]
 pub fn whole_nanoseconds(duration: f64) -> f64 {
     (duration * PER_SECOND as f64 * (1.0 - SLACK)).ceil() / PER_SECOND as f64
 }
 
-/// Share of an acceleration limit that has to stay unused next to a sample that is on the grid while the acceleration jumps
-/// half a nanosecond beside it, where samples are at least `interval` seconds apart.
+/// Returns the share of an acceleration limit that must stay unused next to a sample on the grid, if the acceleration
+/// jumps half a nanosecond beside it and samples are at least `interval` seconds apart.
 ///
-/// The jump is at most twice the limit, and so the velocity of a sample at most one nanosecond times the limit off that of
-/// the polynomial on its other side. The cubic makes an acceleration of `(4 e0 + 2 e1) / h` of such differences at both ends,
-/// the polynomial of [`super::INTERPOLATION`] one of `6 (e0 + e1) / h`.
+/// The jump is at most twice the limit, so the velocity of a sample differs by at most one nanosecond times the limit
+/// from that of the polynomial on its other side. Differences `e0` and `e1` at the ends change the acceleration of the
+/// cubic by `(4 e0 + 2 e1) / h`, and that of the polynomial of [`super::INTERPOLATION`] by `6 (e0 + e1) / h`.
 pub(super) fn reserve(interval: f64) -> f64 {
     12.0 / PER_SECOND as f64 / interval
 }
@@ -78,7 +79,7 @@ mod tests {
         assert!(whole_nanoseconds(f64::INFINITY).is_infinite());
     }
 
-    /// To the nearest nanosecond this window's beginning is before it, and its end after it.
+    /// Rounding to the nearest nanosecond would put this window's beginning before it, and its end after it.
     #[test]
     fn times_are_rounded_into_intervals() {
         let [from, to] = [0.720_956_725_469_559_8, 0.820_956_725_669_559_8];

@@ -22,13 +22,13 @@ use cplan_core::space::{Blend, Configuration, HAIR};
 /// Spans of a blend to begin with.
 const SPANS: usize = 8;
 
-/// The same of a straight stretch, which may begin or end at rest.
+/// Number of spans of a straight stretch that may begin or end at rest.
 const SPANS_OF_LINES: usize = 32;
 
-/// Spans of a blend at the most, as long as what is known of them asks for more.
+/// Largest number of spans of a blend.
 const MOST_SPANS: usize = 256;
 
-/// Where more spans are tried, each is cut into so many, ...
+/// Number of parts into which each span is cut when more spans are tried.
 const PARTS: usize = 4;
 
 /// ... up to so many.
@@ -42,15 +42,15 @@ const ACCELERATION_STEP: f64 = 0.1;
 /// is lost.
 const SPEED_STEP: f64 = 0.1;
 
-/// Share of the limits that is left unused on a blend, so that the cubic through positions and velocities of two samples,
-/// by which many controllers and checks read a trajectory, keeps them too. A little more is left for [`reserve`].
+/// Share of the limits that stays unused on a blend, so that the cubic through positions and velocities of two samples,
+/// which many controllers use, also keeps them. [`reserve`] adds a little.
 const RESERVE: f64 = 1e-3;
 
-/// The same where the joints' torques have limits.
+/// Largest number of spans if torques are limited.
 const MOST_SPANS_OF_TORQUES: usize = 1024;
 
-/// A blend on its way through time; or a straight stretch, as a blend of two directions that are one, where its speed and acceleration are
-/// not limited alike all along it.
+/// A blend with its timing; or a straight stretch, treated as a blend of two equal directions, if its limits on speed
+/// and acceleration vary along it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corner {
     blend: Blend,
@@ -70,7 +70,8 @@ fn shortest(spans: usize) -> f64 {
 }
 
 impl Corner {
-    /// Prepares a blend; none if it is so small that it would be passed in hardly more than the interval between samples.
+    /// Prepares a blend. Returns `None` if it is so small that it would be passed in little more than the interval
+    /// between samples.
     pub(super) fn new(blend: Blend, limits: &Limits, share: f64) -> Option<Self> {
         let limits = &limits.scaled(share);
         let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
@@ -81,7 +82,7 @@ impl Corner {
         (corner.length() / fastest >= shortest(SPANS)).then_some(Self { fastest, ..corner })
     }
 
-    /// Prepares a straight stretch; none if it is as small.
+    /// Prepares a straight stretch. Returns `None` if it is too small.
     pub(super) fn straight(from: Configuration, to: Configuration, limits: &Limits) -> Option<Self> {
         let blend = Blend { from, corner: (from + to) / 2.0, to };
         let offset = to - from;
@@ -92,13 +93,13 @@ impl Corner {
         (length / fastest >= shortest(SPANS_OF_LINES)).then_some(corner)
     }
 
-    /// Share of the limits that is left unused.
+    /// Returns the share of the limits that stays unused.
     fn reserve(&self) -> f64 {
         let span = self.length() / self.spans as f64 / self.fastest;
         RESERVE + reserve(span.clamp(SHORTEST_INTERVAL, USUAL_INTERVAL))
     }
 
-    /// The same with twice the spans, if they are too coarse for these squared speeds at their ends.
+    /// Returns the corner with twice the spans, if they are too coarse for these squared speeds at their ends.
     pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
         let bend = self.second_derivative();
         let coarse = squared_speeds.windows(2).enumerate().any(|(i, z)| {
@@ -114,24 +115,24 @@ impl Corner {
         if coarse { self.cut(2, most, squared_speeds) } else { None }
     }
 
-    /// The same with several times the spans, whatever they are worth.
+    /// Returns the corner with several times the spans, regardless of need.
     pub(super) fn much_finer(&self, squared_speeds: &[f64]) -> Option<Self> {
         self.cut(PARTS, MOST_TRIED, squared_speeds)
     }
 
-    /// Each span cut into so many; none if there were too many, or too short ones.
+    /// Cuts each span into `parts`. Returns `None` if there would be too many, or too short ones.
     fn cut(&self, parts: usize, most: usize, squared_speeds: &[f64]) -> Option<Self> {
         let lasts: f64 = self.phases(squared_speeds).iter().map(|phase| phase.duration).sum();
         let finer = Self { spans: parts * self.spans, ..self.clone() };
         (finer.spans <= most && lasts >= shortest(finer.spans)).then_some(finer)
     }
 
-    /// Whether it is a straight stretch.
+    /// Returns true for a straight stretch.
     pub(super) fn is_straight(&self) -> bool {
         self.directions[0] == self.directions[1]
     }
 
-    /// Range of the parameter.
+    /// Returns the range of the parameter.
     pub(super) fn length(&self) -> f64 {
         2.0 * self.radius
     }
@@ -144,7 +145,7 @@ impl Corner {
         self.directions[0] * (1.0 - u) + self.directions[1] * u
     }
 
-    /// A span as the tip sees it.
+    /// Returns a span in the form used for the tip's limit.
     fn part(&self, span: usize) -> Part {
         let middle = (span as f64 + 0.5) / self.spans as f64;
         Part {
@@ -155,7 +156,7 @@ impl Corner {
         }
     }
 
-    /// What the squared speeds at the ends of each span have to keep, in order.
+    /// Returns the conditions on the squared speeds at the ends of each span, in order.
     pub(super) fn bounds(&self, limits: &Limits) -> Vec<Bounds> {
         let limits = &limits.scaled(self.share);
         let step = self.length() / self.spans as f64;
@@ -189,19 +190,19 @@ impl Corner {
         (0..self.spans).map(span).collect()
     }
 
-    /// The phases for squared speeds at the ends of all spans.
+    /// Returns the phases for squared speeds at the ends of all spans.
     pub(super) fn phases(&self, squared_speeds: &[f64]) -> Vec<Phase> {
         let way = |i: usize| self.length() * (i as f64 / self.spans as f64);
         let phase = |(i, z): (usize, &[f64])| Phase::between([way(i), way(i + 1)], [z[0].sqrt(), z[1].sqrt()]);
         squared_speeds.windows(2).enumerate().map(phase).collect()
     }
 
-    /// The longest interval between samples within a phase for which the cubic through positions and velocities keeps the
-    /// limits and stays within [`HAIR`] of the blend.
+    /// Returns the longest interval between samples within a phase for which the cubic through positions and velocities
+    /// keeps the limits and stays within [`HAIR`] of the blend.
     ///
-    /// The cubic misses a motion with the constant fourth derivative `d` by at most `d h^4 / 384`, in velocity by
-    /// `d h^3 / (72 sqrt 3)` and in acceleration by `d h^2 / 12`. With `a` the second derivative of the parameter,
-    /// `d = 3 q'' a^2`.
+    /// For a motion with a constant fourth derivative `d`, the error of the cubic is at most `d h^4 / 384` in position,
+    /// `d h^3 / (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `a` is the second derivative of the
+    /// parameter, `d = 3 q'' a^2`.
     pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
         let bend = self.second_derivative();
         let torque = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
@@ -215,7 +216,7 @@ impl Corner {
         longest(0).min(longest(1)).max(2.0 * SHORTEST_INTERVAL)
     }
 
-    /// Position, velocity and acceleration of the joints.
+    /// Returns position, velocity and acceleration of the joints.
     pub(super) fn at(&self, state: State) -> [Configuration; 3] {
         let State { distance, speed, acceleration } = state;
         let u = (distance / self.length()).clamp(0.0, 1.0);
@@ -237,7 +238,7 @@ impl Corner {
 pub(super) struct Bounds {
     /// The greatest `z0` by rows without `z1`.
     most: f64,
-    /// Of each other row the `z1` at 0 and how it changes with `z0`: of those that bound it from above ...
+    /// Intercept and slope of `z1` over `z0` for the rows that bound it from above.
     above: Vec<[f64; 2]>,
     /// ... and of those that bound it from below.
     below: Vec<[f64; 2]>,
@@ -249,7 +250,7 @@ const ROUNDING: f64 = 1e-12;
 
 impl Default for Bounds {
     fn default() -> Self {
-        // What a span has where no torques count.
+        // Number of rows of a span without torques.
         let [above, below] = [0, 1].map(|_| Vec::with_capacity(8));
         Self { most: f64::MAX, above, below }
     }
@@ -272,16 +273,16 @@ impl Extend<[f64; 2]> for Bounds {
 }
 
 impl Bounds {
-    /// The greatest `z1` up to `most` for a `z0` that has one.
+    /// Returns the greatest `z1` up to `most` for a feasible `z0`.
     pub(super) fn onward(&self, z0: f64, most: f64) -> f64 {
         self.upper(z0, most).0.max(0.0)
     }
 
-    /// The greatest `z0` for which there is a `z1` up to `most`.
+    /// Returns the greatest `z0` for which a `z1` up to `most` exists.
     ///
-    /// The room between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, not negative at
-    /// 0. Newton's method from above ends at its root, after no more steps than there are pairs of rows. What is returned is
-    /// smaller by more than the rounding, so that [`Bounds::onward`] finds room.
+    /// The difference between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, not
+    /// negative at 0. Newton's method from above ends at its root, after at most as many steps as there are pairs of
+    /// rows. The result is lowered by more than the rounding, so that [`Bounds::onward`] finds a feasible `z1`.
     pub(super) fn back(&self, most: f64) -> f64 {
         let mut z0 = self.most;
         for _ in 0..=(self.above.len() + 1) * (self.below.len() + 1) {
@@ -297,13 +298,13 @@ impl Bounds {
         z0 * (1.0 - ROUNDING)
     }
 
-    /// The greatest `z1` for a `z0`, and how it changes with `z0`.
+    /// Returns the greatest `z1` for a `z0`, and its slope.
     fn upper(&self, z0: f64, most: f64) -> (f64, f64) {
         let lines = self.above.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
         lines.fold((most, 0.0), |best, line| if line.0 < best.0 { line } else { best })
     }
 
-    /// The least `z1` for a `z0`, and how it changes with `z0`.
+    /// Returns the least `z1` for a `z0`, and its slope.
     fn lower(&self, z0: f64) -> (f64, f64) {
         let lines = self.below.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
         lines.fold((0.0, 0.0), |best, line| if line.0 > best.0 { line } else { best })
@@ -318,7 +319,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Against the vertices of the polygon, by brute force.
+        /// Compares with the vertices of the polygon, by brute force.
         #[test]
         fn bounds_are_those_of_the_polygon(
             rows in prop::collection::vec(prop::array::uniform2(prop_oneof![Just(0.0), -3.0..3.0_f64]), 1..9),

@@ -4,14 +4,13 @@ use super::Trajectory;
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// The trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, and `A_acceleration,B_acceleration`
-/// if asked for, `A_torque,B_torque` if the trajectory has torques, then a line a sample.
+/// Writes the trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, then one line per
+/// sample. Adds `A_acceleration,B_acceleration` on request, and `A_torque,B_torque` if the trajectory has torques.
 ///
-/// Fields are quoted as RFC 4180 says; lines end in a single line feed, which every reader takes and text tools prefer.
-/// Numbers have as many digits as it takes to read the same `f64` back.
+/// Fields are quoted by RFC 4180. Lines end in a single line feed, which every reader accepts and text tools prefer.
+/// Numbers have as many digits as needed to read back the same `f64`.
 ///
-/// With `steps`, as many numbers as there are samples, there is one more column, `step`: the number of the step that each sample
-/// belongs to.
+/// With `steps`, one number per sample, there is an additional column `step` with the step of each sample.
 #[must_use]
 pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, steps: Option<&[usize]>) -> String {
     let mut text = String::from("time");
@@ -44,7 +43,7 @@ pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, s
     text
 }
 
-/// A field, in double quotes if it holds a character that would end it (RFC 4180, section 2).
+/// Quotes a field if it contains a special character (RFC 4180, section 2).
 fn quoted(field: &str) -> Cow<'_, str> {
     if field.contains(['"', ',', '\n', '\r']) {
         Cow::Owned(format!("\"{}\"", field.replace('"', "\"\"")))

@@ -9,22 +9,22 @@ use cplan_core::model::Scene;
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
-/// What is to be the least.
+/// The quantity to minimise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Objective {
     /// The length of the path; the motion is the fastest along it.
     #[default]
     Length,
-    /// The time of the motion: ways are compared by it, and the path is given the shape that makes the motion fast.
+    /// The duration: candidate paths are compared by it, and the path gets the shape that makes the motion fast.
     Time,
 }
 
-/// How to drive along a path.
+/// Options for driving along a path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drive {
-    /// What is to be the least.
+    /// The quantity to minimise.
     #[serde(default)]
     pub optimize: Objective,
     /// Time between two samples, seconds.
@@ -33,9 +33,9 @@ pub struct Drive {
     /// every corner, infinite to let the clearance and the path decide.
     #[serde(with = "cplan_text::number")]
     pub blend: f64,
-    /// Greatest speed of the tip, metres a second; none if only the joints have limits.
+    /// Greatest speed of the tip, metres per second; `None` to limit only the joints.
     pub tip_speed: Option<f64>,
-    /// Whether the joints keep within their efforts, where the world does not say so.
+    /// True to keep the joints within their efforts, even if the world does not ask for it.
     #[serde(default)]
     pub torque: bool,
 }
@@ -48,18 +48,22 @@ impl Default for Drive {
 }
 
 impl Drive {
-    /// The same with a stop at every corner, which takes a small part of the time to find.
+    /// Returns options with a stop at every corner, which are computed in a fraction of the time.
     #[must_use]
     pub fn stopping_at_corners(self) -> Self {
         Self { blend: 0.0, ..self }
     }
 
-    /// A motion along a path at this share of the joints' top speeds (more than 0, at most 1), within the scene's clearance: the fastest, as
-    /// [`time`] has it. With limits on jerks the corners are moved off what they go around by as much as makes the motion fastest, since a
-    /// smooth motion needs room there; if time is to be the least ([`Drive::optimize`]), the whole path is given the shape that does.
+    /// Returns a motion along a path at this share of the joints' top speeds (more than 0, at most 1), within the
+    /// scene's clearance: the fastest one by [`time`].
+    ///
+    /// With limits on jerks, corners are moved off obstacles by the distance that makes the motion fastest, because a
+    /// smooth motion needs room there. If the duration is to be minimal ([`Drive::optimize`]), the whole path gets the
+    /// fastest shape.
     ///
     /// # Errors
-    /// A motion that lasts too long, or has too many samples; joints whose efforts do not hold the arm all along it.
+    /// A motion that is too long or has too many samples; joints whose efforts cannot hold the arm somewhere on the
+    /// path.
     pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<Timed, TimingError> {
         let tip = self.tip_speed.map(|speed| TipSpeed { arm: scene.arm(), speed });
         let torque = TorqueLimit::of(scene);
@@ -103,7 +107,7 @@ impl Drive {
                 found.push(refined);
             }
             if is_smooth {
-                // What is slower at first may be faster once it is driven along its own curve in the least time.
+                // An initially slower path may become faster once it is driven along its own curve in the least time.
                 let retimed = |timed: &Timed| {
                     let path = timed.curve.straight();
                     smoothed(scene, &path, self.blend, limits, self.period, f64::INFINITY, true)

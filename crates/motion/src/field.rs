@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-/// Settings of a field and how its relaxation ended, in the words of the command line. What an equation has not is left
-/// out. Sweeps are among the sizes of the report.
+/// Settings of a field and the result of its relaxation, in the words of the command line. Fields that do not apply to
+/// the equation are omitted. The number of sweeps is among the sizes of the report.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct FieldReport {
     /// `harmonic`, `oriented`, `local`, `bvp`, `bvp2` or `khatib`.
@@ -11,7 +11,7 @@ pub struct FieldReport {
     /// Strength of the drift, per cell: everywhere, or outside of preference regions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub epsilon: Option<f64>,
-    /// Its direction in joint space, of length 1.
+    /// Direction of its drift in joint space, of length 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<[f64; 2]>,
     /// `central` or `upwind`.
@@ -23,19 +23,20 @@ pub struct FieldReport {
     /// `rows`, `columns`, `corners` or `red-black`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub order: Option<String>,
-    /// Of the relaxation, on the last grid.
+    /// Relaxation factor on the last grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
     /// `anisotropic`; left out if cells count as square.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stencil: Option<&'static str>,
-    /// What must fall below the tolerance: `absolute`, `greatest`, `squares` or `sums`; left out if it is the relative change.
+    /// Measure that must fall below the tolerance: `absolute`, `greatest`, `squares` or `sums`; omitted for the
+    /// relative change.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measure: Option<&'static str>,
     /// Measure of a sweep's changes that counts as converged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// At most so many sweeps.
+    /// Largest number of sweeps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_sweeps: Option<usize>,
     /// The GPU that relaxed it, by its name and interface; left out on the CPU.
@@ -47,18 +48,18 @@ pub struct FieldReport {
     /// Push of the nearest obstacle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repulsion: Option<String>,
-    /// Whether pull and push go through tanh.
+    /// True if both forces pass through tanh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub saturated: Option<bool>,
-    /// How local minima were to be left, as on the command line; left out if they end the search.
+    /// Method for leaving local minima, as on the command line; omitted if they end the search.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub escape: Option<String>,
-    /// How many local minima were left so; left out without `escape`.
+    /// Number of local minima left; omitted without `escape`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub escaped: Option<usize>,
-    /// What lies beyond joint limits: `high` or `reflecting`.
+    /// Boundary condition at joint limits: `high` or `reflecting`.
     pub limits: &'static str,
-    /// Whether the tolerance was met; left out if nothing was relaxed.
+    /// True if the tolerance was reached; omitted without relaxation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub converged: Option<bool>,
 }

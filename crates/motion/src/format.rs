@@ -1,4 +1,4 @@
-//! Which file extension means what.
+//! File formats by extension.
 
 use std::path::Path;
 use thiserror::Error;
@@ -20,7 +20,7 @@ pub enum Format {
 /// Why a file's name does not tell a format.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FormatError {
-    /// The extension is none of ours.
+    /// The extension is unknown.
     #[error("cannot tell the format of {file:?}: its name must end in .json, .csv, .yaml, .yml or .mcap")]
     Unknown {
         /// The name as given.
@@ -35,7 +35,7 @@ pub enum FormatError {
 }
 
 impl Format {
-    /// The format that a file's extension stands for; upper and lower case are the same.
+    /// Returns the format for a file's extension; case does not matter.
     ///
     /// # Errors
     /// [`FormatError::Unknown`] for any other extension, or none; [`FormatError::WithoutMcap`] for `.mcap` without the

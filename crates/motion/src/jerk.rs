@@ -1,47 +1,47 @@
-//! Speed along one straight stretch, with a limit on the jerk.
+//! Speed along a straight stretch with a limit on the jerk.
 //!
-//! A symmetric motion from rest to rest has seven phases: the acceleration grows for a time `grow`, is held for `hold`,
-//! shrinks for `grow`, the speed is held for `cruise`, and all of it again backwards. Over a length `L` that takes
+//! A symmetric motion from rest to rest has seven phases: the acceleration grows for a time `grow`, is constant for
+//! `hold`, shrinks for `grow`, the speed is constant for `cruise`, and then the same in reverse. Over a length `L` this
+//! needs
 //!
 //! - the top speed `v = L / (2 grow + hold + cruise)`,
 //! - the acceleration `a = v / (grow + hold)`,
-//! - the jerk `a / grow`,
+//! - the jerk `a / grow`.
 //!
-//! none of which becomes greater when one of the three times does. So times may always be lengthened: limits that were
-//! kept stay kept.
+//! When one of the times increases, none of these quantities does. So times may always be lengthened without violating limits.
 
 use super::clock::whole_nanoseconds;
 use super::profile::Phase;
 use rsruckig::prelude::{InputParameter, Ruckig, RuckigError, ThrowErrorHandler, Trajectory};
 
-/// The greatest acceleration and speed with a jerk of 1 over a length of 1, from rest to rest, are 0.79 and 0.63: limits
-/// beyond this, and be they infinite, are none.
+/// For a jerk of 1 and a length of 1, from rest to rest, the greatest acceleration and speed are 0.79 and 0.63. Larger
+/// limits, even infinite ones, have no effect.
 const OUT_OF_REACH: f64 = 1.0;
 
 /// The times of a symmetric motion from rest to rest, seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Times {
-    /// In which the acceleration grows or shrinks; four times.
+    /// Duration of growing or shrinking acceleration; occurs four times.
     grow: f64,
-    /// In which it is held; twice.
+    /// Duration of constant acceleration; occurs twice.
     hold: f64,
-    /// In which the speed is held; once.
+    /// Duration of constant speed; occurs once.
     cruise: f64,
 }
 
-/// The fastest motion over `length` from rest to rest whose speed, acceleration and jerk are limited: seven phases, or
-/// fewer where a limit is not reached. No phase is shorter than `shortest`, and all last whole nanoseconds.
+/// Returns the fastest motion over `length` from rest to rest with limited speed, acceleration and jerk: seven phases,
+/// or fewer if a limit is not reached. No phase is shorter than `shortest`, and all last whole nanoseconds.
 ///
-/// Where that floor acts, the motion is slowed down, by at most `12 shortest`; for the sake of whole nanoseconds by at most
-/// seven. All limits stay kept. `length`, `speed`,
-/// `acceleration`, `jerk` and `shortest` are positive, `speed` and `acceleration` may be infinite.
+/// The minimum duration of phases may slow the motion down by up to `12 shortest`, and the rounding to nanoseconds by
+/// up to seven. All limits stay satisfied. `length`, `speed`, `acceleration`, `jerk` and `shortest` are positive;
+/// `speed` and `acceleration` may be infinite.
 ///
-/// The times are those that Ruckig finds (Berscheid, Kröger, *Jerk-limited real-time trajectory generation with arbitrary
-/// target states*, 2021), for the length and the jerk as units; its tolerances are absolute. Where it finds none, because
-/// the limits lie some twelve orders of magnitude apart, the motion neither cruises nor holds its acceleration, and may be
-/// that much slower.
+/// The times are those of Ruckig (Berscheid, Kröger, *Jerk-limited real-time trajectory generation with arbitrary
+/// target states*, 2021), with length and jerk as units because its tolerances are absolute. If Ruckig finds no
+/// solution, because the limits differ by about twelve orders of magnitude, the motion neither cruises nor holds its
+/// acceleration, and may be slower accordingly.
 pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, jerk: f64, shortest: f64) -> Vec<Phase> {
-    // What the floor allows anyway: a jerk that takes the acceleration to its limit sooner gains nothing.
+    // The minimum duration limits the jerk anyway: reaching the acceleration limit sooner gains nothing.
     let jerk = jerk.min(acceleration.min(speed / shortest).min(length / shortest / shortest) / shortest);
     let unit = (length / jerk).cbrt();
     let limits = [speed * unit / length, acceleration * unit * unit / length];
@@ -55,7 +55,7 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, jerk: f64
     times.with_floor(shortest).within(length, [speed, acceleration, jerk]).whole().phases(length)
 }
 
-/// The fastest motion over the length 1 with the jerk 1 and these limits on speed and acceleration.
+/// Returns the fastest motion over the length 1 with the jerk 1 and these limits on speed and acceleration.
 fn fastest([speed, acceleration]: [f64; 2]) -> Result<Times, RuckigError> {
     let mut input = InputParameter::<1>::new(None);
     input.target_position[0] = 1.0;
@@ -72,7 +72,7 @@ fn fastest([speed, acceleration]: [f64; 2]) -> Result<Times, RuckigError> {
 }
 
 impl Times {
-    /// None of them shorter than `shortest`, but for those that are 0.
+    /// Lengthens the times to at least `shortest`, except those that are 0.
     fn with_floor(self, shortest: f64) -> Self {
         let Self { mut grow, mut hold, mut cruise } = self;
         if hold < shortest {
@@ -84,27 +84,27 @@ impl Times {
         Self { grow: grow.max(shortest), hold, cruise }
     }
 
-    /// Top speed, greatest acceleration and jerk over a length.
+    /// Returns top speed, greatest acceleration and jerk over a length.
     fn rates(&self, length: f64) -> [f64; 3] {
         let speed = length / (2.0 * self.grow + self.hold + self.cruise);
         let acceleration = speed / (self.grow + self.hold);
         [speed, acceleration, acceleration / self.grow]
     }
 
-    /// All of them longer by as much as rounding has put the rates beyond their limits.
+    /// Lengthens all times to compensate rates that exceed their limits by rounding.
     fn within(self, length: f64, limits: [f64; 3]) -> Self {
         let [speed, acceleration, jerk] = [0, 1, 2].map(|i| self.rates(length)[i] / limits[i]);
         let longer = speed.max(acceleration.sqrt()).max(jerk.cbrt()).max(1.0);
         Self { grow: self.grow * longer, hold: self.hold * longer, cruise: self.cruise * longer }
     }
 
-    /// Each of them lengthened to whole nanoseconds.
+    /// Lengthens each time to whole nanoseconds.
     fn whole(self) -> Self {
         let Self { grow, hold, cruise } = self;
         Self { grow: whole_nanoseconds(grow), hold: whole_nanoseconds(hold), cruise: whole_nanoseconds(cruise) }
     }
 
-    /// The phases over a length.
+    /// Returns the phases over a length.
     fn phases(&self, length: f64) -> Vec<Phase> {
         let &Self { grow, hold, cruise } = self;
         let [peak, _, jerk] = self.rates(length);
@@ -197,8 +197,8 @@ mod tests {
         assert_eq!(phases.len(), 4);
     }
 
-    /// The phases follow each other in all but the jerk, from rest to rest, last as long as they have to, and keep the
-    /// limits.
+    /// Asserts that consecutive phases agree except in the jerk, from rest to rest, with the expected durations, and
+    /// keep the limits.
     fn joined(phases: &[Phase], length: f64, [speed, acceleration, jerk]: [f64; 3]) {
         let same = |a: f64, b: f64, size: f64| assert!((a - b).abs() <= 1e-12 * size, "{a} {b} {phases:?}");
         let (first, last) = (phases[0], phases[phases.len() - 1]);
@@ -216,7 +216,7 @@ mod tests {
             assert!(phase.duration >= SHORTEST && phase.jerk.abs() <= jerk * (1.0 + 1e-14));
             assert!(phase.enter.max(phase.leave) <= speed * (1.0 + 1e-14));
             assert!(phase.acceleration.abs() <= acceleration * (1.0 + 1e-14));
-            // Both ways of counting.
+            // By both formulas.
             let (begin, end) = (phase.at(0.0), phase.at(phase.duration));
             same(begin.distance, phase.from, length);
             same(end.distance, phase.to, length);
@@ -228,7 +228,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// From what an arm does to far beyond it; `tests/motion` has the durations.
+        /// From the range of arms to far beyond it; `tests/motion` has the durations.
         #[test]
         fn phases_join_and_keep_the_limits(
             length in -15.0..4.0f64, speed in -4.0..4.0f64, acceleration in -4.0..6.0f64, jerk in -4.0..12.0f64,

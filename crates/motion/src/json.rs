@@ -5,11 +5,11 @@ use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::{CompactFormatter, Formatter};
 use std::io::{self, Write};
 
-/// A JSON object with a line a field, so that people can read it and long lists of numbers stay compact, and a line feed at
-/// its end. Numbers have as many digits as it takes to read the same `f64` back.
+/// Formats a JSON object with one line per field, so that people can read it and long lists of numbers stay compact,
+/// and a final line feed. Numbers have as many digits as needed to read back the same `f64`.
 ///
 /// # Panics
-/// On what has no form in JSON: maps whose keys are no strings.
+/// On values without a form in JSON: maps whose keys are not strings.
 pub fn line_a_field(object: &impl Serialize) -> String {
     let mut text = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut text, LineAField::default());

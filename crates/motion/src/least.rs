@@ -5,25 +5,26 @@ use super::Limits;
 /// Halvings of an interval of times.
 const HALVINGS: usize = 64;
 
-/// What rounding may add to such a time, as a share of it.
+/// Relative rounding error of such a time.
 const ROUNDING: f64 = 1e-9;
 
-/// A lower bound on the seconds of every motion from rest to rest on a path that takes at least `length` seconds at the joints' top speeds
-/// ([`cplan_core::space::Metric::Time`]).
+/// Returns a lower bound on the seconds of every motion from rest to rest on a path that takes at least `length`
+/// seconds at the joints' top speeds ([`cplan_core::space::Metric::Time`]).
 ///
-/// Let `f(t)` be the share of its top speed that some joint can have reached `t` seconds after it was at rest, by its acceleration and jerk.
-/// At the time `t` of a motion of `T` seconds no joint is faster than the share `min(1, f(t), f(T - t))`, so the path is no longer than the
-/// integral of that, which grows with `T`.
+/// Let `f(t)` be the greatest fraction of its top speed that a joint can reach `t` seconds after rest, by its
+/// acceleration and jerk. At the time `t` of a motion of `T` seconds, no joint exceeds the fraction `min(1, f(t), f(T -
+/// t))`. So the length of the path is at most the integral of this, which increases with `T`.
 #[must_use]
 pub fn least_duration(length: f64, limits: &Limits) -> f64 {
     let rate = |of: &dyn Fn(usize) -> f64| of(0).max(of(1));
     let acceleration = rate(&|k| limits.acceleration[k] / limits.velocity[k]);
     let jerk = rate(&|k| limits.jerk[k].unwrap_or(f64::INFINITY) / limits.velocity[k]);
-    // When the jerk has made the acceleration what it may be, and when the speed is the greatest; 0 without a limit.
+    // The times at which the jerk has built up the greatest acceleration, and at which the speed is greatest; 0 without
+    // a limit.
     let grown = if jerk.is_finite() { (acceleration / jerk).min((2.0 / jerk).sqrt()) } else { 0.0 };
     let lost = if jerk.is_finite() { jerk * grown * grown / 2.0 } else { 0.0 };
     let top = if lost < 1.0 && acceleration.is_finite() { grown + (1.0 - lost) / acceleration } else { grown };
-    // The way from rest in so many seconds.
+    // The distance from rest in this many seconds.
     let way = |time: f64| {
         let first = time.min(grown);
         let second = (time.min(top) - grown).max(0.0);
@@ -62,7 +63,7 @@ mod tests {
         close(least_duration(0.25, &limits(2.0, f64::INFINITY, None)), 0.25);
     }
 
-    /// Against the way by small steps of time.
+    /// Compares with numerical integration in small time steps.
     #[test]
     fn with_a_jerk_as_integrated() {
         for (length, jerk) in [(0.1, 5.0), (0.1, 500.0), (1.0, 20.0), (3.0, 1.0), (1e-4, 3.0)] {

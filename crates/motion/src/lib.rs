@@ -1,11 +1,11 @@
 //! From a certified path to a motion in time, and to files.
 //!
-//! [`time`] puts a path with its blends under a clock within the joints' limits; [`csv`], [`ros_yaml`] and (a feature) `mcap` write
-//! motions, [`Format`] tells which a file's name asks for, and [`write_whole`] makes a file of it, whole or not at all.
+//! [`time`] times a path with its blends within the joints' limits. [`csv`], [`ros_yaml`] and (a feature) `mcap` write
+//! motions, [`Format`] returns the format for a file name, and [`write_whole`] writes a file whole or not at all.
 //!
-//! What each format promises to those who read it, by the way in which they join samples:
+//! Each format makes guarantees to its readers, which join samples differently:
 //!
-//! | format | who reads it | how it joins samples |
+//! | format | readers | how they join samples |
 //! |---|---|---|
 //! | JSON `trajectory` | programs that know cplan | by [`INTERPOLATION`], which the file states |
 //! | CSV | tables, plots, other planners | cubics through positions and velocities |
@@ -14,11 +14,12 @@
 //! | MCAP `/tf`, `/scene`, `/outlines` | RViz, Foxglove, Rerun | nothing: a frame stays where it is until it moves |
 //! | MCAP `/joint_states` | `robot_state_publisher`, Foxglove | each state for itself; displays hold it or draw lines to the next |
 //!
-//! The cubics are the certified motion: on straight pieces exactly, on blends within [`cplan_core::space::HAIR`], which the
-//! certificate covers, and they keep the limits; while the arm stands the samples are equal and at rest. Quintics are that
-//! motion only where the acceleration does not jump, so accelerations are left out unless they are asked for, and refused
-//! where they do. States lie on the motion; lines between them leave it by no more than `a h^2 / 8` for accelerations up to
-//! `a` and states `h` seconds apart.
+//! The cubics are the certified motion: exactly on straight pieces, and within [`cplan_core::space::HAIR`] on blends,
+//! which the certificate covers. They keep the limits. While the arm stands still, samples are equal and at rest.
+//!
+//! Quintics equal that motion only if the acceleration does not jump. So accelerations are written only on request, and
+//! refused if they jump. States lie on the motion; lines between them deviate by at most `a h^2 / 8` for accelerations
+//! up to `a` and states `h` seconds apart.
 //!
 //! ```
 //! use cplan_core::check::certify;
@@ -36,26 +37,31 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # How fast
+//! # Timing
 //!
-//! [`time`] drives along the curve within the limits: forward-backward integration of the squared speed, on straight
+//! [`time`] drives along the curve within the limits by forward-backward integration of the squared speed: on straight
 //! pieces in closed form (`profile`), on a blend over spans with bounds that are linear in the squared speeds at their
-//! ends (`corner`), from one stop to the next (`schedule`). Every piece of the motion is a polynomial in time of the
-//! fourth degree at the most, and the samples say which. With a limit on a jerk `smooth` makes of that motion a cubic B-spline (`spline`), by the
-//! mean over a window that is long enough for the jerk, and passes those corners more slowly near which it is not shown to be free; `retime` drives it once
-//! more along its own curve, in the least time. Single
-//! straight pieces go from rest to rest by `jerk`, which takes
-//! Ruckig's times of the seven phases, brings them to the least interval between samples, and works out
-//! the phases from the times and the length alone, so that they end where they should and keep the limits whatever the
-//! solver's tolerances are. All samples lie at whole nanoseconds (`clock`). `shape` looks for the path along which a motion is fastest, and
-//! `least` knows a time that none undercuts.
+//! ends (`corner`), from one stop to the next (`schedule`). Every piece of the motion is a polynomial in time of degree
+//! four at most, as stated by the samples.
+//!
+//! With a limit on jerks, `smooth` converts that motion to a cubic B-spline (`spline`): the mean over a window that is
+//! long enough for the jerk. Corners at which it is not shown to be free are passed more slowly. `retime` then drives
+//! along the resulting curve in the least time.
+//!
+//! Single straight pieces run from rest to rest by `jerk`. It takes Ruckig's times of the seven phases, adapts them to
+//! the least interval between samples, and computes the phases from the times and the length alone, so that they end at
+//! the right place and keep the limits for any tolerance of the solver.
+//!
+//! All samples lie at whole nanoseconds (`clock`). `shape` looks for the path with the fastest motion, and `least` has
+//! a lower bound on the time.
 //!
 //! # Files
 //!
-//! `message` is a motion of all joints that a ROS 2 message names: `model::RobotJoints` says what sets each one's value,
-//! and in a task the engine adds the tool's strokes and the wrist's turns. Writers make files, whole or not at all. A
-//! recording (`mcap`, a feature) is a list of motions, each with the time at which it begins: a CDR writer of our own
-//! (`mcap/cdr`), the two messages with their definitions (`mcap/messages`), and the crate `mcap` for the container.
+//! `message` is a motion of all joints in a ROS 2 message: `model::RobotJoints` lists the source of each value, and in
+//! a task the engine adds the tool's strokes and the wrist's turns. Writers create files whole or not at all.
+//!
+//! A recording (`mcap`, a feature) is a list of motions, each with its start time: a CDR writer (`mcap/cdr`), the two
+//! messages with their definitions (`mcap/messages`), and the crate `mcap` for the container.
 
 mod clock;
 mod corner;

@@ -1,4 +1,4 @@
-//! What a motion has to keep.
+//! Limits of a motion.
 
 use super::tip::TipSpeed;
 use super::torque::TorqueLimit;
@@ -21,7 +21,7 @@ pub struct Limits<'a> {
 }
 
 impl From<&[Joint; 2]> for Limits<'_> {
-    /// The joints' own limits, and none of the tip and of torques.
+    /// Takes the joints' own limits, without limits on the tip and on torques.
     fn from(joints: &[Joint; 2]) -> Self {
         Self {
             velocity: joints.each_ref().map(|joint| joint.velocity),
@@ -34,8 +34,8 @@ impl From<&[Joint; 2]> for Limits<'_> {
 }
 
 impl Limits<'_> {
-    /// The limits of a motion that is to take a share of the speed: the same motion, slower, keeps them. Torques may be what they may be at
-    /// full speed: gravity does not wait.
+    /// Scales the limits to a share of the speed: a slowed-down motion keeps them. Torques keep their full limits,
+    /// because gravity does not change.
     #[must_use]
     pub fn scaled(self, share: f64) -> Self {
         Self {
@@ -47,36 +47,36 @@ impl Limits<'_> {
         }
     }
 
-    /// How far a joint goes at its top speed while the jerk takes its acceleration from nothing to the greatest, at the most.
+    /// Returns the greatest distance that a joint moves at top speed while the jerk builds up its full acceleration.
     pub(super) fn reversal(&self) -> f64 {
         (0..2).map(|k| self.jerk[k].map_or(0.0, |j| self.acceleration[k] / j * self.velocity[k])).fold(0.0, f64::max)
     }
 
-    /// How far a joint goes until it has its top speed, at the most.
+    /// Returns the greatest distance that a joint moves until it reaches top speed.
     pub(super) fn ramp(&self) -> f64 {
         let torque = self.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
         let acceleration = |k: usize| self.acceleration[k].min(torque[k]);
         (0..2).map(|k| self.velocity[k] * self.velocity[k] / (2.0 * acceleration(k))).fold(0.0, f64::max)
     }
 
-    /// Greatest speed along a direction of unit length: a joint that stands still does not limit it.
+    /// Returns the greatest speed along a unit direction. A joint that does not move sets no limit.
     pub(super) fn speed_along(&self, direction: Configuration) -> f64 {
         along(self.velocity, direction)
     }
 
-    /// Greatest acceleration along a direction of unit length.
+    /// Returns the greatest acceleration along a unit direction.
     pub(super) fn acceleration_along(&self, direction: Configuration) -> f64 {
         along(self.acceleration, direction)
     }
 
-    /// Greatest jerk along a direction of unit length; infinite if no joint that moves has a limit.
+    /// Returns the greatest jerk along a unit direction; infinite if no moving joint has a limit.
     pub(super) fn jerk_along(&self, direction: Configuration) -> f64 {
         let limits = self.jerk.map(|jerk| jerk.unwrap_or(f64::INFINITY));
         along(limits, direction)
     }
 
-    /// Whether a motion stops at every corner: it does if any joint's jerk has a limit, because the acceleration would
-    /// jump where a blend begins.
+    /// Returns true if a motion must stop at every corner. It must if the jerk of any joint is limited, because the
+    /// acceleration would jump at the start of a blend.
     #[must_use]
     pub fn stops_at_corners(&self) -> bool {
         self.jerk.iter().any(Option::is_some)

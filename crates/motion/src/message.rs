@@ -1,4 +1,4 @@
-//! What a ROS 2 message says of a motion.
+//! The contents of a ROS 2 message about a motion.
 
 use super::Trajectory;
 use cplan_core::model::{Drives, RobotJoints};
@@ -11,11 +11,11 @@ pub struct JointMotion {
     pub joints: Vec<String>,
     /// Seconds from the start, whole nanoseconds, strictly increasing.
     pub time: Vec<f64>,
-    /// Of each sample, the value of each joint, radians or metres.
+    /// For each sample, the value of each joint, radians or metres.
     pub position: Vec<Vec<f64>>,
-    /// Of each sample, the rate of each joint.
+    /// For each sample, the rate of each joint.
     pub velocity: Vec<Vec<f64>>,
-    /// Likewise the accelerations; none if readers are to join the samples by cubics.
+    /// For each sample, the accelerations; `None` if readers must join the samples by cubics.
     pub acceleration: Option<Vec<Vec<f64>>>,
 }
 
@@ -31,15 +31,15 @@ pub struct AccelerationJump {
     pub time: f64,
 }
 
-/// Share of the greatest acceleration by which it may differ on both sides of a sample: far above what whole nanoseconds make
-/// of it, far below what a quintic would turn into a motion of its own.
+/// Largest difference of the acceleration on both sides of a sample, relative to the greatest: far above rounding to
+/// nanoseconds, far below a visible effect on a quintic.
 const SAME: f64 = 1e-6;
 
 /// Units in the last place of the greatest position that make the acceleration of a piece uncertain, over its squared duration.
 const ULPS: f64 = 256.0;
 
 impl JointMotion {
-    /// A motion of the planned joints, while the others stay where they are.
+    /// Creates a motion of the planned joints, with the others at rest.
     #[must_use]
     pub fn new(robot: &RobotJoints, trajectory: &Trajectory, accelerations: bool) -> Self {
         let positions = trajectory.position.iter().map(|&planned| robot.values(&robot.at_rest(planned)));
@@ -58,7 +58,7 @@ impl JointMotion {
 }
 
 impl JointMotion {
-    /// The same without what comes after all joints have come to rest.
+    /// Removes the samples after all joints have come to rest.
     #[must_use]
     pub fn without_rest(mut self) -> Self {
         while let [.., before, last] = &self.position[..]
@@ -72,7 +72,7 @@ impl JointMotion {
         self
     }
 
-    /// The same for readers that join samples by cubics.
+    /// Removes the accelerations, for readers that join samples by cubics.
     #[must_use]
     pub fn without_accelerations(self) -> Self {
         Self { acceleration: None, ..self }
@@ -80,10 +80,10 @@ impl JointMotion {
 }
 
 impl Trajectory {
-    /// Whether quintics through the samples are the motion: its acceleration does not jump.
+    /// Checks that quintics through the samples equal the motion, so that its acceleration does not jump.
     ///
     /// # Errors
-    /// When it jumps first.
+    /// The first jump.
     pub fn check_accelerations(&self) -> Result<(), AccelerationJump> {
         let greatest = |rows: &[[f64; 2]]| rows.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
         let (pull, size) = (greatest(&self.acceleration), greatest(&self.position));

@@ -5,7 +5,7 @@ use super::clock::whole_nanoseconds;
 /// A time of constant jerk along a stretch, mostly of none at all; distances counted from the stretch's beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Phase {
-    /// How long it lasts, seconds.
+    /// Duration, seconds.
     pub(super) duration: f64,
     /// Distance at which it begins.
     pub(super) from: f64,
@@ -30,16 +30,16 @@ pub(super) struct State {
 }
 
 impl Phase {
-    /// From one distance to another and from one speed to another.
+    /// Creates a phase between two distances and two speeds.
     pub(super) fn between([from, to]: [f64; 2], [enter, leave]: [f64; 2]) -> Self {
         let duration = 2.0 * (to - from) / (enter + leave);
         Self { duration, from, to, enter, leave, acceleration: (leave - enter) / duration, jerk: 0.0 }
     }
 
-    /// The state `time` seconds after the phase began.
+    /// Returns the state `time` seconds after the phase began.
     ///
-    /// A deceleration is counted back from its end: a short one after a long way at top speed would drown in the rounding
-    /// of the latter.
+    /// A deceleration is computed backwards from its end. Otherwise a short one after a long distance at top speed
+    /// would be lost in rounding.
     pub(super) fn at(&self, time: f64) -> State {
         let Self { duration, from, to, enter, leave, acceleration, jerk } = *self;
         let last = acceleration + jerk * duration;
@@ -57,13 +57,13 @@ impl Phase {
     }
 }
 
-/// The fastest motion over `length` from rest to rest: constant acceleration, constant speed (perhaps for no time at
-/// all), constant deceleration as long as the acceleration (bang-bang, or bang-coast-bang where the speed limit is
-/// reached). No phase is shorter than `shortest`, and all last whole nanoseconds.
+/// Returns the fastest motion over `length` from rest to rest: constant acceleration, constant speed (possibly for no
+/// time), and constant deceleration as long as the acceleration. No phase is shorter than `shortest`, and all last
+/// whole nanoseconds.
 ///
-/// Where that floor acts, the motion is slowed down, by at most `4 shortest`: ramps are stretched to the floor at a
-/// lower acceleration, and a shorter cruise is spread over the ramps. Each phase is stretched to the next nanosecond in the
-/// same way. All limits stay kept. `length`, `speed`, `acceleration` and `shortest` are positive; the limits may be infinite.
+/// The minimum duration may slow the motion down by up to `4 shortest`: ramps are stretched by a lower acceleration,
+/// and a shorter cruise is spread over the ramps. Each phase is stretched to the next nanosecond in the same way. All
+/// limits stay satisfied. `length`, `speed`, `acceleration` and `shortest` are positive; the limits may be infinite.
 pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest: f64) -> Vec<Phase> {
     let ramp = whole_nanoseconds((speed / acceleration).max(shortest));
     let cruise = length / speed - ramp;
@@ -92,11 +92,12 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest:
     if cruise > 0.0 { vec![up, level, down] } else { vec![up, down] }
 }
 
-/// The fastest motion over `length` between two speeds, not both 0, that are within `speed` and near enough to each
-/// other for `acceleration`, which coasts for `coast` seconds between acceleration and deceleration, as far as the two speeds allow. None if even a single phase would be shorter than `shortest`.
+/// Returns the fastest motion over `length` between two speeds, not both 0, within `speed`, whose difference
+/// `acceleration` allows. It coasts for `coast` seconds between acceleration and deceleration, as far as the two speeds
+/// allow. Returns `None` if even a single phase would be shorter than `shortest`.
 ///
-/// A phase that would be too short is left out, and the greater of the two speeds held instead of passed: the speed that
-/// is lost is no more than what `shortest` seconds would have gained.
+/// A phase that would be too short is omitted, and the greater of the two speeds becomes the maximum. The lost speed is
+/// at most the gain in `shortest` seconds.
 pub(super) fn passing(
     length: f64,
     [enter, leave]: [f64; 2],
@@ -109,7 +110,7 @@ pub(super) fn passing(
     let over = |peak: f64| {
         let (up, down) = (ramp(enter, peak), ramp(leave, peak));
         let level = (length - up - down) / peak;
-        // A level way that is too short, or nothing but rounding, is spread over the ramps.
+        // A constant phase that is too short, or due to rounding, is spread over the ramps.
         let gentle = if level < shortest { ((up + down) / length).min(1.0) } else { 1.0 };
         let meet = (up / gentle).min(length);
         let rest = if level < shortest { meet } else { length - down };
@@ -162,7 +163,7 @@ mod tests {
         assert!((duration(&speed_only) - 0.500_001).abs() < 1e-12);
     }
 
-    /// The phases follow each other, and both formulas of a phase agree.
+    /// Asserts that consecutive phases agree, and that both formulas of a phase do.
     fn joined(phases: &[Phase], length: f64, [enter, leave]: [f64; 2]) {
         let top = phases.iter().map(|p| p.enter.max(p.leave)).fold(0.0, f64::max);
         let same = |a: f64, b: f64, size: f64| assert!((a - b).abs() <= 1e-12 * size, "{a} {b} {phases:?}");
@@ -206,13 +207,13 @@ mod tests {
             prop_assert!(duration(&phases) <= optimum + 4e-6 + 1e-12 * optimum);
         }
 
-        /// Against the time that the distance and the limits leave in closed form: the ramps to and from the peak.
+        /// Compares with the closed form for the distance and the limits: the ramps to and from the peak.
         #[test]
         fn passing_is_as_fast_as_the_limits_allow(
             length in -4.0..3.0f64, acceleration in -1.0..3.0f64, at in (0.0..1.0f64, 0.0..1.0f64), top in 0.05..3.0f64,
         ) {
             let [length, acceleration] = [length, acceleration].map(|e| 10f64.powf(e));
-            // Speeds that the length allows, relative to what it allows from rest.
+            // Speeds that the length allows, relative to the one reachable from rest.
             let most = (2.0 * acceleration * length).sqrt();
             let enter = at.0 * most;
             let leave = (enter * enter + (2.0 * at.1 - 1.0) * most * most).max(0.0).sqrt();

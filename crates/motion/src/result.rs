@@ -1,11 +1,11 @@
-//! What results say of paths and searches.
+//! Records in results about paths and searches.
 
 use cplan_core::check::CertifiedCurve;
 use cplan_core::model::Joint;
 use cplan_core::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 use serde::Serialize;
 
-/// How to read trajectories of these joints.
+/// Describes how to interpolate trajectories of these joints.
 pub fn interpolation(joints: &[Joint; 2]) -> &'static str {
     if joints.iter().any(|joint| joint.jerk.is_some()) { SMOOTH_INTERPOLATION } else { INTERPOLATION }
 }
@@ -13,7 +13,7 @@ pub fn interpolation(joints: &[Joint; 2]) -> &'static str {
 /// A path's place between a proven lower bound on the length of every free motion and its own length.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Optimum {
-    /// How lengths are measured: `euclidean`, `weighted` or `time` (seconds at the joints' top speeds).
+    /// Measure of lengths: `euclidean`, `weighted` or `time` (seconds at the joints' top speeds).
     pub metric: &'static str,
     /// Weights of the joints, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -22,23 +22,23 @@ pub struct Optimum {
     pub length: f64,
     /// No motion to any of the goals is shorter: proven.
     pub lower_bound: f64,
-    /// `length / lower_bound - 1`; none where the bound is 0 and the length is not.
+    /// `length / lower_bound - 1`; `None` if only the bound is 0.
     pub gap: Option<f64>,
 }
 
 /// A motion's place between a time that no motion undercuts and its own.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Fastest {
-    /// Of the motion, seconds.
+    /// Duration of the motion, seconds.
     pub duration: f64,
     /// No motion to any of the goals that keeps the joints' limits takes less: proven.
     pub lower_bound: f64,
-    /// `duration / lower_bound - 1`; none where the bound is 0.
+    /// `duration / lower_bound - 1`; `None` if the bound is 0.
     pub gap: Option<f64>,
 }
 
 impl Fastest {
-    /// With the gap that follows.
+    /// Creates the record with its gap.
     #[must_use]
     pub fn new(duration: f64, lower_bound: f64) -> Self {
         Self { duration, lower_bound, gap: (lower_bound > 0.0).then_some(duration / lower_bound - 1.0) }
@@ -48,14 +48,14 @@ impl Fastest {
 /// The corners that a motion does not stop at.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Blends {
-    /// How many there are; the path's other corners are stopped at.
+    /// Number of blends. The motion stops at the path's other corners.
     pub count: usize,
-    /// Greatest distance between a blend's ends and its corner, in joint space (radians and metres as they come).
+    /// Greatest distance between a blend's ends and its corner, in joint space (mixing radians and metres).
     pub largest_radius: f64,
 }
 
 impl Blends {
-    /// Those of a curve.
+    /// Summarises the blends of a curve.
     #[must_use]
     pub fn of(curve: &CertifiedCurve) -> Self {
         let radii = || curve.radii().iter().copied().filter(|radius| *radius > 0.0);
@@ -63,18 +63,18 @@ impl Blends {
     }
 }
 
-/// How a grid or a roadmap was searched.
+/// Settings of a search of a grid or a roadmap.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SearchUsed {
     /// `wave` or `deepening` (grids alone), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
     pub search: &'static str,
-    /// Which of equally promising cells A\* expands, if not the default.
+    /// Rule by which A\* breaks ties between equally promising cells, if not the default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ties: Option<&'static str>,
-    /// Of a grid: 4, or 8 with diagonal moves.
+    /// For grids: 4, or 8 with diagonal moves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbors: Option<u8>,
-    /// Whether it was searched from the goals; of a grid only stated where it was not.
+    /// True if it was searched from the goals. For grids only stated if false.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub backward: Option<bool>,
     /// `full` where that is the visibility graph; left out of the reduced one.

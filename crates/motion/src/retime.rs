@@ -1,17 +1,21 @@
-//! The least time along a curve, within limits that hold for jerks, too (a time-optimal path parameterization of third order).
+//! Least-time parametrisation of a curve under limits that include jerks (third-order time-optimal path
+//! parametrisation).
 //!
-//! A curve `q(s)` is passed at the rate `ds/dt = z(s)^(1/2)`. With derivatives by `s`, velocities are `q' z^(1/2)`, accelerations
-//! `q'' z + q' z' / 2`, and jerks `(q''' z + 3 q'' z' / 2 + q' z'' / 2) z^(1/2)`; the time is the integral of `z^(-1/2)`. `z` is a uniform
-//! quadratic B-spline, which has to meet what limits ask for at [`PLACES`] of each of its intervals: [`Condition`]s. Its coefficients are found by a
-//! barrier method: Newton's steps towards the least of the time less the logarithms of what conditions leave, which count less and less. Of the
-//! second derivatives of these only what the first give is used, which is never negative, and most of them where little is left. (In the squared
-//! rate only limits on jerks are not convex: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, *Time-optimal path tracking for robots:
-//! a convex optimization approach*, 2009.)
+//! A curve `q(s)` is passed at the rate `ds/dt = z(s)^(1/2)`. With derivatives by `s`, velocities are `q' z^(1/2)`,
+//! accelerations `q'' z + q' z' / 2`, and jerks `(q''' z + 3 q'' z' / 2 + q' z'' / 2) z^(1/2)`; the time is the
+//! integral of `z^(-1/2)`. `z` is a uniform quadratic B-spline, which must satisfy the limits at [`PLACES`] of each
+//! interval as [`Condition`]s.
+//!
+//! A barrier method finds its coefficients: Newton steps minimise the time minus the logarithms of the slacks, with
+//! decreasing weight. For the second derivatives only the terms from first derivatives of the slacks are used, which
+//! are never negative, and dominate where a slack is small. (In the squared rate, only limits on jerks are not convex:
+//! Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, *Time-optimal path tracking for robots: a convex optimization
+//! approach*, 2009.)
 
-/// Where conditions hold in each interval, ...
+/// Positions in each interval at which conditions are imposed.
 pub(super) const PLACES: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// ... and what each of these counts in an integral (Simpson's rule).
+/// Weights of these positions in an integral (Simpson's rule).
 const WEIGHTS: [f64; 3] = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
 
 /// The barriers together count as much as this share of the time, to begin with, ...
@@ -29,11 +33,12 @@ const MOST_STEPS: usize = 40;
 /// A height is done with when a step promises less than this share of the time.
 const NEAR: f64 = 1e-5;
 
-/// A step is taken in full if it brings this share of what it promises; or else halved, so many times at the most.
+/// A full step is taken if it achieves this fraction of its predicted decrease. Otherwise it is halved, up to a maximum
+/// number of times.
 const ENOUGH: f64 = 0.05;
 const HALVINGS: u32 = 20;
 
-/// A product outside of these goes on as its logarithm.
+/// Range within which a product stays a product; beyond it its logarithm is accumulated.
 const WITHIN: std::ops::Range<f64> = 1e-150..1e150;
 
 /// Places and weights of Gauss's quadrature with five points on the interval from 0 to 1.
@@ -48,7 +53,7 @@ const GAUSS: [[f64; 2]; 5] = [
 /// Newton's steps for the place that is passed at some time.
 const TO_PLACE: usize = 4;
 
-/// What `z` is to keep at a place: `a z + b z' + c z'' < 1`, or the same with the sum times the root of `z`.
+/// A condition on `z` at a position: `a z + b z' + c z'' < 1`, or the same with the sum times the root of `z`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Condition {
     pub factors: [f64; 3],
@@ -66,7 +71,7 @@ pub(super) struct Rate {
 }
 
 impl Condition {
-    /// What is left of it, and the derivatives of that by `z`, `z'` and `z''`.
+    /// Returns its slack, and the derivatives of the slack by `z`, `z'` and `z''`.
     fn left(&self, [z, rising, bend]: [f64; 3]) -> (f64, [f64; 3]) {
         let [a, b, c] = self.factors;
         let sum = a * z + b * rising + c * bend;
@@ -78,7 +83,7 @@ impl Condition {
     }
 }
 
-/// `z` and its two derivatives within an interval, as the coefficients there make them.
+/// Returns `z` and its two derivatives within an interval, as linear functions of the coefficients.
 fn basis(u: f64, step: f64) -> [[f64; 3]; 3] {
     let w = 1.0 - u;
     let square = step * step;
@@ -113,7 +118,7 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// All places, in order, for some coefficients.
+    /// Iterates over all positions, in order, for the given coefficients.
     fn places(&self, coefficients: &[f64]) -> impl Iterator<Item = Place<'_>> {
         self.conditions.iter().enumerate().map(move |(place, conditions)| {
             let (first, place) = (place / PLACES.len(), place % PLACES.len());
@@ -124,7 +129,7 @@ impl Problem<'_> {
         })
     }
 
-    /// The time with barriers of a height; infinite where a condition is not met.
+    /// Returns the time plus barriers of a given weight; infinite if a condition is violated.
     fn merit(&self, coefficients: &[f64], height: f64) -> f64 {
         // The logarithm of a product, rather than many.
         let (mut merit, mut product) = (0.0, 1.0_f64);
@@ -147,7 +152,7 @@ impl Problem<'_> {
         merit - height * product.ln()
     }
 
-    /// Newton's step, and how much it promises.
+    /// Returns Newton's step and the predicted decrease.
     fn newton(&self, coefficients: &[f64], height: f64) -> Option<(Vec<f64>, f64)> {
         let count = coefficients.len();
         let (mut slope, mut bands) = (vec![0.0; count], vec![[0.0; 3]; count]);
@@ -180,8 +185,8 @@ impl Problem<'_> {
     }
 }
 
-/// Solves `A x = b` for a symmetric, positive definite `A`, by the entries of its rows from the diagonal on: Cholesky's decomposition
-/// without roots. None if it is not.
+/// Solves `A x = b` for a symmetric, positive definite `A`, given the entries of its rows from the diagonal on, by a
+/// root-free Cholesky decomposition. Returns `None` if `A` is not positive definite.
 fn solved(mut bands: Vec<[f64; 3]>, mut x: Vec<f64>) -> Option<Vec<f64>> {
     let count = x.len();
     for i in 0..count {
@@ -210,8 +215,9 @@ fn solved(mut bands: Vec<[f64; 3]>, mut x: Vec<f64>) -> Option<Vec<f64>> {
 }
 
 impl Rate {
-    /// The rate with the least time over intervals of so much of the parameter each that meets the conditions at all of their places; `begin` is a
-    /// constant squared rate that meets them all, with some left. None if it does not.
+    /// Returns the rate with the least time over intervals of this length of the parameter that satisfies the
+    /// conditions at all positions. `begin` is a constant squared rate that satisfies them with some slack. Returns
+    /// `None` if it does not.
     pub fn fastest(conditions: &[Vec<Condition>], step: f64, begin: f64) -> Option<Self> {
         let problem = Problem { conditions, step, basis: PLACES.map(|u| basis(u, step)) };
         let mut coefficients = vec![begin; conditions.len() / PLACES.len() + 2];
@@ -250,7 +256,7 @@ impl Rate {
         rate.duration().is_finite().then_some(rate)
     }
 
-    /// How long it takes to pass the whole curve.
+    /// Returns the duration of the whole curve.
     pub fn duration(&self) -> f64 {
         self.times[self.times.len() - 1]
     }
@@ -259,20 +265,20 @@ impl Rate {
         dot(basis(u, self.step)[0], [0, 1, 2].map(|k| self.coefficients[interval + k]))
     }
 
-    /// How long it takes from the beginning of an interval to a place in it.
+    /// Returns the time from the beginning of an interval to a position in it.
     fn takes(&self, interval: usize, u: f64) -> f64 {
         let inverse = GAUSS.map(|[place, weight]| weight / self.squared(interval, u * place).sqrt());
         self.step * u * inverse.iter().sum::<f64>()
     }
 
-    /// When a parameter is passed.
+    /// Returns the time at which a parameter is passed.
     pub fn passes(&self, parameter: f64) -> f64 {
         let intervals = parameter / self.step;
         let interval = (intervals as usize).min(self.times.len() - 2);
         self.times[interval] + self.takes(interval, (intervals - interval as f64).min(1.0))
     }
 
-    /// The parameter at a time.
+    /// Returns the parameter at a time.
     pub fn at(&self, time: f64) -> f64 {
         let last = self.times.len() - 2;
         let interval = self.times.partition_point(|begin| *begin <= time).saturating_sub(1).min(last);
@@ -289,7 +295,8 @@ impl Rate {
 mod tests {
     use super::*;
 
-    /// Against gravity more is left one way than the other: what all conditions leave may be far more than 1, and than a double holds.
+    /// Gravity leaves more slack in one direction than in the other. The product of all slacks may exceed 1, and the
+    /// range of doubles.
     #[test]
     fn what_is_left_may_be_much() {
         let conditions = [[0.25, 0.0, 0.0], [-10.0, 0.0, 0.0]].map(|factors| Condition { factors, has_root: false });

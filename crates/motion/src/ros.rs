@@ -4,10 +4,10 @@ use super::JointMotion;
 use super::clock::{PER_SECOND, nanoseconds};
 use std::fmt::Write;
 
-/// The trajectory as a `trajectory_msgs/msg/JointTrajectory` in the YAML that `ros2 topic pub` takes.
+/// Writes the trajectory as a `trajectory_msgs/msg/JointTrajectory` in the YAML of `ros2 topic pub`.
 ///
-/// The header's stamp is 0, which means "begin now", and its frame is empty. Times are whole nanoseconds. Numbers have as many digits as it
-/// takes to read the same `f64` back. How a controller joins the points: see the [module](super).
+/// The header's stamp is 0, which means "begin now", and its frame is empty. Times are whole nanoseconds. Numbers have
+/// as many digits as needed to read back the same `f64`. For how controllers join the points see the [module](super).
 #[must_use]
 pub fn ros_yaml(motion: &JointMotion) -> String {
     let mut text = String::from("header:\n  stamp: {sec: 0, nanosec: 0}\n  frame_id: \"\"\njoint_names:\n");
@@ -31,7 +31,7 @@ pub fn ros_yaml(motion: &JointMotion) -> String {
     text
 }
 
-/// Whole seconds, and nanoseconds.
+/// Splits a time into whole seconds and nanoseconds.
 fn split(time: f64) -> (u64, u64) {
     let nanoseconds = nanoseconds(time);
     (nanoseconds / PER_SECOND, nanoseconds % PER_SECOND)
@@ -42,8 +42,8 @@ fn list(values: &[f64]) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
-/// A number that YAML 1.1 readers, PyYAML among them, take for a number: those want a point in the mantissa and a sign
-/// in the exponent, and read `1e-7` as text.
+/// Formats a number so that YAML 1.1 readers such as PyYAML accept it as a number: they require a point in the mantissa
+/// and a sign in the exponent, and read `1e-7` as text.
 fn number(value: f64) -> String {
     let plain = format!("{value:?}");
     let Some((mantissa, exponent)) = plain.split_once('e') else { return plain };
@@ -52,8 +52,8 @@ fn number(value: f64) -> String {
     format!("{mantissa}{point}e{sign}{exponent}")
 }
 
-/// A double-quoted scalar (YAML 1.2.2, section 7.3.1), whatever the name: unquoted, `no`, `1` or `a: b` would be no
-/// names. Characters that YAML does not take raw, or that YAML 1.1 takes for line breaks, are escaped.
+/// Formats a name as a double-quoted scalar (YAML 1.2.2, section 7.3.1), because `no`, `1` or `a: b` without quotes are
+/// not strings. Escapes characters that YAML does not allow, or that YAML 1.1 takes for line breaks.
 fn quoted(name: &str) -> String {
     let mut text = String::from("\"");
     for c in name.chars() {

@@ -9,9 +9,9 @@ use cplan_core::space::{BlendedPath, Configuration, Piece};
 use serde::Serialize;
 use thiserror::Error;
 
-/// Two samples are never closer in time than (about) this, seconds. A thousandth of the fastest servo cycle in use
-/// (1 ms), so nobody misses what it suppresses; a thousand times the nanosecond in which ROS counts and, at the end of
-/// [`LONGEST_MOTION`], ten thousand times the spacing of doubles, so that times stay distinct however they are rounded.
+/// Least time between two samples (approximately), seconds. It is a thousandth of the fastest servo cycle in use (1
+/// ms), so nothing useful is lost. It is a thousand times the nanosecond of ROS and, at the end of [`LONGEST_MOTION`],
+/// ten thousand times the spacing of doubles, so times stay distinct after rounding.
 pub const SHORTEST_INTERVAL: f64 = 1e-6;
 
 /// Samples that nothing but the period asks for stay so far from others, seconds, where the period is longer than twice
@@ -44,7 +44,8 @@ pub struct Trajectory {
     pub velocity: Vec<[f64; 2]>,
     /// Joint accelerations at the beginning of the interval that begins here; 0 at the last sample.
     pub acceleration: Vec<[f64; 2]>,
-    /// Joint torques (N m), of those that slide forces (N), at the beginning of the interval that begins here; none if nobody asks for them.
+    /// Joint torques (N m), or forces (N) of prismatic joints, at the start of the interval that starts here; empty if
+    /// not requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub torque: Vec<[f64; 2]>,
 }
@@ -61,9 +62,9 @@ pub enum TimingError {
          choose a longer period"
     )]
     TooManySamples {
-        /// Of the motion, seconds.
+        /// Duration of the motion, seconds.
         duration: f64,
-        /// As asked, seconds.
+        /// The requested period, seconds.
         period: f64,
     },
     /// The limits let the joints hardly move.
@@ -72,7 +73,7 @@ pub enum TimingError {
          raise the limits of the joints, and of the tip's speed if it has one"
     )]
     TooLong(f64),
-    /// A joint cannot bring what the arm weighs.
+    /// A joint whose effort is less than the weight of the arm requires.
     #[error(
         "joint \"{joint}\" has an effort of {effort} {unit}, and the arm takes {torque:.3} {unit} at {}; \
          raise [robot] effort, or let the path keep away from there",
@@ -81,13 +82,13 @@ pub enum TimingError {
     TooHeavy {
         /// The joint's name.
         joint: String,
-        /// Where that is.
+        /// The configuration.
         at: [f64; 2],
-        /// What it takes, N m or N.
+        /// The required torque or force, N m or N.
         torque: f64,
-        /// What the joint can bring.
+        /// The joint's effort.
         effort: f64,
-        /// Of both.
+        /// Unit of both.
         unit: &'static str,
     },
 }
@@ -142,12 +143,12 @@ impl Trajectory {
     fn stand_to(&mut self, end: u64) {
         if let Some(&position) = self.position.last() {
             self.push(end, [position.into(), Configuration::zeros(), Configuration::zeros()]);
-            // What it takes to hold the arm there.
+            // The torques that hold the arm there.
             self.torque.extend(self.torque.last().copied());
         }
     }
 
-    /// The cubics through positions and velocities.
+    /// Returns the cubics through positions and velocities.
     pub fn pieces(&self) -> Vec<Piece> {
         let end = |i: usize| [self.position[i].into(), self.velocity[i].into()];
         (1..self.time.len()).map(|i| Piece::hermite(self.time[i - 1], self.time[i], end(i - 1), end(i))).collect()
@@ -173,17 +174,17 @@ impl Trajectory {
     }
 }
 
-/// When a motion begins that follows one that ends at a time, after such a pause: whole nanoseconds.
+/// Returns the start of a motion after a previous one and a pause, in whole nanoseconds.
 pub fn after_pause(end: f64, pause: f64) -> f64 {
     clock::seconds(nanoseconds(end + rest(pause)))
 }
 
-/// How long a pause is.
+/// Returns the length of a pause.
 fn rest(pause: f64) -> f64 {
     if pause < SHORTEST_INTERVAL { 0.0 } else { whole_nanoseconds(pause) }
 }
 
-/// A motion in time and what it follows.
+/// A motion in time, and the curve that it follows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timed {
     /// The path, with the blends that the motion takes: those that would not make it faster are gone.
@@ -192,29 +193,30 @@ pub struct Timed {
     pub trajectory: Trajectory,
 }
 
-/// Times a path: along its straight pieces and blends from rest to rest, at rest at every corner that has no blend, both
-/// joints in step, as fast as the limits allow.
+/// Times a path: from rest to rest along its straight pieces and blends, with a stop at every corner without blend,
+/// both joints in step, as fast as the limits allow. Linear in the number of samples.
 ///
-/// Forward-backward integration of the squared speed along the path: on straight pieces in closed form, on a blend over up
-/// to 256 spans, on each of which the second derivative of the path's parameter is constant and both joints keep their
-/// limits throughout (a thousandth of these stays unused there). Never slower than a motion that stops at every corner:
-/// between two stops that motion is taken where it is faster.
+/// Forward-backward integration of the squared speed along the path: on straight pieces in closed form, on a blend over
+/// up to 256 spans. On each span the second derivative of the path's parameter is constant, and both joints keep their
+/// limits (a thousandth of these stays unused there). The motion is never slower than one that stops at every corner:
+/// where that one is faster between two stops, it is used.
 ///
-/// Samples lie at the multiples of `period`, wherever that second derivative changes, and on blends as densely as it
-/// takes for the cubic through positions and velocities to keep the limits, too, and to stay within
-/// [`cplan_core::space::HAIR`] of the blend; all of them at whole nanoseconds. Multiples of the period closer than a tenth of a
-/// millisecond (or half the period) to another sample are left out. A path that stays where it is gives one sample.
+/// Samples lie at the multiples of `period`, where that second derivative changes, and on blends as densely as needed
+/// for the cubic through positions and velocities to keep the limits and to stay within [`cplan_core::space::HAIR`] of
+/// the blend. All of them are at whole nanoseconds. Multiples of the period closer than a tenth of a millisecond (or
+/// half the period) to another sample are omitted. A path without motion gives one sample.
 ///
-/// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes
-/// `2 sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`, up to `4` [`SHORTEST_INTERVAL`] longer where a phase would be
-/// shorter than that; and each phase is lengthened to whole nanoseconds. Linear in the number of samples.
+/// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes `2
+/// sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`SHORTEST_INTERVAL`] longer if a phase would
+/// be shorter than that, and each phase is lengthened to whole nanoseconds.
 ///
-/// If any joint's jerk has a limit, the motion stops at every corner, blended or not ([`super::Drive::along`] passes them), and each straight piece on which such
-/// a joint moves takes the shortest time that speed, acceleration and jerk along it allow from rest to rest, with one bound
-/// on the tip's speed for all of it; up to `12` [`SHORTEST_INTERVAL`] longer where a phase would be shorter than that.
+/// If the jerk of any joint is limited, the motion stops at every corner, blended or not ([`super::Drive::along`]
+/// passes corners). Each straight piece on which such a joint moves takes the least time that speed, acceleration and
+/// jerk along it allow from rest to rest, with one bound on the tip's speed for the whole piece; up to `12`
+/// [`SHORTEST_INTERVAL`] longer if a phase would be shorter than that.
 ///
 /// # Errors
-/// [`TimingError`]: a useless period, a motion beyond [`LONGEST_MOTION`], or more than [`MOST_SAMPLES`] samples.
+/// [`TimingError`]: an unusable period, a motion beyond [`LONGEST_MOTION`], or more than [`MOST_SAMPLES`] samples.
 pub fn time(curve: impl Into<CertifiedCurve>, limits: &Limits, period: f64) -> Result<Timed, TimingError> {
     let curve = curve.into();
     let (used, trajectory) = time_curve(curve.curve(), limits, period)?;
@@ -223,7 +225,7 @@ pub fn time(curve: impl Into<CertifiedCurve>, limits: &Limits, period: f64) -> R
     Ok(Timed { curve, trajectory })
 }
 
-/// [`time`], whatever the path is good for; and the blends in use.
+/// Does the same as [`time`] for a curve without certificate, and returns the blends in use.
 pub(super) fn time_curve(
     curve: &BlendedPath,
     limits: &Limits,
@@ -253,10 +255,10 @@ pub(super) fn time_curve(
     Ok((used, trajectory))
 }
 
-/// Appends the samples of a run from rest to rest that begins at a nanosecond, but for the last; and tells when it ends.
+/// Appends the samples of a run from rest to rest that starts at a nanosecond, except the last one. Returns its end.
 ///
-/// Phases begin and end between nanoseconds. The sample of each is at the nearest one, where the motion is then, with the
-/// acceleration of the interval that begins there.
+/// Phases start and end between nanoseconds. The sample of each is at the nearest nanosecond, with the motion's state
+/// there and the acceleration of the interval that starts there.
 pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f64, trajectory: &mut Trajectory) -> u64 {
     let near = nanoseconds((period / 2.0).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL));
     let mut since = 0.0;

@@ -13,8 +13,8 @@ use std::ops::Range;
 /// Parts of a straight stretch at the most.
 const MOST_PARTS: f64 = 1024.0;
 
-/// A straight stretch that is passed is given no phase that is shorter than this share of the least time it takes: what it
-/// would gain is lost in what [`reserve`] keeps of the limits for it.
+/// Least duration of a phase of a straight stretch that is passed, as a fraction of its least time. A shorter phase
+/// would gain less than the limits that [`reserve`] withholds for it.
 const SHORTEST_SHARE: f64 = 1.0 / 32.0;
 
 /// Blends are cut into more spans, though nothing known of them asks for it, while that shortens the motion by this share of it.
@@ -36,7 +36,7 @@ pub(super) struct Line {
     to: Configuration,
     length: f64,
     direction: Configuration,
-    /// What the joints' limits allow along it.
+    /// The speed that the joints' limits allow along it.
     speed: f64,
     acceleration: f64,
     /// Infinite without a limit.
@@ -44,7 +44,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// With a limit on torques its acceleration is not known to keep that: see [`Line::safe`].
+    /// Creates a line. With a limit on torques, its acceleration is not known to keep that limit: see [`Line::safe`].
     fn new(from: Configuration, to: Configuration, limits: &Limits) -> Self {
         let offset = to - from;
         // Unlike the root of the sum of squares this does not vanish for the shortest of offsets.
@@ -58,13 +58,13 @@ impl Line {
         Self { from, to, length, direction, speed, acceleration, jerk }
     }
 
-    /// The same with a speed and an acceleration that the torques allow wherever it is passed.
+    /// Returns the line with a speed and an acceleration that the torques allow everywhere on it.
     fn safe(self, limits: &Limits) -> Self {
         let [speed, acceleration] = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.safe(self.from, self.to));
         Self { speed: self.speed.min(speed), acceleration: self.acceleration.min(acceleration), ..self }
     }
 
-    /// A straight stretch in parts, each with a top speed of its own: several if the tip's limit asks for it.
+    /// Splits a straight stretch into parts with separate top speeds; several if the tip's limit requires it.
     fn parts(from: Configuration, to: Configuration, limits: &Limits) -> Vec<Self> {
         let whole = Self::new(from, to, limits);
         let own = limits.speed_along(whole.direction);
@@ -82,12 +82,12 @@ impl Line {
         (0..count as u32).map(|i| Self::new(end(f64::from(i)), end(f64::from(i) + 1.0), limits)).collect()
     }
 
-    /// No phase in which it is passed is shorter, seconds.
+    /// Returns the least duration of a phase on it, seconds.
     fn shortest(&self) -> f64 {
         (self.length / self.speed * SHORTEST_SHARE).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL)
     }
 
-    /// The same where it is not passed from rest to rest, so that its phases end between two nanoseconds.
+    /// Adapts it to a motion that does not start and end at rest, so that its phases end between two nanoseconds.
     fn passed(self) -> Self {
         let left = 1.0 - reserve(self.shortest());
         Self { speed: left * self.speed, acceleration: left * self.acceleration, ..self }
@@ -107,7 +107,7 @@ impl Line {
 }
 
 impl Track {
-    /// A straight stretch in as many tracks as its limits ask for.
+    /// Splits a straight stretch into as many tracks as its limits require.
     fn straight(from: Configuration, to: Configuration, limits: &Limits) -> Vec<Self> {
         if limits.torque.is_none() {
             return Line::parts(from, to, limits).into_iter().map(Track::Line).collect();
@@ -116,7 +116,7 @@ impl Track {
         vec![corner.unwrap_or_else(|| Track::Line(Line::new(from, to, limits).safe(limits)))]
     }
 
-    /// Position, velocity and acceleration of the joints.
+    /// Returns position, velocity and acceleration of the joints.
     pub(super) fn at(&self, state: State) -> [Configuration; 3] {
         match self {
             Track::Line(line) => line.at(state),
@@ -124,12 +124,12 @@ impl Track {
         }
     }
 
-    /// Whether it goes about a waypoint.
+    /// Returns true if it is the blend at a waypoint.
     pub(super) fn is_blend(&self) -> bool {
         matches!(self, Track::Corner(corner) if !corner.is_straight())
     }
 
-    /// The longest interval between samples within a phase.
+    /// Returns the longest interval between samples within a phase.
     pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
         match self {
             Track::Line(_) => f64::INFINITY,
@@ -141,10 +141,12 @@ impl Track {
 /// A track and the phases in which it is passed.
 pub(super) type TimedTrack = (Track, Vec<Phase>);
 
-/// The timed tracks along a path, from rest to rest each, in order, and the blends in use: waypoints whose blend is of no use are
-/// left out of them, and their corners are stopped at. With a limit on a jerk no blend is of use: where a parabola that is passed at speed
-/// begins, the acceleration jumps. Each waypoint's blend is passed at a share of the speed that the limits allow.
-/// Between acceleration and deceleration on a straight piece the arm coasts for some seconds at least.
+/// Returns the timed tracks along a path, each from rest to rest, in order, and the blends in use. Useless blends are
+/// removed, and the motion stops at their corners.
+///
+/// With a limit on a jerk, all blends are useless, because the acceleration jumps where a parabola starts. Each
+/// waypoint's blend is passed at a share of the speed that the limits allow. On straight pieces the arm coasts for at
+/// least `coast` seconds between acceleration and deceleration.
 pub(super) fn schedule(
     curve: &BlendedPath,
     limits: &Limits,
@@ -154,8 +156,8 @@ pub(super) fn schedule(
     scheduled(curve, limits, shares, coast, Spans::Enough)
 }
 
-/// How long a motion along a curve takes at most, seconds, by the speeds that few spans allow: curves that are much alike can be compared by
-/// it, for a small part of what [`schedule`] costs.
+/// Returns an upper bound on the duration along a curve, seconds, by the speeds that few spans allow. It compares
+/// similar curves at a fraction of the cost of [`schedule`].
 pub(super) fn rough_duration(curve: &BlendedPath, limits: &Limits) -> f64 {
     let (_, runs) = scheduled(curve, limits, &vec![1.0; curve.radii().len()], 0.0, Spans::Few);
     runs.iter().map(|run| duration(run)).sum()
@@ -164,7 +166,7 @@ pub(super) fn rough_duration(curve: &BlendedPath, limits: &Limits) -> f64 {
 /// Into how many spans blends are cut.
 #[derive(Clone, Copy, PartialEq)]
 enum Spans {
-    /// As they are to begin with.
+    /// The initial number of spans.
     Few,
     /// Until these are fine enough.
     Enough,
@@ -206,12 +208,12 @@ fn scheduled(
     (used, runs)
 }
 
-/// How long they take together, seconds.
+/// Returns their total duration, seconds.
 pub(super) fn duration(timed_tracks: &[TimedTrack]) -> f64 {
     timed_tracks.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
 }
 
-/// Appends the samples of the leg after a waypoint, from rest to rest, but for the last; and tells when it ends.
+/// Appends the samples of the leg after a waypoint, from rest to rest, except the last one. Returns its end.
 pub(super) fn stopping_at(
     curve: &BlendedPath,
     waypoint: usize,
@@ -224,7 +226,7 @@ pub(super) fn stopping_at(
     runs.iter().fold(begin, |begin, run| sample(run, begin, limits, period, trajectory))
 }
 
-/// The places of a run at the multiples of so many seconds, the beginning first, until it has ended.
+/// Returns the configurations of a run at multiples of a time step, from its beginning to its end.
 pub(super) fn places(run: &[TimedTrack], step: f64) -> Vec<Configuration> {
     let mut places = Vec::new();
     let mut since = 0.0;
@@ -241,7 +243,7 @@ pub(super) fn places(run: &[TimedTrack], step: f64) -> Vec<Configuration> {
     places
 }
 
-/// From rest to rest on each leg from one waypoint to another.
+/// Returns the tracks from rest to rest on each leg from one waypoint to another.
 fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans: Spans) -> Vec<Vec<TimedTrack>> {
     let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
     let timed_tracks = |leg: &[Configuration]| {
@@ -272,7 +274,8 @@ enum Span {
 }
 
 impl Span {
-    /// The greatest squared speed at the beginning from which one of at most `most` at the end can be reached.
+    /// Returns the greatest squared speed at the beginning from which a squared speed of at most `most` at the end is
+    /// reachable.
     fn back(&self, most: f64) -> f64 {
         match self {
             Span::Line(line) => (most + 2.0 * line.acceleration * line.length).min(line.speed * line.speed),
@@ -280,7 +283,7 @@ impl Span {
         }
     }
 
-    /// The greatest squared speed at the end, at most `most`, that can be reached from one at the beginning.
+    /// Returns the greatest squared speed at the end, at most `most`, that is reachable from one at the beginning.
     fn onward(&self, from: f64, most: f64) -> f64 {
         match self {
             Span::Line(line) => (from + 2.0 * line.acceleration * line.length).min(line.speed * line.speed).min(most),
@@ -289,7 +292,8 @@ impl Span {
     }
 }
 
-/// From rest at the beginning of the first track to rest at the end of the last. None if a phase would be too short to be sampled.
+/// Drives from rest at the beginning of the first track to rest at the end of the last one. Returns `None` if a phase
+/// would be too short to be sampled.
 fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64, spans: Spans) -> Option<Vec<TimedTrack>> {
     let passed = |track| match track {
         Track::Line(line) => Track::Line(line.passed()),
@@ -325,7 +329,7 @@ fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64, spans: Spans) -> Opti
     Some(best.0)
 }
 
-/// The same tracks with several times the spans on their blends; none if there is no blend that can be cut.
+/// Returns the tracks with several times the spans on their blends, or `None` if no blend can be cut.
 fn much_finer(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Track>> {
     let mut cut = false;
     let finer = |(track, squared): (&Track, &Vec<f64>)| match track {
@@ -342,7 +346,7 @@ fn much_finer(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Track>> {
     cut.then_some(tracks)
 }
 
-/// The phases in which tracks are passed, given the squared speeds on them; none if one would be too short to be sampled.
+/// Returns the phases of tracks, given the squared speeds on them, or `None` if one would be too short to be sampled.
 fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>], coast: f64) -> Option<Vec<TimedTrack>> {
     let timed_track = |(track, squared): (&Track, &Vec<f64>)| {
         let phases = match track {
@@ -358,12 +362,12 @@ fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>], coast: f64) -> Option<Ve
     tracks.iter().zip(squared).map(timed_track).collect()
 }
 
-/// The squared speeds of a motion from rest to rest along some tracks: of each track at its ends, of a corner at the ends of
-/// its spans.
+/// Returns the squared speeds of a motion from rest to rest along tracks: at the ends of each track, and for corners at
+/// the ends of the spans.
 ///
-/// Forward-backward integration in the phase plane: from the end backwards the greatest squared speed from which the rest
-/// of the way can still be driven, then from the beginning forwards the greatest that can be reached within that. On
-/// lines in closed form, on blends span by span.
+/// Forward-backward integration in the phase plane: backwards from the end, the greatest squared speed from which the
+/// rest can still be driven; then forwards from the beginning, the greatest one reachable within that. On lines in
+/// closed form, on blends span by span.
 fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     let spans: Vec<Vec<Span>> = tracks
         .iter()
@@ -392,7 +396,8 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     speeds
 }
 
-/// From one waypoint to another, with a blend at each between them. None if one cannot be sampled.
+/// Returns the tracks from one waypoint to another, with a blend at each between them. Returns `None` if one cannot be
+/// sampled.
 fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares: &[f64]) -> Option<Vec<Track>> {
     let q = curve.path().waypoints();
     let mut from = q[waypoints.start];

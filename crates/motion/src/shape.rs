@@ -1,26 +1,26 @@
-//! Paths whose shape makes motions fast.
+//! Path shapes for fast motions.
 //!
-//! The shortest path touches what it goes around, so that its corners can hardly be cut. Moved off it by a little, they are passed several
-//! times as fast, for a way that is longer by little more than the square of that.
+//! The shortest path touches the obstacles that it goes around, so its corners can hardly be cut. Corners moved away
+//! slightly are passed several times as fast, on a path that is longer only by about the square of that distance.
 
 use super::sample::Timed;
 use cplan_core::check::{CertifiedPath, StraightMotions, certify};
 use cplan_core::model::Scene;
 use cplan_core::space::{Configuration, Path};
 
-/// Distances by which all corners are moved off what they go around at first, as shares of the greatest.
+/// Initial distances by which all corners are moved off the obstacles, as fractions of the greatest.
 const LIFTS: [f64; 8] = [1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0, 1.0];
 
-/// Shares of the greatest distance by which single corners are moved at first, and at last.
+/// First and last distance by which single corners are moved, as fractions of the greatest.
 const STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 512.0];
 
 /// Paths that are tried with single corners moved.
 const TRIES: usize = 240;
 
-/// How often the lift of a corner is halved whose legs are not free before it stays where it is.
+/// Number of times that the lift of a corner with blocked legs is halved before the corner stays in place.
 const HALVINGS: u32 = 6;
 
-/// What paths are tried in.
+/// The settings of the shape search.
 pub(super) struct Shaping<'a, F> {
     scene: &'a Scene,
     motions: StraightMotions<'a>,
@@ -33,7 +33,8 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
         Self { scene, motions: StraightMotions::new(scene, scene.workspace().clearance), drive }
     }
 
-    /// What is faster than `best`: of a path, and of those whose corners lie off what it goes around by up to `most`.
+    /// Looks for a faster motion than `best`, on a path and on those whose corners are moved off the obstacles by up to
+    /// `most`.
     pub fn lifted(&self, path: &CertifiedPath, most: f64, best: &mut Timed) {
         self.try_out(path, best);
         if path.path().waypoints().len() < 3 {
@@ -44,7 +45,8 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
         }
     }
 
-    /// What is faster than `best` with single corners of its path moved or left out: a pattern search, from `most` down.
+    /// Looks for a faster motion than `best` with single corners moved or removed: a pattern search, starting with
+    /// `most`.
     pub fn refined(&self, most: f64, best: &mut Timed) {
         let [mut step, last] = STEPS.map(|share| share * most);
         let mut left = TRIES;
@@ -74,7 +76,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
         }
     }
 
-    /// A path with one of its corners moved, or left out, if that is free.
+    /// Returns a path with one of its corners moved or removed, if it is free.
     fn moved(&self, q: &[Configuration], w: usize, by: Option<Configuration>) -> Option<CertifiedPath> {
         let mut moved = q.to_vec();
         let is_free = match by {
@@ -100,7 +102,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
         is_faster
     }
 
-    /// A path with its corners moved off what they go around, each as far as its legs are free.
+    /// Returns a path with its corners moved off the obstacles, each as far as its legs are free.
     fn off(&self, path: &CertifiedPath, by: f64) -> Option<CertifiedPath> {
         let q = path.path().waypoints();
         let mut lifts: Vec<f64> = (0..q.len()).map(|w| if w == 0 || w + 1 == q.len() { 0.0 } else { by }).collect();
@@ -120,7 +122,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<Timed>> Shaping<'a, F> {
     }
 }
 
-/// The unit direction from an inner corner away from what the path goes around there; zero where it does not turn.
+/// Returns the unit direction away from the obstacle at an inner corner; zero if the path does not turn there.
 fn outward(q: &[Configuration], w: usize) -> Configuration {
     let [before, after] = [q[w] - q[w - 1], q[w + 1] - q[w]].map(|leg| leg / leg[0].hypot(leg[1]));
     (before - after).try_normalize(1e-6).unwrap_or_else(Configuration::zeros)

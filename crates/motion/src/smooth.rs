@@ -1,8 +1,9 @@
 //! Motions with limits on jerks, through the corners of a path.
 //!
-//! A path with blends is timed without those limits, and the motion is smoothed (`spline`). A smoothed motion leaves the path at its corners,
-//! towards their inside, where the obstacle is that the path goes around: where what is to be played is not shown to be free, the corner is
-//! passed more slowly. At last the motion is driven along its own curve in the least time (`retime`).
+//! A path with blends is timed without those limits, and the motion is smoothed (`spline`). A smoothed motion leaves
+//! the path at its corners towards the inside, where the obstacle is. Where the resulting motion is not shown to be
+//! free, the corner is passed more slowly. Finally the motion is driven along its own curve in the least time
+//! (`retime`).
 
 use super::clock::{nanoseconds, seconds};
 use super::limits::Limits;
@@ -23,13 +24,13 @@ const SLOWEST: f64 = 1.0 / 128.0;
 /// Times that corners are slowed down before all of them are stopped at.
 const ROUNDS: usize = 24;
 
-/// What is tried of the accelerations: the gentler, the shorter is the time in which the jerk reverses them.
+/// Factor for gentler accelerations. The gentler they are, the shorter the time in which the jerk reverses them.
 const GENTLER: f64 = 0.8;
 
 /// No gentler share of them is tried.
 const GENTLEST: f64 = 1e-3;
 
-/// Where it is looked how far a piece of a motion is off the path, ...
+/// Positions at which the distance of a piece of a motion from the path is measured.
 const LOOKS: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// ... by what share it may be farther off in between, ...
@@ -41,12 +42,12 @@ const AHEAD: usize = 8;
 /// A path that is timed within limits.
 struct Smoothing<'a> {
     limits: Limits<'a>,
-    /// The same without those on jerks, and perhaps with gentler accelerations.
+    /// The same limits without those on jerks, and possibly with gentler accelerations.
     base: Limits<'a>,
     /// Seconds between acceleration and deceleration on a straight piece.
     coast: f64,
     period: f64,
-    /// Whether motions are driven along their own curves in the least time.
+    /// True if motions are driven along their own curves in the least time.
     retimes: bool,
 }
 
@@ -57,8 +58,9 @@ struct Smooth {
     passed: Vec<(usize, [u64; 2])>,
 }
 
-/// The fastest motion about the corners of a path, none of which it leaves by more than `greatest`: shown to be free, and shorter than `below`
-/// seconds; none if none was found. If it is to be driven along its own curve in the least time, that is done at last.
+/// Returns the fastest motion around the corners of a path with a deviation of at most `greatest`. It is shown to be
+/// free and shorter than `below` seconds; `None` if none was found. On request, finally drives it along its own curve
+/// in the least time.
 pub(super) fn smoothed(
     scene: &Scene,
     path: &CertifiedPath,
@@ -116,7 +118,8 @@ pub(super) fn smoothed(
     plain
 }
 
-/// How far the motion reaches about each waypoint: as the radius of a parabola that leaves the path as far, and passes the corner as far off.
+/// Returns the extent of the motion at each waypoint, as the radius of a parabola that leaves the path at the same
+/// distance and passes the corner at the same distance.
 fn reaches(curve: &BlendedPath, smooth: &Smooth, pieces: &[Piece]) -> Vec<f64> {
     let q = curve.path().waypoints();
     let (mut radii, mut nearest) = (vec![0.0_f64; q.len()], vec![f64::INFINITY; q.len()]);
@@ -142,7 +145,7 @@ fn reaches(curve: &BlendedPath, smooth: &Smooth, pieces: &[Piece]) -> Vec<f64> {
     radii
 }
 
-/// Distance of a configuration from a straight piece.
+/// Returns the distance of a configuration from a straight piece.
 fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
     let (along, off) = (to - from, at - from);
     let share = (along.dot(&off) / along.norm_squared()).clamp(0.0, 1.0);
@@ -150,8 +153,8 @@ fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
 }
 
 impl<'a> Smoothing<'a> {
-    /// With the accelerations that make motions along this curve fastest, and with a pause between those of opposite signs if that does: the
-    /// jerk has to reverse them at once without.
+    /// Chooses the accelerations that make motions along this curve fastest, and a pause between accelerations of
+    /// opposite signs if that helps. Without the pause the jerk must reverse them at once.
     fn new(curve: &BlendedPath, limits: Limits<'a>, period: f64) -> Option<Self> {
         let with = |share: f64, coasts: bool| {
             let acceleration = limits.acceleration.map(|a| a * share);
@@ -176,14 +179,15 @@ impl<'a> Smoothing<'a> {
         best.map(|(_, smoothing)| smoothing)
     }
 
-    /// Along a curve whose corners are passed at shares of their speed, from rest to rest; not looked at for obstacles.
+    /// Returns the motion along a curve whose corners are passed at shares of their speed, from rest to rest. Does not
+    /// check obstacles.
     fn along(&self, curve: &BlendedPath, shares: &[f64]) -> Option<Smooth> {
         let (used, runs) = schedule(curve, &self.base, shares, self.coast);
         let mut smooth = Smooth { trajectory: Trajectory::default(), passed: Vec::new() };
         let stops: Vec<usize> = (0..shares.len()).filter(|&w| used.radii()[w] == 0.0).collect();
         let mut begin = 0;
         for (ends, run) in stops.windows(2).zip(&runs) {
-            // Torques change along a straight leg, too, and what is safe all along it is slow.
+            // Torques change along a straight leg, too, and a safe constant limit is slow.
             begin = if ends[1] - ends[0] == 1 && self.limits.torque.is_none() {
                 stopping_at(&used, ends[0], &self.limits, begin, self.period, &mut smooth.trajectory)
             } else {
@@ -221,7 +225,7 @@ impl<'a> Smoothing<'a> {
 }
 
 impl Smooth {
-    /// The corner that is being passed on a piece, or is the nearest to it in time.
+    /// Returns the corner that is passed on a piece, or the nearest one in time.
     fn corner(&self, piece: &Piece) -> Option<usize> {
         let middle = piece.time(0.5);
         let away = |(_, [from, to]): &&(usize, [u64; 2])| (seconds(*from) - middle).max(middle - seconds(*to)).max(0.0);

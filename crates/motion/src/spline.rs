@@ -1,13 +1,17 @@
-//! Motions whose acceleration is continuous: uniform cubic B-splines.
+//! Motions with continuous acceleration: uniform cubic B-splines.
 //!
-//! Let `x_j` be the places of a motion at the multiples of a step `h`, and `y_j` the mean of `n` of them that follow each other. The
-//! uniform cubic B-spline with the control points `y_j` is that motion, smoothed: its derivatives are means of those of the motion, with
-//! weights that are not negative and add up to 1, so that it keeps every limit on speed and acceleration that the motion keeps, and it stays
-//! in the convex hull of what the motion passes within `(n + 3) h`. Its jerk is constant over each step, `(a_j - a_(j - n)) / (n h)` with `a`
-//! the second differences of `x` by `h^2`: a window of `n h` seconds in which the acceleration changes by no more than the jerk allows
-//! is long enough. (Box filters in series are known to make such trajectories: Biagiotti, Melchiorri, *FIR filters for online trajectory
-//! planning with time- and frequency-domain specifications*, 2012.) The motion takes `(n + 1) h` longer, starts and ends at rest with no
-//! acceleration, and moves a straight piece along a straight line.
+//! Let `x_j` be the configurations of a motion at the multiples of a step `h`, and `y_j` the mean of `n` consecutive
+//! ones. The uniform cubic B-spline with the control points `y_j` is the smoothed motion. Its derivatives are weighted
+//! means of those of the motion, with non-negative weights that add up to 1. So it keeps every limit on speed and
+//! acceleration that the motion keeps, and stays in the convex hull of the motion within `(n + 3) h`.
+//!
+//! Its jerk is constant over each step, `(a_j - a_(j - n)) / (n h)` with the second differences `a` of `x` divided by
+//! `h^2`. So a window of `n h` seconds is long enough if the acceleration changes within it by at most what the jerk
+//! allows. (Box filters in series are a known method for such trajectories: Biagiotti, Melchiorri, *FIR filters for
+//! online trajectory planning with time- and frequency-domain specifications*, 2012.)
+//!
+//! The motion takes `(n + 1) h` longer, starts and ends at rest with zero acceleration, and moves along straight lines
+//! on straight pieces.
 
 use super::clock::{nanoseconds, seconds};
 use super::limits::Limits;
@@ -26,7 +30,7 @@ const SHORTEST_STEP: f64 = 1.0 / 8.0;
 /// Steps of a motion at the most.
 const MOST_STEPS: f64 = 1e5;
 
-/// Intervals in which a motion is driven anew: as many as it has steps, or several times as many if those are fewer, ...
+/// Least number of intervals of a retimed motion. It has one per step of the motion, or a multiple if that is fewer.
 const FEWEST: usize = 800;
 
 /// ... and no more than these: what ever longer motions gain is ever less.
@@ -35,13 +39,14 @@ const MOST: usize = 20_000;
 /// It begins with this share of the speed, which keeps all limits.
 const BEGIN: f64 = 0.97;
 
-/// Steps of a motion that is driven anew, if they are not to be shorter or longer for other reasons: it takes two of them longer.
+/// Number of steps of a retimed motion, unless other reasons require shorter or longer ones. It takes two steps longer.
 const NEW_STEPS: f64 = 800.0;
 
-/// Share of the limits on torques and on the tip's speed that is used: in between the places where they are asked for they may be exceeded.
+/// Share of the limits on torques and on the tip's speed that is used, because they may be exceeded between the
+/// positions at which they are imposed.
 const USED: f64 = 0.995;
 
-/// Knots at which the jerk changes by no more than this share of the greatest are left out of the samples.
+/// Knots at which the jerk changes by at most this fraction of the greatest are not sampled.
 const SAME: f64 = 1e-7;
 
 /// A motion from rest to rest.
@@ -56,7 +61,8 @@ pub(super) struct Spline {
 }
 
 impl Spline {
-    /// A run from rest to rest, smoothed as far as the limits on jerks ask for. `acceleration` is what the run keeps.
+    /// Smooths a run from rest to rest as far as the limits on jerks require. `acceleration` has the limits that the
+    /// run keeps.
     pub fn smoothed(run: &[TimedTrack], acceleration: [f64; 2], limits: &Limits, period: f64) -> Self {
         let longest = |k: usize| limits.jerk[k].map_or(0.0, |jerk| 2.0 * acceleration[k] / jerk);
         let fine = (longest(0).max(longest(1)) / STEPS).max(SHORTEST_STEP * period).max(SHORTEST_INTERVAL);
@@ -75,8 +81,8 @@ impl Spline {
         Self { step, window: window as u64, control }
     }
 
-    /// The same way in the least time, and how much of that has passed so many seconds after the slower motion began; none if it is not
-    /// known to be any faster.
+    /// Returns the same curve in the least time, and a function from seconds in the slower motion to those in the new
+    /// one. Returns `None` if it is not known to be faster.
     pub fn retimed(&self, limits: &Limits, period: f64) -> Option<(Self, impl Fn(f64) -> u64 + use<>)> {
         let pieces = self.last() + 1;
         let parts = ((FEWEST + pieces / 2) / pieces).max(1);
@@ -105,7 +111,8 @@ impl Spline {
         })
     }
 
-    /// How many times as long it has to take to keep the limits on velocities, accelerations and jerks; 1 if it keeps them.
+    /// Returns the factor by which it must be slowed down to keep the limits on velocities, accelerations and jerks; 1
+    /// if it keeps them.
     fn excess(&self, limits: &Limits) -> f64 {
         let h = seconds(self.step);
         let mut excess = 1.0_f64;
@@ -122,7 +129,7 @@ impl Spline {
         excess
     }
 
-    /// How long it takes, nanoseconds.
+    /// Returns its duration, nanoseconds.
     pub fn duration(&self) -> u64 {
         self.step * (self.control.len() - 3) as u64
     }
@@ -132,13 +139,13 @@ impl Spline {
         self.step * (self.window + 1) / 2
     }
 
-    /// Position, velocity, acceleration and jerk in a piece between knots, at a share of it.
+    /// Returns position, velocity, acceleration and jerk in a piece between knots, at a fraction of it.
     fn within(&self, piece: usize, u: f64) -> [Configuration; 4] {
         let h = seconds(self.step);
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);
         let (ab, bc, cd, w) = (b - a, c - b, d - c, 1.0 - u);
         let middle = 1.0 + 3.0 * u * (1.0 + u * w);
-        // Rounding must not carry it beyond what it is a mean of, which may lie on a joint limit.
+        // Rounding must not move it out of the hull of its control points, which may lie on a joint limit.
         let (least, greatest) = (a.inf(&b).inf(&c).inf(&d), a.sup(&b).sup(&c).sup(&d));
         let position =
             (b + (bc * middle + (bc + cd) * (u * u * u) - ab * (w * w * w)) / 6.0).sup(&least).inf(&greatest);
@@ -147,12 +154,12 @@ impl Spline {
         [position, velocity, acceleration, (cd - bc * 2.0 + ab) / (h * h * h)]
     }
 
-    /// The last piece, as an index.
+    /// Returns the index of the last piece.
     fn last(&self) -> usize {
         self.control.len() - 4
     }
 
-    /// Position, velocity and acceleration so many nanoseconds after it began.
+    /// Returns position, velocity and acceleration this many nanoseconds after the beginning.
     fn at(&self, time: u64) -> [Configuration; 3] {
         let piece = ((time / self.step) as usize).min(self.last());
         let [position, velocity, acceleration, _] =
@@ -160,7 +167,7 @@ impl Spline {
         [position, velocity, acceleration]
     }
 
-    /// The same, and the jerk, so many seconds after.
+    /// Returns these and the jerk, this many seconds after the beginning.
     fn at_seconds(&self, time: f64) -> [Configuration; 4] {
         let steps = time / seconds(self.step);
         let piece = (steps as usize).min(self.last());
@@ -187,8 +194,8 @@ impl Spline {
         knots
     }
 
-    /// Appends its samples, but for the last, to a motion that ends when it begins: wherever its jerk changes, and at the multiples of the
-    /// period that are not near those.
+    /// Appends its samples, except the last one, to a motion that ends at its beginning: where its jerk changes, and at
+    /// the multiples of the period that are not close to those.
     pub fn sample(&self, begin: u64, period: f64, trajectory: &mut Trajectory) {
         let near = nanoseconds((period / 2.0).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL));
         let mut knots = self.knots();
@@ -205,7 +212,7 @@ impl Spline {
     }
 }
 
-/// What the limits ask for where a motion has such derivatives, if it is driven anew.
+/// Returns the conditions by the limits at a point of a motion with these derivatives, for retiming.
 fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &Limits) -> Vec<Condition> {
     let mut asked = Vec::new();
     let mut ask = |factors: [f64; 3], has_root: bool| {
@@ -240,7 +247,7 @@ fn asked([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &
     asked
 }
 
-/// The least number of steps by which places have to be averaged for the jerks to keep their limits.
+/// Returns the least number of steps to average so that the jerks keep their limits.
 fn window(places: &[Configuration], step: f64, jerk: [Option<f64>; 2]) -> usize {
     let place = |j: isize| places[j.clamp(0, places.len() as isize - 1) as usize];
     let seconds: Vec<Configuration> =
@@ -270,7 +277,7 @@ mod tests {
         Limits { velocity: [velocity; 2], acceleration: [acceleration; 2], jerk, tip: None, torque: None }
     }
 
-    /// A path with a blend at each corner, timed without limits on jerks, and smoothed.
+    /// Returns a path with a blend at each corner, timed without limits on jerks, and smoothed.
     fn smoothed(corners: &[[f64; 2]], radius: f64, limits: &Limits) -> (f64, Spline) {
         let path = Path::new(corners.iter().map(|&q| q.into()).collect());
         let count = path.waypoints().len();
@@ -281,7 +288,8 @@ mod tests {
         (duration(&runs[0]), Spline::smoothed(&runs[0], limits.acceleration, limits, 0.01))
     }
 
-    /// A motion from rest to rest along one joint with a window long enough for its reversal: in closed form a window and a step longer.
+    /// A motion from rest to rest along one joint, with a window long enough for its reversal, takes a window and a
+    /// step longer.
     #[test]
     fn takes_a_window_and_a_step_longer() {
         let limits = limits(2.0, 8.0, [Some(200.0), None]);
@@ -294,7 +302,8 @@ mod tests {
         assert!(window <= 2.0 * 8.0 / 200.0 + 1e-9);
     }
 
-    /// A long way at top speed between whole ramps, `L / v + v / a + a / j` in closed form, out of a motion that is slower by a window.
+    /// A long distance at top speed between full ramps takes `L / v + v / a + a / j` in closed form, although the
+    /// initial motion is slower by a window.
     #[test]
     fn the_least_time_along_a_line() {
         let limits = limits(1.0, 4.0, [Some(20.0), None]);
@@ -307,7 +316,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(64))]
 
-        /// By differences of its own samples: limits, rest at both ends, and that joints which stand still do.
+        /// Checks by differences of its own samples: limits, rest at both ends, and joints that must not move.
         #[test]
         fn keeps_limits_from_rest_to_rest(
             turns in prop::collection::vec((0.4..1.5_f64, -2.5..2.5_f64), 2..6), velocity in 0.3..3.0_f64, acceleration in 1.0..20.0_f64,

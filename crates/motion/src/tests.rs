@@ -17,7 +17,7 @@ fn path(waypoints: &[[f64; 2]]) -> Path {
     Path::new(waypoints.iter().map(|&[a, b]| Configuration::new(a, b)).collect())
 }
 
-/// The motion along the path without blends: it stops at every corner.
+/// Returns the motion along the path without blends, which stops at every corner.
 fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
     time_curve(&path.clone().into(), &Limits::from(joints), period).map(|(_, trajectory)| trajectory)
 }
@@ -26,14 +26,14 @@ fn as_vector(row: [f64; 2]) -> Configuration {
     Configuration::new(row[0], row[1])
 }
 
-/// Distance of `p` from the segment, by projection.
+/// Returns the distance of `p` from the segment, by projection.
 fn distance_to_segment(p: Configuration, a: Configuration, b: Configuration) -> f64 {
     let along = b - a;
     let part = ((p - a).dot(&along) / along.dot(&along)).clamp(0.0, 1.0);
     (p - (a + along * part)).norm()
 }
 
-/// Everything that holds of every trajectory. `tolerance` is for positions and velocities, relative to their size.
+/// Asserts the properties of every trajectory. `tolerance` is for positions and velocities, relative to their size.
 fn check(path: &Path, joints: &[Joint; 2], trajectory: &Trajectory, tolerance: f64) {
     let n = trajectory.time.len();
     assert!(n >= 1 && [trajectory.position.len(), trajectory.velocity.len(), trajectory.acceleration.len()] == [n; 3]);
@@ -53,8 +53,8 @@ fn check(path: &Path, joints: &[Joint; 2], trajectory: &Trajectory, tolerance: f
         velocity += acceleration * dt;
         for i in 0..2 {
             let top = joints[i].velocity.min(joints[i].acceleration * trajectory.duration());
-            // What the rounding of the times does: each corner and each end of a ramp is off by half a unit in the last
-            // place of the duration, and drifts from then on.
+            // Rounding of the times: each corner and each end of a ramp is off by half a unit in the last place of the
+            // duration, and positions drift from there.
             let drift = joints[i].acceleration * f64::EPSILON * trajectory.duration() * path.waypoints().len() as f64;
             let far = (position[i] - trajectory.position[k + 1][i]).abs();
             assert!(far <= tolerance * size + drift * trajectory.duration(), "position {i} at {k}: {far}");
@@ -84,7 +84,7 @@ fn check(path: &Path, joints: &[Joint; 2], trajectory: &Trajectory, tolerance: f
     assert_eq!(piece, segments.len(), "a corner without a sample at rest");
 }
 
-/// The closed form, piece by piece, with the slower joint in charge of each limit.
+/// Returns the duration in closed form, piece by piece, with the slower joint for each limit.
 fn shortest_duration(path: &Path, joints: &[Joint; 2]) -> f64 {
     let limit = |length: f64, d: Configuration, of: fn(&Joint) -> f64| {
         (0..2).filter(|&i| d[i] != 0.0).map(|i| length * of(&joints[i]) / d[i].abs()).fold(f64::INFINITY, f64::min)
@@ -147,7 +147,7 @@ fn useless_periods_and_endless_motions_are_errors() {
     assert!(matches!(time_path(&path, &stuck, 0.01), Err(TimingError::TooLong(_))));
 }
 
-/// Found by the random tests below: counted from the segment's beginning, the deceleration drowned in rounding.
+/// Regression found by the random tests: counted from the segment's beginning, the deceleration was lost in rounding.
 #[test]
 fn short_ramps_after_a_long_cruise_keep_the_limits() {
     let (path, joints) = (path(&[[0.0, 0.0], [100.0, 30.0]]), [joint(true, 0.01, 100.0), joint(true, 1.0, 100.0)]);
@@ -184,7 +184,7 @@ proptest! {
         prop_assert!(trajectory.time.windows(2).all(|w| w[1] - w[0] <= period + 2e-4));
     }
 
-    /// Segments from far below to far above what an arm does, along and across the axes.
+    /// Segments far shorter and far longer than those of arms, along and across the axes.
     #[test]
     fn tiny_and_huge_segments(
         steps in prop::collection::vec((-15.0..3.0f64, 0..8u32, any::<bool>()), 1..6),

@@ -32,20 +32,20 @@ pub(super) struct Part {
 }
 
 impl TipSpeed<'_> {
-    /// By how much the magnitude of the tip's derivative may be overestimated on a part, metres by the parameter.
+    /// Returns the greatest overestimate of the tip's derivative on a part, metres per unit of the parameter.
     pub(super) fn slack(&self, part: &Part) -> f64 {
         self.change(part) * part.half
     }
 
-    /// A speed of the parameter at which the tip keeps its limit all over the part. The tip's way by the parameter has the
-    /// derivative `J q'`, which changes no faster than [`TipSpeed::change`].
+    /// Returns a speed of the parameter at which the tip keeps its limit on the whole part. The tip's derivative by the
+    /// parameter is `J q'`, and changes at most at the rate [`TipSpeed::change`].
     pub(super) fn allowed(&self, part: &Part) -> f64 {
         let [first, second] = self.arm.jacobian(1, self.arm.tip, part.middle);
         let way = (first * part.slope[0] + second * part.slope[1]).norm();
         self.speed / (way + self.slack(part))
     }
 
-    /// By how many times the tip may be faster on pieces of a motion than its limit allows, if it may be at all.
+    /// Returns the factor by which the tip may exceed its limit on pieces of a motion, if it may at all.
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
         let excess = pieces.iter().map(|piece| self.excess_on(piece)).fold(1.0, f64::max);
         (excess > 1.0).then_some(excess)
@@ -60,7 +60,7 @@ impl TipSpeed<'_> {
                 bend: acceleration,
                 half: duration / f64::from(2 * count),
             };
-            // The acceleration is linear, so it is greatest at an end, whatever the direction.
+            // The acceleration is linear, so it is greatest at an end, in any direction.
             let ends = [0.0, 1.0].map(|end| piece.derivative(Derivative::Acceleration, end));
             (0..count).flat_map(move |i| ends.map(|end| part((f64::from(i) + 0.5) / f64::from(count), end)))
         };
@@ -69,7 +69,7 @@ impl TipSpeed<'_> {
         parts(count).map(|part| 1.0 / self.allowed(&part)).fold(0.0, f64::max)
     }
 
-    /// Greatest magnitude of the second derivative of the tip's place by the parameter.
+    /// Returns the greatest magnitude of the second derivative of the tip's position by the parameter.
     fn change(&self, part: &Part) -> f64 {
         use JointType::{Prismatic, Revolute};
         let arm = self.arm;

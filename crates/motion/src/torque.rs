@@ -9,13 +9,14 @@ use cplan_core::space::{Configuration, Path, Piece};
 /// Share of an effort by which the torque may be overestimated on a part of a curve: curves are cut so finely.
 const STEP: f64 = 0.01;
 
-/// Of two joints, both ways: three coefficients, each with the inertial factor off to either side.
+/// Rows for two joints in both directions: three coefficients, each with the error of the inertial factor to either
+/// side.
 const ROWS: usize = 24;
 
 /// Parts of a straight stretch for which one acceleration and one speed are to be safe.
 const SAFE_PARTS: u32 = 64;
 
-/// Of the effort that is left on such a part, the share for the acceleration; the rest is for the speed.
+/// On such a part, the share of the remaining effort for acceleration; the rest is for speed.
 const FOR_ACCELERATION: f64 = 0.5;
 
 /// Share of an effort that counts as some that is left.
@@ -24,7 +25,7 @@ const NOTHING_LEFT: f64 = 1e-12;
 /// Share of an effort by which a torque may be greater between two looks at a motion.
 const FINE: f64 = 2e-4;
 
-/// The same while a motion is looked for.
+/// The same tolerance during the search for a motion.
 const ROUGH: f64 = 2e-3;
 
 /// Parts of a leg on which it is looked whether the arm can be held, at the most.
@@ -35,14 +36,14 @@ const MOST_PARTS: f64 = 1e5;
 pub struct TorqueLimit<'a> {
     /// The arm whose joints they are.
     pub arm: &'a Arm,
-    /// What it and what it carries weighs, and the efforts.
+    /// Masses of the arm with its load, and the efforts.
     pub dynamics: Dynamics,
     /// Share of what gravity leaves of the efforts that is used.
     pub share: f64,
 }
 
-/// Torques along a part of a curve that is passed with the squared speed `z` of its parameter: `inertial z' / 2 + bent z + holding`, joint by
-/// joint, where each factor is linear between its values at both ends, but for so much.
+/// Torques along a part of a curve with the squared speed `z` of its parameter: `inertial z' / 2 + bent z + holding`
+/// for each joint, where each factor is linear between its values at both ends, up to an error.
 struct OnPart {
     ends: [Factors; 2],
     off: Curvature,
@@ -56,7 +57,7 @@ struct Factors {
 }
 
 impl<'a> TorqueLimit<'a> {
-    /// Of an arm with what it carries, if motions have to keep within its efforts.
+    /// Returns the torques of an arm with its load, if motions must keep within its efforts.
     #[must_use]
     pub fn of(scene: &'a Scene) -> Option<Self> {
         Some(Self { arm: scene.arm(), dynamics: scene.limiting_dynamics()?, share: 1.0 })
@@ -89,10 +90,11 @@ impl<'a> TorqueLimit<'a> {
         }
     }
 
-    /// What the squared speeds `z0`, `z1` at both ends of a part have to keep, between which they are linear: rows `[a, b]` with
-    /// `a z0 + b z1 <= 1`. So much of the efforts is used.
+    /// Returns the conditions on the squared speeds `z0`, `z1` at both ends of a part, between which they are linear:
+    /// rows `[a, b]` with `a z0 + b z1 <= 1`. Uses the share `used` of the efforts.
     ///
-    /// With linear factors a torque is a quadratic polynomial along the part, which keeps its limit if its Bernstein coefficients do.
+    /// With linear factors a torque is a quadratic polynomial along the part. It keeps its limit if its Bernstein
+    /// coefficients do.
     pub(super) fn rows(&self, part: &Part, used: f64) -> Vec<[f64; 2]> {
         let OnPart { ends: [first, last], off } = self.on(part);
         let mut rows = Vec::with_capacity(ROWS);
@@ -121,7 +123,7 @@ impl<'a> TorqueLimit<'a> {
         rows
     }
 
-    /// Whether a part is so long that the torques on it are known but coarsely.
+    /// Returns true if a part is so long that its torques are known only coarsely.
     pub(super) fn is_coarse(&self, part: &Part, [z0, z1]: [f64; 2]) -> bool {
         let off = self.on(part).off;
         let rising = (z1 - z0).abs() / (4.0 * part.half);
@@ -129,7 +131,7 @@ impl<'a> TorqueLimit<'a> {
         (0..2).any(|k| unknown(k) > STEP * self.dynamics.effort[k])
     }
 
-    /// A speed and an acceleration that are safe together all along a straight stretch, along it.
+    /// Returns a speed and an acceleration along a straight stretch that are safe together everywhere on it.
     pub(super) fn safe(&self, from: Configuration, to: Configuration) -> [f64; 2] {
         let (offset, count) = (to - from, f64::from(SAFE_PARTS));
         let length = offset[0].hypot(offset[1]);
@@ -159,7 +161,8 @@ impl<'a> TorqueLimit<'a> {
         [0, 1].map(|k| share(k, 0).min(share(k, 1)))
     }
 
-    /// By how many times what moves the arm may be greater on pieces of a motion than gravity leaves of the efforts, if it may be at all.
+    /// Returns the factor by which accelerating torques on pieces of a motion may exceed the efforts left by gravity,
+    /// if they may at all.
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
         let effort = self.dynamics.effort;
         let mut excess = 1.0_f64;
@@ -182,7 +185,7 @@ impl<'a> TorqueLimit<'a> {
         TimingError::TooHeavy { joint: joint.name.clone(), at: at.into(), torque: torque.abs(), effort, unit }
     }
 
-    /// Whether a motion keeps within the efforts.
+    /// Checks that a motion keeps within the efforts.
     ///
     /// # Errors
     /// The first place where it may not.
@@ -208,10 +211,11 @@ impl<'a> TorqueLimit<'a> {
         (0..trajectory.time.len()).map(at).collect()
     }
 
-    /// Whether the efforts of an arm, if its motions have to keep within them, hold it with what it carries where it stands.
+    /// Checks that the efforts of an arm hold it with its load at a configuration, if its motions must keep within
+    /// them.
     ///
     /// # Errors
-    /// The joint whose effort does not.
+    /// The joint whose effort is too small.
     pub fn held_at(scene: &'a Scene, q: Configuration) -> Result<(), TimingError> {
         Self::of(scene).map_or(Ok(()), |own| own.holds(q))
     }
@@ -224,10 +228,10 @@ impl<'a> TorqueLimit<'a> {
         }
     }
 
-    /// Whether the arm can be held against gravity all along a path.
+    /// Checks that the arm can be held against gravity along a whole path.
     ///
     /// # Errors
-    /// Where it takes more than a joint's effort.
+    /// The place where it needs more than a joint's effort.
     pub(super) fn held_along(&self, path: &Path) -> Result<(), TimingError> {
         let effort = self.dynamics.effort;
         for (from, to) in path.segments() {

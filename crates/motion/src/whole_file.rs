@@ -14,12 +14,12 @@ pub enum WriteError {
         /// The file as given.
         path: PathBuf,
     },
-    /// Its folder does not exist.
+    /// The folder does not exist.
     #[error("cannot write {}: there is no folder {}, make it first", path.display(), folder.display())]
     NoFolder {
         /// The file as given.
         path: PathBuf,
-        /// What is missing.
+        /// The missing folder.
         folder: PathBuf,
     },
     /// The operating system refused. Only the kind is shown: the full error names a temporary file that no longer is.
@@ -32,12 +32,12 @@ pub enum WriteError {
     },
 }
 
-/// Writes `bytes` to `path`: into a temporary file in the same folder, which then takes the name in one step. So at any
-/// moment the file is what it was before or what it shall be, even if the program is killed. (If the machine loses power
-/// in that moment, the file system decides.)
+/// Writes `bytes` to `path` through a temporary file in the same folder, which is then renamed in one step. At any
+/// moment the file has either its old or its new content, even if the program is killed. (If the machine loses power in
+/// that moment, the file system decides.)
 ///
-/// An existing file is replaced and keeps its permissions; a new one gets those that the user's umask gives. Through a
-/// symbolic link the file behind it is replaced.
+/// An existing file keeps its permissions; a new one gets those of the user's umask. Through a symbolic link, the
+/// target file is replaced.
 ///
 /// # Errors
 /// [`WriteError`]; nothing is left behind.
@@ -45,9 +45,9 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     Prepared::new(path, bytes)?.put()
 }
 
-/// Writes several files as [`write_whole`] writes one, all temporary files before the first takes its name: whatever can
-/// fail for lack of room or of a permission fails while all files are as they were. Should the system refuse a name after
-/// that, those before it are new and the others as they were.
+/// Writes several files like [`write_whole`]. All temporary files are written before the first rename, so lack of space
+/// or permissions is detected while all files are unchanged. If the system refuses a rename after that, earlier files
+/// are new and the others unchanged.
 ///
 /// # Errors
 /// [`WriteError`] for the first file that fails; no temporary file is left behind.
@@ -56,7 +56,7 @@ pub fn write_whole_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<(), Wri
     prepared.collect::<Result<Vec<_>, _>>()?.into_iter().try_for_each(Prepared::put)
 }
 
-/// A temporary file that holds what a file is to hold; removed unless it is put there.
+/// A temporary file with the new content; removed unless it is renamed.
 struct Prepared {
     /// The path of the file that is to be written, as it was given.
     path: PathBuf,
@@ -84,8 +84,8 @@ impl Prepared {
     }
 }
 
-/// Whether a file of that name could be written, as far as can be told without writing: for jobs that would learn it
-/// only after long work.
+/// Checks whether a file of that name could be written, as far as possible without writing, for long jobs that would
+/// otherwise fail at the end.
 ///
 /// # Errors
 /// [`WriteError`].
@@ -95,7 +95,7 @@ pub fn check_writable(path: &Path) -> Result<(), WriteError> {
     new_temporary(&folder).map(drop).map_err(|source| WriteError::Refused { path: path.to_owned(), source })
 }
 
-/// Where a file is to be written.
+/// The place of a file to write.
 struct Target {
     /// The file itself, behind a symbolic link.
     file: PathBuf,
@@ -131,14 +131,14 @@ fn target(path: &Path) -> Result<Target, WriteError> {
     Ok(Target { file: target, folder, kept })
 }
 
-/// A temporary file with the permissions of an ordinary new one; by default nobody else could read it.
+/// Creates a temporary file with the permissions of an ordinary new one; by default only the owner could read it.
 #[cfg(unix)]
 fn new_temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;
     tempfile::Builder::new().prefix(".cplan").permissions(fs::Permissions::from_mode(0o666)).tempfile_in(folder)
 }
 
-/// A temporary file.
+/// Creates a temporary file.
 #[cfg(not(unix))]
 fn new_temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     tempfile::Builder::new().prefix(".cplan").tempfile_in(folder)

@@ -1,20 +1,24 @@
-//! The fast solver beside plain relaxation, in one run: time from walls to a field whose greatest error is 1e-6.
+//! Benchmarks of the solver beside plain relaxation, in one run: time from walls to a field with an error of at most
+//! 1e-6.
 //!
-//! The yardstick is over-relaxation row by row in doubles, with the best constant factor that a search finds for the
-//! scene, stopped where its true error is 1e-6 (against the fast solver at 1e-13, which the tests hold to other methods).
-//! A pass goes along runs of free cells, so that it has no branch, keeps the value just made in a register and adds it
-//! last, so that the chain from cell to cell is five operations. (Written as `(1 - w) u + w/4 others + w/4 west` the chain
-//! is two and a pass three times faster: both are printed.)
+//! The yardstick is over-relaxation row by row in doubles, with the best constant factor for the scene (found by a
+//! search), stopped when its true error is 1e-6. The true error is measured against this solver at 1e-13, which the
+//! tests compare with other methods.
 //!
-//! `cargo bench --bench solve`; at 2048 x 2048 the yardstick runs only with `CPLAN_BENCH_LARGE=1`, with the factor
-//! extrapolated from 512 x 512 (`2 - factor` goes as one over the size), and takes minutes.
+//! A pass runs along stretches of free cells without branches, keeps the last value in a register and adds it last, so
+//! the dependency chain per cell is five operations. (Written as `(1 - w) u + w/4 others + w/4 west` the chain has two
+//! operations and a pass is three times faster; both times are printed.)
+//!
+//! Run `cargo bench --bench solve`. At 2048 x 2048 the yardstick takes minutes and runs only with
+//! `CPLAN_BENCH_LARGE=1`. Its factor is then extrapolated from 512 x 512: `2 - factor` is inversely proportional to the
+//! size.
 
 use cplan_multigrid::{Ends, Multigrid};
 use criterion::Criterion;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// What both are held to.
+/// The error that both methods must reach.
 const ERROR: f64 = 1e-6;
 
 struct Scene {
@@ -25,7 +29,7 @@ struct Scene {
 }
 
 impl Scene {
-    /// An open place with boxes scattered by the golden ratio, `size` (in percent) and less.
+    /// Returns an open area with boxes distributed by the golden ratio, of at most `size` percent.
     fn boxes(name: &'static str, cells: [usize; 2], boxes: usize, size: usize) -> Self {
         let mut free = vec![true; cells[0] * cells[1]];
         for k in 0..boxes {
@@ -95,7 +99,7 @@ impl Relaxation {
         Self { stride, values, runs }
     }
 
-    /// One pass; with `SHORT` in the form with the short chain.
+    /// Runs one pass; with `SHORT` in the form with the short chain.
     fn sweep<const SHORT: bool>(&mut self, factor: f64) {
         let (keep, quarter) = (1.0 - factor, 0.25 * factor);
         for &(from, to) in &self.runs {
@@ -124,7 +128,7 @@ impl Relaxation {
         exact.iter().enumerate().map(|(cell, exact)| (self.values[at(cell)] - exact).abs()).fold(0.0, f64::max)
     }
 
-    /// Sweeps until the error is met, looked at every so often; `most` if it is not before.
+    /// Returns the number of sweeps until the error is reached, or `most`.
     fn sweeps(scene: &Scene, exact: &[f64], factor: f64, most: usize) -> usize {
         let every = (most / 500).max(1);
         let mut relaxation = Self::new(scene);
@@ -137,7 +141,7 @@ impl Relaxation {
         most
     }
 
-    /// Least seconds for so many sweeps, of some runs.
+    /// Returns the least time in seconds for this many sweeps, of several runs.
     fn seconds<const SHORT: bool>(scene: &Scene, factor: f64, sweeps: usize, runs: usize) -> f64 {
         least(runs, || {
             let mut relaxation = Self::new(scene);
@@ -149,7 +153,7 @@ impl Relaxation {
     }
 }
 
-/// The best factor, by golden-section search of `log (2 - factor)`.
+/// Returns the best factor, by golden-section search of `log (2 - factor)`.
 fn best_factor(scene: &Scene, exact: &[f64]) -> f64 {
     let n = scene.cells[0].max(scene.cells[1]) as f64;
     let sweeps = |log: f64| Relaxation::sweeps(scene, exact, 2.0 - log.exp(), 20 * n as usize);
@@ -170,7 +174,7 @@ fn best_factor(scene: &Scene, exact: &[f64]) -> f64 {
     2.0 - if inner[0].1 <= inner[1].1 { inner[0].0 } else { inner[1].0 }.exp()
 }
 
-/// Least seconds of some runs.
+/// Returns the least time in seconds of several runs.
 fn least<T>(runs: usize, mut run: impl FnMut() -> T) -> f64 {
     (0..runs)
         .map(|_| {
@@ -181,7 +185,7 @@ fn least<T>(runs: usize, mut run: impl FnMut() -> T) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Prints a line, for fresh memory and for a workspace kept from the walls before; with a factor for the yardstick, that too.
+/// Prints a line for new memory and for a reused workspace. With a factor, also for the yardstick.
 fn compare(scene: &Scene, runs: usize, factor: Option<f64>) {
     let exact = scene.field(1e-13).0;
     let solver = scene.solver();
@@ -236,7 +240,8 @@ fn compare(scene: &Scene, runs: usize, factor: Option<f64>) {
     }
 }
 
-/// Updates a second: an obstacle moves one cell, the walls are set up anew, the field is repaired from the last one.
+/// Measures updates per second: an obstacle moves by one cell, the walls are rebuilt, and the last field is the initial
+/// guess.
 fn updates(scene: &Scene) {
     let [rows, columns] = scene.cells;
     let steps = columns - 20;

@@ -35,7 +35,7 @@ impl<'a> Nine<'a> {
         Self { middle: packs(middle, 1, count), terms }
     }
 
-    /// Sum over the eight neighbours of coupling times value.
+    /// Returns the sum over the eight neighbours of coupling times value.
     #[inline(always)]
     pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Single {
         let [a, b, c, d, e, f, g, h] = &self.terms;

@@ -19,7 +19,7 @@ impl<T: Copy + Default> Band<T> {
         Self { width, kept, data: vec![T::default(); kept * (width + LANES) + LANES] }
     }
 
-    /// Where the row above row `i` starts.
+    /// Returns the start of the row above row `i`.
     #[inline(always)]
     pub fn above(&self, i: usize) -> usize {
         let slot = if i < self.kept { i } else { i % self.kept };
@@ -36,7 +36,8 @@ impl<T: Copy + Default> Band<T> {
         self.above(i + 2)
     }
 
-    /// Row `i`, padding included, which is `count` packs. (Given so that loops over several rows see them to be as long.)
+    /// Returns row `i`, including padding, as `count` packs. Passing the count lets loops over several rows skip bounds
+    /// checks.
     #[inline(always)]
     pub fn row(&self, i: usize, count: usize) -> &[[T; LANES]] {
         packs(&self.data, self.start(i), count)
@@ -48,14 +49,14 @@ impl<T: Copy + Default> Band<T> {
         packs_mut(&mut self.data, start, count)
     }
 
-    /// Row `i` as single cells.
+    /// Returns row `i` as single cells.
     #[inline(always)]
     pub fn cells_mut(&mut self, i: usize) -> &mut [T] {
         let start = self.start(i);
         &mut self.data[start..start + self.width]
     }
 
-    /// The neighbours of the cells of the other colour in row `i`, which is of `colour`.
+    /// Returns the neighbours, which have the other colour, of the cells of `colour` in row `i`.
     #[inline(always)]
     pub fn around(&self, i: usize, colour: Colour, count: usize) -> Around<'_, T> {
         let at = self.start(i);
@@ -66,7 +67,7 @@ impl<T: Copy + Default> Band<T> {
     }
 }
 
-/// Of a cell.
+/// The colour of a cell on the chessboard.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Colour {
     Even,
@@ -86,7 +87,7 @@ impl Around<'_, f32> {
         (m.pack(&self.beside[0][k]) + m.pack(&self.beside[1][k])) + (m.pack(&self.above[k]) + m.pack(&self.below[k]))
     }
 
-    /// The sum without rounding to single precision.
+    /// Returns the sum without rounding to single precision.
     #[inline(always)]
     pub fn exact_sum<M: Machine>(&self, m: M, k: usize) -> M::Double {
         let [a, b] = self.beside.map(|row| m.double(m.pack(&row[k])));

@@ -1,9 +1,11 @@
 //! The passes of conjugate gradients, for the even cells, and of the finest level of the preconditioner.
 //!
-//! Vectors are kept in single precision; what they are multiplied with the operator is computed in double precision from
-//! them, so that rounding stays in proportion to the residuals. The preconditioner's smoother on the finest level is one
-//! step of Jacobi's method on the system of the even cells, which is one of Gauss-Seidel's by colours on that of all.
-//! After it the residual of the odd cells is zero, and so they are neither restricted nor interpolated.
+//! Vectors are stored in single precision. Their products with the operator are computed from them in double precision,
+//! so that rounding stays proportional to the residuals.
+//!
+//! The preconditioner's smoother on the finest level is one Jacobi step on the system of the even cells, which equals
+//! one red-black Gauss-Seidel step on the full system. After it the residual of the odd cells is zero, so they are
+//! neither restricted nor interpolated.
 
 use super::band::{Band, Colour};
 use super::cycle::Stack;
@@ -11,7 +13,7 @@ use super::machine::{Machine, Pack};
 use super::red_black::{RedBlack, Shape};
 use super::transfer::Corners;
 
-/// Residuals less than this part of the greatest of the start are 0: in single precision they would only become subnormal
+/// Residuals below this fraction of the initial maximum are set to 0. In single precision they would become subnormal
 /// numbers, which are slow.
 const NEGLIGIBLE: f32 = 1e-25;
 
@@ -23,19 +25,19 @@ pub(super) enum Right<'a> {
     Unit(usize),
 }
 
-/// Vectors that a solve works with, kept from one solve to the next, also of other walls on a grid of the same shape.
-/// About 16 bytes a cell, 36 on a circle of rows.
+/// Vectors used by a solve. They can be reused for other solves and other walls on a grid of the same shape. About 16
+/// bytes per cell, or 36 on a circle of rows.
 #[derive(Debug, Clone)]
 pub struct Workspace {
     shape: Shape,
     pub(super) stack: Stack,
     pub(super) residual: Band<f32>,
-    /// What the preconditioner makes of the residual, and its product with the operator.
+    /// The preconditioned residual, and its product with the operator.
     pub(super) advice: Band<f32>,
     advice_image: Band<f32>,
     direction: Band<f32>,
     direction_image: Band<f32>,
-    /// The sum of all steps since the residual was computed last.
+    /// The sum of all steps since the residual was last computed.
     sum: Band<f32>,
     even: Band<f32>,
     odd: Band<f32>,
@@ -45,7 +47,7 @@ pub struct Workspace {
     right_odd: Band<f64>,
 }
 
-/// A step along the next direction, the advice and `beta` times the last one.
+/// A step along the next direction: the preconditioned residual plus `beta` times the last direction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Step {
     pub alpha: f64,
@@ -56,7 +58,7 @@ pub(super) struct Step {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Greatest {
     pub value: f64,
-    /// Of the last step, or of the residual.
+    /// Greatest magnitude of the last step, or of the residual.
     pub change: f64,
 }
 
@@ -80,12 +82,12 @@ impl Workspace {
         }
     }
 
-    /// Whether it is for grids of this shape.
+    /// Returns true if it fits grids of this shape.
     pub(super) fn is_for(&self, red_black: &RedBlack) -> bool {
         self.shape == red_black.shape
     }
 
-    /// Forgets all steps.
+    /// Clears all steps.
     pub(super) fn rest(&mut self) {
         for band in [&mut self.sum, &mut self.direction, &mut self.direction_image] {
             band.data.fill(0.0);
@@ -329,7 +331,7 @@ impl Workspace {
     }
 }
 
-/// The smoother's values of the odd cells of row `i`.
+/// Computes the smoother's values of the odd cells of row `i`.
 #[inline(always)]
 fn odd_row<M: Machine>(
     m: M,
@@ -347,7 +349,7 @@ fn odd_row<M: Machine>(
     red_black.settle(odd, even, i);
 }
 
-/// Row `i` by colours.
+/// Splits row `i` by colour.
 #[inline(always)]
 fn part(row: &[f64], i: usize, even: &mut [f64], odd: &mut [f64]) {
     let (even, odd) = if i.is_multiple_of(2) { (even, odd) } else { (odd, even) };
@@ -360,7 +362,7 @@ fn part(row: &[f64], i: usize, even: &mut [f64], odd: &mut [f64]) {
     }
 }
 
-/// Puts the columns together again: the reverse of splitting them.
+/// Merges the colours of a row: the inverse of splitting.
 #[inline(always)]
 fn merge(even: &[f64], odd: &[f64], i: usize, row: &mut [f64]) {
     let (even, odd) = if i.is_multiple_of(2) { (even, odd) } else { (odd, even) };

@@ -15,9 +15,9 @@ const BOTTOM: usize = 40;
 /// The levels below the finest. Depends on the operator only.
 #[derive(Debug, Clone)]
 pub(super) struct Hierarchy {
-    /// From the finest level to the first of `levels`.
+    /// Transfer from the finest level to the first of `levels`.
     pub corners: Corners,
-    /// From each level to the next.
+    /// Transfers from each level to the next.
     transfers: Vec<Transfer>,
     levels: Vec<Stencil>,
     bottom: Envelope,
@@ -32,7 +32,7 @@ pub(super) struct Stack {
 }
 
 impl Hierarchy {
-    /// Linear in the number of cells.
+    /// Builds the hierarchy. Linear in the number of cells.
     pub fn new<M: Machine>(m: M, finest: &FivePoint) -> Self {
         let (transfer, first) = coarsen(m, finest);
         let (mut transfers, mut levels) = (Vec::new(), vec![first]);
@@ -48,7 +48,7 @@ impl Hierarchy {
         Self { corners: Corners::of(transfer), transfers, levels, bottom }
     }
 
-    /// Vectors for cycles.
+    /// Allocates the vectors for cycles.
     pub fn stack(&self) -> Stack {
         let bottom = self.levels[self.levels.len() - 1].frame;
         Stack {
@@ -58,7 +58,7 @@ impl Hierarchy {
         }
     }
 
-    /// One V-cycle from zero through the levels below the finest, for the right-hand side of the first of them.
+    /// Runs one V-cycle from zero through the levels below the finest, for the right-hand side of the first of them.
     pub fn cycle<M: Machine>(&self, m: M, stack: &mut Stack) {
         let Stack { levels: vectors, rows, bottom } = stack;
         let last = self.transfers.len();
@@ -84,7 +84,7 @@ impl Hierarchy {
     }
 }
 
-/// Smooths, and restricts what is left.
+/// Smooths, and restricts the residual.
 fn descend<M: Machine, L: Smooth>(
     m: M,
     level: &L,
@@ -97,7 +97,7 @@ fn descend<M: Machine, L: Smooth>(
     transfer.restrict(m, level, upper, rows, &mut lower.right);
 }
 
-/// The factor of an operator.
+/// Factorises an operator.
 fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
     let Frame { rows, columns, width, .. } = operator.frame();
     let mut entries = Vec::with_capacity(5 * rows * columns);
@@ -116,7 +116,7 @@ fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
             ] {
                 if coupling != 0.0 {
                     let there = row * columns + column;
-                    // A cell that is its own neighbour on a tiny circle is so from both sides.
+                    // A cell that is its own neighbour on a tiny circle is so on both sides.
                     let twice = if there == here { 2.0 } else { 1.0 };
                     entries.push((here.max(there), here.min(there), -twice * f64::from(coupling)));
                 }

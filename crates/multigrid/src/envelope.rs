@@ -1,4 +1,4 @@
-//! Cholesky's factorisation within the envelope of a small symmetric matrix: the coarsest level.
+//! Cholesky factorisation within the envelope of a small symmetric matrix, for the coarsest level.
 
 /// `A = L L^T`. Row `i` of `L` is kept from the first column in which row `i` of `A` has an entry; there is no fill to
 /// the left of it (Jennings 1966).
@@ -10,8 +10,8 @@ pub(super) struct Envelope {
 }
 
 impl Envelope {
-    /// From the entries of the lower triangle of a matrix of so many rows, `(row, column, value)`, in any order, those of
-    /// one place to be added. Rows without a positive pivot are taken out: their unknown is 0.
+    /// Factorises a matrix from the entries of its lower triangle, `(row, column, value)`, in any order; entries at the
+    /// same place are added. Rows without a positive pivot are removed: their unknown is 0.
     pub fn new(rows: usize, entries: &[(usize, usize, f64)]) -> Self {
         let mut first: Vec<usize> = (0..rows).collect();
         entries.iter().for_each(|&(i, j, _)| first[i] = first[i].min(j));
@@ -31,7 +31,7 @@ impl Envelope {
             }
             let squares: f64 = lower[start[i]..start[i + 1] - 1].iter().map(|a| a * a).sum();
             let pivot = scale - squares;
-            // On the diagonal, the reciprocal.
+            // The diagonal stores the reciprocal.
             lower[start[i + 1] - 1] = if pivot > PIVOT * scale { 1.0 / pivot.sqrt() } else { 0.0 };
         }
         Self { first, start, lower }

@@ -1,9 +1,9 @@
-//! How cells lie in memory: rows padded to whole vectors, in a frame that says what is beyond the ends.
+//! Memory layout of cells: rows padded to whole vectors, within a frame that implements the boundary conditions.
 
 use super::machine::LANES;
 use std::ops::Range;
 
-/// What lies beyond the two ends of an axis.
+/// Boundary condition at the two ends of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
     /// The value 0: limits repel like obstacles (Dirichlet).
@@ -14,8 +14,8 @@ pub enum Ends {
     Joined,
 }
 
-/// The layout of one level. Each row has a cell before its first and one after its last; there is a row above the first
-/// and one below the last. They hold what [`Ends`] says, once the row is finished.
+/// The layout of one level. Each row has one extra cell at each end, and there is one extra row above the first and one
+/// below the last. They hold the values that [`Ends`] prescribes once the row is finished.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
     pub rows: usize,
@@ -32,40 +32,40 @@ impl Frame {
         Self { rows, columns, ends, width, stride: width + LANES }
     }
 
-    /// The frame of coefficients: nothing couples across the ends of an interval.
+    /// Returns the layout of coefficients, which do not couple across the ends of an interval.
     pub fn of_coefficients(self) -> Self {
         let ends = self.ends.map(|ends| if ends == Ends::Joined { Ends::Joined } else { Ends::High });
         Self { ends, ..self }
     }
 
-    /// Cells to allocate.
+    /// Returns the number of cells to allocate.
     pub fn len(&self) -> usize {
         (self.rows + 2) * self.stride
     }
 
-    /// The cells of row `i`, padding included.
+    /// Returns the cells of row `i`, including padding.
     pub fn row(&self, i: usize) -> Range<usize> {
         let start = (i + 1) * self.stride + 1;
         start..start + self.width
     }
 
-    /// The same row with the one cell before and one after.
+    /// Returns the same row with the extra cell at each end.
     pub fn framed(&self, i: usize) -> Range<usize> {
         let start = (i + 1) * self.stride;
         start..start + self.width + 2
     }
 
-    /// Where row `i - 1` starts, which may be the one above the first.
+    /// Returns the start of row `i - 1`, which may be the extra row above the first.
     pub fn above(&self, i: usize) -> usize {
         i * self.stride + 1
     }
 
-    /// Where row `i + 1` starts, which may be the one below the last.
+    /// Returns the start of row `i + 1`, which may be the extra row below the last.
     pub fn below(&self, i: usize) -> usize {
         (i + 2) * self.stride + 1
     }
 
-    /// Row `i` in the middle of the rows above and below it, each with the cell before and the one after.
+    /// Returns row `i` with the rows above and below it, each with its extra cells.
     pub fn three<'a, T>(&self, data: &'a [T], i: usize) -> [&'a [T]; 3] {
         [0, 1, 2].map(|k| &data[(i + k) * self.stride..(i + k) * self.stride + self.width + 2])
     }
@@ -116,13 +116,13 @@ impl Frame {
         }
     }
 
-    /// Whether the last row is the one above the first.
+    /// Returns true if the axis of rows is a circle.
     pub fn is_joined_at_rows(&self) -> bool {
         self.ends[0] == Ends::Joined
     }
 
-    /// An order in which each row is made once, and used once as soon as the rows around it are made: the row before is
-    /// then still in the cache. On a circle the last row is made first, since it is the one above the first.
+    /// Iterates over rows so that each is produced once, and consumed as soon as its neighbours exist, while the
+    /// previous row is still in the cache. On a circle the last row comes first, because it lies above the first.
     pub fn ahead(&self) -> impl Iterator<Item = Ahead> + use<> {
         let rows = self.rows;
         let first = (self.is_joined_at_rows() && rows > 1).then(|| Ahead { made: Some(rows - 1), used: None });

@@ -52,7 +52,7 @@ struct Window<'a, O> {
 }
 
 impl<'a, O: Operator> Window<'a, O> {
-    /// Before the first row.
+    /// Creates a window before the first row.
     fn new<M: Machine>(m: M, operator: &'a O, coarse: Frame) -> Self {
         let halves = || Halves::new(coarse.width + 2);
         let from = Seamless::new(operator);
@@ -62,7 +62,7 @@ impl<'a, O: Operator> Window<'a, O> {
         window
     }
 
-    /// Back to before the first row.
+    /// Moves back to before the first row.
     fn restart<M: Machine>(&mut self, m: M, coarse: Frame) {
         if coarse.ends[0] == Ends::Joined {
             self.from.line(m, 2 * coarse.rows - 1, &mut self.line);
@@ -72,7 +72,7 @@ impl<'a, O: Operator> Window<'a, O> {
         }
     }
 
-    /// To the rows around row `2 i`.
+    /// Advances to the rows around row `2 i`.
     fn advance<M: Machine>(&mut self, m: M, i: usize) {
         std::mem::swap(&mut self.above, &mut self.below);
         self.from.line(m, 2 * i, &mut self.line);
@@ -82,7 +82,7 @@ impl<'a, O: Operator> Window<'a, O> {
     }
 }
 
-/// The coarser level of `operator`: the transfer to it, and the operator there.
+/// Returns the transfer from `operator` to the next coarser level, and the operator there.
 pub(super) fn coarsen<M: Machine, O: Operator>(m: M, operator: &O) -> (Transfer, Stencil) {
     let fine = operator.frame();
     let coarse = Frame::new([fine.rows.div_ceil(2), fine.columns.div_ceil(2)], fine.ends).of_coefficients();
@@ -148,7 +148,8 @@ fn line_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer
     );
 }
 
-/// Nothing is interpolated from a coarse cell that is no unknown. (Diagonal couplings past it would count for it.)
+/// Prevents interpolation from coarse cells that are not unknowns. Diagonal couplings past such a cell would count for
+/// it.
 fn keep_unknowns<M: Machine>(m: M, transfer: &mut Transfer, unknown: &[f32], i: usize) {
     let (row, below) = (transfer.coarse.row(i), transfer.coarse.below(i));
     m.run(
@@ -201,8 +202,8 @@ fn center_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transf
     );
 }
 
-/// `A P` at the cells between the coarse cells of row `i`: towards the coarse cells at their west, east, south-west and
-/// south-east.
+/// Computes `A P` at the cells between the coarse cells of row `i`, for the coarse cells to their west, east,
+/// south-west and south-east.
 fn seen_between<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, i: usize, seen: &mut [Vec<f32>; 4]) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (n, nx) = (&window.above.even, &window.above.odd);
@@ -240,8 +241,8 @@ fn seen_between<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, i:
     }
 }
 
-/// Row `i` of `P^T A P`, and what it adds to the next. The cells in the middle of four coarse cells add nothing: `A P` is
-/// zero there, which is how their weights were chosen.
+/// Computes row `i` of `P^T A P` and its contribution to the next row. Cells in the middle of four coarse cells
+/// contribute nothing, because their weights make `A P` zero there.
 fn products<M: Machine, O>(
     m: M,
     window: &Window<O>,

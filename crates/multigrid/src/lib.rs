@@ -1,14 +1,15 @@
-//! Five-point problems among walls, solved fast and to what one asks for: conjugate gradients, preconditioned by multigrid.
+//! A fast solver for five-point problems among walls: conjugate gradients, preconditioned by multigrid.
 //!
 //! # The problem
 //!
-//! A grid of cells, some of them free, the others walls. For every free cell,
-//! `(degree + shift) u - sum of the free neighbours' u = b`. The degree is 4, walls and high limits count as 0; beyond each
-//! end of the grid lies what [`Ends`] says, and a reflecting limit takes 1 off the degree. That is Poisson's equation (with a
-//! shift, Helmholtz's with the good sign); with `b = 0` but at a goal it is Laplace's. A goal `g` among walls is one solve,
-//! `A^-1 e_g` divided by its value at `g` ([`Multigrid::goal`]), so that the hierarchy of levels, which depends on the walls
-//! alone, serves all goals. Cells whose value is known are walls to it, and come in through the right-hand side: add the value
-//! to `b` of each free neighbour.
+//! A grid has free cells and walls. For every free cell, `(degree + shift) u - sum of the free neighbours' u = b`. The
+//! degree is 4. Walls and high limits have value 0. Beyond each end of the grid, [`Ends`] applies, and a reflecting
+//! limit lowers the degree by 1.
+//!
+//! This is Poisson's equation, or with a positive shift Helmholtz's. With `b = 0` except at a goal it is Laplace's. A
+//! goal `g` among walls takes one solve: `A^-1 e_g` divided by its value at `g` ([`Multigrid::goal`]). So the hierarchy
+//! of levels, which depends only on the walls, serves all goals. Treat cells with known values as walls, and add each
+//! value to `b` of its free neighbours.
 //!
 //! ```
 //! use cplan_multigrid::{Ends, Multigrid};
@@ -30,25 +31,27 @@
 //! assert!((at(6, 9) - mean).abs() < 1e-9 && at(6, 9) > 0.0);
 //! ```
 //!
-//! # What it costs, and what holds
+//! # Cost and guarantees
 //!
-//! Building the solver and each of its steps are linear in the number of cells; 4 to 8 steps come to an error of `1e-6` of the
-//! greatest value, whatever the size and the walls: some 60 ns a cell from walls to field on one core. Memory is a few numbers
-//! a cell, kept in the solver and in a [`Workspace`] that is used again from solve to solve. A field of slightly different walls
-//! is a good start for the next.
+//! Building the solver and each step are linear in the number of cells. 4 to 8 steps give an error of `1e-6` of the
+//! greatest value, independent of size and walls: about 60 ns per cell from walls to field on one core. Memory is a few
+//! numbers per cell, in the solver and in a [`Workspace`] that can be reused. The field of slightly different walls is
+//! a good initial guess.
 //!
-//! The error that a [`Convergence`] names is an estimate, from how the last steps shrank, and what the tolerance is held to;
-//! it is of the greatest value, so that small values far away have fewer digits (the crate `cplan-harmonic` gives all
-//! of them the same). `converged` says whether the tolerance was met. The same input gives the same bits on
-//! every machine, with vector instructions (AVX2, told at run time) and without. Nothing runs on other threads. Long
-//! solves can be stopped from outside: they come by a [`checkpoint`](cplan_interrupt::checkpoint).
+//! The error in [`Convergence`] is an estimate from the decrease of the last steps, and is compared with the tolerance.
+//! It is relative to the greatest value, so small values far away have fewer digits (the crate `cplan-harmonic` gives
+//! all values the same number). `converged` says whether the tolerance was reached.
 //!
-//! # How
+//! The same input gives the same bits on every machine, with vector instructions (AVX2, detected at run time) and
+//! without. There are no other threads. Long solves can be interrupted: they pass a
+//! [`checkpoint`](cplan_interrupt::checkpoint).
 //!
-//! Cells are coloured like a chessboard (`red_black`); those of one colour are eliminated, which leaves half of the unknowns.
-//! Conjugate gradients for these run in rounds: vectors are in single precision, the residual at the start of each round,
-//! the values, and the products with the operator in double precision. The preconditioner, one V-cycle in single precision,
-//! need not be precise: it costs steps, not digits.
+//! # Method
+//!
+//! Cells are coloured like a chessboard (`red_black`). The cells of one colour are eliminated, which leaves half of the
+//! unknowns. Conjugate gradients for these run in rounds: vectors are in single precision; the residual at the start of
+//! each round, the values, and the products with the operator are in double precision. The preconditioner is one
+//! V-cycle in single precision. Its rounding costs steps, not digits.
 #![forbid(unsafe_code)]
 
 mod band;

@@ -1,7 +1,7 @@
-//! Neighbouring cells of a row, handled together by the vector instructions of the machine.
+//! Vector instructions for neighbouring cells of a row.
 //!
-//! A [`Machine`] offers packs of [`LANES`] numbers. All machines do the same operations on the same lanes in the same
-//! order, and none contracts a product and a sum, so that results are the same, bit by bit, on all of them.
+//! A [`Machine`] provides packs of [`LANES`] numbers. All machines perform the same operations on the same lanes in the
+//! same order, and no machine fuses multiplication and addition, so results are identical bit by bit.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -14,13 +14,13 @@ pub(super) trait Pack<T>: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<O
     fn lanes(self) -> [T; LANES];
 }
 
-/// What a processor can do.
+/// Operations of a processor.
 pub(super) trait Machine: Copy {
     type Single: Pack<f32>;
     type Double: Pack<f64>;
 
-    /// Runs a kernel with the instructions of this machine. The kernel, and what it calls in its loops, must be inlined
-    /// always: elsewhere those instructions would be calls.
+    /// Runs a kernel with the instructions of this machine. The kernel and all functions called in its loops must be
+    /// marked as always inlined; otherwise the instructions become calls.
     fn run<R>(self, kernel: impl FnOnce() -> R) -> R;
     fn pack(self, from: &[f32; LANES]) -> Self::Single;
     fn pack_double(self, from: &[f64; LANES]) -> Self::Double;
@@ -32,12 +32,12 @@ pub(super) trait Machine: Copy {
         self.pack(&pack)
     }
 
-    /// The same number in all lanes.
+    /// Returns a pack with the same number in all lanes.
     fn all(self, x: f32) -> Self::Single;
     fn all_double(self, x: f64) -> Self::Double;
     /// Reciprocals where positive, elsewhere 0.
     fn inverse(self, x: Self::Single) -> Self::Single;
-    /// `x` where not less than `negligible` in magnitude, elsewhere 0.
+    /// Returns `x` with lanes below `negligible` in magnitude set to 0.
     fn significant(self, x: Self::Single, negligible: f32) -> Self::Single;
     fn double(self, x: Self::Single) -> Self::Double;
     fn single(self, x: Self::Double) -> Self::Single;
@@ -47,19 +47,19 @@ pub(super) trait Machine: Copy {
     fn greater_double(self, a: Self::Double, b: Self::Double) -> Self::Double;
 }
 
-/// `count` packs from a place on. Loops over several such slices of one length need no check of bounds.
+/// Returns `count` packs from a place. Loops over several such slices of equal length need no bounds checks.
 #[inline(always)]
 pub(super) fn packs<T>(from: &[T], at: usize, count: usize) -> &[[T; LANES]] {
     &from[at..].as_chunks().0[..count]
 }
 
-/// The same to write to.
+/// Does the same for writing.
 #[inline(always)]
 pub(super) fn packs_mut<T>(from: &mut [T], at: usize, count: usize) -> &mut [[T; LANES]] {
     &mut from[at..].as_chunks_mut().0[..count]
 }
 
-/// Any processor: what the compiler makes of loops of constant length.
+/// The portable machine: loops of constant length, compiled for any processor.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Portable;
 

@@ -29,7 +29,7 @@ impl Real for f64 {
     }
 }
 
-/// Of a grid.
+/// Shape and boundary of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shape {
     pub rows: usize,
@@ -41,7 +41,7 @@ pub(super) struct Shape {
 #[derive(Debug, Clone)]
 pub(super) struct RedBlack {
     pub shape: Shape,
-    /// 4 + shift: what the diagonal is before what a reflecting end gives back.
+    /// 4 + shift: the diagonal before reflecting ends lower it.
     pub degree: f64,
     /// 1 on free cells, 0 elsewhere.
     pub even: Band<f32>,
@@ -65,7 +65,7 @@ impl RedBlack {
         new
     }
 
-    /// Row `i` of the flags: even columns, odd columns.
+    /// Returns row `i` of the flags: even columns, odd columns.
     fn halves(&mut self, i: usize) -> [&mut [f32]; 2] {
         let halves = [self.even.cells_mut(i), self.odd.cells_mut(i)];
         if i.is_multiple_of(2) {
@@ -86,19 +86,19 @@ impl RedBlack {
         self.even.width / LANES
     }
 
-    /// A band of all rows.
+    /// Allocates a band of all rows.
     pub fn band<T: Copy + Default>(&self) -> Band<T> {
         Band::new(self.even.width, self.shape.rows + 2)
     }
 
-    /// A band for what a [`pipeline`](Self::pipeline) hands from one stage to the next.
+    /// Allocates a band for the rows that one stage of a [`pipeline`](Self::pipeline) passes to the next.
     pub fn narrow_band<T: Copy + Default>(&self) -> Band<T> {
         let kept = if self.shape.ends[0] == Ends::Joined { self.shape.rows + 2 } else { STAGES + 1 };
         Band::new(self.even.width, kept)
     }
 
-    /// Calls `stage(s, i)` for all rows `i` and each of so many stages (at most [`STAGES`]), each after the stage before it has been called for
-    /// the rows around `i`. As soon as that: what it made is then still in the cache.
+    /// Calls `stage(s, i)` for all rows `i` and this many stages (at most [`STAGES`]). Each call comes as soon as the
+    /// previous stage has been called for the rows around `i`, while those rows are still in the cache.
     #[inline(always)]
     pub fn pipeline(&self, stages: usize, mut stage: impl FnMut(usize, usize)) {
         if self.shape.ends[0] == Ends::Joined {
@@ -119,7 +119,8 @@ impl RedBlack {
         }
     }
 
-    /// Whether an axis is a circle whose colours match at the seam, or do not.
+    /// Returns the parity of an axis that is a circle: whether its colours match at the seam. Returns `None` for an
+    /// interval.
     fn joined(&self, axis: usize) -> Option<Parity> {
         let odd = [self.shape.rows, self.shape.columns][axis] % 2 == 1;
         (self.shape.ends[axis] == Ends::Joined).then_some(if odd { Parity::Odd } else { Parity::Even })
@@ -200,7 +201,7 @@ impl RedBlack {
         }
     }
 
-    /// How often the cell of an axis is its own neighbour.
+    /// Returns how often the cell of an axis is its own neighbour.
     fn own(&self, axis: usize, at: usize) -> f64 {
         let cells = [self.shape.rows, self.shape.columns][axis];
         match self.shape.ends[axis] {
@@ -257,7 +258,7 @@ impl RedBlack {
         }
     }
 
-    /// The first and the last row, which are neighbours.
+    /// Solves for the odd cells of the first and the last row, which are neighbours.
     fn settle_seam<T: Real>(&self, band: &mut Band<T>) {
         let last = self.shape.rows - 1;
         for column in (1..self.shape.columns).step_by(2) {
@@ -268,7 +269,7 @@ impl RedBlack {
         }
     }
 
-    /// Whether a cell is free.
+    /// Returns true if a cell is free.
     fn free(&self, [i, j]: [usize; 2]) -> bool {
         let band = if (i + j) % 2 == 0 { &self.even } else { &self.odd };
         band.data[band.start(i) + j / 2] > 0.0
@@ -278,7 +279,7 @@ impl RedBlack {
         self.free([cell / self.shape.columns, cell % self.shape.columns])
     }
 
-    /// The numbers of the neighbours of a cell.
+    /// Iterates over the neighbours of a cell.
     pub fn neighbors(&self, cell: usize) -> impl Iterator<Item = usize> + use<'_> {
         let place = [cell / self.shape.columns, cell % self.shape.columns];
         let cells = [self.shape.rows, self.shape.columns];
@@ -304,14 +305,14 @@ impl RedBlack {
     }
 }
 
-/// Whether the number of cells of a circle is even.
+/// The parity of the number of cells of a circle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Parity {
     Even,
     Odd,
 }
 
-/// Two odd cells that are neighbours, from what they are if the other one is 0.
+/// Solves for two neighbouring odd cells, from the values that each has if the other is 0.
 fn together<T: Real>(diagonal: f64, alone: [T; 2], both: bool) -> (T, T) {
     if !both {
         return alone.into();

@@ -107,9 +107,9 @@ impl<'a, O: Operator> Seamless<'a, O> {
     }
 }
 
-/// The straight coupling that stands for all across the seam at two cells: theirs, and half of each diagonal one, which
-/// has its other half at another pair. None where one of the two is no unknown: what diagonal couplings the other has
-/// then holds it to 0, on its diagonal as before.
+/// Returns the straight coupling that replaces all couplings across the seam between two cells: their own, and half of
+/// each diagonal one, whose other half goes to another pair. It is 0 if one of the cells is not an unknown: diagonal
+/// couplings of the other cell then act on its diagonal as before.
 fn straight(one: [f32; 3], other: [f32; 3], diagonals: [f32; 2]) -> f32 {
     if diagonals.iter().any(|&diagonal| diagonal <= 0.0) {
         return 0.0;
@@ -117,7 +117,7 @@ fn straight(one: [f32; 3], other: [f32; 3], diagonals: [f32; 2]) -> f32 {
     (one[0] + 0.5 * (one[1] + one[2] + other[1] + other[2])).max(0.0)
 }
 
-/// Which axes are circles with an odd number of cells.
+/// Returns which axes are circles with an odd number of cells.
 pub(super) fn odd_circles(frame: Frame) -> [bool; 2] {
     let odd = [frame.rows % 2 == 1, frame.columns % 2 == 1];
     [0, 1].map(|axis| odd[axis] && frame.ends[axis] == Ends::Joined)

@@ -30,16 +30,16 @@ impl Vectors {
     }
 }
 
-/// What a cycle does on a level.
+/// The operations of a cycle on one level.
 pub(super) trait Smooth {
-    /// Two steps from zero, for a right-hand side that has its frame.
+    /// Takes two steps from zero, for a right-hand side with its frame.
     fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors);
-    /// Row `i` of the residual, padding included.
+    /// Computes row `i` of the residual, including padding.
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
 }
 
 impl Stencil {
-    /// One step for row `i`, its ends excluded.
+    /// Takes one step for row `i`, except at its ends.
     #[inline(always)]
     fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
         let (keep, take) = (m.all(1.0 - weight), m.all(weight));
@@ -53,7 +53,7 @@ impl Stencil {
         }
     }
 
-    /// Two steps more, from a solution without frame.
+    /// Takes two more steps, from a solution without frame.
     pub fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);

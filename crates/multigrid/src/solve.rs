@@ -30,18 +30,18 @@ macro_rules! on_this_machine {
 #[derive(Debug, Clone)]
 pub struct Multigrid {
     red_black: RedBlack,
-    /// None without cells.
+    /// The hierarchy, if there are cells.
     hierarchy: Option<Hierarchy>,
 }
 
-/// How a solve ended.
+/// Result of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Convergence {
     /// Steps of conjugate gradients, each with one V-cycle.
     pub iterations: usize,
     /// Estimate of the greatest error of a value, relative to the greatest value.
     pub error: f64,
-    /// Whether `error` came below the tolerance. If not, rounding ended the progress.
+    /// True if `error` is below the tolerance. Otherwise rounding ended the progress.
     pub converged: bool,
 }
 
@@ -54,18 +54,18 @@ const SINGLE: f64 = 1e-7;
 /// A round that leaves more than this part of the residual ended in rounding.
 const LEAST_PROGRESS: f64 = 0.5;
 
-/// The error after a step is estimated from the last two changes as a geometric series, whose ratio is taken to be at
-/// least this: steps that happen to change little prove little.
+/// Least ratio assumed for the geometric series that estimates the error from the last two changes. A step that happens
+/// to change little proves little.
 const LEAST_RATIO: f64 = 0.1;
 
 impl Multigrid {
-    /// For `cells` rows and columns, row by row in `free`. Linear in the number of cells.
+    /// Builds the solver for `cells` rows and columns, with `free` row by row. Linear in the number of cells.
     ///
-    /// If nothing touches a wall or high limit and `shift` is 0 the problem has no unique solution, but up to a constant
-    /// if the sum of `b` is 0; then a shift of `1e-6` a cell is taken instead.
+    /// Without walls or high limits and with `shift` 0, the solution is not unique; it exists up to a constant if `b`
+    /// sums to 0. Then a shift of `1e-6` per cell is used.
     ///
     /// # Panics
-    /// If `free` has another length than the product of `cells`, or `shift` is negative or not finite.
+    /// If the length of `free` is not the product of `cells`, or `shift` is negative or not finite.
     #[must_use]
     pub fn new(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> Self {
         assert_eq!(free.len(), cells[0] * cells[1], "one flag a cell");
@@ -75,20 +75,19 @@ impl Multigrid {
         Self { red_black: RedBlack::new(cells, ends, free, operator.degree), hierarchy }
     }
 
-    /// A workspace for solves.
+    /// Allocates a workspace for solves.
     #[must_use]
     pub fn workspace(&self) -> Workspace {
         Workspace::new(&self.red_black, self.hierarchy.as_ref().map_or_else(Stack::default, Hierarchy::stack))
     }
 
-    /// Solves for the right-hand side `right`, from the start that is in `values`, which must be finite; walls are
-    /// neither read nor (but as 0) written. Ends when no value is likely to be wrong by more than `tolerance` times the
-    /// greatest.
+    /// Solves for the right-hand side `right`, starting from the finite numbers in `values`. Walls are not read, and
+    /// get the value 0. Stops when no value is likely to be wrong by more than `tolerance` times the greatest value.
     ///
-    /// Takes 4 to 8 iterations from zero for a tolerance of `1e-6`, whatever the size and the walls.
+    /// Starting from zero, a tolerance of `1e-6` takes 4 to 8 iterations, independent of size and walls.
     ///
     /// # Panics
-    /// If a length is not the number of cells, or the workspace is of another grid.
+    /// If a length is not the number of cells, or the workspace is for another grid.
     pub fn solve(&self, right: &[f64], values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
         assert!(right.len() == self.cells(), "one number a cell");
         self.solve_for(Right::Given(right), values, tolerance, workspace)
@@ -109,7 +108,7 @@ impl Multigrid {
         }
     }
 
-    /// Rounds of conjugate gradients, each with the residual computed anew.
+    /// Runs rounds of conjugate gradients. Each computes the residual again.
     fn rounds<M: Machine>(
         &self,
         m: M,
@@ -210,11 +209,12 @@ impl Multigrid {
         }
     }
 
-    /// The field of a single goal: 1 there, harmonic elsewhere, 0 where it is cut off. `values` is start and result; a
-    /// field of the same goal among slightly different walls is a good start.
+    /// Solves for the field of a single goal: 1 there, harmonic elsewhere, 0 where it is cut off. `values` is the
+    /// initial guess and receives the result. The field of the same goal among slightly different walls is a good
+    /// initial guess.
     ///
     /// # Panics
-    /// If a length is not the number of cells, the goal no cell, or the workspace of another grid.
+    /// If a length is not the number of cells, the goal is not a cell, or the workspace is for another grid.
     pub fn goal(&self, goal: usize, values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
         let convergence = self.solve_for(Right::Unit(goal), values, tolerance, workspace);
         let scale = values[goal];
@@ -225,10 +225,10 @@ impl Multigrid {
     }
 }
 
-/// What is put on the diagonal where nothing else keeps the problem from being singular.
+/// Shift added to the diagonal if the problem would otherwise be singular.
 const SHIFT: f64 = 1e-6;
 
-/// The operator that is to be solved.
+/// Builds the operator.
 fn operator(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> FivePoint {
     let frame = Frame::new(cells, ends);
     let mut operator = FivePoint { frame, degree: 4.0 + shift, free: vec![0.0; frame.len()] };
@@ -243,7 +243,7 @@ fn operator(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> Fi
     operator
 }
 
-/// The power of 2 that makes a number about 1; 1 for 0.
+/// Returns the power of 2 that scales a number to about 1. Returns 1 for 0.
 fn power_of_two(x: f64) -> f64 {
     if x > 0.0 && x.is_finite() { (-x.log2().floor()).exp2() } else { 1.0 }
 }
@@ -276,7 +276,7 @@ mod tests {
         }
     }
 
-    /// What conjugate gradients ask of a preconditioner, up to rounding in single precision.
+    /// The preconditioner must be symmetric and positive definite, up to rounding in single precision.
     #[test]
     fn a_cycle_is_symmetric_and_positive_definite() {
         let cells = [45, 37];

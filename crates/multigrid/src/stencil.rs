@@ -9,7 +9,7 @@ use super::machine::{LANES, Machine, Pack};
 pub(super) struct Stencil {
     pub frame: Frame,
     pub diagonal: Vec<f32>,
-    /// Its reciprocal; 0 where there is no unknown.
+    /// The reciprocal of the diagonal; 0 for cells that are not unknowns.
     pub inverse: Vec<f32>,
     pub east: Vec<f32>,
     pub south: Vec<f32>,
@@ -18,7 +18,7 @@ pub(super) struct Stencil {
 }
 
 impl Stencil {
-    /// All zero. Nothing couples across what is no circle.
+    /// Creates zero coefficients. Nothing couples across the ends of an interval.
     pub fn new(frame: Frame) -> Self {
         let zeros = || vec![0.0; frame.len()];
         Self {
@@ -32,7 +32,7 @@ impl Stencil {
         }
     }
 
-    /// After the couplings are set: what follows from them.
+    /// Computes derived coefficients after the couplings are set.
     pub fn finish(&mut self) {
         for part in [&mut self.diagonal, &mut self.east, &mut self.south, &mut self.south_east, &mut self.south_west] {
             self.frame.finish(part);
@@ -44,7 +44,7 @@ impl Stencil {
     }
 }
 
-/// One row of couplings with a cell before and one after.
+/// One row of couplings, with a cell before and one after.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Line {
     pub diagonal: Vec<f32>,
@@ -65,7 +65,7 @@ impl Line {
     }
 }
 
-/// What can be coarsened.
+/// An operator that can be coarsened.
 pub(super) trait Operator {
     fn frame(&self) -> Frame;
     /// Writes row `i`, its ends included.
@@ -90,14 +90,14 @@ impl Operator for Stencil {
 #[derive(Debug, Clone)]
 pub(super) struct FivePoint {
     pub frame: Frame,
-    /// 4 + shift: what the diagonal is before what a reflecting end gives back.
+    /// 4 + shift: the diagonal before reflecting ends lower it.
     pub degree: f64,
     /// 1 on free cells, 0 elsewhere.
     pub free: Vec<f32>,
 }
 
 impl FivePoint {
-    /// Whether `A` is singular: constants are in its kernel.
+    /// Returns true if `A` is singular, with constants in its kernel.
     pub fn is_singular(&self) -> bool {
         let closed = self.frame.ends.iter().all(|&ends| ends != Ends::High);
         let all = || {

@@ -11,13 +11,13 @@ use super::smooth::{Smooth, Vectors};
 pub(super) struct Transfer {
     pub fine: Frame,
     pub coarse: Frame,
-    /// From the west, for the cell to the east of a coarse one.
+    /// Weight from the west, for the cell to the east of a coarse one.
     pub west: Vec<f32>,
-    /// From the east, for the same cell.
+    /// Weight from the east, for the same cell.
     pub east: Vec<f32>,
-    /// From the north, for the cell to the south of a coarse one.
+    /// Weight from the north, for the cell to the south of a coarse one.
     pub north: Vec<f32>,
-    /// From the south, for the same cell.
+    /// Weight from the south, for the same cell.
     pub south: Vec<f32>,
     /// For the cell to the south-east of a coarse one: from the north-west, north-east, south-west, south-east.
     pub corners: [Vec<f32>; 4],
@@ -35,14 +35,14 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// For grids with rows up to this padded width.
+    /// Allocates rows of up to this padded width.
     pub fn new(width: usize) -> Self {
         let zeros = || vec![0.0; width + 2 * LANES + 2];
         Self { natural: zeros(), even: zeros(), odd: zeros(), above: [zeros(), zeros()], below: [zeros(), zeros()] }
     }
 }
 
-/// Of the transfer from the finest level: what it does to the even cells.
+/// The part of the transfer from the finest level that acts on even cells.
 #[derive(Debug, Clone)]
 pub(super) struct Corners {
     pub coarse: Frame,
@@ -54,7 +54,7 @@ impl Corners {
         Self { coarse: transfer.coarse, weights: transfer.corners }
     }
 
-    /// Row `i` of `P^T` of a residual that is there at even cells only.
+    /// Computes row `i` of `P^T` applied to a residual that is nonzero at even cells only.
     #[inline(always)]
     pub fn restrict<M: Machine>(&self, m: M, residual: &Band<f32>, i: usize, into: &mut [f32]) {
         let (row, over, count) = (self.coarse.row(i).start, self.coarse.above(i), self.coarse.width / LANES);
@@ -72,7 +72,7 @@ impl Corners {
         }
     }
 
-    /// `inverse` times the residual plus `P` of a coarse vector with its frame, in row `i`.
+    /// Computes row `i` of `inverse` times the residual plus `P` times a coarse vector with its frame.
     #[inline(always)]
     pub fn prolong<M: Machine>(
         &self,
@@ -108,7 +108,7 @@ impl Transfer {
         Self { fine, coarse, west: zeros(), east: zeros(), north: zeros(), south: zeros(), corners }
     }
 
-    /// After the weights are set: their frames.
+    /// Sets the frames after the weights.
     pub fn finish(&mut self) {
         for part in [&mut self.west, &mut self.east, &mut self.north, &mut self.south] {
             self.coarse.finish(part);
@@ -137,7 +137,7 @@ impl Transfer {
         }
     }
 
-    /// `P^T` of the residual of the finer level.
+    /// Applies `P^T` to the residual of the finer level.
     pub fn restrict<M: Machine, L: Smooth>(&self, m: M, level: &L, upper: &Vectors, rows: &mut Rows, into: &mut [f32]) {
         let (fine, coarse) = (self.fine, self.coarse);
         let Rows { natural, even, odd, above, below } = rows;

@@ -4,7 +4,7 @@ use cplan_multigrid::{Ends, Multigrid};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-/// Row and column of the neighbour `step` further, if there is one; on a reflecting limit, the cell itself.
+/// Returns the row or column `step` further, if it exists. On a reflecting limit it is the cell itself.
 fn neighbor(at: usize, step: isize, cells: usize, ends: Ends) -> Option<usize> {
     let to = at as isize + step;
     if (0..cells as isize).contains(&to) {
@@ -17,7 +17,7 @@ fn neighbor(at: usize, step: isize, cells: usize, ends: Ends) -> Option<usize> {
     }
 }
 
-/// For each cell the four places around it.
+/// Returns the four neighbours of each cell.
 fn around(cells: [usize; 2], ends: [Ends; 2]) -> Vec<[Option<usize>; 4]> {
     let [rows, columns] = cells;
     let mut all = Vec::new();
@@ -31,7 +31,7 @@ fn around(cells: [usize; 2], ends: [Ends; 2]) -> Vec<[Option<usize>; 4]> {
     all
 }
 
-/// The matrix, cell by cell. Walls have the row of the identity.
+/// Returns the matrix. Walls have the row of the identity.
 fn dense(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> DMatrix<f64> {
     let mut matrix = DMatrix::identity(free.len(), free.len());
     for (cell, around) in around(cells, ends).into_iter().enumerate().filter(|&(cell, _)| free[cell]) {
@@ -165,7 +165,7 @@ fn maze(rooms: usize, width: usize) -> ([usize; 2], Vec<bool>) {
     ([n, n], free)
 }
 
-/// A linear congruential generator on 0..1, the same each time.
+/// Returns a linear congruential generator on 0..1 with a fixed seed.
 fn numbers() -> impl FnMut() -> f64 {
     let mut state = 1_u64;
     move || {
@@ -229,7 +229,7 @@ fn sines_are_modes_of_a_rectangle() {
     }
 }
 
-/// The number of iterations depends neither on the size nor on the walls; the error is what was asked for.
+/// The number of iterations depends neither on the size nor on the walls, and the error is below the tolerance.
 #[test]
 fn iterations_are_few_whatever_the_walls() {
     let mut random = numbers();
@@ -288,7 +288,7 @@ fn nothing_free_nothing_to_do() {
     }
 }
 
-/// An obstacle goes its way through an open place: each field starts from the last.
+/// An obstacle moves through an open area. Each field starts from the last one.
 #[test]
 fn a_field_is_repaired_after_an_obstacle_moved() {
     let cells = [65, 85];

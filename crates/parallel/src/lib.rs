@@ -1,4 +1,4 @@
-//! Work on several threads, whose results come in order.
+//! Parallel work whose results arrive in order.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Pieces of work that begin before the one that is due has ended, at the most, for each thread: their results wait.
+/// Largest number of results per thread that wait for an earlier one.
 const WAITING: usize = 64;
 
-/// Does one piece of many, whose panic is not to end the others.
+/// Runs one piece of work and catches its panic, so that other pieces continue.
 ///
 /// # Errors
-/// That it panicked, in words. Work that is stopped from outside unwinds, too, and goes on doing so.
+/// The panic message. An interruption from outside unwinds further.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
@@ -23,11 +23,11 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     })
 }
 
-/// Does `count` pieces of work on `jobs` threads, and hands the results to `each` on this thread, in order, each as soon as all before it
-/// are there; until one is refused. Panics of the work are panics here.
+/// Runs `count` pieces of work on `jobs` threads. Passes the results to `each` on this thread, in order, as soon as
+/// possible, until `each` fails. Panics of the work are passed on.
 ///
 /// # Errors
-/// What `each` refuses with; work that has begun ends, no other begins.
+/// The error of `each`. Running pieces finish, and no others start.
 pub fn in_order<T: Send, E>(
     count: usize,
     jobs: usize,
@@ -51,7 +51,7 @@ pub fn in_order<T: Send, E>(
                         break;
                     }
                     match catch_unwind(AssertUnwindSafe(|| work(i))) {
-                        // Nobody takes results any more once one was refused.
+                        // After an error, nobody receives results.
                         Ok(result) => drop(sender.send((i, result))),
                         Err(panic) => {
                             turns.end();
@@ -76,7 +76,7 @@ pub fn in_order<T: Send, E>(
     })
 }
 
-/// Which result is due, and whether no other work is to begin.
+/// Number of the next result, and whether new work may start.
 struct Turns {
     state: Mutex<(usize, bool)>,
     moved: Condvar,
@@ -88,7 +88,7 @@ impl Turns {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until few enough results wait for this one's predecessors; false when it is over.
+    /// Waits until few enough results wait for an earlier one. Returns false if the run is over.
     fn may_begin(&self, i: usize) -> bool {
         let is_early = |(due, is_over): &mut (usize, bool)| !*is_over && i >= *due + self.most;
         !self.moved.wait_while(self.state(), is_early).unwrap_or_else(PoisonError::into_inner).1
@@ -105,7 +105,7 @@ impl Turns {
     }
 }
 
-/// However results stop being taken, by a refusal or a panic too, nobody waits for a turn any more.
+/// Releases all waiting threads when the receiver stops, even by an error or a panic.
 struct Over<'a>(&'a Turns);
 
 impl Drop for Over<'_> {
@@ -123,7 +123,7 @@ mod tests {
         for jobs in [1, 2, 7, 100] {
             let mut seen = Vec::new();
             let work = |i: usize| {
-                // The first takes longest.
+                // The first piece takes longest.
                 (0..10_000 * usize::from(i == 0)).for_each(|_| std::thread::yield_now());
                 i * i
             };
@@ -170,7 +170,7 @@ mod tests {
         let work = |i: usize| {
             begun.fetch_add(1, Ordering::SeqCst);
             if i == 0 {
-                // As many as may, and no more, however long it takes.
+                // As many pieces as may start, and no more, however long the first takes.
                 while begun.load(Ordering::SeqCst) < 3 * WAITING {
                     std::thread::yield_now();
                 }

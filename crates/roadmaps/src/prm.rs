@@ -16,26 +16,26 @@ use petgraph::graph::NodeIndex;
 /// Draws for each sample that is wanted, at most: a free share of a hundredth is enough.
 const DRAWS: usize = 100;
 
-/// The *probabilistic roadmap* (Kavraki, Svestka, Latombe, Overmars 1996), for comparison: random free configurations, each joined to
-/// the nearest ones that it sees.
+/// The *probabilistic roadmap* (Kavraki, Svestka, Latombe, Overmars 1996), for comparison: random free configurations,
+/// each joined to the nearest ones that it sees.
 ///
-/// Samples are uniform over free space; on circles each stands at all its copies within the window. Whether a motion from one to
-/// another is free is decided exactly, in triangulated free space. The sequence of samples follows from the seed alone, and fewer
-/// are the first of more: the same input gives the same roadmap.
+/// Samples are uniform over free space; on circles each sample has all its copies within the window. Triangulated free
+/// space decides exactly whether a motion between samples is free. The seed determines the sequence of samples, and a
+/// smaller roadmap uses its first ones, so the same input gives the same roadmap.
 ///
-/// What it does not find may be there all the same: then it gives up, and never says that there is no path. `O(n k log n)` for `n`
-/// samples with `k` neighbours, and the triangles that motions cross.
+/// If it finds no path it gives up, because a path may still exist. `O(n k log n)` for `n` samples with `k` neighbours,
+/// plus the triangles that motions cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Prm {
-    /// How many free samples.
+    /// Number of free samples.
     pub samples: usize,
-    /// To how many of the nearest samples each is joined, if it sees them.
+    /// Number of nearest samples to which each is joined, if it sees them.
     pub nearest: usize,
-    /// What the samples follow from.
+    /// Seed of the random samples.
     pub seed: u64,
     /// [`PathKind::Own`] leads from sample to sample; [`PathKind::Taut`] is pulled tight through the triangles that it crosses.
     pub path: PathKind,
-    /// How the roadmap is searched.
+    /// Search method for the roadmap.
     pub search: RoadmapSearch,
 }
 
@@ -92,7 +92,7 @@ impl Planner for Prm {
 }
 
 impl Prm {
-    /// The free samples, at all their copies in the window.
+    /// Returns the free samples with all their copies in the window.
     fn drawn(&self, space: &Regions, mesh: &Mesh) -> Vec<Point> {
         let mut draws = Draws::new(self.seed);
         let (mut points, mut found) = (Vec::new(), 0);
@@ -113,7 +113,7 @@ impl Prm {
         points
     }
 
-    /// The roadmap with a query's ends, joined to the nearest samples like these among themselves, and to each other.
+    /// Returns the roadmap with a query's ends, joined to each other and to the nearest samples.
     fn asked(&self, map: &PrmMap, terminals: &Terminals) -> Asked {
         let mut asked = map.roadmap.clone().asked(terminals.start);
         let start = asked.start;
@@ -137,7 +137,8 @@ impl Prm {
     }
 }
 
-/// A way through free space as a path: as it is, or pulled tight through the triangles that it crosses.
+/// Returns a polyline through free space as a path, either unchanged or pulled taut through the triangles that it
+/// crosses.
 pub(super) fn along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
     let waypoints = match kind {
         PathKind::Own | PathKind::Middles => own,
@@ -146,7 +147,8 @@ pub(super) fn along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
     Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect()))
 }
 
-/// A path pulled tight through the triangles that it crosses; none if it passes through a vertex, or along a side.
+/// Pulls a path taut through the triangles that it crosses. Returns `None` if it passes through a vertex or along a
+/// side.
 fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
     let crossed = |first: u32| {
         let (mut at, mut portals) = (first, Vec::new());
@@ -154,7 +156,7 @@ fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
             for portal in mesh.walk(at, leg[0], leg[1])? {
                 let back = mesh.twin(portal)?;
                 at = back / 3;
-                // What is left by the way that it was entered need not be entered.
+                // A triangle left through the side of entry can be skipped.
                 if portals.last() == Some(&back) {
                     portals.pop();
                 } else {

@@ -11,18 +11,18 @@ use cplan_geometry::planar::{Boundary, NONE};
 use petgraph::graph::NodeIndex;
 use std::sync::Arc;
 
-/// The *triangular decomposition*: finds a channel of triangles from start to goal whenever there is one, and a path in it.
+/// The *triangular decomposition*: finds a channel of triangles from start to goal if one exists, and a path in it.
 ///
-/// Free space is triangulated (constrained Delaunay). The roadmap's nodes are the middles of the sides that two triangles share;
-/// those of one triangle are joined by straight motions, which lie within it (LaValle, *Planning Algorithms*, 2006, section
-/// 6.3.2). The path is free but not the shortest, even when taut: another channel may hold a shorter one. `O(n log n)` for `n`
-/// corners, whatever the search.
+/// Free space is triangulated (constrained Delaunay). The nodes of the roadmap are the midpoints of sides shared by two
+/// triangles; those of one triangle are joined by straight motions, which lie within it (LaValle, *Planning
+/// Algorithms*, 2006, section 6.3.2). Even a taut path is not necessarily the shortest, because another channel may
+/// hold a shorter one. `O(n log n)` for `n` corners, with any search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Triangles {
     /// [`PathKind::Taut`] is pulled within the channel, so that it may touch obstacles; [`PathKind::Own`] leads through the
     /// middles of sides.
     pub path: PathKind,
-    /// How the roadmap is searched.
+    /// Search method for the roadmap.
     pub search: RoadmapSearch,
 }
 
@@ -39,7 +39,7 @@ pub struct TrianglesMap {
     /// Corners of the triangles.
     corners: Arc<[Vec<Configuration>]>,
     roadmap: Roadmap,
-    /// Of each node one of the two half-edges that it is the middle of.
+    /// For each node, one of the two half-edges of its side.
     sides: Vec<u32>,
     /// The node at the middle of each half-edge, `NONE` where that is part of the boundary.
     middles: Vec<u32>,
@@ -90,8 +90,8 @@ impl Planner for Triangles {
     }
 }
 
-/// The shortest way from the start to the nearest of some goals through sides of triangles, each seen from the triangle that is
-/// left.
+/// Returns the shortest path from the start to the nearest goal through the given sides of triangles, each seen from
+/// the triangle before it.
 pub(super) fn taut(mesh: &Mesh, start: Point, goals: &Segment, sides: &[u32]) -> Vec<Point> {
     let portal = |&side: &u32| {
         let [right, left] = mesh.ends(side);
@@ -138,7 +138,7 @@ impl TrianglesMap {
         Self { mesh, corners, roadmap, sides, middles }
     }
 
-    /// The way that a search finds, and where it came, in order.
+    /// Returns the path that a search finds, and the configurations that it expanded, in order.
     fn way(&self, terminals: &Terminals, how: RoadmapSearch) -> (Option<Way>, Vec<Configuration>) {
         let (mesh, start) = (&self.mesh, terminals.start);
         let euclid = Measure::from(Metric::Euclidean);

@@ -1,11 +1,11 @@
-//! Errors in what the user wrote: where, what, and what to do about it.
+//! Errors in user input: place, message and hint.
 
 use super::source::Position;
 use cplan_text::{plain, plain_line};
 use std::fmt;
 use thiserror::Error;
 
-/// What a diagnostic is about, for scripts.
+/// Category of a diagnostic, for scripts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DiagnosticKind {
     /// A file or an option.
@@ -17,25 +17,25 @@ pub enum DiagnosticKind {
     Goal,
 }
 
-/// One thing that is wrong with the input.
+/// One defect of the input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
     /// The file, or the command-line option, that it is in.
     pub origin: String,
-    /// Where in the file, if that is known.
+    /// Position in the file, if it is known.
     pub position: Option<Position>,
     /// The line of the file with a caret below the place.
     pub excerpt: Option<Box<str>>,
-    /// What is wrong, naming the joint, link or obstacle.
+    /// Description of the defect, with the name of the joint, link or obstacle.
     pub message: String,
-    /// What to do about it; each diagnostic that reaches the user has one.
+    /// Hint for the user. Every diagnostic that reaches the user has one.
     pub help: Option<String>,
-    /// What it is about.
+    /// Its category.
     pub kind: DiagnosticKind,
 }
 
 impl Diagnostic {
-    /// A diagnostic of a whole file or option.
+    /// Creates a diagnostic about a whole file or option.
     #[must_use]
     pub fn new(origin: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
@@ -48,13 +48,13 @@ impl Diagnostic {
         }
     }
 
-    /// The same with help.
+    /// Sets the hint.
     #[must_use]
     pub fn help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 
-    /// The same about something else.
+    /// Sets the category.
     #[must_use]
     pub fn about(self, kind: DiagnosticKind) -> Self {
         Self { kind, ..self }
@@ -86,13 +86,13 @@ pub struct InputError {
 }
 
 impl InputError {
-    /// What is wrong: at least one diagnostic, in the order of the file where that makes sense.
+    /// Returns the diagnostics, at least one, in the order of the file where possible.
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }
 
-    /// The same for a command that has an option under another name.
+    /// Replaces the name of an option, for commands that call it differently.
     pub fn with_option(mut self, name: &str, called: &str) -> Self {
         for Diagnostic { origin, message, help, .. } in &mut self.diagnostics {
             [Some(origin), Some(message), help.as_mut()]
@@ -103,7 +103,7 @@ impl InputError {
         self
     }
 
-    /// The same about something else.
+    /// Sets the category of all diagnostics.
     #[must_use]
     pub fn about(self, kind: DiagnosticKind) -> Self {
         Self { diagnostics: self.diagnostics.into_iter().map(|diagnostic| diagnostic.about(kind)).collect() }

@@ -1,10 +1,10 @@
-//! Which files were read, so that none of them is overwritten.
+//! Identities of the files that were read, so that no output overwrites them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-/// What tells a file from others, however its path is spelt and whichever links lead to it.
+/// Identity of a file, independent of the spelling of its path and of links.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileIdentity {
     /// Absolute, without links.
@@ -14,14 +14,15 @@ pub struct FileIdentity {
 }
 
 impl FileIdentity {
-    /// That of a file, which need not exist if its folder does. None of what is no place for a file.
+    /// Returns the identity of a file, which need not exist if its folder does. Returns `None` if the path cannot be a
+    /// file.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         if let Ok(path) = fs::canonicalize(path) {
             let number = fs::metadata(&path).ok().and_then(|found| number(&found));
             return Some(Self { path, number });
         }
-        // What is written goes behind a link, also to a file that is not there yet.
+        // Writing follows a link, even to a file that does not exist yet.
         let target = fs::read_link(path).map(|target| path.with_file_name(target));
         let path = target.as_deref().unwrap_or(path);
         let folder = match path.parent() {
@@ -32,7 +33,7 @@ impl FileIdentity {
         Some(Self { path: fs::canonicalize(folder).ok()?.join(path.file_name()?), number: None })
     }
 
-    /// Whether both are one file.
+    /// Returns true if both are the same file.
     #[must_use]
     pub fn is(&self, other: &Self) -> bool {
         self.path == other.path || (self.number.is_some() && self.number == other.number)
@@ -62,7 +63,7 @@ pub(crate) fn note_read(path: &Path) {
     }
 }
 
-/// The input that this process has read from the same file, by whichever path.
+/// Returns the path of an input of this process that is the same file.
 #[must_use]
 pub fn read_from(path: &Path) -> Option<PathBuf> {
     let identity = FileIdentity::of(path)?;
@@ -70,7 +71,7 @@ pub fn read_from(path: &Path) -> Option<PathBuf> {
     read.iter().find(|(_, known)| known.is(&identity)).map(|(path, _)| path.clone())
 }
 
-/// The paths of all inputs that this process has read.
+/// Returns the paths of all inputs that this process has read.
 #[must_use]
 pub fn files_read() -> Vec<PathBuf> {
     let read = READ.lock().unwrap_or_else(|poisoned| poisoned.into_inner());

@@ -1,4 +1,4 @@
-//! What there is to say of a robot, whether it can be planned with or not.
+//! Report on a robot, usable for planning or not.
 
 use super::error::InputError;
 use cplan_core::model::{OutlineSource, Scene};
@@ -6,7 +6,7 @@ use cplan_geometry::Point;
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// The report on a robot. What could not be found out for the diagnostics of the file is empty or none.
+/// The report on a robot. Facts that are unknown because of defects in the file are empty or missing.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Inspection {
     /// The path of the URDF, as it was given.
@@ -15,17 +15,17 @@ pub struct Inspection {
     pub world: Option<String>,
     /// The robot's name.
     pub robot: Option<String>,
-    /// The link that everything hangs from; none if the links form no tree.
+    /// Root link. `None` if the links do not form a tree.
     pub root: Option<String>,
-    /// In the order of the file.
+    /// Links, in the order of the file.
     pub links: Vec<LinkEntry>,
-    /// In the order of the file.
+    /// Joints, in the order of the file.
     pub joints: Vec<JointEntry>,
     /// Every two joints of a chain that move on their own, and whether they form a planar arm; base first.
     pub pairs: Vec<PairEntry>,
     /// The two joints that the rest of the report is about, base to tip.
     pub chosen: Option<[String; 2]>,
-    /// Whether nobody chose them: they are the first pair of joints that forms a planar arm.
+    /// True if nobody chose them: they are the first pair of joints that forms a planar arm.
     pub assumed: bool,
     /// Link whose origin is the tip.
     pub tip: Option<String>,
@@ -35,17 +35,17 @@ pub struct Inspection {
     pub outlines: Vec<OutlineEntry>,
     /// Links of the robot that its other links can hit.
     pub self_obstacles: Vec<SelfObstacleEntry>,
-    /// How far the arm reaches.
+    /// Reach of the arm.
     pub reach: Option<ReachEntry>,
-    /// What was not taken into account, and why.
+    /// Ignored elements, with reasons.
     pub ignored: Vec<String>,
-    /// What may surprise.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// A `[robot]` table for the world file with which the robot loads, where that is all that is missing. Ranges, speeds
     /// and radii in it are placeholders.
     #[serde(rename = "remedy")]
     pub help: Option<String>,
-    /// What prevents planning, in the order of the stages; the first is what planning would report.
+    /// Errors that prevent planning, in the order of the stages. Planning would report the first one.
     #[serde(skip)]
     pub errors: Vec<InputError>,
     /// The arm among the world's obstacles, for a picture: ranges and outlines that are missing are stood in for.
@@ -57,7 +57,7 @@ pub struct Inspection {
 }
 
 impl Inspection {
-    /// Whether the robot can be planned with as it is.
+    /// Returns true if planning is possible.
     #[must_use]
     pub fn is_plannable(&self) -> bool {
         self.errors.is_empty()
@@ -77,11 +77,11 @@ pub struct LinkEntry {
     pub visual: usize,
 }
 
-/// What a joint is to the arm.
+/// Role of a joint in the arm.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
-    /// One of the two.
+    /// One of the two planned joints.
     Moves,
     /// On the chain or carried by it, and held still.
     Held,
@@ -89,9 +89,9 @@ pub enum Role {
     Follows,
     /// Can move, but the arm does not depend on it.
     Ignored,
-    /// Of type fixed, or another that has no single value.
+    /// A fixed joint, or another type without a single value.
     Rigid,
-    /// Not known: no two joints could be chosen.
+    /// Unknown, because no two joints could be chosen.
     Undecided,
 }
 
@@ -100,7 +100,7 @@ pub enum Role {
 pub struct JointEntry {
     /// The joint's name in the URDF.
     pub name: String,
-    /// Its type in the file's words.
+    /// Joint type in the words of the file.
     #[serde(rename = "type")]
     pub kind: String,
     /// Line of the URDF.
@@ -109,28 +109,28 @@ pub struct JointEntry {
     pub parent: String,
     /// The link that the joint carries.
     pub child: String,
-    /// Of a joint that can move: its axis in its own frame, of unit length.
+    /// For movable joints: axis in the joint's own frame, of unit length.
     pub axis: Option<[f64; 3]>,
-    /// The same in the root frame, the chosen joints at zero and the others where they are held.
+    /// The same in the root frame, with the chosen joints at zero and the others at their held values.
     pub direction: Option<[f64; 3]>,
     /// The joint that it mimics.
     pub mimics: Option<String>,
-    /// What it is to the arm.
+    /// Its role in the arm.
     pub role: Role,
-    /// Where it stands in the arm's zero configuration, radians or metres; none for rigid joints.
+    /// Value in the arm's zero configuration, radians or metres; `None` for rigid joints.
     pub value: Option<f64>,
-    /// Of a joint that can move: its range.
+    /// For movable joints: range.
     pub limits: Option<LimitEntry>,
-    /// Of a joint that can move: its top speed, per second; none if it has none.
+    /// For movable joints: top speed, per second, if there is one.
     pub velocity: Option<RateEntry>,
-    /// Of a joint that can move and has a top speed: its acceleration, per second squared.
+    /// For movable joints with a top speed: acceleration, per second squared.
     pub acceleration: Option<RateEntry>,
-    /// Of a joint that can move and has a limit of it: its jerk, per second cubed.
+    /// For movable joints with a jerk limit: jerk, per second cubed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub jerk: Option<RateEntry>,
 }
 
-/// Where a range comes from.
+/// Source of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LimitSource {
@@ -142,20 +142,20 @@ pub enum LimitSource {
     World,
     /// The joint turns without end.
     Continuous,
-    /// There is none that could be planned in.
+    /// No range suitable for planning is given.
     Unset,
 }
 
 /// A joint's range, radians or metres.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LimitEntry {
-    /// Where it comes from.
+    /// Its source.
     pub source: LimitSource,
-    /// Both ends; none if it is continuous or unset.
+    /// Both ends; `None` if it is continuous or unset.
     pub range: Option<[f64; 2]>,
 }
 
-/// Where a rate comes from.
+/// Source of a rate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RateSource {
@@ -172,7 +172,7 @@ pub enum RateSource {
 pub struct RateEntry {
     /// Per second, per second squared or cubed; radians or metres.
     pub value: f64,
-    /// Where it comes from.
+    /// Its source.
     pub source: RateSource,
 }
 
@@ -183,7 +183,7 @@ pub struct PairEntry {
     pub joints: [String; 2],
     /// `RR`, `RP`, `PR` or `PP`.
     pub kind: String,
-    /// Whether they form a planar arm.
+    /// True if they form a planar arm.
     pub planar: bool,
     /// The plane if they do, else why not.
     pub reason: String,
@@ -198,7 +198,7 @@ pub struct PlaneEntry {
     pub v: [f64; 3],
     /// Direction of heights.
     pub normal: [f64; 3],
-    /// The same in words.
+    /// The same as text.
     pub words: String,
 }
 
@@ -219,7 +219,7 @@ pub struct OutlineEntry {
     pub bodies: Vec<BodyEntry>,
 }
 
-/// What a URDF link gives to an outline.
+/// Contribution of a URDF link to an outline.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BodyEntry {
     /// The URDF link.
@@ -235,7 +235,7 @@ pub struct BodyEntry {
 pub struct SelfObstacleEntry {
     /// The URDF link.
     pub link: String,
-    /// Whether joint 1 carries it; else it stands still.
+    /// True if joint 1 carries it; otherwise it is fixed.
     pub moves: bool,
     /// Extent along the plane's normal, metres.
     pub heights: [f64; 2],
@@ -243,12 +243,12 @@ pub struct SelfObstacleEntry {
     pub ignored: Vec<String>,
 }
 
-/// How far the arm reaches.
+/// Reach of the arm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReachEntry {
     /// The tip at the zero configuration, plane coordinates, metres.
     pub tip: [f64; 2],
-    /// Least and greatest distance of the tip from joint 1 whatever the limits, if both joints turn; metres.
+    /// For two revolute joints: least and greatest distance of the tip from joint 1 without limits, metres.
     pub distances: Option<[f64; 2]>,
     /// Bound on the distance of any part of the arm from joint 1 with sliding joints at zero, metres.
     pub outline: f64,
@@ -257,7 +257,7 @@ pub struct ReachEntry {
 /// A frame as the plane sees it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// Of the joint, or of the tip's link.
+    /// Name of the joint, or of the tip's link.
     pub name: String,
     /// Origin, plane coordinates.
     pub at: Point,
@@ -265,7 +265,7 @@ pub struct Frame {
     pub axes: [Vector3<f64>; 3],
 }
 
-/// The word for an outline's source.
+/// Returns the word for an outline's source.
 pub(crate) fn source_name(source: OutlineSource) -> &'static str {
     match source {
         OutlineSource::Collision => "collision",

@@ -1,26 +1,26 @@
-//! How a robot was read, for the user.
+//! Report to the user on how the robot was read.
 
 use cplan_core::model::{Arm, AssumedLimits, HeldJoint, RobotJoints};
 use serde::{Deserialize, Serialize};
 
-/// What the user should know of how the robot was read.
+/// The report on how the robot was read.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotReport {
-    /// What is made of the robot: the plane, the tip, the outline of each link.
+    /// The resulting geometry: plane, tip, and outline of each link.
     pub geometry: Vec<String>,
-    /// What was taken for granted: joints held still, defaults, outlines of what is not meant for it, things ignored.
+    /// Assumptions: joints held still, defaults, outlines from other geometry, ignored elements.
     pub notes: Vec<String>,
-    /// What may surprise: links that cannot collide, meshes that a bar stands in for.
+    /// Warnings: links that cannot collide, meshes replaced by a bar.
     pub warnings: Vec<String>,
     /// Limits that nobody gives.
     pub assumed: AssumedLimits,
     /// Joints that could move but are held, and whose value matters to the arm: names and values, radians or metres.
     pub held: Vec<(String, f64)>,
-    /// The same joints with what they would do if they moved.
+    /// The same joints with the effects of their motion.
     #[serde(default)]
     pub held_joints: Vec<HeldJoint>,
-    /// All joints that can move, for messages that name them.
+    /// All movable joints, for messages that name them.
     pub joints: RobotJoints,
     /// Why torques are not known, unless they are.
     #[serde(default)]
@@ -28,7 +28,8 @@ pub struct RobotReport {
 }
 
 impl RobotReport {
-    /// What may surprise and what is assumed, for programs that print no summary: lines that begin with `warning:` or `note:`.
+    /// Returns warnings and assumptions for programs that print no summary: lines that begin with `warning:` or
+    /// `note:`.
     #[must_use]
     pub fn remarks(&self, arm: &Arm) -> Vec<String> {
         let warnings = self.warnings.iter().map(|warning| format!("warning: {warning}"));

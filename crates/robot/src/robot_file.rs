@@ -5,12 +5,12 @@ use super::source::{Source, read_bounded};
 use cplan_xacro::{Settings, expand, is_xacro};
 use std::path::{Path, PathBuf};
 
-/// Where a robot is read from.
+/// The source of a robot.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct RobotFile {
     /// A URDF, or xacro.
     pub path: PathBuf,
-    /// Names and values of the arguments of a xacro file, in place of its defaults.
+    /// Names and values of xacro arguments, which override the defaults.
     pub xacro_args: Vec<(String, String)>,
 }
 
@@ -27,11 +27,10 @@ impl<P: AsRef<Path>> From<P> for RobotFile {
 }
 
 impl RobotFile {
-    /// Reads the file as a URDF. What is xacro, by its name or by its content, is expanded; messages then name the places in the xacro
-    /// files.
+    /// Reads the file as a URDF. Expands xacro, recognised by name or content; messages then refer to the xacro files.
     ///
     /// # Errors
-    /// A file that cannot be read or expanded, and arguments for a file that is no xacro.
+    /// A file that cannot be read or expanded, and arguments for a file that is not xacro.
     pub fn read(&self) -> Result<Source, InputError> {
         let source = Source::read(&self.path)?;
         let is_named_so = self.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xacro"));
@@ -52,7 +51,7 @@ impl RobotFile {
     }
 }
 
-/// The same for users, with the line.
+/// Converts the error to a diagnostic with its line.
 fn diagnostic(error: cplan_xacro::Error) -> Diagnostic {
     let diagnostic = match error.place {
         None => Diagnostic::new(error.path.display().to_string(), error.message),

@@ -9,15 +9,15 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
 
-/// What the URDF leaves open, and what goes over it. All keys are optional.
+/// Settings that complete or override the URDF. All keys are optional.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "robot")]
 pub struct RobotTable {
-    /// Where the robot stands: the place of its root frame's origin in the world, m; by default [0, 0].
+    /// Position of the robot's root frame in the world, m; by default [0, 0].
     #[schemars(with = "Option<Two>")]
     pub at: Option<Numbers>,
-    /// How its root frame is turned, rad; by default 0.
+    /// Angle of its root frame, rad; by default 0.
     #[schemars(with = "Option<AngleOrLength>")]
     pub angle: Option<Written>,
     /// The two joints that move, from the base to the tip; needed only if the URDF has more than two that can.
@@ -30,11 +30,11 @@ pub struct RobotTable {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, AngleOrLength>")]
     pub fixed: PerJoint<Written>,
-    /// Least and greatest value of a joint, by name, rad or m, in place of the URDF's.
+    /// Least and greatest value of a joint, by name, rad or m, instead of the URDF's.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, [AngleOrLength; 2]>")]
     pub limits: PerJoint<Spanned<Vec<Written>>>,
-    /// Top speed of a joint, by name, rad/s or m/s, in place of the URDF's.
+    /// Top speed of a joint, by name, rad/s or m/s, instead of the URDF's.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Positive>")]
     pub velocity: PerJoint<Number>,
@@ -46,17 +46,17 @@ pub struct RobotTable {
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Positive>")]
     pub jerk: PerJoint<Number>,
-    /// Greatest torque or force of a joint, by name, N m or N, in place of the URDF's.
+    /// Greatest torque or force of a joint, by name, N m or N, instead of the URDF's.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Positive>")]
     pub effort: PerJoint<Number>,
-    /// Whether motions keep within the joints' efforts, by the masses that the URDF gives.
+    /// True if motions respect the joints' efforts, with the masses of the URDF.
     #[serde(default)]
     pub dynamics: bool,
     /// Acceleration of free fall in the robot's root frame, m/s2; by default [0, 0, -9.81].
     #[schemars(with = "Option<[f64; 3]>")]
     pub gravity: Option<Numbers>,
-    /// Whether links of the robot are in the way of its other links; by default true.
+    /// Whether links of the robot are obstacles to its other links; by default true.
     pub(crate) own_body: Option<bool>,
     /// Pairs of the robot's links that may touch each other.
     #[schemars(with = "Option<Vec<[String; 2]>>")]
@@ -64,12 +64,12 @@ pub struct RobotTable {
     /// Radius of the capsule that stands in for a link without geometry, m.
     #[schemars(with = "Option<Positive>")]
     pub bar: Option<Number>,
-    /// The wrist that keeps or turns what is carried with payload "level".
+    /// The wrist that keeps or changes the orientation of objects carried with payload "level".
     pub wrist: Option<WristTable>,
-    /// How the tool is lowered and raised at picks and places; by default it is not.
+    /// Motion of the tool down and up at picks and places; by default it does not move.
     #[schemars(with = "Option<StrokeTable>")]
     pub stroke: Option<StrokeTable>,
-    /// How objects are held that do not say it; by default "rigid".
+    /// How objects are held unless they say otherwise; by default "rigid".
     #[schemars(with = "Option<HeldAs>")]
     pub payload: Option<Spanned<String>>,
 }
@@ -87,7 +87,7 @@ impl RobotTable {
         self.wrist.as_ref()?.joint.as_ref()
     }
 
-    /// Returns whether links of the robot are in the way of its other links. This is the default.
+    /// Returns true if links of the robot are obstacles to its other links. This is the default.
     #[must_use]
     pub fn own_body_is_obstacle(&self) -> bool {
         self.own_body != Some(false)

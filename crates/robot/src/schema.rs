@@ -36,6 +36,6 @@ stands_for! {
     AngleOrLength, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *deg *$" }
 }
 stands_for! {
-    /// How objects are held.
+    /// Grip of objects.
     HeldAs, { "type": "string", "enum": ["rigid", "level"] }
 }

@@ -1,4 +1,4 @@
-//! What decides how a robot is read, beside its own file.
+//! Settings for reading a robot, in addition to its own file.
 
 use crate::robot_table::RobotTable;
 use crate::source::Source;
@@ -10,6 +10,6 @@ pub struct RobotSettings<'a> {
     pub table: &'a RobotTable,
     /// The world file, whose lines messages about the table show.
     pub source: &'a Source,
-    /// Whether the world has steps. While the arm does them the wrist turns.
+    /// True if the world has steps, during which the wrist turns.
     pub has_steps: bool,
 }

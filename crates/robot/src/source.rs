@@ -22,20 +22,20 @@ pub struct Position {
 /// The text of an input, read from a file or made by the program. As data it is the text with its name: nothing is read again.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Source {
-    /// The file, or the name of a text that is none.
+    /// Path of the file, or name of a text in memory.
     path: PathBuf,
     text: String,
-    /// Whether there is such a file, beside which others may lie.
+    /// True if the file exists, so that other files can be relative to it.
     is_file: bool,
     /// The xacro files that the text was expanded from. Places in the text are reported as places in them.
     #[serde(skip)]
     expansion: Option<Arc<Expansion>>,
-    /// The position of every [`MILE`]th byte, once it is asked for.
+    /// Position of every [`MILE`]th byte, computed on first use.
     #[serde(skip)]
     milestones: OnceLock<Vec<Position>>,
 }
 
-/// What was asked of a text makes no difference.
+/// Cached positions do not affect equality.
 impl PartialEq for Source {
     fn eq(&self, other: &Self) -> bool {
         (&self.path, &self.text, self.is_file) == (&other.path, &other.text, other.is_file)
@@ -53,7 +53,8 @@ pub struct Cursor<'a> {
 }
 
 impl Cursor<'_> {
-    /// Line and column of a byte offset, the text's end beyond it. Starts anew for an offset before the last one.
+    /// Returns line and column of a byte offset, or of the text's end if it is beyond. Restarts for an offset before
+    /// the last one.
     pub fn position(&mut self, offset: usize) -> Position {
         let offset = offset.min(self.bytes.len());
         if offset < self.read {
@@ -75,10 +76,10 @@ impl Cursor<'_> {
 /// Bytes of the largest file that is read. Real ones, meshes included, stay far below; a device that never ends does not.
 const LARGEST_FILE: u64 = 256 << 20;
 
-/// A file's content, with the error of the system.
+/// Reads a file, with the error of the system.
 ///
 /// # Errors
-/// I/O, and a file larger than 256 MiB.
+/// I/O errors, and a file larger than 256 MiB.
 pub fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
     read_at_most(path, LARGEST_FILE)
 }
@@ -101,20 +102,20 @@ const LARGEST_RECORDING: u64 = 2 << 30;
 /// Bytes from one place whose line and column are known to the next.
 const MILE: usize = 4096;
 
-/// A file's content.
+/// Reads a file.
 ///
 /// # Errors
-/// I/O, and a file larger than 256 MiB.
+/// I/O errors, and a file larger than 256 MiB.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
     read_bounded(path).map_err(|error| {
         unreadable(path, &error, "it is larger than what it should be: look whether it is the right file").into()
     })
 }
 
-/// The content of a recording, which may be larger than other files.
+/// Reads a recording, which may be larger than other files.
 ///
 /// # Errors
-/// I/O, and a recording larger than 2 GiB.
+/// I/O errors, and a recording larger than 2 GiB.
 pub fn read_recorded(path: &Path) -> Result<Vec<u8>, InputError> {
     let help = "record fewer samples (cplan's --step SECONDS sets the time between them), or cut the recording into parts and verify \
                 each with --anywhere";
@@ -134,44 +135,43 @@ fn unreadable(path: &Path, error: &io::Error, too_large: &str) -> Diagnostic {
 const EXCERPT_REACH: usize = 60;
 
 impl Source {
-    /// A text that is no file: `name` is for messages, and a world's name if it has none of its own. It cannot refer to
-    /// other files (meshes, maps), so nothing is ever read for it.
+    /// Creates a source from a text in memory. `name` is used in messages, and as the world's name if it has none. Such
+    /// a text cannot refer to other files (meshes, maps), so no files are read for it.
     #[must_use]
     pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         Self { path: name.into(), text: text.into(), is_file: false, expansion: None, milestones: OnceLock::new() }
     }
 
-    /// The file, or the name of a text that is none.
+    /// Returns the path of the file, or the name of a text in memory.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The whole text of the file.
+    /// Returns the whole text.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// The same with another text, as an editor holds one in place of a file's: what it refers to is looked for beside the
-    /// same file.
+    /// Replaces the text, as for an editor's unsaved changes. References are still relative to the same file.
     #[must_use]
     pub fn with_text(&self, text: impl Into<String>) -> Self {
         Self { is_file: self.is_file, ..Self::in_memory(self.path.clone(), text) }
     }
 
-    /// The same with the URDF that its xacro expands to.
+    /// Replaces the text by the URDF to which its xacro expands.
     pub(crate) fn expanded(&self, expansion: Expansion) -> Self {
         Self { expansion: Some(Arc::new(expansion.clone())), ..self.with_text(expansion.text) }
     }
 
-    /// Whether the text is what xacro was expanded to.
+    /// Returns true if the text is expanded xacro.
     #[must_use]
     pub fn is_expanded(&self) -> bool {
         self.expansion.is_some()
     }
 
-    /// The xacro file and the part of it that a byte of the text comes from.
+    /// Returns the xacro file and the part of it from which a byte of the text comes.
     fn origin(&self, offset: usize) -> Option<(Self, Range<usize>)> {
         let expansion = self.expansion.as_ref()?;
         let place = expansion.place(offset)?;
@@ -207,25 +207,26 @@ impl Source {
         Ok(Self { is_file: true, ..Self::in_memory(path, text) })
     }
 
-    /// The path against which the names of other files are resolved.
+    /// Returns the path to which names of other files are relative.
     ///
     /// # Errors
-    /// In words, for a text that is no file.
+    /// The reason, for a text in memory.
     pub fn anchor(&self) -> Result<&Path, &'static str> {
         if self.is_file { Ok(&self.path) } else { Err("this text is no file, so there are no files beside it") }
     }
 
-    /// The path, for messages.
+    /// Returns the path for messages.
     pub fn name(&self) -> String {
         self.path.display().to_string()
     }
 
-    /// The file's name without its ending.
+    /// Returns the file's name without extension.
     pub fn stem(&self) -> Option<String> {
         self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned())
     }
 
-    /// Line and column of a byte offset, in the xacro file that it comes from, if any. `O(1)` but for the first, which takes note of places on the way through the text.
+    /// Returns line and column of a byte offset, in the original xacro file if there is one. `O(1)` after the first
+    /// call, which stores positions throughout the text.
     #[must_use]
     pub fn position(&self, offset: usize) -> Position {
         if let Some((file, range)) = self.origin(offset) {
@@ -247,12 +248,12 @@ impl Source {
         Cursor { bytes: self.text.as_bytes(), read: 0, at: Position { line: 1, column: 1 } }
     }
 
-    /// A diagnostic of the file as a whole.
+    /// Creates a diagnostic about the whole file.
     pub fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(self.name(), message)
     }
 
-    /// A diagnostic at a range of bytes, with the source line and carets below it.
+    /// Creates a diagnostic at a range of bytes, with the source line and carets below it.
     pub fn diagnostic_at(&self, range: Range<usize>, message: impl Into<String>) -> Diagnostic {
         if let Some((file, range)) = self.origin(range.start) {
             return file.diagnostic_at(range, message);
@@ -265,7 +266,7 @@ impl Source {
         }
     }
 
-    /// A diagnostic at a line and column, both counted from 1, as parsers name places; 0 is unknown.
+    /// Creates a diagnostic at a line and column, both counted from 1, as reported by parsers; 0 means unknown.
     pub fn diagnostic_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Diagnostic {
         if line == 0 {
             return self.diagnostic(message);
@@ -277,7 +278,7 @@ impl Source {
         self.diagnostic_at(before + at..before + at + 1, message)
     }
 
-    /// As much of the line as is near a place in it, with carets below the place.
+    /// Returns the part of the line near a place, with carets below the place.
     fn excerpt(&self, position: Position, range: Range<usize>) -> String {
         let start = (0..=range.start.min(self.text.len())).rev().find(|&i| self.text.is_char_boundary(i)).unwrap_or(0);
         let (before, after) = self.text.split_at(start);

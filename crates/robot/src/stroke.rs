@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// How the tool is lowered and raised at picks and places.
+/// Motion of the tool down and up at picks and places.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "stroke")]
@@ -15,7 +15,7 @@ pub struct StrokeTable {
     /// its `fixed` value.
     #[schemars(with = "String")]
     pub joint: Spanned<String>,
-    /// How far it lowers the tool, m; by default as far as the object is lifted.
+    /// Distance by which it lowers the tool, m; by default the object's lift.
     #[schemars(with = "Option<f64>")]
     pub travel: Option<Number>,
     /// Top speed, m/s; by default the joint's.

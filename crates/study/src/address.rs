@@ -23,10 +23,10 @@ impl fmt::Display for Step {
     }
 }
 
-/// Reads `a.b."c d"[2]`.
+/// Parses `a.b."c d"[2]`.
 ///
 /// # Errors
-/// What is wrong with it, in words.
+/// The syntax error.
 pub(super) fn steps(text: &str) -> Result<Vec<Step>, String> {
     let mut steps = Vec::new();
     let mut rest = text;
@@ -57,17 +57,17 @@ pub(super) fn steps(text: &str) -> Result<Vec<Step>, String> {
 /// A number in a text.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Found {
-    /// Where it stands.
+    /// Position in the text.
     pub at: Range<usize>,
-    /// Whether it is written without a fraction, as counts must be.
+    /// True if it is written without a fraction, as counts must be.
     pub is_whole: bool,
 }
 
-/// Keys that a robot or an obstacle has without saying so, and what they say then.
+/// Keys that a robot or an obstacle has by default, with their default values.
 const SILENT: [(&str, &str); 2] = [("at", "[0.0, 0.0]"), ("angle", "0.0")];
 
-/// The text of a world in which the number is written out, if it is one that robots and obstacles have without saying so;
-/// else the same text.
+/// Returns the text of a world with this number written out, if it is a default of robots and obstacles; otherwise the
+/// same text.
 pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
     let (table, key) = match steps {
         [Step::Name(robot), Step::Name(key), ..] if robot == "robot" => (&steps[..1], key),
@@ -82,7 +82,7 @@ pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
     written.filter(|_| in_world(text, steps).is_err()).unwrap_or_else(|| text.to_owned())
 }
 
-/// The key at the beginning of its table, which has a header or is inline.
+/// Inserts the key at the beginning of its table, which has a header or is inline.
 fn inside(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     let document = DeTable::parse(text).ok()?;
     let (_, at) = descend(document.get_ref(), document.span(), table).ok()?;
@@ -97,17 +97,17 @@ fn inside(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String>
     Some(format!("{before}{break_before}{written}{after}"))
 }
 
-/// The key in a table of its own, for a robot of which nothing is said, or only in tables below it.
+/// Inserts the key in a new table, for a robot without keys, or with keys only in subtables.
 fn below(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     (table.len() == 1).then(|| format!("{}\n\n[robot]\n{key} = {silent}\n", text.trim_end()))
 }
 
-/// The key beside others of a robot whose keys are written with dots.
+/// Inserts the key beside others of a robot with dotted keys.
 fn above(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     (table.len() == 1).then(|| format!("robot.{key} = {silent}\n{text}"))
 }
 
-/// What stands somewhere in a TOML document.
+/// A value in a TOML document.
 enum DeRef<'a> {
     Table(&'a DeTable<'a>),
     Array(&'a DeArray<'a>),
@@ -123,7 +123,7 @@ fn seen<'a>(value: &'a Spanned<DeValue<'a>>) -> (DeRef<'a>, Range<usize>) {
     (seen, value.span())
 }
 
-/// What the steps lead to. A name leads from a list of tables to the one of that `name`.
+/// Follows the steps. A name leads from a list of tables to the table with that `name`.
 fn descend<'a>(root: &'a DeTable<'a>, at: Range<usize>, steps: &[Step]) -> Result<(DeRef<'a>, Range<usize>), String> {
     let mut here = (DeRef::Table(root), at);
     for step in steps {
@@ -167,10 +167,10 @@ fn missing(here: &DeRef, step: &Step) -> String {
     format!("there is no {step}; there is {there}")
 }
 
-/// The number of a world file that the steps lead to.
+/// Returns the number of a world file at an address.
 ///
 /// # Errors
-/// Where there is none, in words.
+/// The reason, if there is no number.
 pub(super) fn in_world(text: &str, steps: &[Step]) -> Result<Found, String> {
     let document = DeTable::parse(text).map_err(|error| error.message().to_owned())?;
     match descend(document.get_ref(), document.span(), steps)? {
@@ -186,13 +186,13 @@ pub(super) fn in_world(text: &str, steps: &[Step]) -> Result<Found, String> {
     }
 }
 
-/// Where what the steps lead to stands in a TOML document, if it is there.
+/// Returns the position in a TOML document of the value at an address, if it exists.
 pub(super) fn entry_in(text: &str, steps: &[Step]) -> Option<Range<usize>> {
     let document = DeTable::parse(text).ok()?;
     descend(document.get_ref(), document.span(), steps).ok().map(|(_, at)| at)
 }
 
-/// Whether an address is that of an angle, or of a joint's value.
+/// Returns true if an address is that of an angle or of a joint's value.
 pub(super) fn is_angle(address: &str) -> bool {
     const ANGLES: [&str; 7] = ["angle", "joints", "fixed", "limits", "rpy", "lower", "upper"];
     let steps = steps(address).unwrap_or_default();
@@ -242,7 +242,7 @@ fn numbers_of(value: &DeValue, path: &str, found: &mut Vec<String>) {
     }
 }
 
-/// A name as addresses have it.
+/// Quotes a name for an address.
 fn quoted(name: &str) -> String {
     if name.contains([' ', '.', '[']) { format!("\"{name}\"") } else { name.to_owned() }
 }
@@ -278,12 +278,12 @@ fn numbers_of_element(element: roxmltree::Node, path: &str, found: &mut Vec<Stri
 /// Addresses that are compared with a wrong one, at most: maps and drawings have very many.
 const COMPARED: usize = 10_000;
 
-/// The address that differs least from this one.
+/// Returns the known address closest to this one.
 pub(super) fn nearest(address: &str, known: Vec<String>) -> Option<String> {
     known.into_iter().take(COMPARED).min_by_key(|known| edits(address, known))
 }
 
-/// How many characters are to be put in, taken out or replaced to make one word of another (Levenshtein).
+/// Returns the Levenshtein distance: the number of insertions, deletions and replacements of characters.
 fn edits(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
@@ -298,11 +298,11 @@ fn edits(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-/// The number of a URDF that the steps lead to: elements by tag, `joint` and `link` by name, then an attribute, and the number of the
-/// entry in it.
+/// Returns the number of a URDF at an address: elements by tag, `joint` and `link` by name, then an attribute, and the
+/// number of the entry in it.
 ///
 /// # Errors
-/// Where there is none, in words.
+/// The reason, if there is no number.
 pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<Found, String> {
     let document = roxmltree::Document::parse(text).map_err(|error| error.to_string())?;
     let mut here = document.root_element();
@@ -352,7 +352,7 @@ pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<Found, String> {
     Err("it is an element: say which attribute".into())
 }
 
-/// Where the words of a text stand.
+/// Returns the positions of the words of a text.
 fn entries(text: &str) -> Vec<Range<usize>> {
     let start = |word: &str| word.as_ptr() as usize - text.as_ptr() as usize;
     text.split_whitespace().map(|word| start(word)..start(word) + word.len()).collect()

@@ -1,4 +1,4 @@
-//! Rows on disk while a study runs, so that one that is stopped goes on where it was.
+//! The journal: rows on disk while a study runs, so that an interrupted study can be continued.
 
 use super::Study;
 use super::row::Row;
@@ -37,7 +37,7 @@ pub enum JournalError {
     },
 }
 
-/// What rows follow from.
+/// The inputs that determine the rows.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Head {
     cplan: String,
@@ -55,13 +55,13 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal of a study, and reads the rows that it has: those of the first layouts, without a gap. A line that is not whole,
-    /// because the program was killed in the middle of it, is dropped.
+    /// Opens the journal of a study, and reads its rows: those of the first layouts, without a gap. Drops an incomplete
+    /// line, which is left if the program is killed while writing.
     ///
-    /// With `fresh` its rows are dropped, of whatever study they are; a file that is no journal stays as it is.
+    /// With `fresh`, drops its rows, even those of another study; a file that is not a journal is not changed.
     ///
     /// # Errors
-    /// A journal of another study, something else, or one that another run keeps; what the system refuses.
+    /// A journal of another study, another file, a journal in use by another run, and errors of the system.
     pub fn open(path: &Path, study: &Study, fresh: bool) -> Result<(Self, Vec<Row>), JournalError> {
         let system = |source| JournalError::System { path: path.to_owned(), source };
         let mut file =
@@ -109,16 +109,16 @@ impl Journal {
         Ok((journal, rows))
     }
 
-    /// Where the rows are.
+    /// Returns the path.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Adds the next row.
+    /// Appends the next row.
     ///
     /// # Errors
-    /// What the system refuses.
+    /// Errors of the system.
     pub fn add(&mut self, row: &Row) -> Result<(), JournalError> {
         let mut written = serde_json::to_writer(&mut self.file, row).map_err(io::Error::from);
         written = written.and_then(|()| self.file.write_all(b"\n"));
@@ -129,18 +129,18 @@ impl Journal {
         written.map_err(|source| JournalError::System { path: self.path.clone(), source })
     }
 
-    /// Puts on disk what has been added.
+    /// Writes appended rows to disk.
     ///
     /// # Errors
-    /// What the system refuses.
+    /// Errors of the system.
     pub fn flush(&mut self) -> Result<(), JournalError> {
         self.file.flush().map_err(|source| JournalError::System { path: self.path.clone(), source })
     }
 
-    /// Removes it: the table is written.
+    /// Removes the journal after the table is written.
     ///
     /// # Errors
-    /// What the system refuses.
+    /// Errors of the system.
     pub fn remove(self) -> Result<(), JournalError> {
         std::fs::remove_file(&self.path).map_err(|source| JournalError::System { path: self.path.clone(), source })
     }

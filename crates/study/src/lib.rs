@@ -1,9 +1,9 @@
 //! Studies: one task in many layouts.
 //!
-//! A [`Study`] is a robot in a world, parameters that set numbers of both, and what is measured. A layout is the same two files with other
-//! numbers in place, so whatever the files can say can be varied, and each layout can be written as files and planned in by itself
-//! ([`Study::layout`]). What a layout's row says follows from its number and the files alone: rows are the same for any number of
-//! threads, machines and interruptions.
+//! A [`Study`] is a robot in a world, parameters that set numbers in their files, and measures. A layout is the same
+//! two files with other numbers. So any number in the files can be varied, and each layout can be written to files and
+//! planned separately ([`Study::layout`]). A layout's row depends only on its number and the files: rows are the same
+//! for any number of threads, machines and interruptions.
 //!
 //! ```text
 //! study.toml -> Study -> Row, Row, ... -> Table -> CSV; Parquet with the feature `parquet`
@@ -54,17 +54,17 @@ use template::Template;
 pub struct Study {
     /// The title of tables and pages.
     pub name: String,
-    /// What differs from layout to layout.
+    /// The parameters, which vary between layouts.
     pub parameters: Vec<Parameter>,
-    /// What is measured, in the order of the columns.
+    /// The measures, in the order of the columns.
     pub measures: Vec<Measure>,
-    /// What layouts must meet.
+    /// Conditions on layouts.
     pub conditions: Vec<Condition>,
-    /// By what layouts are better.
+    /// The objective that ranks layouts.
     pub objective: Option<Objective>,
     /// Layouts that may be tried to find a better one.
     pub searched: usize,
-    /// What draws and search follow from.
+    /// Seed of draws and search.
     seed: u64,
     /// The study file.
     source: Source,
@@ -74,15 +74,15 @@ pub struct Study {
     /// Robot and world as the files have them.
     base: LoadedScene,
     options: Options,
-    /// The same as they are written.
+    /// The same options as text.
     words: Vec<String>,
-    /// Whether obstacles may stand in each other.
+    /// True if obstacles may overlap.
     may_overlap: bool,
     overrides: Overrides,
 }
 
 impl Study {
-    /// What may surprise about the robot, and what is assumed of it: [`cplan_robot::RobotReport::remarks`].
+    /// Returns warnings and assumptions about the robot: [`cplan_robot::RobotReport::remarks`].
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         self.base.robot.remarks(self.base.scene.arm())
@@ -96,61 +96,63 @@ impl Study {
         file::load(path.as_ref(), read_options)
     }
 
-    /// The same from texts: the study, and the robot and the world that it names.
+    /// Does the same with texts: the study, and the robot and the world that it names.
     ///
     /// # Errors
-    /// Everything that is wrong with them, with line, column and cure.
+    /// Every defect, with line, column and hint.
     pub fn from_sources([study, urdf, world]: [Source; 3], read_options: ReadOptions) -> Result<Self, InputError> {
         file::read(&study, read_options, &|which, _| {
             Ok(if which == Named::Robot { urdf.clone() } else { world.clone() })
         })
     }
 
-    /// Study, robot and world as they are read, with what the world leaves unsaid written out: what [`Study::from_sources`] takes.
+    /// Returns the texts of study, robot and world, with defaults of the world written out, as input for
+    /// [`Study::from_sources`].
+    /// [`Study::from_sources`].
     #[must_use]
     pub fn sources(&self) -> [&Source; 3] {
         [&self.source, self.urdf.source(), self.world.source()]
     }
 
-    /// Options of the main job with which it plans, as they are written.
+    /// Returns the planning options as text.
     #[must_use]
     pub fn options(&self) -> &[String] {
         &self.words
     }
 
-    /// Whether robots differ from layout to layout.
+    /// Returns true if robots differ between layouts.
     #[must_use]
     pub fn varies_robots(&self) -> bool {
         !self.urdf.is_fixed()
     }
 
-    /// The number of layouts that are listed and drawn.
+    /// Returns the number of listed and drawn layouts.
     #[must_use]
     pub fn count(&self) -> usize {
         self.design.count()
     }
 
-    /// The values of a layout, a parameter each.
+    /// Returns the values of a layout, one per parameter.
     #[must_use]
     pub fn values(&self, layout: usize) -> Vec<f64> {
         self.design.values(layout)
     }
 
-    /// The column of a measure among those of [`Row::measured`].
+    /// Returns the column of a measure in [`Row::measured`].
     pub fn column(&self, measure: Measure) -> Option<usize> {
         self.measures.iter().position(|m| *m == measure)
     }
 
-    /// World and robot with these values in place, as files have them.
+    /// Returns world and robot with these values.
     #[must_use]
     pub fn layout(&self, values: &[f64]) -> [Source; 2] {
         [self.world.filled(values), self.urdf.filled(values)]
     }
 
-    /// What is asked with these values.
+    /// Returns the problem with these values.
     ///
     /// # Errors
-    /// Values that make no sense; obstacles that stand in each other; a start or goal that is out of reach or not free.
+    /// Invalid values; overlapping obstacles; a start or goal that is out of reach or not free.
     pub fn problem(&self, values: &[f64]) -> Result<Problem, InputError> {
         let [world, urdf] = self.layout(values);
         let scene = match self.urdf.is_fixed() {
@@ -166,23 +168,24 @@ impl Study {
         Problem::of_scene(scene, &self.overrides)
     }
 
-    /// The plan with these values.
+    /// Plans with these values.
     ///
     /// # Errors
-    /// As [`Study::problem`], and what a plan is refused for.
+    /// Same as [`Study::problem`], and reasons for which planning is refused.
     pub fn plan(&self, values: &[f64]) -> Result<Plan, String> {
         let problem = self.problem(values).map_err(|error| told(&error))?;
         plan(&problem, &self.options).map_err(|error| error.to_string())
     }
 
-    /// A layout's row.
+    /// Computes a layout's row.
     #[must_use]
     pub fn row(&self, layout: usize) -> Row {
         self.row_of(layout, self.values(layout))
     }
 
     fn row_of(&self, layout: usize, values: Vec<f64>) -> Row {
-        // What goes wrong with one layout is its own affair: it is a row. Whoever stops the whole unwinds, too, and goes on doing so.
+        // A failure in one layout becomes its row. An interruption of the whole study also unwinds, and continues to do
+        // so.
         let judged = caught(|| self.judged(&values)).unwrap_or_else(Err);
         let (ending, reason, measured) = match judged {
             Ok(judged) => judged,
@@ -194,7 +197,7 @@ impl Study {
         Row { layout, values, ending, reason, measured, fits }
     }
 
-    /// How planning with these values ends, why without a motion, and what is measured.
+    /// Plans with these values and measures the result.
     fn judged(&self, values: &[f64]) -> Result<Judged, String> {
         let problem = self.problem(values).map_err(|error| told(&error))?;
         if let Some(lack) = self.options.planner.lack(&problem.scene().workspace().preferences) {
@@ -212,19 +215,19 @@ impl Study {
         Ok((plan.status().into(), report.reason.clone(), measured))
     }
 
-    /// Rows of these layouts, on so many threads, each handed to `each` in order as soon as it is there.
+    /// Computes the rows of these layouts on several threads. Passes each to `each` in order, as soon as possible.
     ///
     /// # Errors
-    /// What `each` refuses with.
+    /// The error of `each`.
     pub fn rows<E>(&self, layouts: Range<usize>, jobs: usize, each: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
         in_order(layouts.len(), jobs, |i| self.row(layouts.start + i), each)
     }
 }
 
-/// How planning ended, why without a motion, and what was measured.
+/// The ending of planning, the reason if there is no motion, and the measured values.
 type Judged = (Ending, Option<String>, Vec<Option<f64>>);
 
-/// What is wrong, on a line: the first of it, without the place in files that are made for one layout.
+/// Formats the first defect on one line, without its place in files that exist only for one layout.
 fn told(error: &InputError) -> String {
     error.diagnostics().first().map_or_else(|| error.to_string(), |first| first.message.clone())
 }

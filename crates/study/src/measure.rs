@@ -1,4 +1,4 @@
-//! What is measured of each layout, and what is asked of it.
+//! Measures of layouts, and conditions on them.
 
 use cplan_core::model::Outcome;
 use cplan_engine::{Answer, Report};
@@ -9,7 +9,7 @@ use std::fmt;
 pub enum Measure {
     /// Length of the path in joint space; of a task that of all its motions.
     Length,
-    /// Its length over the proven bound.
+    /// The length divided by the proven bound.
     OverBound,
     /// No path is shorter than this: proven.
     LowerBound,
@@ -20,10 +20,10 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// All of them, in the order of the columns.
+    /// All measures, in the order of the columns.
     pub const ALL: [Self; 5] = [Self::Length, Self::OverBound, Self::LowerBound, Self::Clearance, Self::Duration];
 
-    /// Its name, a column of the table.
+    /// Returns its name, a column of the table.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -35,7 +35,7 @@ impl Measure {
         }
     }
 
-    /// The unit, where all arms have the same.
+    /// Returns the unit, if it is the same for all arms.
     #[must_use]
     pub fn unit(self) -> Option<&'static str> {
         match self {
@@ -45,17 +45,17 @@ impl Measure {
         }
     }
 
-    /// The measure of this name.
+    /// Returns the measure with this name.
     ///
     /// # Errors
-    /// When there is none, in words.
+    /// The list of names, for an unknown name.
     pub fn named(name: &str) -> Result<Self, String> {
         let names = || Self::ALL.map(Self::name).join(", ");
         let found = Self::ALL.into_iter().find(|measure| measure.name() == name);
         found.ok_or_else(|| format!("\"{name}\" is not measured; there is {}", names()))
     }
 
-    /// What a result has of it.
+    /// Returns its value in a result.
     pub(super) fn of(self, report: &Report) -> Option<f64> {
         let bound = || report.optimum.as_ref().map(|optimum| optimum.lower_bound);
         match self {
@@ -70,12 +70,12 @@ impl Measure {
 }
 
 impl Measure {
-    /// Whether the path alone has it, without a motion along it.
+    /// Returns true if it depends only on the path, not on the motion.
     pub(super) fn is_of_the_path(self) -> bool {
         matches!(self, Self::Length | Self::OverBound | Self::LowerBound)
     }
 
-    /// What an answer has of it.
+    /// Returns its value in an answer.
     pub(super) fn of_path(self, answer: &Answer) -> Option<f64> {
         let length = || match &answer.verdict {
             Outcome::Found(certified) => Some(certified.path().length()),
@@ -95,22 +95,22 @@ fn over(length: f64, bound: f64) -> Option<f64> {
     Some(length / bound).filter(|ratio| ratio.is_finite())
 }
 
-/// What a layout must meet, beside having a motion.
+/// A condition on a layout, in addition to having a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condition {
-    /// What is compared.
+    /// The compared measure.
     pub measure: Measure,
-    /// Whether it must be at least the bound, or at most.
+    /// True for a lower bound, false for an upper bound.
     pub at_least: bool,
-    /// What it is compared with.
+    /// The bound.
     pub bound: f64,
 }
 
 impl Condition {
-    /// Reads `clearance >= 0.01`.
+    /// Parses `clearance >= 0.01`.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// The syntax error.
     pub fn parse(text: &str) -> Result<Self, String> {
         let parts = [(">=", true), ("<=", false)].into_iter();
         let split = parts.filter_map(|(sign, at_least)| Some((text.split_once(sign)?, at_least))).next();
@@ -122,7 +122,8 @@ impl Condition {
         Ok(Self { measure: Measure::named(measure.trim())?, at_least, bound })
     }
 
-    /// Whether a value meets it; what has no value does not, but where nothing can be hit every clearance is kept.
+    /// Returns true if a value satisfies it. A missing value does not, except a clearance without obstacles within
+    /// reach.
     pub(super) fn holds(&self, value: Option<f64>) -> bool {
         let unbounded = (self.measure == Measure::Clearance).then_some(f64::INFINITY);
         value.or(unbounded).is_some_and(|value| if self.at_least { value >= self.bound } else { value <= self.bound })
@@ -135,20 +136,20 @@ impl fmt::Display for Condition {
     }
 }
 
-/// By what layouts are better or worse.
+/// An objective that ranks layouts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Objective {
-    /// What counts.
+    /// The measure.
     pub measure: Measure,
-    /// Whether more of it is better.
+    /// True if greater values are better.
     pub most: bool,
 }
 
 impl Objective {
-    /// Reads `least duration` or `most clearance`.
+    /// Parses `least duration` or `most clearance`.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// The syntax error.
     pub fn parse(text: &str) -> Result<Self, String> {
         let mut words = text.split_whitespace();
         let most = match words.next() {
@@ -162,7 +163,7 @@ impl Objective {
         }
     }
 
-    /// A value of the objective as a cost: less is better. The cost of a cost is the value.
+    /// Converts a value to a cost, of which less is better. It is its own inverse.
     pub(super) fn cost(&self, value: f64) -> f64 {
         if self.most { -value } else { value }
     }

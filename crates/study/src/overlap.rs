@@ -6,8 +6,8 @@ use cplan_geometry::{Bounds, BoxTree, Convex, separation};
 /// Depths up to this, metres, are touching: what numbers in files and moving shapes round.
 const TOUCHING: f64 = 1e-9;
 
-/// Two obstacles of a layout of which one stands in the other, though they do not in the files as they stand. Only pairs are looked at of
-/// which one is not as it is there.
+/// Describes two obstacles that overlap in a layout but not in the files. Examines only pairs in which at least one
+/// differs from the files.
 pub(super) fn overlap(files: &Workspace, layout: &Workspace) -> Option<String> {
     let [before, now] = [&files.obstacles, &layout.obstacles];
     let differs = |k: usize| before.get(k) != Some(&now[k]);
@@ -26,7 +26,7 @@ pub(super) fn overlap(files: &Workspace, layout: &Workspace) -> Option<String> {
     None
 }
 
-/// Whether two obstacles share more than their boundaries, at some height, and neither rests on the other.
+/// Returns true if two obstacles share more than boundary points at some height, and neither rests on the other.
 fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
     if !(a.heights.object_surely_meets(b.heights) && b.heights.object_surely_meets(a.heights)) {
         return false;
@@ -41,7 +41,7 @@ fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
     })
 }
 
-/// The box round all pieces of an obstacle.
+/// Returns the bounding box of all pieces of an obstacle.
 fn bounds(obstacle: &Obstacle) -> Bounds {
     let none = [[f64::INFINITY; 2].into(), [f64::NEG_INFINITY; 2].into()];
     let boxes = obstacle.pieces.iter().map(Convex::bounds);

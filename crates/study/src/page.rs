@@ -9,7 +9,7 @@ use cplan_compare::page::{Axis, Frame, folded, foot, frame, head, image_source, 
 use cplan_compare::{Align, Column, Picture, Table};
 use cplan_text::{counted, markup};
 
-/// Parameters of which each pair has a map.
+/// Number of parameters whose pairs have maps.
 const MAPPED: usize = 4;
 /// Cells of a map along an axis of values that are drawn, or of more than [`LISTED`].
 const CELLS: usize = 24;
@@ -19,7 +19,7 @@ const LISTED: usize = 48;
 const POINTS: usize = 4000;
 
 impl Study {
-    /// The page of these rows, with pictures of some layouts. The same rows make the same page, byte for byte.
+    /// Returns the page of these rows, with pictures of some layouts. The same rows give the same bytes.
     #[must_use]
     pub fn html(&self, rows: &[Row], pictures: &[Picture]) -> String {
         let summary = Summary::new(self, rows);
@@ -54,7 +54,7 @@ impl Study {
         table(&Table { columns: columns.collect(), rows }).replacen("<table", "<table class=\"words\"", 1)
     }
 
-    /// A map of each pair of parameters: where there is a motion, and what the objective is at best.
+    /// Draws a map for each pair of parameters: where a motion exists, and the best value of the objective.
     fn maps(&self, summary: &Summary, rows: &[Row]) -> String {
         let mapped = self.parameters.len().min(MAPPED);
         let pairs = (0..mapped).flat_map(|a| (a + 1..mapped).map(move |b| [a, b]));
@@ -116,7 +116,7 @@ impl Study {
         figure(&title, &(svg + "</svg>\n" + &scale))
     }
 
-    /// The objective against each other measure, with the layouts that no other beats in both.
+    /// Draws the objective against each other measure, with the layouts on the Pareto front.
     fn fronts(&self, summary: &Summary, rows: &[Row]) -> String {
         let Some(objective) = self.objective else { return String::new() };
         let others = self.measures.iter().filter(|measure| **measure != objective.measure);
@@ -171,14 +171,14 @@ const UNFIT: &str = "#f2b8cf";
 /// Cells in which none has one, for whatever reason.
 const NOTHING: &str = "#9aa1a9";
 
-/// What the colours of a map mean beside those of the objective.
+/// Meaning of the colours of a map, other than those of the objective.
 const LEGEND: [(&str, &str); 3] = [
     (UNFIT, "a motion, but not one that meets the conditions"),
     (BARRED, "a proof that there is no motion, in all of them"),
     (NOTHING, "nothing to plan, or unknown"),
 ];
 
-/// How near dots of two charts lie that look the same, as a share of the chart.
+/// Distance below which dots of two charts look equal, as a fraction of the chart.
 const ALIKE: f64 = 0.01;
 
 fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
@@ -191,7 +191,7 @@ const SCALE: [f64; 2] = [78.0, 368.0];
 /// Colours that it has.
 const SHADES: usize = 64;
 
-/// What the colours from the least cost to the greatest are of the objective; none where there is nothing between.
+/// Describes the colours from the least to the greatest cost; `None` if the costs are equal.
 fn scale(objective: Objective, least: f64, greatest: f64) -> String {
     if greatest <= least || !(greatest - least).is_finite() {
         return String::new();
@@ -278,7 +278,7 @@ impl Bins {
     }
 }
 
-/// What became of the layouts in a cell.
+/// The results of the layouts in a cell.
 #[derive(Debug, Clone, Copy, Default)]
 struct Cell {
     layouts: usize,
@@ -301,7 +301,7 @@ impl Cell {
         }
     }
 
-    /// Its colour, and what it says; none of a cell without layouts.
+    /// Returns its colour and description; `None` for a cell without layouts.
     fn look(&self, least: f64, greatest: f64) -> Option<(String, String)> {
         if self.layouts == 0 {
             return None;
@@ -326,7 +326,8 @@ impl Cell {
     }
 }
 
-/// Dark blue at 0, yellow at 1, ever lighter between: for eyes of all kinds, and in grey.
+/// Returns a colour from dark blue at 0 to yellow at 1, with increasing lightness: readable with colour blindness and
+/// in grey.
 fn shade(share: f64) -> String {
     const STOPS: [[f64; 3]; 5] =
         [[68.0, 1.0, 84.0], [59.0, 82.0, 139.0], [33.0, 145.0, 140.0], [94.0, 201.0, 98.0], [253.0, 231.0, 37.0]];

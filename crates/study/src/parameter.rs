@@ -1,4 +1,4 @@
-//! What a study varies, and the values that it gives to it.
+//! Parameters of a study, and their values.
 
 use cplan_core::space::Draws;
 
@@ -14,7 +14,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// Its name with its unit.
+    /// Returns its name with its unit.
     #[must_use]
     pub fn titled(&self) -> String {
         self.unit.as_ref().map_or_else(|| self.name.clone(), |unit| format!("{}, {unit}", self.name))
@@ -24,7 +24,7 @@ impl Parameter {
 /// The values of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// All of these, with all of every other parameter; nothing between them.
+    /// A list of values, each combined with all values of every other parameter.
     Listed(Vec<f64>),
     /// The same in equal steps.
     Stepped {
@@ -32,22 +32,23 @@ pub enum Values {
         from: f64,
         /// The last and greatest value.
         to: f64,
-        /// How many.
+        /// Number of values.
         count: usize,
     },
-    /// One drawn for each layout.
+    /// One random value per layout.
     Drawn {
         /// The least value.
         from: f64,
         /// The greatest value.
         to: f64,
-        /// Whether each of as many equal stretches as there are draws has one (Latin hypercube), or all are independent.
+        /// True for a Latin hypercube: one draw in each of as many equal intervals as there are draws. Otherwise draws
+        /// are independent.
         latin: bool,
     },
 }
 
 impl Values {
-    /// The least and the greatest value.
+    /// Returns the least and the greatest value.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         match self {
@@ -59,7 +60,7 @@ impl Values {
         }
     }
 
-    /// The values in their order, unless they are drawn.
+    /// Returns the values in order, unless they are drawn.
     #[must_use]
     pub fn listed(&self) -> Option<Vec<f64>> {
         match self {
@@ -74,7 +75,7 @@ impl Values {
         }
     }
 
-    /// How much there is to search in: a stretch of numbers that [`Values::at`] takes.
+    /// Returns the search range: the interval of numbers that [`Values::at`] takes.
     pub(super) fn room(&self) -> [f64; 2] {
         match self {
             Self::Listed(values) => [0.0, values.len() as f64],
@@ -82,7 +83,7 @@ impl Values {
         }
     }
 
-    /// The value at a place in the room: of those that are listed one, else the place itself.
+    /// Returns the value at a place in the range: a listed one, or else the place itself.
     pub(super) fn at(&self, place: f64) -> f64 {
         match self {
             Self::Listed(values) => values[(place.max(0.0) as usize).min(values.len() - 1)],
@@ -90,7 +91,7 @@ impl Values {
         }
     }
 
-    /// A place of this value.
+    /// Returns a place with this value.
     pub(super) fn place(&self, value: f64) -> f64 {
         match self {
             Self::Listed(values) => values.iter().position(|v| *v == value).map_or(0.0, |i| i as f64 + 0.5),
@@ -102,7 +103,7 @@ impl Values {
 /// All layouts of a study: each combination of the listed values with each of the draws.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Design {
-    /// Of each parameter, in their order.
+    /// The columns of the parameters, in order.
     columns: Vec<Column>,
     /// Layouts for each combination of listed values.
     draws: usize,
@@ -118,7 +119,7 @@ enum Column {
 }
 
 impl Design {
-    /// The values of the last parameter change fastest, those of draws before them.
+    /// Creates the design. The values of the last parameter change fastest, those of draws before them.
     ///
     /// # Errors
     /// More layouts than can be counted.
@@ -150,12 +151,12 @@ impl Design {
         Some(Self { columns, draws, count: stays })
     }
 
-    /// The number of layouts.
+    /// Returns the number of layouts.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The values of a layout, a parameter each.
+    /// Returns the values of a layout, one per parameter.
     pub fn values(&self, layout: usize) -> Vec<f64> {
         let value = |column: &Column| match column {
             Column::Listed { values, stays } => values[layout / stays % values.len()],
@@ -165,7 +166,7 @@ impl Design {
     }
 }
 
-/// One number in each of `count` equal parts of `[0, 1)`, in random order.
+/// Returns one number in each of `count` equal parts of `[0, 1)`, in random order.
 fn stratified(count: usize, numbers: &mut Draws) -> Vec<f64> {
     let mut shares: Vec<f64> = (0..count).map(|part| (part as f64 + numbers.unit()) / count as f64).collect();
     // Fisher and Yates.

@@ -10,7 +10,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use std::sync::Arc;
 
-/// Rows of a row group: what a reader takes at once.
+/// Rows per row group, the unit that readers load at once.
 const GROUP: usize = 1 << 16;
 
 /// A column of the table.
@@ -33,7 +33,8 @@ impl Cells {
 }
 
 impl Study {
-    /// The table as a Parquet file, with the columns of [`Study::csv`]: counts, flags, doubles and text. Missing values are null.
+    /// Writes the table as a Parquet file, with the columns of [`Study::csv`]: counts, flags, doubles and text. Missing
+    /// values are null.
     ///
     /// # Errors
     /// Rows that the format cannot hold.
@@ -73,7 +74,7 @@ impl Study {
         writer.into_inner()
     }
 
-    /// The cells of these rows, column by column.
+    /// Returns the cells of these rows, column by column.
     fn cells(&self, rows: &[Row]) -> Vec<Cells> {
         let mut cells = vec![Cells::Counts(rows.iter().map(|row| row.layout as i64).collect())];
         let numbers = |of: &dyn Fn(&Row) -> Option<f64>| Cells::Numbers(rows.iter().map(of).collect());
@@ -86,7 +87,7 @@ impl Study {
     }
 }
 
-/// What there is of optional values, and for each whether there is one.
+/// Splits optional values into the present ones and flags of presence.
 fn present<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
     let (mut there, mut levels) = (Vec::new(), Vec::new());
     for value in values {

@@ -1,4 +1,4 @@
-//! What became of a layout.
+//! The result of a layout.
 
 use cplan_core::model::Status;
 use serde::{Deserialize, Serialize};
@@ -6,27 +6,27 @@ use serde::{Deserialize, Serialize};
 /// A layout's row of the table.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Its number, from 0.
+    /// Number of the layout, from 0.
     pub layout: usize,
-    /// What each parameter was.
+    /// Value of each parameter.
     pub values: Vec<f64>,
-    /// What came of it.
+    /// Ending of planning.
     pub ending: Ending,
-    /// Why there is no motion, where there is none: as it begins, on a line.
+    /// The reason if there is no motion: its beginning, on one line.
     pub reason: Option<String>,
-    /// What was measured, in the order of the study's measures; what there is none of stays open.
+    /// Measured values, in the order of the study's measures; `None` for missing ones.
     pub measured: Vec<Option<f64>>,
-    /// Whether there is a motion and all conditions are met.
+    /// True if there is a motion and all conditions hold.
     pub fits: bool,
 }
 
-/// How planning in a layout ended.
+/// Ending of planning in a layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// A motion is certified.
     Found,
-    /// It is proven that there is none.
+    /// It is proven that no motion exists.
     Infeasible,
     /// Neither is known.
     Unknown,
@@ -35,10 +35,10 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// All of them.
+    /// All endings.
     pub const ALL: [Self; 4] = [Self::Found, Self::Infeasible, Self::Unknown, Self::Refused];
 
-    /// Its word in tables.
+    /// Returns its word in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

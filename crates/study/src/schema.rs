@@ -1,4 +1,4 @@
-//! What a study file may say: its tables, and their schema.
+//! The tables of study files, and their schema.
 
 use cplan_robot::{AngleOrLength, Quantity};
 use cplan_world::toml_schema;
@@ -11,8 +11,8 @@ use toml::Spanned;
 /// A text, and where it stands.
 pub(super) type Text = Spanned<String>;
 
-/// A study of many layouts for cplan: a robot in a world, numbers of both that differ, and what is measured. Lengths are in metres, angles in
-/// radians, times in seconds.
+/// A study of many layouts for cplan: a robot in a world, numbers that vary, and measures. Lengths are in metres,
+/// angles in radians, times in seconds.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "cplan study")]
@@ -31,23 +31,24 @@ pub(super) struct StudyFile {
     /// Draws for each combination of the values that are listed; needed where a parameter is drawn.
     #[schemars(with = "Option<u64>")]
     pub draws: Option<Spanned<u64>>,
-    /// What the draws follow from; by default 0.
+    /// Seed of the draws; by default 0.
     pub seed: Option<u64>,
-    /// What is measured: length, over_bound, lower_bound, clearance, duration; by default all of them.
+    /// Measures: length, over_bound, lower_bound, clearance, duration; by default all of them.
     #[schemars(with = "Option<Vec<String>>")]
     pub measure: Option<Vec<Text>>,
-    /// Whether obstacles may stand in each other that do not in the world file; by default such a layout is refused.
+    /// True to allow overlapping obstacles that do not overlap in the world file; by default such a layout is refused.
     #[serde(default)]
     pub overlap: bool,
-    /// What a layout must meet, such as ["clearance >= 0.01", "duration <= 3"].
+    /// Conditions on layouts, such as ["clearance >= 0.01", "duration <= 3"].
     #[serde(default)]
     #[schemars(with = "Vec<String>")]
     pub conditions: Vec<Text>,
-    /// By what layouts are better: "least duration", "most clearance"; by default the first that is measured, duration before length.
+    /// Objective that ranks layouts: "least duration", "most clearance"; by default the first measure, duration before
+    /// length.
     #[schemars(with = "Option<String>")]
     pub objective: Option<Text>,
     pub search: Option<SearchTable>,
-    /// What differs from layout to layout.
+    /// The parameters that vary between layouts.
     #[serde(default)]
     #[schemars(with = "Vec<ParameterTable>")]
     pub parameter: Vec<Spanned<ParameterTable>>,
@@ -71,7 +72,8 @@ pub(super) struct ParameterTable {
     pub name: Text,
     /// The unit of its values, for tables and pictures.
     pub unit: Option<String>,
-    /// What it sets: an address such as "world.robot.at[0]" or "urdf.joint.elbow.origin.xyz[0]", or several.
+    /// The numbers that it sets: an address such as "world.robot.at[0]" or "urdf.joint.elbow.origin.xyz[0]", or
+    /// several.
     #[schemars(with = "Targets")]
     pub sets: Spanned<Targets>,
     /// Its values; angles may be written as "30deg".
@@ -86,12 +88,13 @@ pub(super) struct ParameterTable {
     /// The number of its values from the least to the greatest, in equal steps.
     #[schemars(with = "Option<u64>")]
     pub steps: Option<Spanned<u64>>,
-    /// In place of steps: "uniform" (independent draws) or "latin" (one in each of as many equal stretches as there are draws).
+    /// Instead of steps: "uniform" (independent draws) or "latin" (one in each of as many equal intervals as there are
+    /// draws).
     #[schemars(with = "Option<String>")]
     pub draw: Option<Text>,
 }
 
-/// What a parameter sets.
+/// The numbers that a parameter sets.
 #[derive(Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub(super) enum Targets {
@@ -117,14 +120,14 @@ pub(super) enum Target {
 pub(super) struct Scaled {
     /// The address.
     pub address: String,
-    /// By default 1.
+    /// Factor; by default 1.
     pub factor: Option<f64>,
-    /// By default 0.
+    /// Offset; by default 0.
     pub offset: Option<f64>,
 }
 
 impl ParameterTable {
-    /// Whether a value is written in degrees, and the place of the first that is.
+    /// Returns the position of the first value that is written in degrees, if any.
     pub fn degrees(&self) -> Option<Range<usize>> {
         let listed = self.values.iter().filter(|values| values.get_ref().iter().any(|value| value.in_degrees));
         let ends = [&self.from, &self.to].into_iter().flatten().filter(|end| end.get_ref().in_degrees);
@@ -133,7 +136,7 @@ impl ParameterTable {
 }
 
 impl Targets {
-    /// Each with its factor and offset.
+    /// Returns each address with its factor and offset.
     pub fn all(&self) -> Vec<(&str, f64, f64)> {
         match self {
             Self::One(address) => vec![(address.as_str(), 1.0, 0.0)],
@@ -153,7 +156,7 @@ impl Target {
     }
 }
 
-/// The JSON schema of study files, for editors.
+/// Returns the JSON schema of study files, for editors.
 #[must_use]
 pub fn study_schema() -> Value {
     toml_schema::<StudyFile>()

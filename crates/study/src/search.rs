@@ -12,23 +12,24 @@ use std::collections::hash_map::Entry;
 /// Layouts of a generation, if the search may try ten times as many.
 const SWARM: usize = 40;
 
-/// What a layout costs that does not count.
+/// Cost of a layout that does not count.
 const NOTHING: f64 = f64::INFINITY;
 
 impl Study {
-    /// What a row is worth to the search: less is better; infinite for a layout without a motion, or one that does not meet the conditions.
+    /// Returns the cost of a row for the search, of which less is better; infinite for a layout without a motion or
+    /// with a violated condition.
     #[must_use]
     pub fn cost(&self, row: &Row) -> f64 {
         let value = |objective: Objective| Some(objective.cost(row.measured[self.column(objective.measure)?]?));
         self.objective.filter(|_| row.fits).and_then(value).unwrap_or(NOTHING)
     }
 
-    /// Searches on from `known` rows, those of all layouts of the study, on so many threads, and hands each row to `each`, in order. Rows that
-    /// `done` has of an earlier search, which was stopped, are not planned again, and a layout that has a row gets no other one. The same
-    /// rows whatever the number of threads.
+    /// Continues the search from `known` rows, those of all layouts of the study, on several threads. Passes each row
+    /// to `each`, in order. Rows in `done`, of an earlier interrupted search, are not planned again, and no layout gets
+    /// two rows. The rows are the same for any number of threads.
     ///
     /// # Errors
-    /// What `each` refuses with.
+    /// The error of `each`.
     pub fn search<E>(
         &self,
         known: &[Row],
@@ -69,7 +70,7 @@ impl Study {
     }
 }
 
-/// What layouts cost, by their places in the rooms of the parameters.
+/// Costs of layouts, by their places in the ranges of the parameters.
 struct Landscape<'a, F> {
     study: &'a Study,
     /// Rows of an earlier search, in order.

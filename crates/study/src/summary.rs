@@ -1,4 +1,4 @@
-//! What a study shows: how many layouts have a motion, why others have none, and which are best.
+//! Summary of a study: how many layouts have a motion, why others have none, and which are best.
 
 use super::Study;
 use super::measure::Measure;
@@ -13,10 +13,10 @@ use std::collections::BTreeMap;
 /// Reasons that are listed.
 const REASONS: usize = 6;
 
-/// What share of a range is its end.
+/// Fraction of a range that counts as its end.
 const EDGE: f64 = 0.05;
 
-/// In front of the lines of tables.
+/// Indentation of tables.
 const INDENT: &str = "  ";
 
 /// Layouts that are listed as the best, and as the worst.
@@ -34,7 +34,7 @@ pub struct Summary<'a> {
 }
 
 impl<'a> Summary<'a> {
-    /// Of these rows, the first ones of which are those of the study's layouts.
+    /// Summarises these rows. The rows of the study's own layouts come first.
     #[must_use]
     pub fn new(study: &'a Study, rows: &'a [Row]) -> Self {
         let mut ranked: Vec<usize> = (0..rows.len()).filter(|&i| study.cost(&rows[i]).is_finite()).collect();
@@ -48,31 +48,32 @@ impl<'a> Summary<'a> {
         tally(self.rows)
     }
 
-    /// The same of the search alone.
+    /// Returns the same counts for the search alone.
     #[must_use]
     pub fn searched(&self) -> [usize; 4] {
         tally(&self.rows[self.designed..])
     }
 
-    /// The best layout that counts.
+    /// Returns the best layout that counts.
     #[must_use]
     pub fn best(&self) -> Option<&'a Row> {
         self.ranked.first().map(|&i| &self.rows[i])
     }
 
-    /// The worst layout that counts.
+    /// Returns the worst layout that counts.
     #[must_use]
     pub fn worst(&self) -> Option<&'a Row> {
         self.ranked.last().map(|&i| &self.rows[i])
     }
 
-    /// The best layout among those of the study itself.
+    /// Returns the best layout among those of the study itself.
     #[must_use]
     pub fn best_designed(&self) -> Option<&'a Row> {
         self.ranked.iter().find(|&&i| i < self.designed).map(|&i| &self.rows[i])
     }
 
-    /// Why layouts have no motion: the first cause of each without its numbers, and how many layouts have it, the most frequent first.
+    /// Returns the reasons why layouts have no motion: the first cause without numbers, and the number of layouts, most
+    /// frequent first.
     #[must_use]
     pub fn reasons(&self) -> Vec<(Ending, String, usize)> {
         let mut counts: BTreeMap<(Ending, String), usize> = BTreeMap::new();
@@ -86,8 +87,8 @@ impl<'a> Summary<'a> {
         reasons
     }
 
-    /// The layouts among which none is better in both of two measures, the best in the first one first. Neither is better where it costs no
-    /// more: less is better but for clearances.
+    /// Returns the Pareto front of two measures, sorted by the first one: for no layout another is better in both.
+    /// Equal costs count as not better; less is better except for clearances.
     #[must_use]
     pub fn pareto(&self, measures: [Measure; 2]) -> Vec<&'a Row> {
         let cost = |row: &Row, k: usize| {
@@ -110,7 +111,7 @@ impl<'a> Summary<'a> {
         costs.into_iter().filter(is_front).map(|(_, row)| row).collect()
     }
 
-    /// Where the best layout lies at an end of a range, beyond which a better one may be: a line each.
+    /// Returns one line for each range at whose end the best layout lies, so that a better one may be beyond.
     #[must_use]
     pub fn edges(&self) -> Vec<String> {
         let Some(best) = self.best() else { return Vec::new() };
@@ -133,7 +134,7 @@ impl<'a> Summary<'a> {
         self.study.parameters.iter().zip(&best.values).filter_map(edge).collect()
     }
 
-    /// For a terminal: tables as wide as they are, or in 80 columns. Ends in a newline.
+    /// Returns the text for a terminal, with full tables or 80 characters wide. Ends in a newline.
     #[must_use]
     pub fn to_text(&self, wide: bool) -> String {
         let study = self.study;
@@ -185,7 +186,7 @@ impl<'a> Summary<'a> {
         text
     }
 
-    /// A JSON object.
+    /// Returns a JSON object.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let counts = |tally: [usize; 4]| -> Value {
@@ -218,14 +219,14 @@ impl<'a> Summary<'a> {
         json!({ "layout": row.layout, "parameters": Value::from_iter(values), "measured": Value::from_iter(measured) })
     }
 
-    /// The best rows, as many as are listed.
+    /// Returns the best rows, up to the number that is listed.
     pub(super) fn best_table(&self) -> Table {
         self.table(self.ranked.iter().take(2 * BEST))
     }
 
     fn table<'b>(&self, rows: impl Iterator<Item = &'b usize>) -> Table {
         let study = self.study;
-        // What the best are best by comes first.
+        // The measure of the objective comes first.
         let mut measures: Vec<usize> = (0..study.measures.len()).collect();
         measures.sort_by_key(|&k| study.objective.is_none_or(|objective| objective.measure != study.measures[k]));
         let mut columns = vec![Column::new("layout", Align::Right)];
@@ -250,7 +251,7 @@ fn share(part: usize, all: usize) -> f64 {
     100.0 * part as f64 / all.max(1) as f64
 }
 
-/// Five significant digits, which tell layouts apart; the tables have all of them.
+/// Formats a value with five significant digits, enough to distinguish layouts; the tables have all digits.
 pub(super) fn shown(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -263,7 +264,8 @@ fn indented(text: &str) -> String {
     text.lines().map(|line| format!("{INDENT}{line}").trim_end().to_owned() + "\n").collect()
 }
 
-/// A reason with `#` in place of each number, so that layouts that fail alike are counted together. Numbers in names stay.
+/// Replaces each number in a reason by `#`, so that layouts with the same failure are counted together. Numbers in
+/// names stay.
 fn without_numbers(reason: &str) -> String {
     let word = |word: &str| {
         let bare = word.trim_matches(|c: char| "()[],;:.%".contains(c));
@@ -272,7 +274,7 @@ fn without_numbers(reason: &str) -> String {
     reason.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// The first cause in a reason, in short: without numbers, values of joints, and what else is wrong.
+/// Returns the first cause in a reason, without numbers, values of joints, and further causes.
 fn cause(reason: &str) -> String {
     let text = without_numbers(reason);
     let (mut cause, mut depth, mut is_quoted) = (String::new(), 0, false);
@@ -299,7 +301,7 @@ fn cause(reason: &str) -> String {
     cause
 }
 
-/// Where the values of joints end that a text begins with: `(shoulder # rad, elbow # rad)`.
+/// Returns the end of the joint values at the beginning of a text: `(shoulder # rad, elbow # rad)`.
 fn values_end(text: &str) -> Option<usize> {
     let end = text.find(')')? + 1;
     let inside = &text[..end];

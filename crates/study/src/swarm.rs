@@ -50,10 +50,12 @@ impl Particle {
     }
 }
 
-/// Looks for places of least cost within the rooms, one for each coordinate. Begins with places whose costs are known, each of which
-/// becomes a particle; `costs` judges all places of a generation at once, and keeps the best if anyone wants it. Costs may be infinite.
+/// Minimises the cost within the ranges of the coordinates. Starts with places of known costs, each of which becomes a
+/// particle. `costs` evaluates all places of a generation at once, and stores the best if needed. Costs may be
+/// infinite.
 ///
 /// # Errors
+/// The error of `costs`.
 /// The error of `costs`.
 pub(super) fn minimize<E>(
     rooms: &[[f64; 2]],
@@ -81,7 +83,7 @@ mod tests {
 
     const ROOMS: [[f64; 2]; 3] = [[-2.0, 1.0], [0.0, 5.0], [-1.0, 1.0]];
 
-    /// All places that a swarm of twenty tries, in order, and their least cost.
+    /// Returns all places that a swarm of twenty tries, in order, and their least cost.
     fn tried(seed: u64, cost: impl Fn(&[f64]) -> f64) -> (Vec<Vec<f64>>, f64) {
         let mut numbers = Draws::new(seed);
         let known: Vec<(Vec<f64>, f64)> = (0..20)
@@ -103,7 +105,7 @@ mod tests {
         (all, least)
     }
 
-    /// Squared distance to a place, which may lie beyond the rooms.
+    /// Returns the squared distance to a place, which may lie outside the ranges.
     fn squared_distance(to: [f64; 3]) -> impl Fn(&[f64]) -> f64 {
         move |place| place.iter().zip(to).map(|(x, to)| (x - to).powi(2)).sum()
     }

@@ -4,9 +4,10 @@ use super::Study;
 use super::row::Row;
 use cplan_compare::quoted;
 
-/// What stands in a row, in the order of the columns.
+/// The contents of a row, in the order of the columns.
 impl Study {
-    /// Names of the columns: the layout's number, each parameter, the outcome, why there is no motion, what was measured, whether it fits.
+    /// Returns the names of the columns: the layout's number, each parameter, the outcome, the reason, the measures,
+    /// whether it fits.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
         let parameters = self.parameters.iter().map(|parameter| parameter.name.clone());
@@ -21,7 +22,7 @@ impl Study {
             .collect()
     }
 
-    /// The table as CSV, a line a row, numbers with all their digits.
+    /// Writes the table as CSV, one line per row, numbers with all their digits.
     #[must_use]
     pub fn csv(&self, rows: &[Row]) -> String {
         let mut text = self.columns().iter().map(|name| quoted(name)).collect::<Vec<_>>().join(",") + "\n";

@@ -9,7 +9,7 @@ use std::ops::Range;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Template {
     source: Source,
-    /// In the order of the text.
+    /// The numbers to fill in, in the order of the text.
     holes: Vec<Hole>,
 }
 
@@ -21,7 +21,7 @@ struct Hole {
     setting: Setting,
 }
 
-/// Which parameter sets a number, and how: `factor` times its value, plus `offset`.
+/// The parameter that sets a number, as `factor` times its value plus `offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Setting {
     pub parameter: usize,
@@ -37,7 +37,7 @@ pub(super) enum Place {
 }
 
 impl Place {
-    /// The address of a number of this text that differs least from this one.
+    /// Returns the address of a number of this text that is closest to this one.
     pub fn nearest(self, text: &str, address: &str) -> Option<String> {
         let (name, known) = match self {
             Self::World => ("world.", all_in_world(text)),
@@ -47,10 +47,10 @@ impl Place {
     }
 }
 
-/// Reads an address with its file: `world...` or `urdf...`.
+/// Parses an address with its file: `world...` or `urdf...`.
 ///
 /// # Errors
-/// What is wrong with it, in words.
+/// The syntax error.
 pub(super) fn place(address: &str) -> Result<(Place, Vec<Step>), String> {
     let steps = steps(address)?;
     match steps.split_first() {
@@ -61,10 +61,10 @@ pub(super) fn place(address: &str) -> Result<(Place, Vec<Step>), String> {
 }
 
 impl Template {
-    /// The numbers at these addresses of a file, each with what sets it.
+    /// Creates a template of a file with the numbers at these addresses.
     ///
     /// # Errors
-    /// The number of the first setting that leads to no number, or to one that another sets, and why.
+    /// The index of the first setting that leads to no number, or to one that another sets, with the reason.
     pub fn new(source: Source, file: Place, settings: &[(Vec<Step>, Setting)]) -> Result<Self, (usize, String)> {
         let mut text = source.text().to_owned();
         if file == Place::World {
@@ -87,17 +87,17 @@ impl Template {
         Ok(Self { source, holes })
     }
 
-    /// Whether no parameter sets anything in it.
+    /// Returns true if no parameter sets a number in it.
     pub fn is_fixed(&self) -> bool {
         self.holes.is_empty()
     }
 
-    /// The file as it is read, with what it leaves unsaid written out.
+    /// Returns the file as it is read, with its defaults written out.
     pub fn source(&self) -> &Source {
         &self.source
     }
 
-    /// The file with these values in place.
+    /// Returns the file with these values.
     pub fn filled(&self, values: &[f64]) -> Source {
         let text = self.source.text();
         let mut filled = String::with_capacity(text.len() + 16 * self.holes.len());
@@ -105,7 +105,8 @@ impl Template {
         for Hole { at, is_whole, setting } in &self.holes {
             filled.push_str(&text[from..at.start]);
             let number = setting.factor * values[setting.parameter] + setting.offset;
-            // Counts are written without a fraction; what is no whole number is refused where it is read.
+            // Counts are written without a fraction. A value that should be an integer but is not is refused when the
+            // file is read.
             let _ = match *is_whole && number.fract() == 0.0 && number.abs() < 1e15 {
                 true => write!(filled, "{}", number as i64),
                 false => write!(filled, "{number:?}"),

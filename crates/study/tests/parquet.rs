@@ -1,4 +1,4 @@
-//! Tables as Parquet files hold what the rows hold.
+//! Tests that Parquet tables contain the same values as the rows.
 
 use cplan_engine::Options;
 use cplan_study::{Ending, Row, Study};
@@ -8,13 +8,13 @@ use parquet::record::Field;
 use std::io::Write;
 use std::path::Path;
 
-/// A shipped study of two parameters and four measures.
+/// Returns a shipped study with two parameters and four measures.
 fn study() -> Study {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../workspaces/studies/base.toml");
     Study::load(path, &|_| Ok((Options::default(), Overrides::default()))).unwrap()
 }
 
-/// A row of each ending in turn, as layouts have them.
+/// Returns rows with each ending in turn.
 fn row(layout: usize) -> Row {
     let ending = Ending::ALL[layout % Ending::ALL.len()];
     let is_found = ending == Ending::Found;

@@ -1,8 +1,8 @@
-//! Bytes as text.
+//! Base64.
 
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// Bytes in Base64 (RFC 4648), filled up to whole groups.
+/// Encodes bytes in Base64 (RFC 4648), with padding.
 #[must_use]
 pub fn base64(bytes: &[u8]) -> String {
     let group = |three: &[u8]| {

@@ -1,12 +1,12 @@
-//! Lines in two columns.
+//! Text in two columns.
 
 use super::plain_line;
 use std::fmt::Write;
 
-/// Where the second column begins.
+/// Column in which the second column starts.
 pub const INDENT: usize = 11;
 
-/// Lines with a key in front; one that is the same as in the line before is not repeated.
+/// Lines with a key in front. A key equal to that of the previous line is not repeated.
 #[derive(Debug, Default)]
 pub struct Columns {
     text: String,
@@ -22,7 +22,7 @@ impl Columns {
         key.clone_into(&mut self.before);
     }
 
-    /// All lines.
+    /// Returns all lines.
     #[must_use]
     pub fn into_text(self) -> String {
         self.text

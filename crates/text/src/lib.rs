@@ -1,4 +1,5 @@
-//! Text for people: what is shown of names, markup, numbers, numbers of things, long lists, two columns, lines of a width; and infinite numbers in data. Imports nothing, and all may import it.
+//! Text for people: safe names, markup, numbers, counts, long lists, columns and wrapped lines; and infinite numbers in
+//! data. This crate uses no other crate of the workspace.
 
 mod base64;
 mod columns;
@@ -17,7 +18,7 @@ pub use rounded::at_most;
 pub use rounded::{at_least, fixed, nonzero, percent, short, told_apart};
 pub use wrapped::wrapped;
 
-/// A number of things: `1 obstacle`, `3 obstacles`, `2 boxes`.
+/// Formats a count with its noun: `1 obstacle`, `3 obstacles`, `2 boxes`.
 #[must_use]
 pub fn counted(count: usize, thing: &str) -> String {
     let ending = match count {
@@ -28,10 +29,10 @@ pub fn counted(count: usize, thing: &str) -> String {
     format!("{count} {thing}{ending}")
 }
 
-/// More reasons than this are counted, not listed.
+/// Largest number of reasons that are listed. Further ones are counted.
 const LISTED: usize = 6;
 
-/// Reasons in a row, all of them if they are few: `a; b; and 12 more`.
+/// Joins reasons, all of them if there are few: `a; b; and 12 more`.
 #[must_use]
 pub fn listed(reasons: &[String]) -> String {
     let [first, more] = [&reasons[..reasons.len().min(LISTED)], &reasons[reasons.len().min(LISTED)..]];
@@ -39,7 +40,7 @@ pub fn listed(reasons: &[String]) -> String {
     first.iter().cloned().chain(rest).collect::<Vec<_>>().join("; ")
 }
 
-/// The same as lines of their own.
+/// Does the same for separate lines.
 #[must_use]
 pub fn first_lines(lines: Vec<String>, more: impl Fn(usize) -> String) -> Vec<String> {
     let rest = lines.len().saturating_sub(LISTED);

@@ -1,6 +1,6 @@
-//! Text within XML and HTML.
+//! Escaped text for XML and HTML.
 
-/// Text that is neither markup nor a character that XML forbids; good between tags and within quotes.
+/// Escapes markup, and replaces characters that XML forbids. The result is valid between tags and within quotes.
 #[must_use]
 pub fn markup(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

@@ -1,10 +1,10 @@
-//! Numbers that may be infinite, as data: for `#[serde(with = "crate::number")]`. JSON has no word for what is infinite, so
-//! that is written as `"inf"` and `"-inf"`. What is no number is refused.
+//! Numbers that may be infinite, for `#[serde(with = "crate::number")]`. JSON cannot represent infinity, so it is
+//! written as `"inf"` or `"-inf"`. NaN is refused.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Finite, or in a word.
+/// A finite number, or the word for an infinite one.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, expecting = "a number, \"inf\" or \"-inf\"")]
 enum Number {
@@ -30,7 +30,7 @@ pub fn serialize<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::
     number.serialize(serializer)
 }
 
-/// Reads what [`serialize`] has written.
+/// Reads a number written by [`serialize`].
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     match Number::deserialize(deserializer)? {
         Number::Finite(value) if value.is_nan() => Err(D::Error::custom("this is not a number")),

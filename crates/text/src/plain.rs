@@ -1,9 +1,9 @@
-//! Names as they may be shown.
+//! Names made safe to print.
 
 use std::borrow::Cow;
 
-/// Whether a character does something to a terminal, or to the text around it, rather than being seen: controls, and those
-/// that change the direction of writing or break lines (Unicode 16, 23.2; UAX 9).
+/// Returns true if a character affects the terminal or the surrounding text instead of being visible: control
+/// characters, and those that change the writing direction or break lines (Unicode 16, 23.2; UAX 9).
 fn acts(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
@@ -21,24 +21,24 @@ fn escaped(text: &str, spared: impl Fn(char) -> bool, escape: impl Fn(&mut Strin
     Cow::Owned(shown)
 }
 
-/// A text for people, of any number of lines: what would act on a terminal is written as an escape, `\u{1b}`.
+/// Escapes characters that would affect a terminal, as in `\u{1b}`. Line breaks stay.
 #[must_use]
 pub fn plain(text: &str) -> Cow<'_, str> {
     escaped(text, |c| matches!(c, '\n' | '\t'), |shown, c| shown.extend(c.escape_default()))
 }
 
-/// The same of what is to stay in one line.
+/// Does the same for text that must stay on one line.
 #[must_use]
 pub fn plain_line(text: &str) -> Cow<'_, str> {
     escaped(text, |_| false, |shown, c| shown.extend(c.escape_default()))
 }
 
-/// JSON with all that acts as escapes of JSON's: it reads as the same.
+/// Escapes such characters within JSON. Parsing gives the same value.
 #[must_use]
 pub fn plain_json(json: &str) -> Cow<'_, str> {
     use std::fmt::Write;
     let escape = |shown: &mut String, c: char| {
-        // None of them is beyond the first plane; writing to a string cannot fail.
+        // All are in the basic plane, and writing to a string cannot fail.
         let _ = write!(shown, "\\u{:04x}", u32::from(c));
     };
     escaped(json, |c| matches!(c, '\n' | '\t' | '\r'), escape)

@@ -1,9 +1,9 @@
-//! Numbers for people: short, told apart where they differ, and if they are proven no more than what is proven.
+//! Numbers for people: short, distinct where they differ, and never beyond a proven bound.
 
-/// With more decimals than this numbers are written as they are.
+/// Numbers that need more decimals are written in full.
 const MOST_DECIMALS: usize = 12;
 
-/// A number with some decimals, whose zero has no sign.
+/// Formats a number with fixed decimals. Zero has no sign.
 #[must_use]
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
@@ -13,14 +13,15 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// A number with some decimals; one that would look like zero, and is none, with two digits that count: `5.6e-7`.
+/// Formats a number with fixed decimals. A nonzero number that would look like zero gets two significant digits:
+/// `5.6e-7`.
 #[must_use]
 pub fn nonzero(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
     if value != 0.0 && text.parse() == Ok(0.0) { format!("{value:.1e}") } else { text }
 }
 
-/// Numbers with these decimals, or with as many more as it takes for numbers that differ to look different.
+/// Formats numbers with these decimals, or with as many more as needed to make different numbers look different.
 #[must_use]
 pub fn told_apart<const N: usize>(values: [f64; N], decimals: usize) -> [String; N] {
     let are_told = |texts: &[String; N]| (0..N).all(|i| (0..i).all(|j| values[i] == values[j] || texts[i] != texts[j]));
@@ -28,27 +29,27 @@ pub fn told_apart<const N: usize>(values: [f64; N], decimals: usize) -> [String;
     (decimals..=MOST_DECIMALS).map(with).find(are_told).unwrap_or_else(|| values.map(|value| (value + 0.0).to_string()))
 }
 
-/// A number to six digits that count, without zeros at its end.
+/// Rounds a number to six significant digits.
 #[must_use]
 pub fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// A number with some decimals that is no more than this one, so that what is proven of it is proven of what is shown. One above zero
-/// that would look like zero has two digits that count: `5.6e-7`.
+/// Formats a number with fixed decimals, rounded down, so that a proven lower bound stays true as printed. A positive
+/// number that would look like zero gets two significant digits: `5.6e-7`.
 #[must_use]
 pub fn at_least(value: f64, decimals: usize) -> String {
     let text = shown(value, decimals, |shown| shown <= value, -1.0);
     if value > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text }
 }
 
-/// The same, no less than this one.
+/// Formats a number with fixed decimals, rounded up.
 #[must_use]
 pub fn at_most(value: f64, decimals: usize) -> String {
     shown(value, decimals, |shown| shown >= value, 1.0)
 }
 
-/// Two digits of a positive number that are no more than it.
+/// Formats a positive number with two significant digits, rounded down.
 fn two_digits_below(value: f64) -> String {
     let nearest = format!("{value:.1e}");
     let Some((digits, exponent)) =
@@ -63,20 +64,20 @@ fn two_digits_below(value: f64) -> String {
     }
 }
 
-/// A share in words, rounded up: `0.04 %`, `8.5e-3 %`. That a quotient was rounded makes it no more.
+/// Formats a fraction as a percentage, rounded up: `0.04 %`, `8.5e-3 %`. Ignores the rounding error of the quotient.
 #[must_use]
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * (share - 2.0 * f64::EPSILON).max(0.0);
     if percent == 0.0 || percent >= 0.01 {
         return format!("{} %", at_most(percent, 2));
     }
-    // Two digits that count.
+    // Two significant digits.
     let decimals = 1 - percent.log10().floor() as i32;
     let shown = at_most(percent, decimals.unsigned_abs() as usize);
     shown.parse().map_or(shown.clone(), |shown: f64| format!("{shown:.1e}")) + " %"
 }
 
-/// The nearest, or the next one in a direction.
+/// Formats the nearest decimal, or the next one towards a direction until `holds`.
 fn shown(value: f64, decimals: usize, holds: impl Fn(f64) -> bool, towards: f64) -> String {
     let nearest = fixed(value, decimals);
     match nearest.parse::<f64>() {

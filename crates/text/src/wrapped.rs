@@ -1,14 +1,14 @@
-//! Lines of a width.
+//! Word wrapping.
 
-/// A line in lines of at most `width` characters where its words are that short; those behind the first begin with `indent` blanks.
-/// What stands before the first word, and between words of one line, stays.
+/// Wraps a line to at most `width` characters, unless a word is longer. Continuation lines start with `indent` blanks.
+/// Spaces before the first word and between words of one line stay.
 #[must_use]
 pub fn wrapped(line: &str, width: usize, indent: usize) -> String {
     let mut text = String::with_capacity(line.len());
     let (mut column, mut gap) = (0, 0);
     for word in line.split(' ') {
         let length = word.chars().count();
-        // Two blanks in a row have an empty word between them.
+        // Two consecutive blanks have an empty word between them.
         if !word.is_empty() && column > indent && column + gap + length > width {
             text.push('\n');
             text.extend(std::iter::repeat_n(' ', indent));

@@ -9,20 +9,22 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// How an obstacle moves: straight and evenly from stop to stop, and on from the last at a constant velocity. At least one of both.
+/// The motion of an obstacle: straight and at constant speed from stop to stop, then at a constant velocity. At least
+/// one of both keys.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "motion", extend("anyOf" = [{ "required": ["stops"] }, { "required": ["velocity"] }]))]
 pub(super) struct CourseTable {
-    /// Where it is at some times, which increase; before the first it waits there. By default a single one, at time 0.
+    /// Positions at increasing times. Before the first the obstacle waits there. By default there is a single stop at
+    /// time 0.
     #[schemars(with = "Option<Vec<StopTable>>", length(min = 1))]
     stops: Option<Spanned<Vec<Spanned<StopTable>>>>,
-    /// How it leaves the last stop, for ever, m/s: what a conveyor carries; by default it stays there.
+    /// Velocity after the last stop, m/s, as on a conveyor. By default the obstacle stays there.
     #[schemars(with = "Option<Two>")]
     velocity: Option<Numbers>,
 }
 
-/// Where an obstacle is at a time.
+/// The position of an obstacle at a time.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "stop")]
@@ -33,16 +35,17 @@ pub(super) struct StopTable {
     /// The origin of its own frame then, m; by default the obstacle's `at`.
     #[schemars(with = "Option<Two>")]
     at: Option<Numbers>,
-    /// How its frame is turned then, rad; by default the obstacle's `angle`. It turns by the difference, whole turns included.
+    /// Angle of its frame at that time, rad; by default the obstacle's `angle`. It turns by the difference, including
+    /// whole turns.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
 }
 
 impl CourseTable {
-    /// The course of something whose frame is at `place` where nothing else is said.
+    /// Returns the motion of an obstacle. Stops without a position or angle take those of `place`.
     ///
     /// # Errors
-    /// Times that do not increase, numbers that are not finite, and a table that says nothing.
+    /// Times that do not increase, numbers that are not finite, and an empty table.
     pub fn read(&self, reader: &Reader, what: &str, place: Option<&Pose>, at: Span) -> Result<Course, Diagnostic> {
         let what = format!("{what}, motion");
         if self.stops.is_none() && self.velocity.is_none() {

@@ -11,12 +11,12 @@ pub struct Digests {
     pub urdf: String,
     /// The world file.
     pub world: String,
-    /// All others that were read, which these name, in ascending order.
+    /// All other files that were read because these refer to them, in ascending order.
     pub others: Vec<String>,
 }
 
 impl Digests {
-    /// Those of a URDF, a world and all other files that this process has read so far.
+    /// Returns the digests of a URDF, a world, and all other files that this process has read so far.
     ///
     /// # Errors
     /// A file that can no longer be read.

@@ -1,15 +1,15 @@
-//! Where a motion is to begin and to end, if that is said anywhere.
+//! The start and the goals of a motion, if they are given.
 
 use super::{LoadedScene, Overrides};
 use cplan_core::model::Goal;
 use cplan_robot::InputError;
 
 impl LoadedScene {
-    /// Start and goals, any of which will do: the command line's, else the world file's, else none. Whether they are free and within the limits is not
-    /// looked at: a motion that begins or ends there shows it.
+    /// Returns the start and the alternative goals: those of the command line, else of the world file. Does not check
+    /// whether they are free and within the limits, because the recorded motion shows that.
     ///
     /// # Errors
-    /// Values on the command line that are none for these joints.
+    /// Invalid values on the command line.
     pub fn ends(&self, overrides: &Overrides) -> Result<(Option<Goal>, Vec<Goal>), InputError> {
         let joints = &self.scene.arm().joints;
         let start = match &overrides.start {

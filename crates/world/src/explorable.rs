@@ -1,4 +1,4 @@
-//! What an exploration is of: the start, and a goal if there is one.
+//! The input of an exploration: the start, and possibly a goal.
 
 use super::{LoadedScene, Overrides};
 use cplan_core::model::{Scene, Sensor};
@@ -8,17 +8,17 @@ use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 /// A world to explore and how it was read.
 #[derive(Debug, Clone)]
 pub struct Explorable {
-    /// What is really there.
+    /// The true scene.
     pub scene: Scene,
-    /// What sees it.
+    /// The sensor.
     pub sensor: Sensor,
-    /// Where the arm begins: within the limits and free.
+    /// The start, which is free and within the limits.
     pub start: Configuration,
-    /// Where it is to go, if the world or the command line says so: free.
+    /// The free goals, if the world or the command line gives any.
     pub goals: Option<GoalSet>,
-    /// How the robot was read.
+    /// Report on how the robot was read.
     pub robot: RobotReport,
-    /// What the user should know of start and goal.
+    /// Notes for the user about start and goal.
     pub notes: Vec<String>,
 }
 

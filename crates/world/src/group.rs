@@ -9,9 +9,9 @@ use std::ops::Range;
 /// Steps that belong together.
 pub(super) struct Group {
     pub body: Body,
-    /// How often they are done.
+    /// Number of repetitions.
     pub repeat: usize,
-    /// Where the number of repetitions, or else the group, stands.
+    /// Position in the file of the number of repetitions, or else of the group.
     pub at: Range<usize>,
     /// The objects that its steps pick and that are renewed.
     pub renewed: BTreeSet<usize>,
@@ -19,9 +19,9 @@ pub(super) struct Group {
     pub length: usize,
 }
 
-/// What a group does.
+/// Contents of a group.
 pub(super) enum Body {
-    /// One after the other.
+    /// Steps in the given order.
     InOrder(Vec<Node>),
     /// Pairs of a pick and a place, in any order.
     AnyOrder(Vec<[Leaf; 2]>),
@@ -33,36 +33,36 @@ pub(super) enum Node {
     Group(Group),
 }
 
-/// A step as it is written.
+/// A step as written.
 pub(super) struct Leaf {
-    /// From 1, in the order of the file.
+    /// Number of the step in the file, from 1.
     pub number: usize,
     /// File, line and column.
     pub place: String,
-    /// Where its target stands: the object's name, the point or the joint values.
+    /// Position in the file of its target: the object's name, the point or the joint values.
     pub at: Range<usize>,
     pub action: LeafAction,
     pub speed: f64,
     pub dwell: f64,
 }
 
-/// What a step does, as it is written.
+/// The action of a step, as written.
 pub(super) enum LeafAction {
     Pick { object: usize, grasp: Point, supports: Supports, when: Option<When> },
     Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports> },
     Move(Goal),
 }
 
-/// When what moves may be picked.
+/// Times at which a moving object may be picked.
 pub(super) struct When {
     /// Times, in order; at least one.
     pub times: Vec<Interval>,
-    /// Where that is said.
+    /// Position in the file.
     pub at: Range<usize>,
 }
 
 impl Node {
-    /// The number of its steps, repetitions written out.
+    /// Returns the number of its steps, with repetitions written out.
     pub fn length(&self) -> usize {
         match self {
             Node::Step(_) => 1,
@@ -70,7 +70,7 @@ impl Node {
         }
     }
 
-    /// Where it stands.
+    /// Returns its position in the file.
     pub fn at(&self) -> Range<usize> {
         match self {
             Node::Step(leaf) => leaf.at.clone(),

@@ -1,6 +1,7 @@
-//! What to write instead of a value in a world file that is of a wrong kind.
+//! Hints for values of the wrong type in a world file.
 
-/// Keys with what is to be written for them. A key's own table comes before keys of the same name elsewhere.
+/// Keys with the form of their values. An entry for a key of a specific table precedes entries for the same key
+/// elsewhere.
 const FORMS: [(&str, &str); 30] = [
     ("start", "[start] joints = [q1, q2], or tip = [x, y]"),
     ("goal", "[goal] joints = [q1, q2], or tip = [x, y]"),
@@ -37,10 +38,10 @@ const FORMS: [(&str, &str); 30] = [
     ("step", "[[step]] with pick = \"NAME\", place = { at = [x, y] } or move = { joints = [q1, q2] }"),
 ];
 
-/// Where nothing better is known.
+/// The hint if there is no more specific one.
 const ANY: &str = "`cplan init` writes a world with every key explained, `cplan schema` what editors check by";
 
-/// Help for what is wrong at a byte of a world file: the form of the key that it stands at.
+/// Returns the hint for an error at a byte of a world file: the form of the key at that place.
 pub(super) fn help(text: &str, at: usize) -> &'static str {
     let before = &text[..floor(text, at)];
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
@@ -67,7 +68,7 @@ pub(super) fn help(text: &str, at: usize) -> &'static str {
     form(&format!("{table}.{key}")).or_else(|| form(&key)).unwrap_or(ANY)
 }
 
-/// The nearest boundary of characters at or before a byte.
+/// Returns the nearest character boundary at or before a byte.
 fn floor(text: &str, at: usize) -> usize {
     (0..=at.min(text.len())).rev().find(|i| text.is_char_boundary(*i)).unwrap_or(0)
 }

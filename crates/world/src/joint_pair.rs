@@ -32,7 +32,7 @@ impl JointPair {
 }
 
 impl Reader<'_> {
-    /// An angle, or a joint's value.
+    /// Converts an angle or the value of a joint.
     pub fn quantity(&self, written: &Written, what: &str) -> Result<f64, Diagnostic> {
         self.source.finite(&Number::new(written.span(), written.get_ref().value), what)
     }

@@ -73,14 +73,14 @@ use std::path::Path;
 /// Arm, obstacles and objects as the files have them, without start, goal and steps.
 #[derive(Debug, Clone)]
 pub struct LoadedScene {
-    /// The arm among its obstacles, with the world's clearance. Objects lie where they lie at first, and follow the
-    /// obstacles that stay where they are.
+    /// The arm among its obstacles, with the world's clearance. Objects are at their initial places, after the static
+    /// obstacles.
     pub scene: Scene,
     /// The world file.
     pub world: World,
-    /// The arm as it is without the place that the world gives it.
+    /// The arm before the world's placement of the robot.
     arm: Arm,
-    /// How the robot was read.
+    /// Report on how the robot was read.
     pub robot: RobotReport,
 }
 
@@ -89,9 +89,9 @@ pub struct LoadedScene {
 pub struct Loaded {
     /// Scene, start and goals; start and goals are within the limits and free.
     pub problem: MotionProblem,
-    /// How the robot was read.
+    /// Report on how the robot was read.
     pub robot: RobotReport,
-    /// What the user should know of the goal: branches that are blocked, joints whose value does not matter.
+    /// Notes for the user about the goal: blocked IK solutions, joints whose value does not matter.
     pub notes: Vec<String>,
 }
 
@@ -105,18 +105,19 @@ pub fn load_scene(robot: impl Into<RobotFile>, world: &Path) -> Result<LoadedSce
     among(world, robot.into().read()?)
 }
 
-/// The same from texts, which need not be files.
+/// Does the same with texts, which need not be files.
 ///
 /// # Errors
-/// [`InputError`] for everything that is wrong with the texts themselves.
+/// [`InputError`] for every defect of the texts.
 pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError> {
     among(world::read(world)?, urdf)
 }
 
-/// The same for an arm that is made in code, whose two joints are all that moves.
+/// Does the same for an arm made in code, which has exactly two joints.
 ///
 /// # Errors
-/// [`InputError`] for everything that is wrong with the world; a `[robot]` table, which is about a URDF; an arm whose numbers make no sense.
+/// [`InputError`] for every defect of the world; a `[robot]` table, which applies to URDFs; an arm with invalid
+/// numbers.
 pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let world = world::read(world)?;
     let refused = |message: String, help: &str| Diagnostic::new(world.source.name(), message).help(help);
@@ -142,18 +143,18 @@ pub fn world_from(world: Source) -> Result<World, InputError> {
 }
 
 impl LoadedScene {
-    /// Start and (first) goal as the world gives them, whether or not anything is wrong with them.
+    /// Returns the start and the first goal of the world, whether or not they are valid.
     #[must_use]
     pub fn given(&self) -> [Option<Goal>; 2] {
         let goal = self.world.goals.as_ref().and_then(|(goals, _)| goals.first().copied());
         [self.world.start.as_ref().map(|&(start, _)| start), goal]
     }
 
-    /// As [`scene_from`] for another text of the world, without reading the robot again where the world's `[robot]` table
-    /// says the same but for its place: for worlds that are edited.
+    /// Does the same as [`scene_from`] for an edited text of the world. Does not read the robot again if the `[robot]`
+    /// table has changed only in its placement.
     ///
     /// # Errors
-    /// [`InputError`] for everything that is wrong with the texts themselves.
+    /// [`InputError`] for every defect of the texts.
     pub fn edited(&self, urdf: &Source, world: Source) -> Result<Self, InputError> {
         let world = world::read(world)?;
         if world.robot.unplaced() != self.world.robot.unplaced() {
@@ -167,7 +168,7 @@ impl LoadedScene {
     }
 }
 
-/// The arm in its world.
+/// Returns the arm in its world.
 fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     let (arm, mut robot) = cplan_robot::load(urdf, world.robot_settings())?;
     for pair in &world.in_degrees {
@@ -178,13 +179,13 @@ fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     Ok(LoadedScene { scene, world, arm, robot })
 }
 
-/// The arm where the world puts it.
+/// Returns the arm at the world's placement.
 fn standing(arm: &Arm, world: &World) -> Arm {
     world.place.as_ref().map_or_else(|| arm.clone(), |place| arm.placed(place))
 }
 
-/// Examines a robot without stopping at the first thing that is wrong. Without a world file nothing is chosen, held or
-/// overridden; what a world would have to decide is then among the diagnostics and in [`Inspection::help`].
+/// Examines a robot and collects all defects. Without a world file, nothing is chosen, held or overridden. Decisions
+/// that a world would have to make are then among the diagnostics and in [`Inspection::help`].
 #[must_use]
 pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection {
     let mut unread = None;

@@ -36,11 +36,11 @@ pub struct Chain {
 }
 
 impl LineMap {
-    /// Reads a map. Blank lines, lines that begin with `#`, tabs and carriage returns are tolerated.
+    /// Reads a map. Ignores blank lines, lines that begin with `#`, tabs and carriage returns.
     ///
     /// # Errors
-    /// With line and column: what is no map, is out of order, is missing, follows the end, is no finite number, lies
-    /// outside the bounds; and a `NumLines` that is not the number of lines.
+    /// With line and column: a file of another kind, lines out of order, missing or after the end, numbers that are not
+    /// finite or outside the bounds, and a `NumLines` that is not the number of lines.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let mut text = MapText::read(path)?;
         let bounds = text.bounds()?;
@@ -52,7 +52,8 @@ impl LineMap {
         Ok(Self { bounds, lines })
     }
 
-    /// The lines as few polylines: one that shares an end with the chain so far prolongs it, at either end. Linear.
+    /// Joins the lines to as few polylines as possible: a line that shares an end with the current chain extends it.
+    /// Linear.
     #[must_use]
     pub fn chains(&self) -> Vec<Chain> {
         let mut chains: Vec<Chain> = Vec::new();

@@ -5,7 +5,7 @@ use cplan_robot::{Diagnostic, InputError, Source};
 use std::ops::Range;
 use std::path::Path;
 
-/// What a map file begins with.
+/// First word of a map file.
 const HEADER: &str = "2D-Map";
 
 /// A file of the `2D-Map` family, line by line. Blank lines and lines that begin with `#` are passed over; words are
@@ -47,7 +47,7 @@ impl MapText {
         Some((&self.source.text()[at.clone()], at.clone()))
     }
 
-    /// The next line, which must be there.
+    /// Returns the next line, which must exist.
     fn expected(&self, what: &str) -> Result<(&str, Range<usize>), Diagnostic> {
         self.line().ok_or_else(|| {
             let end = self.source.text().trim_end().len();
@@ -71,7 +71,7 @@ impl MapText {
         self.source.diagnostic_at(at, format!("expected {what}")).help(format!("write {what} on this line"))
     }
 
-    /// The numbers of a line `key: n n ...`.
+    /// Reads the numbers of a line `key: n n ...`.
     pub fn keyed<const N: usize>(&mut self, key: &str) -> Result<Numbers<N>, Diagnostic> {
         let what = format!("\"{key}:\" and {}", counted(N));
         let (found, at) = self.expected(&what)?;
@@ -84,7 +84,7 @@ impl MapText {
         Ok(Numbers { values, at })
     }
 
-    /// The whole number of a line `key: n`.
+    /// Reads the integer of a line `key: n`.
     pub fn count(&mut self, key: &str) -> Result<(usize, Range<usize>), Diagnostic> {
         let Numbers { values: [value], at } = self.keyed::<1>(key)?;
         if value < 0.0 || value.fract() != 0.0 || value > MOST_COUNTED {
@@ -94,7 +94,7 @@ impl MapText {
         Ok((value as usize, at))
     }
 
-    /// The numbers of a line that has nothing else.
+    /// Reads the numbers of a line with numbers only.
     pub fn numbers<const N: usize>(&mut self, what: &str) -> Result<Numbers<N>, Diagnostic> {
         let (_, at) = self.expected(&format!("{what} ({})", counted(N)))?;
         let values = self.parsed(at.clone(), what)?;
@@ -102,7 +102,7 @@ impl MapText {
         Ok(Numbers { values, at })
     }
 
-    /// The lines of numbers up to the word `end`, which is passed over: as many as were announced.
+    /// Reads the announced number of lines of numbers, and the final line `end`.
     pub fn list<const N: usize>(
         &mut self,
         announced: (usize, Range<usize>),
@@ -115,7 +115,7 @@ impl MapText {
         Ok(list)
     }
 
-    /// The same up to a line that begins with `end`, which is not passed over.
+    /// Does the same up to a line that begins with `end`, which stays unread.
     pub fn list_before<const N: usize>(
         &mut self,
         (count, at): (usize, Range<usize>),
@@ -138,7 +138,7 @@ impl MapText {
         Ok(list)
     }
 
-    /// `LineMinPos` and `LineMaxPos`.
+    /// Reads `LineMinPos` and `LineMaxPos`.
     pub fn bounds(&mut self) -> Result<[Point; 2], Diagnostic> {
         let Numbers { values: lower, .. } = self.keyed::<2>("LineMinPos")?;
         let Numbers { values: upper, at } = self.keyed::<2>("LineMaxPos")?;
@@ -149,7 +149,7 @@ impl MapText {
         Ok([lower.into(), upper.into()])
     }
 
-    /// Two points of a line, which must lie within the bounds.
+    /// Returns the two points of a line, which must lie within the bounds.
     pub fn corners(&self, values: &[f64], at: &Range<usize>, bounds: &[Point; 2]) -> Result<[Point; 2], Diagnostic> {
         let corners = [Point::new(values[0], values[1]), Point::new(values[2], values[3])];
         let [lower, upper] = bounds;
@@ -163,7 +163,7 @@ impl MapText {
         }
     }
 
-    /// Nothing may follow.
+    /// Checks that nothing follows.
     pub fn end(&self) -> Result<(), Diagnostic> {
         match self.line() {
             None => Ok(()),
@@ -174,7 +174,7 @@ impl MapText {
         }
     }
 
-    /// Exactly `N` finite numbers.
+    /// Parses exactly `N` finite numbers.
     fn parsed<const N: usize>(&self, at: Range<usize>, what: &str) -> Result<[f64; N], Diagnostic> {
         let text = &self.source.text()[at.clone()];
         let mut values = [0.0; N];

@@ -1,11 +1,11 @@
-//! Whether a world is about the arm at all: drawings and maps come in other units, and with their origin elsewhere.
+//! A check whether the obstacles are near the arm at all: drawings and maps may use other units, or another origin.
 
 use cplan_core::model::Scene;
 use cplan_core::space::JointRange;
 use cplan_geometry::{Convex, separation};
 use cplan_text::told_apart;
 
-/// What to say of a world with obstacles none of which the arm can reach. The first that it may reach ends the search.
+/// Returns a warning if all obstacles are out of the arm's reach. Stops at the first one that it may reach.
 pub(super) fn warning(scene: &Scene) -> Option<String> {
     let arm = scene.arm();
     let slides = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| match joint.range {

@@ -1,5 +1,5 @@
-//! What was taken as it must be meant, though it was not written so: counted by kind, so that a thousand exported shapes
-//! make one line.
+//! Notes about input that was corrected while reading, counted by kind, so that a thousand exported shapes give one
+//! line.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -7,7 +7,7 @@ use std::cell::RefCell;
 /// More names than this are counted.
 const NAMED: usize = 3;
 
-/// What was taken, and of whom.
+/// Corrections, with the names of the shapes.
 #[derive(Debug, Default)]
 pub(super) struct Taken(RefCell<Vec<(Cow<'static, str>, Vec<String>)>>);
 
@@ -25,7 +25,7 @@ impl Taken {
         }
     }
 
-    /// A line a kind, in the order in which they came up.
+    /// Returns one line per kind, in order of first occurrence.
     pub fn lines(self) -> Vec<String> {
         let line = |(what, names): (Cow<str>, Vec<String>)| {
             let more = names.len().saturating_sub(NAMED);

@@ -24,7 +24,8 @@ use toml::Spanned;
     { "oneOf": [{ "required": ["at"] }, { "required": ["pallet"] }] }
 ]))]
 pub(super) struct ObjectTable {
-    /// A name that no other object or obstacle has; of objects on a pallet, what comes before row and column: "NAME 2,3".
+    /// Unique name among objects and obstacles. For objects on a pallet it is the part before row and column: "NAME
+    /// 2,3".
     #[schemars(with = "String")]
     name: Spanned<String>,
     /// Corners in its own frame, in order round the shape, m; may be non-convex and touch itself in points, but not cross
@@ -33,25 +34,25 @@ pub(super) struct ObjectTable {
     polygon: Option<Ring>,
     /// A disc in its own frame.
     circle: Option<CircleTable>,
-    /// Where its origin lies at first, m.
+    /// Initial position of its origin, m.
     #[schemars(with = "Option<Two>")]
     at: Option<Numbers>,
-    /// In place of `at`: the pallet on each place of which one lies at first.
+    /// Instead of `at`: a pallet that has one such object on each place initially.
     #[schemars(with = "Option<String>")]
     pallet: Option<Spanned<String>>,
-    /// How it is turned at first, on a pallet with respect to that, rad; by default 0.
+    /// Initial angle, rad, relative to the pallet if there is one; by default 0.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
-    /// Its extent along the plane's normal where it lies, m; by default all heights.
+    /// Its extent along the plane's normal at its resting place, m; by default all heights.
     #[schemars(with = "Option<Two>")]
     height: Option<Numbers>,
-    /// By how much it is raised while it is carried, m; by default 0.
+    /// Height by which it is raised while it is carried, m; by default 0.
     #[schemars(with = "Option<NotNegative>")]
     lift: Option<Number>,
-    /// What it weighs, kg, spread evenly over its outline; by default 0. Counts where torques do.
+    /// Its mass, kg, distributed evenly over its outline; by default 0. Used for torques.
     #[schemars(with = "Option<NotNegative>")]
     mass: Option<Number>,
-    /// How it is held; by default as [robot] says.
+    /// How the gripper holds it; by default as in [robot].
     #[schemars(with = "Option<HeldAs>")]
     payload: Option<Spanned<String>>,
     /// The point of it that the tip goes to, in its own frame, m; by default its origin.
@@ -60,10 +61,11 @@ pub(super) struct ObjectTable {
     /// Obstacles and objects that it may touch where it is picked and placed.
     #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
-    /// Whether each repetition of the steps that pick it finds a new one where it lay at first; the old one is gone when the arm goes on.
+    /// True if each repetition of the steps that pick it finds a new one at its initial place. The old one disappears
+    /// when the arm moves on.
     #[serde(default)]
     renew: bool,
-    /// How it moves from `at` on, until it is picked; by default it lies still.
+    /// Its motion from `at`, until it is picked; by default it is static.
     #[schemars(with = "Option<CourseTable>")]
     motion: Option<Spanned<CourseTable>>,
 }
@@ -78,27 +80,27 @@ pub(super) struct Movable {
     /// The point of it that the tip goes to, in its own frame.
     pub grasp: Point,
     pub supports: Supports,
-    /// Whether a new one lies there in each repetition.
+    /// True if each repetition has a new one.
     pub is_renewed: bool,
 }
 
-/// What an object may touch where it rests.
+/// The obstacles that an object may touch at its resting place.
 #[derive(Debug, Clone)]
 pub(super) struct Supports {
     /// Obstacles; objects follow the obstacles that stay where they are.
     pub numbers: Vec<usize>,
-    /// Where they are named.
+    /// Position of the names in the file.
     pub at: Range<usize>,
 }
 
 /// Numbers of objects and obstacles by name.
 pub(super) struct Names<'a> {
     objects: BTreeMap<String, usize>,
-    /// Those on a pallet, by what they have in common.
+    /// The objects on pallets, by their common name.
     families: BTreeMap<&'a str, Range<usize>>,
     /// Obstacles may share a name.
     obstacles: BTreeMap<&'a str, Vec<usize>>,
-    /// How many obstacles stay where they are.
+    /// Number of static obstacles.
     fixed: usize,
 }
 
@@ -148,10 +150,10 @@ impl<'a> Names<'a> {
         Ok(names)
     }
 
-    /// The object of this name.
+    /// Returns the object with this name.
     ///
     /// # Errors
-    /// When there is none.
+    /// If the name is unknown.
     pub fn object(&self, reader: &Reader, name: &Spanned<String>) -> Result<usize, Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(number) = self.objects.get(wanted) {
@@ -169,10 +171,10 @@ impl<'a> Names<'a> {
         Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
-    /// The objects on a pallet that have this in common, row by row.
+    /// Returns the objects on a pallet with this common name, row by row.
     ///
     /// # Errors
-    /// When there are none.
+    /// If the name is unknown.
     pub fn family(&self, reader: &Reader, name: &Spanned<String>) -> Result<Range<usize>, Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(family) = self.families.get(wanted) {
@@ -187,16 +189,16 @@ impl<'a> Names<'a> {
         Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
-    /// The names to choose from: those on a pallet together.
+    /// Returns the available names; objects on a pallet have a common one.
     fn all(&self) -> String {
         let single = self.objects.iter().filter(|(_, number)| !self.families.values().any(|all| all.contains(number)));
         listed(single.map(|(name, _)| name.as_str()).chain(self.families.keys().copied()))
     }
 
-    /// The numbers of these obstacles and objects, for something that rests on them.
+    /// Returns the numbers of the obstacles and objects in a list of supports.
     ///
     /// # Errors
-    /// When there is none of such a name.
+    /// If a name is unknown.
     pub fn supports(&self, reader: &Reader, list: &NameList) -> Result<Supports, Diagnostic> {
         let mut numbers = Vec::new();
         for name in list.get_ref() {
@@ -218,7 +220,7 @@ impl<'a> Names<'a> {
         Ok(Supports { numbers, at: list.span() })
     }
 
-    /// The number under which an object counts as an obstacle.
+    /// Returns the number of an object as an obstacle.
     pub fn as_obstacle(&self, object: usize) -> usize {
         self.fixed + object
     }
@@ -228,11 +230,11 @@ impl<'a> Names<'a> {
 struct Placed<'a> {
     table: &'a Spanned<ObjectTable>,
     name: String,
-    /// Where it lies at first.
+    /// Its initial pose.
     at: Pose,
 }
 
-/// All objects, with where each lies: those of a table on a pallet row by row.
+/// Returns all objects with their poses: those of a table on a pallet row by row.
 fn placed<'a>(
     reader: &Reader,
     tables: &'a [Spanned<ObjectTable>],
@@ -270,11 +272,11 @@ fn placed<'a>(
     Ok(all)
 }
 
-/// Reads all objects. `default` is how they are held where they do not say it.
+/// Reads all objects. `default` is how the gripper holds them unless they say otherwise.
 ///
 /// # Errors
-/// On names that are not unique, not exactly one shape, not exactly one of a place and a pallet, shapes that are none, values
-/// that are none, unknown pallets and supports.
+/// Names that are not unique, not exactly one shape, not exactly one of position and pallet, invalid shapes and values,
+/// unknown pallets and supports.
 pub(super) fn read<'a>(
     reader: &Reader,
     tables: &'a [Spanned<ObjectTable>],
@@ -320,7 +322,7 @@ fn movable(
         return Err(rests_on_itself(reader, &name, &supports));
     }
     let course = given.motion.as_ref().map(|motion| course(reader, given, motion, &at, &what)).transpose()?;
-    // What is said of its first place is said by the course.
+    // The motion determines the initial position.
     let at = course.as_ref().map_or(at, |course| course.pose(0.0));
     let object = Object {
         name,
@@ -336,7 +338,7 @@ fn movable(
     Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::origin), supports, is_renewed: given.renew })
 }
 
-/// How an object moves that lies here where its motion says nothing else.
+/// Returns the motion of an object. Stops without a position take this one.
 fn course(
     reader: &Reader,
     given: &ObjectTable,
@@ -356,13 +358,13 @@ fn course(
     motion.get_ref().read(reader, what, Some(at), motion.span())
 }
 
-/// The diagnostic of an object that is among its own supports.
+/// Returns the diagnostic of an object that is among its own supports.
 pub(super) fn rests_on_itself(reader: &Reader, name: &str, supports: &Supports) -> Diagnostic {
     let message = format!("object \"{name}\" cannot rest on itself");
     reader.source.diagnostic_at(supports.at.clone(), message).help("remove it from `supports`")
 }
 
-/// How objects are held: `"rigid"` or `"level"`.
+/// Parses how objects are held: `"rigid"` or `"level"`.
 pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding, Diagnostic> {
     match word.get_ref().as_str() {
         "rigid" => Ok(Holding::Rigid),

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// What the arm must not touch: exactly one of polygon, circle, polyline and image.
+/// An obstacle, which the arm must not touch: exactly one of polygon, circle, polyline and image.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "obstacle", extend(
@@ -28,7 +28,7 @@ pub(super) struct ObstacleTable {
     /// GeoJSON, a list of such rings: the outer one, then holes.
     #[schemars(with = "Option<Rings>")]
     polygon: Option<Ring>,
-    /// Rings of corners inside the polygon: what they surround is free.
+    /// Rings of corners inside the polygon, whose insides are free.
     #[schemars(with = "Option<Vec<Corners>>")]
     holes: Option<Spanned<Vec<Ring>>>,
     /// A disc.
@@ -39,19 +39,20 @@ pub(super) struct ObstacleTable {
     /// An occupancy map: the YAML of ROS's map server, which names a PGM or PNG. Relative to this file.
     #[schemars(with = "Option<String>")]
     image: Option<Spanned<String>>,
-    /// What cells of an image are that nobody has looked at; by default "solid".
+    /// Kind of the unknown cells of an image; by default "solid".
     #[schemars(with = "Option<UnknownAs>")]
     unknown: Option<Spanned<String>>,
-    /// Where the origin of its own frame lies, in which its points are then given, m; by default that of the world.
+    /// Origin of its own frame, in which its points are given, m; by default that of the world.
     #[schemars(with = "Option<Two>")]
     at: Option<Numbers>,
-    /// How its frame is turned, rad; by default 0.
+    /// Angle of its frame, rad; by default 0.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
-    /// How its frame moves while the arm does; by default it stands still.
+    /// Motion of its frame in time; by default it is static.
     #[schemars(with = "Option<CourseTable>")]
     motion: Option<Spanned<CourseTable>>,
-    /// Its extent along the plane's normal, m: only parts of the arm at these heights can hit it; by default all heights.
+    /// Its extent along the plane's normal, m. Only parts of the arm at these heights can touch it; by default all
+    /// heights.
     #[schemars(with = "Option<Two>")]
     height: Option<Numbers>,
 }
@@ -64,7 +65,7 @@ pub(super) struct CircleTable {
     /// Coordinates of its centre, m.
     #[schemars(with = "Two")]
     center: Numbers,
-    /// Its radius, m.
+    /// Radius, m.
     #[schemars(with = "Positive")]
     radius: Number,
 }
@@ -72,7 +73,7 @@ pub(super) struct CircleTable {
 /// Convex pieces of the largest map: beyond it each planner takes minutes.
 pub(super) const MOST_PIECES: usize = 1 << 20;
 
-/// What an `[[obstacle]]` is.
+/// The kinds of an `[[obstacle]]`.
 pub(super) enum Read {
     /// It stands where it is.
     Standing(Obstacle),
@@ -84,10 +85,10 @@ const SIMPLE: &str =
     "list the corners in order round the shape (and round each hole), each once; a wall without area is a polyline";
 
 impl ObstacleTable {
-    /// The obstacle, the `index`-th of its file.
+    /// Reads the obstacle with this index in its file.
     ///
     /// # Errors
-    /// On not exactly one shape, values that are not finite, shapes that are none, and files that cannot be used.
+    /// Not exactly one shape, values that are not finite, invalid shapes, and unusable files.
     pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Read, InputError> {
         let obstacle = table.get_ref();
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
@@ -95,7 +96,7 @@ impl ObstacleTable {
         let place = reader.pose(obstacle.at.as_ref(), obstacle.angle.as_ref(), &what)?;
         let course = obstacle.motion.as_ref().map(|m| m.get_ref().read(reader, &what, place.as_ref(), m.span()));
         let course = course.transpose()?;
-        // What moves has its shape in its own frame.
+        // A moving obstacle has its shape in its own frame.
         let place = place.as_ref().filter(|_| course.is_none());
         let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
             (Some(corners), None, None, None) => {
@@ -167,7 +168,7 @@ fn image(
     Ok((Shape::Pieces, pieces))
 }
 
-/// A disc.
+/// Reads a disc.
 pub(super) fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Diagnostic> {
     let center = reader.point(&circle.center, &format!("{what}, center"))?;
     let radius = reader.source.finite(&circle.radius, &format!("{what}, radius"))?;

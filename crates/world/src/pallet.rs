@@ -18,19 +18,19 @@ pub(super) struct PalletTable {
     /// A name that no other pallet has.
     #[schemars(with = "String")]
     name: Spanned<String>,
-    /// How many rows.
+    /// Number of rows.
     #[schemars(with = "i64", range(min = 1))]
     rows: Spanned<i64>,
-    /// How many places in a row.
+    /// Number of places per row.
     #[schemars(with = "i64", range(min = 1))]
     columns: Spanned<i64>,
-    /// From one column to the next, along the pallet's x, and from one row to the next, along its y, m; may be negative.
+    /// Distances between columns, along the pallet's x, and between rows, along its y, m; may be negative.
     #[schemars(with = "Two")]
     pitch: Numbers,
-    /// Where the place of row 1 and column 1 is, m.
+    /// Position of the place in row 1 and column 1, m.
     #[schemars(with = "Two")]
     at: Numbers,
-    /// How the pallet is turned about that place, rad; by default 0. Objects on it turn with it.
+    /// Angle of the pallet about that place, rad; by default 0. Objects on it turn with it.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
 }
@@ -46,19 +46,19 @@ const DIGITS: i32 = 15;
 pub(super) struct Pallet {
     rows: usize,
     columns: usize,
-    /// Of row 1 and column 1, turned as the pallet is.
+    /// Pose of row 1 and column 1.
     origin: Pose,
-    /// By column and by row.
+    /// Pitch by column and by row.
     pitch: [f64; 2],
 }
 
 impl Pallet {
-    /// How many places it has.
+    /// Returns the number of places.
     pub fn count(&self) -> usize {
         self.rows * self.columns
     }
 
-    /// All places, row by row: each with its row and column, as names have them, and its pose.
+    /// Iterates over all places, row by row: row and column, as in names, and pose.
     pub fn places(&self) -> impl Iterator<Item = (String, Pose)> + '_ {
         (0..self.rows).flat_map(move |row| {
             (0..self.columns).map(move |column| {
@@ -72,7 +72,7 @@ impl Pallet {
     }
 }
 
-/// A sum of numbers that are at most as large as `largest`, without what rounding adds.
+/// Removes rounding errors from a sum of numbers that are at most `largest`.
 fn rounded(sum: f64, largest: f64) -> f64 {
     let before = largest.log10().ceil().clamp(-300.0, 300.0) as i32;
     let decimals = usize::try_from(DIGITS - before).unwrap_or(0);
@@ -83,7 +83,7 @@ fn rounded(sum: f64, largest: f64) -> f64 {
 #[derive(Default)]
 pub(super) struct Pallets<'a> {
     by_name: BTreeMap<&'a str, Pallet>,
-    /// Where the place of a name is.
+    /// Positions of places by name.
     places: BTreeMap<String, Point>,
 }
 
@@ -107,10 +107,10 @@ impl<'a> Pallets<'a> {
         Ok(pallets)
     }
 
-    /// The pallet of this name.
+    /// Returns the pallet with this name.
     ///
     /// # Errors
-    /// When there is none.
+    /// If the name is unknown.
     pub fn named(&self, reader: &Reader, name: &Spanned<String>) -> Result<&Pallet, Diagnostic> {
         let wanted = name.get_ref().as_str();
         self.by_name.get(wanted).ok_or_else(|| {
@@ -119,10 +119,10 @@ impl<'a> Pallets<'a> {
         })
     }
 
-    /// Where the place of this name is: `tray 2,3`.
+    /// Returns the position of the place with this name: `tray 2,3`.
     ///
     /// # Errors
-    /// When there is none.
+    /// If the name is unknown.
     pub fn place(&self, reader: &Reader, name: &Spanned<String>) -> Result<Point, Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(place) = self.places.get(wanted) {
@@ -183,7 +183,7 @@ impl PalletTable {
 mod tests {
     use super::*;
 
-    /// The last place of two rows and two columns.
+    /// Returns the last place of two rows and two columns.
     fn last(at: [f64; 2], pitch: [f64; 2], angle: f64) -> Point {
         let pallet = Pallet { rows: 2, columns: 2, origin: Pose::new(Point::from(at).coords, angle), pitch };
         pallet.places().last().unwrap().1.translation.vector.into()

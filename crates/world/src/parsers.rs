@@ -3,7 +3,8 @@
 use cplan_robot::{Diagnostic, Source};
 use serde_saphyr::{MessageFormatter, UserMessageFormatter};
 
-/// What is wrong with a file as JSON, and where. The parser's message ends with the place, which is left out here.
+/// Returns the diagnostic of a JSON error, with its place. The parser's message ends with the place, which is removed
+/// here.
 pub(crate) fn json_diagnostic(source: &Source, error: &serde_json::Error) -> Diagnostic {
     let message = error.to_string();
     let message = message.lines().next().unwrap_or_default();
@@ -11,7 +12,7 @@ pub(crate) fn json_diagnostic(source: &Source, error: &serde_json::Error) -> Dia
     source.diagnostic_at_position(error.line(), error.column(), message)
 }
 
-/// What is wrong with a file as YAML, and where, in words that give no advice to who calls the parser.
+/// Returns the diagnostic of a YAML error, with its place, without advice meant for programmers.
 pub(crate) fn yaml_diagnostic(source: &Source, error: &serde_saphyr::Error) -> Diagnostic {
     let (line, column) = error.location().map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
     source.diagnostic_at_position(line, column, UserMessageFormatter.format_message(error))

@@ -50,11 +50,11 @@ impl<'de> Visitor<'de> for CoordinatesVisitor {
     }
 }
 
-/// What is said of rings whose last point is the first again.
+/// Note about rings whose last point repeats the first.
 const CLOSED: &str = "the last point of a ring repeats the first; taken once";
-/// What is said of points that follow themselves.
+/// Note about repeated points.
 const REPEATED: &str = "points that repeat the one before them are taken once";
-/// What is said of a polygon that is not simple, though it is clear what is inside.
+/// Note about a polygon that is not simple but whose inside is well defined.
 const TOUCHING: &str = "the boundary touches itself in single points; what it surrounds is solid";
 
 impl Coordinates {
@@ -65,7 +65,7 @@ impl Coordinates {
         }
     }
 
-    /// Whether it is a list of rings, as in GeoJSON, rather than a ring.
+    /// Returns true for a list of rings, as in GeoJSON, instead of a ring.
     fn is_nested(&self) -> bool {
         let first_point = self.list().first().map(Spanned::get_ref);
         let first_coordinate = first_point.and_then(|point| point.list().first()).map(Spanned::get_ref);
@@ -73,7 +73,7 @@ impl Coordinates {
     }
 }
 
-/// A polygon without crossings, moved to its place; `help` is for one that has some.
+/// Returns a polygon without crossings, moved to its place. `help` is the hint if it has any.
 pub(super) fn polygon(
     reader: &Reader,
     given: &Ring,
@@ -112,7 +112,7 @@ pub(super) fn polygon(
     }
 }
 
-/// A polygon whose boundary does not touch itself; `help` is for one that does.
+/// Returns a polygon whose boundary does not touch itself. `help` is the hint if it does.
 pub(super) fn simple_polygon(
     reader: &Reader,
     given: &Ring,
@@ -124,7 +124,7 @@ pub(super) fn simple_polygon(
     })
 }
 
-/// A thin wall, moved to its place.
+/// Returns a thin wall, moved to its place.
 pub(super) fn polyline(
     reader: &Reader,
     given: &Ring,
@@ -148,7 +148,7 @@ fn moved(mut points: Vec<Point>, place: Option<&Pose>) -> Vec<Point> {
     points
 }
 
-/// The corners of a ring, each once.
+/// Returns the corners of a ring without repetitions.
 fn ring_of(reader: &Reader, given: &Ring, what: &str) -> Result<Vec<Point>, Diagnostic> {
     let mut corners = without_repeats(reader, points(reader, given, what)?, what);
     if corners.len() > 1 && corners.first() == corners.last() {

@@ -38,10 +38,10 @@ const WIDEST: f64 = 100.0;
 const ORDERED: &str = "list the corners in order round the region, each once";
 
 impl PreferenceTable {
-    /// The preference, the `index`-th of its file.
+    /// Reads the preference with this index in its file.
     ///
     /// # Errors
-    /// On values that are not finite, a direction without length, and not exactly one region, which is a simple polygon.
+    /// Values that are not finite, a direction of length 0, and not exactly one region, which must be a simple polygon.
     pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Preference, Diagnostic> {
         let given = table.get_ref();
         let name = given.name.clone().unwrap_or_else(|| format!("preference {}", index + 1));

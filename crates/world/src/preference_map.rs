@@ -24,9 +24,9 @@ pub struct PreferenceMap {
     /// `LineMinPos` and `LineMaxPos`: lower left and upper right corner; all rectangles lie within. They need not be those
     /// of the line map.
     pub bounds: [Point; 2],
-    /// The goals, any of which will do: lower left and upper right corners. They may be points. At least one.
+    /// The alternative goals: lower left and upper right corners. They may be points. At least one.
     pub goals: Vec<[Point; 2]>,
-    /// In the order of the file.
+    /// The rectangles, in the order of the file.
     pub rectangles: Vec<PreferenceRectangle>,
 }
 
@@ -73,7 +73,7 @@ impl PreferenceMap {
     }
 }
 
-/// Lower left and upper right corner of the rectangle with these opposite corners.
+/// Returns the lower left and the upper right corner of the rectangle with these opposite corners.
 fn ordered([a, b]: [Point; 2]) -> [Point; 2] {
     [a.inf(&b), a.sup(&b)]
 }

@@ -12,7 +12,7 @@ use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::{first_lines, listed};
 use std::ops::Range;
 
-/// Where a value was given: on the command line, or in the world file.
+/// The source of a value: the command line or the world file.
 pub(super) enum Place<'a> {
     Option(&'static str),
     World(&'a LoadedScene, Range<usize>),
@@ -62,7 +62,7 @@ impl LoadedScene {
         Ok(Loaded { problem: MotionProblem::trusted(loaded.scene, start, goals), robot: loaded.robot, notes })
     }
 
-    /// The configurations of a goal that may be free.
+    /// Returns the configurations of a goal that may be free.
     fn configurations(
         &self,
         goal: Goal,
@@ -89,7 +89,8 @@ impl LoadedScene {
         }
     }
 
-    /// The rim of a rectangle of the tip as far as it may be free, and the start if the tip is inside already.
+    /// Returns the boundary of a rectangle for the tip as far as it may be free, and the start if the tip is already
+    /// inside.
     fn area(&self, area: [Point; 2], start: Configuration, place: &Place) -> Result<GoalSet, Diagnostic> {
         let [low, high] = area;
         let shown = format!("the goal area from ({}, {}) to ({}, {})", low.x, low.y, high.x, high.y);
@@ -112,7 +113,7 @@ impl LoadedScene {
         Ok(goals.into_iter().collect())
     }
 
-    /// Where to go, any of which will do: at least one.
+    /// Returns the alternative goals, at least one.
     pub(super) fn goals(&self, overrides: &Overrides) -> Result<(Vec<Goal>, Place<'_>), InputError> {
         match (&overrides.goal, &overrides.goal_tip) {
             (Some(_), Some(_)) => {
@@ -136,7 +137,7 @@ impl LoadedScene {
         }
     }
 
-    /// The diagnostic of asking for the goal of a world that has steps.
+    /// Returns the diagnostic of asking for the goal of a world that has steps.
     pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Diagnostic {
         let message = "this world has steps, not a goal";
         let option = match (&overrides.goal, &overrides.goal_tip) {
@@ -170,15 +171,15 @@ impl LoadedScene {
         Ok(())
     }
 
-    /// Whether an obstacle has a motion.
+    /// Returns true if an obstacle moves.
     pub(super) fn has_movers(&self) -> bool {
         !self.scene.workspace().movers.is_empty()
     }
 
-    /// Refuses what moves, for all that knows no time: `what` says so.
+    /// Refuses moving obstacles, for functions without time. `what` names the function.
     ///
     /// # Errors
-    /// When an obstacle has a motion.
+    /// If an obstacle moves.
     pub fn require_standing(&self, what: &str) -> Result<(), InputError> {
         let Some(mover) = self.scene.workspace().movers.first() else { return Ok(()) };
         let message = format!("{what}, and obstacle \"{}\" moves", mover.obstacle.name);
@@ -186,7 +187,7 @@ impl LoadedScene {
         Err(self.world.source.diagnostic(message).help(help).into())
     }
 
-    /// Refuses a start where something that moves is at first.
+    /// Refuses a start that is occupied by a moving obstacle initially.
     pub(super) fn require_clear(&self, start: Configuration, place: &Place) -> Result<(), Diagnostic> {
         let hits = self.scene.obstructions_at(start, 0.0);
         if hits.is_empty() {
@@ -201,7 +202,7 @@ impl LoadedScene {
         Err(place.diagnostic(message).help("let the motion of the obstacle begin elsewhere, or choose another start"))
     }
 
-    /// Every IK solution that puts the tip at `tip`, within the limits, but for those that are proven not to be free.
+    /// Returns every IK solution for `tip` within the limits, except those proven not to be free.
     fn ik_solutions(
         &self,
         tip: Point,
@@ -237,7 +238,7 @@ impl LoadedScene {
     }
 }
 
-/// What is free when the tip is at a place, in words.
+/// Describes which joint values are free if the tip is at a place.
 fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
     let name = |joint: usize| &scene.arm().joints[joint].name;
     match free {
@@ -254,7 +255,7 @@ fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
     }
 }
 
-/// Why none of a segment is free, in words, stretch by stretch; none unless that is proven.
+/// Explains, stretch by stretch, why a segment is blocked everywhere. Returns `None` unless that is proven.
 fn blocked_all_along(scene: &Scene, piece: &Segment) -> Option<Vec<String>> {
     if piece.is_point() {
         let [q, _] = piece.ends();

@@ -1,4 +1,4 @@
-//! What is asked, also where start or goal is not free: for explaining why.
+//! The query of an explanation, in which start or goal may be blocked.
 
 use super::{LoadedScene, Overrides};
 use cplan_core::model::{Goal, Scene};
@@ -10,13 +10,13 @@ use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 pub struct Query {
     /// The arm among its obstacles.
     pub scene: Scene,
-    /// Where the arm begins, free or not.
+    /// The start, free or not.
     pub start: Configuration,
-    /// Where it is to go, whether or not it can be there: any will do.
+    /// The alternative goals, reachable or not.
     pub goals: Vec<Goal>,
-    /// How the robot was read.
+    /// Report on how the robot was read.
     pub robot: RobotReport,
-    /// What the user should know of how the world was read.
+    /// Notes for the user about the world.
     pub notes: Vec<String>,
 }
 
@@ -40,10 +40,10 @@ impl LoadedScene {
         }
         Ok(Query { scene: loaded.scene, start, goals, robot: loaded.robot, notes })
     }
-    /// The start alone, of a world with steps, too: to stay there.
+    /// Returns a query that stays at the start, for worlds with steps, too.
     ///
     /// # Errors
-    /// When the start is missing, or one of the tip is not reached by just one IK solution.
+    /// If the start is missing, or a start given for the tip does not have exactly one IK solution.
     pub fn start_alone(self, overrides: &Overrides) -> Result<Query, InputError> {
         let loaded = self.keeping(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();

@@ -15,7 +15,7 @@ use toml::Spanned;
 /// Checks values and knows the file they come from.
 pub(super) struct Reader<'a> {
     pub source: &'a Source,
-    /// What is not refused, though it is not written as it is meant.
+    /// Corrections of input that is not refused.
     pub taken: Taken,
     /// Joint values in degrees.
     pub in_degrees: RefCell<Vec<JointPair>>,
@@ -28,7 +28,7 @@ impl<'a> Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// A number that must not be negative.
+    /// Returns a number that must not be negative.
     pub fn not_negative(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
         let value = self.source.finite(number, what)?;
         if value < 0.0 {
@@ -38,7 +38,7 @@ impl Reader<'_> {
         Ok(value)
     }
 
-    /// Exactly two numbers.
+    /// Returns exactly two numbers.
     pub fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
         match numbers.get_ref().as_slice() {
             [a, b] => Ok([self.source.finite(a, what)?, self.source.finite(b, what)?]),
@@ -49,12 +49,12 @@ impl Reader<'_> {
         }
     }
 
-    /// A point of the plane.
+    /// Returns a point of the plane.
     pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Diagnostic> {
         self.two(numbers, what).map(Point::from)
     }
 
-    /// Where a frame lies and how it is turned; none if neither is said.
+    /// Returns the pose of a frame, or `None` if neither position nor angle is given.
     pub fn pose(&self, at: Option<&Numbers>, angle: Option<&Written>, what: &str) -> Result<Option<Pose>, Diagnostic> {
         let at = at.map(|at| self.point(at, &format!("{what}, at"))).transpose()?;
         let angle = angle.map(|angle| self.quantity(angle, &format!("{what}, angle"))).transpose()?;
@@ -63,7 +63,7 @@ impl Reader<'_> {
         Ok(is_given.then(place))
     }
 
-    /// All goals of a table, of which any will do, and where they stand.
+    /// Returns the alternative goals of a table, and their position in the file.
     pub fn goals(&self, goal: &GoalTable, at: Range<usize>) -> Result<(Vec<Goal>, Range<usize>), Diagnostic> {
         let Some(areas) = &goal.areas else {
             let (goal, at) = self.goal(goal, at, "goal")?;
@@ -91,7 +91,7 @@ impl Reader<'_> {
         Ok((found, areas.span()))
     }
 
-    /// Joint values or a point for the tip, and where they stand.
+    /// Returns joint values or a point for the tip, and their position in the file.
     pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Diagnostic> {
         if let Some(areas) = &goal.areas {
             let diagnostic = self.source.diagnostic_at(areas.span(), format!("{what}: a step has no areas"));
@@ -100,7 +100,7 @@ impl Reader<'_> {
         self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)
     }
 
-    /// The same from the two keys, of which one is there.
+    /// Does the same from the two keys, exactly one of them present.
     pub fn place(
         &self,
         joints: Option<&Spanned<Vec<Written>>>,
@@ -126,7 +126,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The path of a file that the world names, relative to itself.
+    /// Returns the path of a file that the world names, relative to the world file.
     pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Diagnostic> {
         let anchor = self.source.anchor();
         let anchor = anchor.map_err(|why| {
@@ -141,7 +141,7 @@ impl Reader<'_> {
         Err(self.source.diagnostic_at(name.span(), message).help("paths are relative to the world file"))
     }
 
-    /// Heights, all if there are none.
+    /// Returns heights; all heights if the key is missing.
     pub fn heights(&self, height: Option<&Numbers>, what: &str) -> Result<Heights, Diagnostic> {
         let Some(height) = height else { return Ok(Heights::ALL) };
         let [lower, upper] = self.two(height, &format!("{what}, height"))?;

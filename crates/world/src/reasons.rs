@@ -5,15 +5,15 @@ use cplan_core::space::{Configuration, JointRange, Segment};
 use cplan_geometry::Point;
 use cplan_text::{fixed, told_apart};
 
-/// Which IK solutions of `solved` the joint limits allow, turns of circles and long ranges included; and of each branch that
-/// they rule out, why.
+/// Returns the IK solutions of `solved` that the joint limits allow, including turns of circles and long ranges. For
+/// each other branch it returns the reason.
 pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, Vec<String>) {
     let joints = &scene.arm().joints;
     let outside = |branch: &Configuration| {
         let counts = |i: usize| solved.free.is_none_or(|free| free == Freedom::Joint(1 - i));
         let copies = [0, 1].map(|i| within(joints[i].range, joints[i].joint_type.is_revolute(), branch[i]));
         let beyond = (0..2).any(|i| counts(i) && copies[i].is_empty());
-        // What is free is within the limits somewhere.
+        // A free joint is within its limits somewhere.
         let shown = Configuration::from_fn(|i, _| match joints[i].range {
             JointRange::Interval { lower, upper } if !counts(i) => branch[i].clamp(lower, upper),
             _ => copies[i].first().copied().unwrap_or(branch[i]),
@@ -23,13 +23,13 @@ pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, V
     (solved.solutions(scene.arm()), solved.branches.iter().filter_map(outside).collect())
 }
 
-/// The joint values in words: `shoulder -0.9 rad, elbow 0.4 rad`.
+/// Formats joint values: `shoulder -0.9 rad, elbow 0.4 rad`.
 pub(super) fn describe(scene: &Scene, q: Configuration) -> String {
     let value = |i: usize| format!("{} {} {}", scene.arm().joints[i].name, rounded(q[i]), scene.arm().joints[i].unit());
     format!("{}, {}", value(0), value(1))
 }
 
-/// A joint's values along a segment in words: `shoulder 1 rad, elbow from -2.5 to 2.5 rad`.
+/// Formats the values of a joint along a segment: `shoulder 1 rad, elbow from -2.5 to 2.5 rad`.
 pub(super) fn describe_segment(scene: &Scene, segment: &Segment) -> String {
     let [from, to] = segment.ends();
     let value = |i: usize| {
@@ -43,12 +43,12 @@ pub(super) fn describe_segment(scene: &Scene, segment: &Segment) -> String {
     format!("{}, {}", value(0), value(1))
 }
 
-/// Six decimals are plenty for people.
+/// Rounds to six decimals, which suffice for people.
 fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6 + 0.0
 }
 
-/// Which joints are outside their limits, in words.
+/// Describes the joints outside their limits.
 pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     let mut outside = Vec::new();
     for (joint, value) in scene.arm().joints.iter().zip(q.iter()) {
@@ -67,13 +67,13 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     outside
 }
 
-/// What to do about a configuration outside the limits.
+/// Hint for a configuration outside the limits.
 pub(super) const HELP_FOR_LIMITS: &str = "choose values within, or override [robot] limits in the world file";
 
-/// The same about a place of the tip.
+/// Hint for a tip position outside the limits.
 pub(super) const HELP_FOR_TIP: &str = "choose another point, or override [robot] limits in the world file";
 
-/// Why `q` is not free, in words, the worst pair of shapes for each link and obstacle.
+/// Explains why `q` is blocked: the worst pair of shapes for each link and obstacle.
 pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
     scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
 }
@@ -82,14 +82,14 @@ pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
 const HELP_FOR_OWN_BODY: &str =
     "choose another configuration, or let these links touch: [robot] ignore_contact = [[\"LINK\", \"LINK\"]]";
 
-/// The hint for a configuration that is not free.
+/// Returns the hint for a configuration that is not free.
 pub(super) fn help_at(scene: &Scene, q: Configuration) -> &'static str {
     let hits = scene.obstructions(q);
     let is_own = |hit: &Obstruction| scene.self_obstacle(hit.contact.pair.obstacle).is_some();
     if !hits.is_empty() && hits.iter().all(is_own) { HELP_FOR_OWN_BODY } else { help_for_contact(scene) }
 }
 
-/// What to do about a configuration that is not free.
+/// Returns the hint for a configuration in contact.
 pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
     if scene.workspace().clearance > 0.0 {
         "move it away from the obstacle, or ask for less clearance"
@@ -98,7 +98,7 @@ pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
     }
 }
 
-/// What to do where no IK solution is allowed and free: some of them are `outside` the limits, others `blocked`.
+/// Returns the hint if no IK solution is allowed and free: some are `outside` the limits, others `blocked`.
 pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool) -> String {
     let contact = help_for_contact(scene);
     match (outside, blocked) {
@@ -108,7 +108,7 @@ pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool)
     }
 }
 
-/// That no IK solution reaches `point`, in words; `what` it is begins the sentence.
+/// Explains that no IK solution reaches `point`. The sentence starts with `what`.
 pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     let arm = scene.arm();
     let from_joint = (point - arm.base).norm();
@@ -126,7 +126,7 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     )
 }
 
-/// What to do about a point out of reach.
+/// Returns the hint for a point out of reach.
 pub(super) fn help_for_reach(scene: &Scene, point: Point) -> String {
     let arm = scene.arm();
     let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());

@@ -1,4 +1,4 @@
-//! What steps require of the arm, each thing once.
+//! Requirements of steps on the arm, each listed once.
 
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
@@ -11,11 +11,11 @@ pub(super) struct Requirement {
     pub required: Required,
     /// The step's number.
     pub step: usize,
-    /// What in the file asks for it.
+    /// Position in the file of the reason.
     pub at: Range<usize>,
 }
 
-/// What can be required.
+/// The kinds of requirements.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Required {
     /// The arm can take these values.
@@ -35,7 +35,7 @@ pub(super) struct Requirements {
 }
 
 impl Requirements {
-    /// Adds what a step requires, unless it has required the same before.
+    /// Adds a requirement of a step, unless the step has it already.
     pub fn add(&mut self, step: usize, required: Required, at: Range<usize>) {
         let (kind, values) = match required {
             Required::Joints(q) => (0, [q[0], q[1]].map(f64::to_bits)),

@@ -7,20 +7,20 @@ use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
-/// The schema of the world file, JSON Schema draft 7 (what editors of TOML read). It has every key with its meaning and
-/// unit, and refuses unknown keys, missing ones and all but exactly one shape, region or kind of goal.
+/// Returns the JSON Schema (draft 7, as used by TOML editors) of the world file. It describes every key with its
+/// meaning and unit, and refuses unknown and missing keys, and all but exactly one shape, region or kind of goal.
 ///
-/// What it cannot say is checked only when the file is read: that polygons are simple, that names exist, that files are
-/// there, that numbers are not too large, that an arm can take the values.
+/// Other conditions are checked only when a file is read: simple polygons, existing names and files, sizes of numbers,
+/// values that the arm can take.
 #[must_use]
 pub fn world_schema() -> Value {
     toml_schema::<WorldFile>()
 }
 
-/// The schema of a file in TOML.
+/// Returns the schema of a TOML file.
 pub fn toml_schema<T: JsonSchema>() -> Value {
     let mut settings = SchemaSettings::draft07();
-    // First, because what it leaves may be for the draft's own transforms.
+    // First, because the draft's own transforms may apply to its result.
     settings.transforms.insert(0, Box::new(AsToml));
     let mut schema = settings.into_generator().into_root_schema_for::<T>().to_value();
     // In any order of serde_json's maps, which other crates may choose.
@@ -92,14 +92,14 @@ stands_for! {
     }
 }
 stands_for! {
-    /// What unknown cells of an image are.
+    /// Kind of the unknown cells of an image.
     UnknownAs, { "type": "string", "enum": ["solid", "free"] }
 }
 stands_for! {
-    /// What a sensor moves with.
+    /// The link to which a sensor is attached.
     SensorOn, { "type": "string", "enum": ["tip", "base"] }
 }
 stands_for! {
-    /// In which order steps are done.
+    /// Order of steps.
     DoneIn, { "type": "string", "enum": ["fixed", "free"] }
 }

@@ -13,16 +13,16 @@ use toml::Spanned;
 /// Rays at the most: more than any sensor has.
 const MOST_RAYS: u64 = 100_000;
 
-/// The least distance between readings, in joint space: a way of many turns has millions of places then.
+/// Least distance between readings, in joint space. A path of many turns then has millions of readings.
 const SHORTEST_STEP: f64 = 1e-4;
 
-/// What sees the world where it is explored (`cplan explore`); everything has a default. Rays are as wide as the cells of the map that
-/// they cross.
+/// The sensor of an exploration (`cplan explore`). Every key has a default. Rays are as wide as the map cells that they
+/// cross.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "sensor")]
 pub(super) struct SensorTable {
-    /// What it moves with: "tip" (the default; straight ahead is from joint 2 to the tip) or "base".
+    /// Where it is attached: "tip" (the default; straight ahead is from joint 2 to the tip) or "base".
     #[schemars(with = "Option<SensorOn>")]
     on: Option<Spanned<String>>,
     /// Number of rays; by default 360.
@@ -31,23 +31,23 @@ pub(super) struct SensorTable {
     /// Angle over which they are spread, rad, at most a whole turn, which is the default.
     #[schemars(with = "Option<AngleOrLength>")]
     field_of_view: Option<Written>,
-    /// How far it sees, m; by default half the arm's reach.
+    /// Range, m; by default half the arm's reach.
     #[schemars(with = "Option<Positive>")]
     range: Option<Number>,
-    /// Distance between readings on the way, in joint space, rad and m as they come; by default 0.1.
+    /// Distance between readings on the path, in joint space, mixing rad and m; by default 0.1.
     #[schemars(with = "Option<Positive>")]
     step: Option<Number>,
     /// Greatest error of a distance, m: errors are uniform within it; by default 0.
     #[schemars(with = "Option<NotNegative>")]
     noise: Option<Number>,
-    /// What the errors follow from; by default 0.
+    /// Seed of the errors; by default 0.
     seed: Option<u64>,
     /// Side of the cells of the map, m; by default a fortieth of the arm's reach.
     #[schemars(with = "Option<Positive>")]
     cell: Option<Number>,
 }
 
-/// What is said of a sensor.
+/// The given properties of a sensor.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct SensorWishes {
     mount: Option<Mount>,
@@ -119,7 +119,7 @@ impl SensorTable {
 }
 
 impl LoadedScene {
-    /// The sensor that the world describes; what it does not say is as [`Sensor::usual`] has it.
+    /// Returns the sensor that the world describes. Missing properties are those of [`Sensor::usual`].
     #[must_use]
     pub fn sensor(&self) -> Sensor {
         let (usual, wishes) = (Sensor::usual(self.scene.arm()), &self.world.sensor);

@@ -1,4 +1,4 @@
-//! Steps written out: repetitions one by one, and what is carried and where it lies after each of them.
+//! Steps with their repetitions written out, and the state of the objects after each step.
 
 use super::group::{Body, Group, Leaf, LeafAction, Node, When};
 use super::object::{Movable, Names, Supports, rests_on_itself};
@@ -12,25 +12,25 @@ use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// What a world file asks the arm to do.
+/// The task that a world file describes.
 #[derive(Debug, Clone)]
 pub(super) struct Sequence {
     pub items: Vec<Item>,
-    /// What the arm has to be able to do for them, each thing once for each step of the file.
+    /// Requirements on the arm, each once for each step of the file.
     pub requirements: Vec<Requirement>,
-    /// Where the first step stands.
+    /// Position in the file of the first step.
     pub at: Range<usize>,
 }
 
-/// Orientations that differ by no more than this, radians, are the same: far above the rounding of angles, and below
-/// what any wrist repeats.
+/// Largest difference of equal orientations, radians: far above the rounding of angles, and below the repeatability of
+/// any wrist.
 const SAME_ANGLE: f64 = 1e-9;
 
-/// Writes the file's steps out, the first of which stands at `at`.
+/// Writes out the file's steps, which start at `at`.
 ///
 /// # Errors
-/// On picks with something carried, places with nothing carried, repetitions that do not begin with what they end with,
-/// and orientations that nothing can give an object.
+/// Picks while an object is carried, places without a carried object, repetitions that do not end in the state in which
+/// they started, and impossible orientations.
 pub(super) fn write_out(
     reader: &Reader,
     names: &Names,
@@ -55,15 +55,15 @@ pub(super) fn write_out(
     Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at })
 }
 
-/// Where an object lies, or what is known of it while it is carried.
+/// The place of an object. While the object is carried, parts of it may be unknown.
 #[derive(Clone, Copy)]
 struct Lying {
     at: Point,
-    /// None when it depends on the configuration in which a rigid payload was let go of.
+    /// The angle. `None` if it depends on the configuration in which a rigid payload was placed.
     angle: Option<f64>,
-    /// The tip when it was let go of, which has been required already.
+    /// Position of the tip at its placement, which is required already.
     tip: Option<Point>,
-    /// Whether it moves: then the rest is where it is at first.
+    /// True if it moves. The other fields are then initial values.
     moves: bool,
 }
 
@@ -74,7 +74,7 @@ impl Lying {
         Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()), tip: None, moves }
     }
 
-    /// Where a point of the object is, if that is known.
+    /// Returns the position of a point of the object, if it is known.
     fn point(&self, own: Point) -> Option<Point> {
         match self.angle {
             _ if own == Point::origin() => Some(self.at),
@@ -98,7 +98,7 @@ struct Writer<'a> {
     has_wrist: bool,
     carried: Option<Carried>,
     lying: Vec<Lying>,
-    /// Of each step, how often it has been done.
+    /// For each step, the number of times that it has been done.
     cycles: Vec<usize>,
     items: Vec<Item>,
     requirements: Requirements,
@@ -258,7 +258,7 @@ impl Writer<'_> {
         Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })
     }
 
-    /// The orientation that an object gets: the one it has, if that is the same.
+    /// Returns the orientation for an object: the current one if both are equal.
     fn turned(&self, leaf: &Leaf, object: usize, angle: f64, place: &Range<usize>) -> Result<f64, Diagnostic> {
         let refuse = |message: String, help: &str| {
             let message = format!("step {}: {message}", leaf.number);

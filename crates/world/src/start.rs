@@ -1,4 +1,4 @@
-//! Where the arm is at first: joint values, or the only IK solution that puts the tip somewhere.
+//! The start of the arm: joint values, or the only IK solution for a tip position.
 
 use super::problem::Place;
 use super::reasons::{describe, help_for_ik_solutions, help_for_reach, obstructions, out_of_reach, within_limits};
@@ -9,15 +9,15 @@ use cplan_geometry::Point;
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::listed;
 
-/// Values beyond a limit by no more than this, radians or metres, are the limit: what is left of it after it was written
-/// with nine digits, and far below what any drive can do.
+/// Values beyond a limit by at most this, radians or metres, count as at the limit. This is the rounding of nine
+/// digits, and far below the resolution of any drive.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
 /// More IK solutions than this are counted, not listed.
 const LISTED: usize = 6;
 
 impl LoadedScene {
-    /// The joint values that the world's start and goal are; none of a place of the tip, and where it has none.
+    /// Returns the start and the goal as joint values. `None` for tip positions and missing entries.
     #[must_use]
     pub fn said_ends(&self) -> [Option<Configuration>; 2] {
         self.given().map(|end| match end {
@@ -26,7 +26,7 @@ impl LoadedScene {
         })
     }
 
-    /// The start, and where it was given: within the limits up to rounding, which is taken off with a note.
+    /// Returns the start and its source. It must be within the limits up to rounding, which is removed with a note.
     pub(super) fn start(
         &self,
         overrides: &Overrides,
@@ -57,7 +57,7 @@ impl LoadedScene {
         Ok((q, place))
     }
 
-    /// The same configuration with values that are beyond a limit by rounding alone put there.
+    /// Moves values that exceed a limit only by rounding to the limit.
     pub(super) fn at_limits(&self, what: &str, q: Configuration, notes: &mut Vec<String>) -> Configuration {
         let joints = &self.scene.arm().joints;
         Configuration::from_fn(|i, _| {
@@ -75,7 +75,7 @@ impl LoadedScene {
         })
     }
 
-    /// The IK solution that puts the tip at a point, if it is the only one that is within the limits and free.
+    /// Returns the IK solution for a tip position, if exactly one is within the limits and free.
     fn only_ik_solution(
         &self,
         tip: Point,

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use toml::Spanned;
 
-/// One thing to do, or several: exactly one of pick, place, move, transfer and steps.
+/// A step or several: exactly one of pick, place, move, transfer and steps.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "step", extend(
@@ -32,10 +32,10 @@ pub(super) struct StepTable {
     /// Name of the object to pick.
     #[schemars(with = "Option<String>")]
     pick: Option<Spanned<String>>,
-    /// Where to place what is carried.
+    /// Where to place the carried object.
     #[schemars(with = "Option<PlaceTable>")]
     place: Option<Table<PlaceTable>>,
-    /// Where to go with whatever is carried.
+    /// Where to move, with or without an object.
     #[serde(rename = "move")]
     #[schemars(with = "Option<GoalTable>")]
     goal: Option<Spanned<Table<GoalTable>>>,
@@ -45,44 +45,44 @@ pub(super) struct StepTable {
     /// A group; its speed and dwell are the defaults of its steps.
     #[schemars(with = "Option<Vec<StepTable>>", length(min = 1))]
     steps: Option<Vec<Spanned<StepTable>>>,
-    /// Of a pick: the point of the object that the tip goes to, in the object's frame, m; by default the object's.
+    /// For a pick: the point of the object to which the tip moves, in the object's frame, m; by default the object's.
     #[schemars(with = "Option<Two>")]
     grasp: Option<Numbers>,
-    /// Of a pick: obstacles and objects that the object may touch; by default the object's.
+    /// For a pick: obstacles and objects that the object may touch; by default the object's.
     #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
-    /// Of a pick of what moves: where its origin is when it is picked, m; by default wherever that is soonest.
+    /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest one possible.
     #[schemars(with = "Option<Two>")]
     at: Option<Numbers>,
-    /// Of a pick of what moves: the times from which and until which it may be picked, s; by default at any time.
+    /// For the pick of a moving object: the earliest and the latest time of the pick, s; by default any time.
     #[schemars(with = "Option<Two>")]
     window: Option<Numbers>,
-    /// Of a group: how often its steps are done.
+    /// For a group: number of repetitions of its steps.
     #[schemars(with = "Option<i64>", range(min = 1))]
     repeat: Option<Spanned<i64>>,
-    /// Of a group: "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
+    /// For a group: "free" to do pairs of a pick and a place in the fastest order; by default "fixed".
     #[schemars(with = "Option<DoneIn>")]
     order: Option<Spanned<String>>,
     /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
     #[schemars(with = "Option<Share>")]
     speed: Option<Number>,
-    /// How long the arm stands still at the end, s; by default 0.
+    /// Time for which the arm stands still at the end, s; by default 0.
     #[schemars(with = "Option<NotNegative>")]
     dwell: Option<Number>,
 }
 
-/// Where an object is placed: at a point, or on a place of a pallet.
+/// A place for an object: a point, or a place of a pallet.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "place", extend("oneOf" = [{ "required": ["at"] }, { "required": ["on"] }]))]
 struct PlaceTable {
-    /// Where the object's origin goes, m.
+    /// Position for the object's origin, m.
     #[schemars(with = "Option<Two>")]
     at: Option<Numbers>,
     /// The place of a pallet that its origin goes to: "NAME 2,3".
     #[schemars(with = "Option<String>")]
     on: Option<Spanned<String>>,
-    /// How a level payload is turned there, rad; by default as it was.
+    /// Angle of a level payload there, rad; by default unchanged.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
     /// Obstacles and objects that it may touch there; by default those of the object.
@@ -101,7 +101,7 @@ struct TransferTable {
     /// Name of the pallet that they go to, which has as many places.
     #[schemars(with = "String")]
     to: Spanned<String>,
-    /// How level payloads are turned there, rad; by default as they were.
+    /// Angle of level payloads there, rad; by default unchanged.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
     /// Obstacles and objects that they may touch there; by default those of the objects.
@@ -109,12 +109,12 @@ struct TransferTable {
     supports: Option<NameList>,
 }
 
-/// What holds for all steps together.
+/// Settings of all steps.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "task")]
 pub(super) struct TaskTable {
-    /// How often the steps are done; by default once.
+    /// Number of repetitions of the steps; by default one.
     #[schemars(with = "Option<i64>", range(min = 1))]
     repeat: Option<Spanned<i64>>,
     /// "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
@@ -123,7 +123,7 @@ pub(super) struct TaskTable {
     /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
     #[schemars(with = "Option<Share>")]
     speed: Option<Number>,
-    /// How long the arm stands still at the end of each step, s; by default 0.
+    /// Time for which the arm stands still at the end of each step, s; by default 0.
     #[schemars(with = "Option<NotNegative>")]
     dwell: Option<Number>,
 }
@@ -131,10 +131,10 @@ pub(super) struct TaskTable {
 /// Most steps of a task, repetitions written out: some days of work.
 const MOST_STEPS: usize = 100_000;
 
-/// A place counts as passed by what comes this near to it, metres: what people write of places that are not on an axis.
+/// Distance within which a position counts as on an axis, metres: the precision with which people write positions.
 const PASSES_WITHIN: f64 = 1e-3;
 
-/// How fast steps are done where they do not say it.
+/// Default speed and dwell of steps.
 #[derive(Clone, Copy)]
 struct Pace {
     speed: f64,
@@ -164,11 +164,11 @@ impl<'a> StepReader<'a> {
         Self { reader, pallets, names, objects, cursor: reader.source.cursor(), file: reader.source.name(), count: 0 }
     }
 
-    /// All steps of the file, of which there is at least one.
+    /// Returns all steps of the file, at least one.
     ///
     /// # Errors
-    /// On steps that do not do exactly one thing, keys in the wrong place, values that are none, unknown objects and
-    /// supports, groups in free order of anything but picks and places, and more than [`MOST_STEPS`] steps.
+    /// Steps without exactly one action, misplaced keys, invalid values, unknown objects and supports, groups in free
+    /// order with anything but picks and places, and more than [`MOST_STEPS`] steps.
     pub fn all(mut self, tables: &[Spanned<StepTable>], task: Option<&TaskTable>) -> Result<Group, Diagnostic> {
         let pace = Pace { speed: 1.0, dwell: 0.0 };
         let pace = task.map_or(Ok(pace), |t| self.pace(pace, t.speed.as_ref(), t.dwell.as_ref()))?;
@@ -226,7 +226,7 @@ impl<'a> StepReader<'a> {
         }
     }
 
-    /// The steps of a group in free order.
+    /// Returns the pairs of a group in free order.
     fn pairs(&self, nodes: Vec<Node>) -> Result<Vec<[Leaf; 2]>, Diagnostic> {
         let source = self.reader.source;
         let help = "steps in free order are pick, place, pick, place, and so on";
@@ -255,7 +255,7 @@ impl<'a> StepReader<'a> {
         Ok(pairs)
     }
 
-    /// What a table stands for: a step, a group, or the steps of a transfer.
+    /// Returns the contents of a table: a step, a group, or the steps of a transfer.
     fn nodes(&mut self, table: &Spanned<StepTable>, pace: Pace) -> Result<Vec<Node>, Diagnostic> {
         let step = table.get_ref();
         let pace = self.pace(pace, step.speed.as_ref(), step.dwell.as_ref())?;
@@ -336,7 +336,7 @@ impl<'a> StepReader<'a> {
         })
     }
 
-    /// When what moves may be picked; none where nothing is said of that.
+    /// Returns the times at which a moving object may be picked, or `None` if there are no such keys.
     fn when(&self, step: &StepTable, object: &Object) -> Result<Option<When>, Diagnostic> {
         let Some(said) = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span) else { return Ok(None) };
         let name = &object.name;
@@ -379,7 +379,7 @@ impl<'a> StepReader<'a> {
         Ok(Some(When { times, at: said }))
     }
 
-    /// A place, and what in the file says where; `at` is the step.
+    /// Returns a place and its position in the file. `at` is the step.
     fn place(&self, place: &PlaceTable, at: Range<usize>) -> Result<(Range<usize>, LeafAction), Diagnostic> {
         let (to, said) = match (&place.at, &place.on) {
             (Some(at), None) => (self.reader.point(at, "place, at")?, at.span()),
@@ -400,7 +400,7 @@ impl<'a> StepReader<'a> {
         angle.map(|angle| Ok((self.reader.quantity(angle, "place, angle")?, angle.span()))).transpose()
     }
 
-    /// The steps of a transfer, with what in the file asks for each.
+    /// Returns the steps of a transfer, with the position in the file of each.
     fn transfer(&self, transfer: &TransferTable) -> Result<Vec<(Range<usize>, LeafAction)>, Diagnostic> {
         let TransferTable { objects, to, .. } = transfer;
         let family = self.names.family(self.reader, objects)?;

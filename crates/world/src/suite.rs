@@ -15,7 +15,7 @@ pub const MANIFEST: &str = "suite.toml";
 pub struct Suite {
     /// The title of the suite.
     pub name: String,
-    /// At least one; names are all different.
+    /// The worlds, at least one, with distinct names.
     pub members: Vec<Member>,
     /// Worlds that are nothing to compare planners on.
     pub left_out: Vec<LeftOut>,
@@ -26,9 +26,9 @@ pub struct Suite {
 /// A world that is nothing to compare planners on.
 #[derive(Debug, Clone)]
 pub struct LeftOut {
-    /// Its file.
+    /// The world file.
     pub world: PathBuf,
-    /// What is in it, as a sentence about "it".
+    /// The reason, as a sentence about "it".
     pub why: &'static str,
 }
 
@@ -46,7 +46,7 @@ pub struct Refused {
 pub struct Member {
     /// Stands for the problem in tables.
     pub name: String,
-    /// As [`load_scene`] has it.
+    /// The scene, as from [`load_scene`].
     pub scene: LoadedScene,
 }
 
@@ -86,8 +86,8 @@ struct Pair {
 /// ```
 ///
 /// # Errors
-/// [`InputError`] for a manifest that cannot be read, and with every diagnostic of all the files that it names if none of the
-/// problems can be read. If some can, the others are in [`Suite::refused`].
+/// [`InputError`] for a manifest that cannot be read, and with every diagnostic of all its files if no problem can be
+/// read. If some can, the others are in [`Suite::refused`].
 pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
     let manifest = if place.is_dir() { place.join(MANIFEST) } else { place.to_owned() };
     if place.is_dir() && !manifest.is_file() {
@@ -138,10 +138,10 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
     read(name, pairs, refused)
 }
 
-/// Reads all worlds of a folder (every `.toml` but [`MANIFEST`], by name) with one robot.
+/// Reads all worlds of a folder (every `.toml` except [`MANIFEST`], by name) with one robot.
 ///
 /// # Errors
-/// [`InputError`] for a folder without worlds, and with every diagnostic of all files if none of them can be read. If some can,
+/// [`InputError`] for a folder without worlds, and with every diagnostic of all files if none can be read. If some can,
 /// the others are in [`Suite::refused`].
 pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, InputError> {
     let whole = |message: String| Diagnostic::new(folder.display().to_string(), message);
@@ -163,7 +163,7 @@ pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, 
     read(folder_name(folder), pairs, Vec::new())
 }
 
-/// Reads all files; what is wrong with some of them is kept beside the others.
+/// Reads all files, and collects the defects of those that cannot be read.
 fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Suite, InputError> {
     let (mut members, mut left_out) = (Vec::<Member>::new(), Vec::new());
     for Pair { name, robot, world } in pairs {
@@ -190,7 +190,7 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
     Ok(Suite { name, members, left_out, refused })
 }
 
-/// All that is wrong with these at once, if there are any.
+/// Returns the error with all these defects, if there are any.
 fn all_of(refused: &[Refused]) -> Result<(), InputError> {
     let mut diagnostics: Vec<Diagnostic> = Vec::new();
     for diagnostic in refused.iter().flat_map(|refused| refused.error.diagnostics()) {
@@ -203,8 +203,8 @@ fn all_of(refused: &[Refused]) -> Result<(), InputError> {
 }
 
 impl Suite {
-    /// Puts start and goal into every scene, as [`LoadedScene::problem`] does. What cannot be is told beside them, with what
-    /// could not be read.
+    /// Sets start and goal in every scene, like [`LoadedScene::problem`]. Invalid problems are reported beside the
+    /// unreadable ones.
     ///
     /// # Errors
     /// [`InputError`] with the diagnostics of all of them, if no problem is left.
@@ -226,19 +226,19 @@ impl Suite {
 /// Problems with their names, and those that cannot be asked.
 pub type Asked = (Vec<(String, Loaded)>, Vec<Refused>);
 
-/// A file's name without its extension.
+/// Returns a file's name without its extension.
 fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// A folder's own name, even if it is given as `..` or, in front of a bare file name, as nothing.
+/// Returns a folder's own name, even for a path that is `..` or empty.
 fn folder_name(folder: &Path) -> String {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     whole.file_name().map_or_else(|| whole.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-/// `name`; with the robot, and then a number, where it is taken.
+/// Returns `name`, or a distinct one with the robot's name and a number if it is taken.
 fn distinct(name: &str, robot: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let with_robot = format!("{name}, {robot}");
     let numbered = (2_usize..).map(|number| format!("{with_robot}, {number}"));

@@ -14,36 +14,36 @@ use cplan_text::listed;
 pub struct LoadedTask {
     /// The task; its start is within the limits and free, unless it is [`LoadedScene::recorded_task`].
     pub task: Task,
-    /// The arm, empty-handed, among obstacles and objects where they lie at first.
+    /// The arm, empty-handed, among obstacles and objects at their initial places.
     pub scene: Scene,
-    /// How the robot was read.
+    /// Report on how the robot was read.
     pub robot: RobotReport,
-    /// What the user should know of the task: defaults taken.
+    /// Notes for the user about defaults.
     pub notes: Vec<String>,
 }
 
 impl LoadedScene {
-    /// Whether the world has steps, and so no goal.
+    /// Returns true if the world has steps, and so no goal.
     #[must_use]
     pub fn has_steps(&self) -> bool {
         self.world.steps.is_some()
     }
 
-    /// The task that the world's steps make, from the command line's start or else the world's.
+    /// Returns the task of the world's steps, from the start on the command line or else in the world.
     ///
     /// # Errors
-    /// When the world has no steps, or a goal is given on the command line; when the start is missing, outside the limits
-    /// or not free; when a step asks for joint values outside the limits, for a point out of the tip's reach, or for an
-    /// object to rest that is too thin for it.
+    /// A world without steps; a goal on the command line; a start that is missing, outside the limits or blocked; a
+    /// step that asks for joint values outside the limits, for a point out of the tip's reach, or for a too thin object
+    /// to rest.
     pub fn task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
         self.task_from(overrides, true)
     }
 
-    /// The same for judging what was recorded of the task: the start may be outside the limits or not free, which is then a
-    /// finding.
+    /// Does the same for judging a recording of the task. The start may then be outside the limits or blocked, which
+    /// the judgement reports.
     ///
     /// # Errors
-    /// As for [`LoadedScene::task`] else.
+    /// Otherwise those of [`LoadedScene::task`].
     pub fn recorded_task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
         self.task_from(overrides, false)
     }
@@ -82,7 +82,7 @@ impl LoadedScene {
         Ok(LoadedTask { task, scene, robot, notes })
     }
 
-    /// Why the arm cannot do what a step requires.
+    /// Returns the reason why the arm cannot satisfy a requirement, or `None`.
     fn unfulfilled(&self, requirement: &Requirement, start: Configuration) -> Option<Diagnostic> {
         let step = format!("step {}", requirement.step);
         let (message, help) = match requirement.required {
@@ -132,7 +132,7 @@ impl LoadedScene {
     }
 }
 
-/// The objects for which the tool would have to go farther down than its joint can.
+/// Iterates over the objects for which the tool would have to move farther down than its joint allows.
 fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Diagnostic> + 'a {
     let joint = &stroke.joint;
     world.objects.iter().filter_map(|object| {

@@ -7,7 +7,7 @@ use cplan_geometry::Point;
 use cplan_robot::{Diagnostic, InputError, LARGEST};
 use std::str::FromStr;
 
-/// What the command line says over the world file.
+/// Values on the command line that override the world file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Overrides {
     /// The value of `--start`.
@@ -21,10 +21,10 @@ pub struct Overrides {
 }
 
 impl LoadedScene {
-    /// Keeps the distance of `--clearance`, metres, instead of the world's; none keeps the world's.
+    /// Sets the clearance of `--clearance`, metres, instead of the world's. `None` keeps the world's.
     ///
     /// # Errors
-    /// When it is negative or no finite number.
+    /// If it is negative or not finite.
     pub fn keeping(mut self, clearance: Option<f64>) -> Result<Self, InputError> {
         if let Some(clearance) = clearance {
             let refused = |diagnostic: SceneError| {
@@ -35,10 +35,10 @@ impl LoadedScene {
         Ok(self)
     }
 
-    /// Holds motions to the joints' efforts, whatever the world says.
+    /// Limits motions by the joints' efforts, even if the world does not.
     ///
     /// # Errors
-    /// When the robot does not say what that takes.
+    /// If the robot lacks the necessary data.
     pub fn keeping_efforts(mut self) -> Result<Self, InputError> {
         if self.scene.arm().dynamics.is_none() {
             let why = self.robot.no_dynamics.as_deref().unwrap_or("the arm has no masses");
@@ -61,10 +61,10 @@ pub struct JointValues {
 }
 
 impl JointValues {
-    /// The values in radians and metres.
+    /// Returns the values in radians and metres.
     ///
     /// # Errors
-    /// When a sliding joint's value has the suffix `deg`. `option` names the option in the message.
+    /// If a prismatic joint's value has the suffix `deg`. `option` names the option in the message.
     pub fn resolve(&self, joints: &[Joint; 2], option: &str) -> Result<Configuration, Diagnostic> {
         let mut q = Configuration::zeros();
         for i in 0..2 {
@@ -82,7 +82,7 @@ impl JointValues {
 }
 
 impl JointValues {
-    /// As the world file has them.
+    /// Formats the values as in the world file.
     #[must_use]
     pub fn in_toml(&self) -> String {
         let value = |i: usize| match (self.numbers[i], self.degrees[i]) {
@@ -94,7 +94,7 @@ impl JointValues {
 }
 
 impl From<Configuration> for JointValues {
-    /// In radians and metres.
+    /// Converts from radians and metres.
     fn from(q: Configuration) -> Self {
         Self { numbers: q.into(), degrees: [false; 2] }
     }

@@ -28,27 +28,27 @@ use toml::Spanned;
 pub struct World {
     /// Obstacles that stay where they are, clearance and title.
     pub workspace: Workspace,
-    /// What can be moved.
+    /// Objects that can be carried.
     pub objects: Vec<Object>,
-    /// What was taken as it must be meant, though it was not written so.
+    /// Notes about input that was corrected.
     pub notes: Vec<String>,
     pub(super) source: Source,
     pub(super) robot: RobotTable,
-    /// Where the robot stands, if that is said.
+    /// Placement of the robot, if it is given.
     pub(super) place: Option<Pose>,
     pub(super) start: Option<(Goal, Range<usize>)>,
     /// Joint values that are in degrees, where it is not yet known whether the joints turn.
     pub(super) in_degrees: Vec<JointPair>,
-    /// Where to go, any of which will do, at least one, and where that is written.
+    /// The alternative goals, at least one, and their position in the file.
     pub(super) goals: Option<(Vec<Goal>, Range<usize>)>,
     pub(super) steps: Option<Sequence>,
     pub(super) sensor: SensorWishes,
-    /// With what is to be said of it.
+    /// The wrist, with a note about it.
     pub(super) wrist: Option<(Wrist, Option<String>)>,
 }
 
 impl World {
-    /// A world that says nothing.
+    /// Creates an empty world.
     pub(super) fn silent() -> Self {
         Self {
             workspace: Workspace {
@@ -72,12 +72,12 @@ impl World {
         }
     }
 
-    /// What decides how the robot is read.
+    /// Returns the settings for reading the robot.
     pub(super) fn robot_settings(&self) -> RobotSettings<'_> {
         RobotSettings { table: &self.robot, source: &self.source, has_steps: self.steps.is_some() }
     }
 
-    /// The workspace with every object where it lies at first, after the obstacles that stay where they are, or on its course.
+    /// Returns the workspace with every object at its initial place, after the static obstacles, or on its motion.
     pub(super) fn at_first(&self) -> Workspace {
         let mut workspace = self.workspace.clone();
         let lying = |object: &Object| object.lying(object.standing_at_first().as_ref());
@@ -108,7 +108,7 @@ pub(super) struct WorldFile {
     goal: Option<Spanned<Table<GoalTable>>>,
     map: Option<MapTable>,
     sensor: Option<SensorTable>,
-    /// What the arm must not touch.
+    /// Obstacles, which the arm must not touch.
     #[serde(default)]
     #[schemars(with = "Vec<ObstacleTable>")]
     obstacle: Vec<Spanned<ObstacleTable>>,
@@ -120,11 +120,11 @@ pub(super) struct WorldFile {
     #[serde(default)]
     #[schemars(with = "Vec<PalletTable>")]
     pallet: Vec<Spanned<PalletTable>>,
-    /// What steps pick and place.
+    /// Objects that steps pick and place.
     #[serde(default)]
     #[schemars(with = "Vec<ObjectTable>")]
     object: Vec<Spanned<ObjectTable>>,
-    /// What the arm is to do, one after the other, in place of a goal.
+    /// The steps of the task, in order, instead of a goal.
     #[serde(default)]
     #[schemars(with = "Vec<StepTable>")]
     step: Vec<Spanned<StepTable>>,
@@ -132,7 +132,7 @@ pub(super) struct WorldFile {
     task: Option<Spanned<TaskTable>>,
 }
 
-/// Where the arm is at first: joint values, or a place for the tip that a single IK solution reaches.
+/// Start of the arm: joint values, or a tip position with a single IK solution.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "start", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }]))]
@@ -145,7 +145,7 @@ struct StartTable {
     tip: Option<Numbers>,
 }
 
-/// Where the arm is to go: joint values, a place for the tip in whatever IK solution is best, or areas for the tip.
+/// Goal of the arm: joint values, a tip position in the best IK solution, or areas for the tip.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }, { "required": ["areas"] }]))]
@@ -156,8 +156,8 @@ pub(super) struct GoalTable {
     /// Coordinates of the tip, m.
     #[schemars(with = "Option<Two>")]
     pub tip: Option<Numbers>,
-    /// Rectangles for the tip, any of which will do, each by two opposite corners, m; of an arm that does not slide along both axes each
-    /// counts as its middle. Not in steps.
+    /// Alternative rectangles for the tip, each by two opposite corners, m. For an arm that is not prismatic along both
+    /// axes, each counts as its centre. Not in steps.
     #[schemars(with = "Option<Vec<[Two; 2]>>")]
     pub areas: Option<Spanned<Vec<Spanned<Vec<Numbers>>>>>,
 }
@@ -238,7 +238,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     })
 }
 
-/// The steps, written out; none if there are none.
+/// Returns the steps, written out, or `None` without steps.
 fn steps(
     reader: &Reader,
     file: &WorldFile,
@@ -263,7 +263,7 @@ fn steps(
     write_out(reader, names, movables, has_wrist, &group, at).map(Some)
 }
 
-/// The deserialiser's message without Rust's words for what TOML calls keys and numbers.
+/// Returns the deserialiser's message with TOML's words for keys and numbers instead of Rust's.
 pub fn in_toml_words(message: &str) -> String {
     message
         .replace("unknown field", "unknown key")

@@ -21,7 +21,7 @@ pub(super) struct MapTable {
     /// The line map.
     #[schemars(with = "String")]
     file: Spanned<String>,
-    /// A preference file: its goals, unless the world has one, any of which will do, and rectangles for field planners.
+    /// A preference file: its alternative goals, unless the world has a goal, and rectangles for field planners.
     #[schemars(with = "Option<String>")]
     preferences: Option<Spanned<String>>,
     /// Metres a unit, of both files; by default 0.001.
@@ -30,14 +30,14 @@ pub(super) struct MapTable {
     /// Added to all coordinates after scaling, m; by default [0, 0].
     #[schemars(with = "Option<Two>")]
     offset: Option<Numbers>,
-    /// Whether the bounds of the map are walls, too; by default true.
+    /// True if the bounds of the map are walls, too; by default true.
     frame: Option<bool>,
     /// Extent of the walls along the plane's normal, m; by default all heights.
     #[schemars(with = "Option<Two>")]
     height: Option<Numbers>,
 }
 
-/// What a map adds to a world, metres.
+/// The contents that a map adds to a world, metres.
 #[derive(Default)]
 pub(super) struct MapContent {
     pub obstacles: Vec<Obstacle>,
@@ -119,7 +119,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     Ok(content)
 }
 
-/// The file's name, for those of what is in it.
+/// Returns the file's name without extension, as a prefix for names.
 fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "map".to_owned(), |s| s.to_string_lossy().into_owned())
 }

@@ -21,7 +21,7 @@ pub struct File {
 }
 
 impl File {
-    /// The line of a byte, counted from 1.
+    /// Returns the line of a byte, counted from 1.
     #[must_use]
     pub fn line(&self, offset: usize) -> usize {
         1 + self.text.bytes().take(offset).filter(|byte| *byte == b'\n').count()
@@ -71,12 +71,12 @@ pub(crate) struct Attribute {
 }
 
 impl Element {
-    /// The attribute of a name.
+    /// Returns the attribute with a name.
     pub fn attribute(&self, name: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|attribute| attribute.name == name)
     }
 
-    /// The name behind `xacro:`.
+    /// Returns the name after `xacro:`.
     pub fn directive(&self) -> Option<&str> {
         self.name.strip_prefix("xacro:")
     }
@@ -89,7 +89,7 @@ pub(crate) struct Tree {
     pub namespaces: Vec<(String, String)>,
 }
 
-/// Whether a namespace is xacro's.
+/// Returns true if a namespace is xacro's.
 fn is_ours(uri: &str) -> bool {
     uri.contains("ros.org/wiki/xacro") || uri.contains("ros.org/xacro") || uri.ends_with("/xacro")
 }
@@ -108,20 +108,20 @@ pub(crate) fn uses_xacro(text: &str) -> bool {
     }
 }
 
-/// The name of an element as it is written, with its prefix.
+/// Returns the name of an element as written, with its prefix.
 fn written_name<'t>(text: &'t str, node: &XmlNode) -> &'t str {
     let tag = text[node.range()].strip_prefix('<').unwrap_or_default();
     let end = tag.find(|c: char| c.is_whitespace() || c == '>' || c == '/').unwrap_or(tag.len());
     &tag[..end]
 }
 
-/// Whether an element is xacro's: of its namespace, by whichever prefix.
+/// Returns true if an element is in xacro's namespace, with any prefix.
 fn is_directive(text: &str, node: &XmlNode) -> bool {
     let name = written_name(text, node);
     name.starts_with("xacro:") || name.contains(':') && node.tag_name().namespace().is_some_and(is_ours)
 }
 
-/// The bytes of a start tag.
+/// Returns the bytes of a start tag.
 fn start_tag(text: &str, node: &XmlNode) -> Range<usize> {
     let range = node.range();
     let behind = node.attributes().map(|a| a.range().end).max().unwrap_or(range.start);
@@ -174,7 +174,7 @@ pub(crate) fn read(file: &File, index: usize) -> Result<Tree, Error> {
             }
         }
     }
-    // What is deeper than an expansion may be is refused before it is walked.
+    // Elements nested deeper than an expansion allows are refused before they are walked.
     if let Some(node) = document.descendants().find(|node| node.ancestors().take(DEEPEST + 2).count() > DEEPEST + 1) {
         let message = format!("elements are nested more than {DEEPEST} deep");
         return Err(wrong(node.range(), message, "no robot needs that"));
@@ -206,14 +206,14 @@ fn element(text: &str, node: XmlNode, file: usize) -> Rc<Element> {
     })
 }
 
-/// The byte of a line and a column, counted from 1.
+/// Returns the byte of a line and a column, counted from 1.
 fn offset(text: &str, at: roxmltree::TextPos) -> usize {
     let line: usize = text.split_inclusive('\n').take((at.row as usize).saturating_sub(1)).map(str::len).sum();
     let inside = text[line.min(text.len())..].chars().take((at.col as usize).saturating_sub(1));
     line + inside.map(char::len_utf8).sum::<usize>()
 }
 
-/// A text file, without a byte order mark.
+/// Reads a text file, without a byte order mark.
 pub(crate) fn text(path: &Path, read: fn(&Path) -> std::io::Result<Vec<u8>>) -> Result<String, String> {
     let bytes = read(path).map_err(|error| format!("cannot be read: {error}"))?;
     let text = String::from_utf8(bytes).map_err(|_| "is not UTF-8 text".to_owned())?;

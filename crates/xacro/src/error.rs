@@ -1,4 +1,4 @@
-//! What is wrong with a file, and where.
+//! Errors in files, with their places.
 
 use crate::document::{File, Place};
 use std::fmt;
@@ -9,11 +9,11 @@ use std::path::PathBuf;
 pub struct Error {
     /// The file that is wrong.
     pub path: PathBuf,
-    /// Its text and the bytes that are wrong, if it is that part.
+    /// The file and the place of the error, if it has a place.
     pub place: Option<Box<(File, Place)>>,
-    /// What is wrong.
+    /// Description of the error.
     pub message: String,
-    /// What to do about it.
+    /// Hint for the user.
     pub hint: Option<String>,
 }
 
@@ -30,7 +30,7 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// What is wrong with an expression or a substitution, before its place is known.
+/// An error in an expression or a substitution, before its place is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Fault {
     /// Wrong where it stands: the message, and what to do.
@@ -40,7 +40,7 @@ pub(crate) enum Fault {
 }
 
 impl Fault {
-    /// A fault with advice.
+    /// Creates a fault with a hint.
     pub fn with_hint(message: impl Into<String>, hint: impl Into<String>) -> Self {
         Self::Here(message.into(), Some(hint.into()))
     }

@@ -1,4 +1,4 @@
-//! Walks elements and writes what they become.
+//! Walks elements and writes their expansion.
 
 use crate::document::{self, Attribute, Element, File, Node, Place};
 use crate::error::{Error, Fault};
@@ -65,7 +65,7 @@ impl<'s> Expander<'s> {
         self.open_files.push(path.canonicalize().unwrap_or_else(|_| path.clone()));
         let mut children = Vec::new();
         self.nodes(&root.children, GLOBAL, &mut children)?;
-        // After the content, so that they may name what is defined there.
+        // Attributes come after the content, because they may use names defined there.
         let attributes = self.attributes(&root, GLOBAL)?;
         let unused =
             self.given.keys().find(|name| !self.arguments.contains_key(*name) && !self.asked_arguments.contains(*name));
@@ -99,7 +99,7 @@ impl<'s> Expander<'s> {
         Ok(Ok(tree.root))
     }
 
-    /// A fault at its place.
+    /// Returns a fault as an error at a place.
     pub fn error(&self, place: &Place, fault: Fault) -> Error {
         let (message, hint) = match fault {
             Fault::Elsewhere(error) => return *error,
@@ -117,13 +117,13 @@ impl<'s> Expander<'s> {
         Error { path: file.path.clone(), place: Some(Box::new((file.clone(), place.clone()))), message, hint }
     }
 
-    /// The value of an attribute.
+    /// Evaluates an attribute.
     pub fn value(&mut self, attribute: &Attribute, scope: usize) -> Result<Value, Error> {
         let value = self.text(&attribute.value, Self::context(scope, &attribute.place));
         value.map_err(|fault| self.error(&attribute.place, fault))
     }
 
-    /// The attributes of an element, evaluated. Declarations of xacro's namespace are not among them.
+    /// Evaluates the attributes of an element, except declarations of xacro's namespace.
     fn attributes(&mut self, element: &Element, scope: usize) -> Result<Vec<Attribute>, Error> {
         let mut attributes = Vec::new();
         for attribute in &element.attributes {
@@ -205,10 +205,7 @@ impl<'s> Expander<'s> {
             }
             "element" | "attribute" => {
                 let message = format!("xacro:{name} is not read");
-                Err(self.error(
-                    &element.place,
-                    Fault::with_hint(message, "write the element as it is to be, under xacro:if"),
-                ))
+                Err(self.error(&element.place, Fault::with_hint(message, "write the final element under xacro:if")))
             }
             "call" => {
                 let [called] = self.required(element, ["macro"])?;

@@ -16,7 +16,7 @@
 //! assert!(expansion.text.contains(r#"<link name="upper_0.6"/>"#));
 //! ```
 //!
-//! # What is read
+//! # Supported elements
 //!
 //! | element or word | what it does |
 //! |---|---|
@@ -29,12 +29,13 @@
 //! | `${...}` | Python's expressions, without comprehensions and lambdas: numbers, text, lists, dicts, the functions of `math` |
 //! | `$(arg ...)`, `$(find ...)`, `$(env ...)`, `$(optenv ...)`, `$(dirname)` | substitutions; packages are found by their `package.xml` |
 //!
-//! All else is an [`Error`] that names the place, and what to do.
+//! Everything else is an [`Error`] with its place and a hint.
 //!
-//! # What holds
+//! # Guarantees
 //!
-//! The same files and arguments give the same text. Every start tag and attribute of it has a [`Place`] in the file that it
-//! comes from. No file makes the expansion run for long: nesting, the number of steps and the size of the output are bounded.
+//! The same files and arguments give the same text. Every start tag and attribute of the text has a [`Place`] in the
+//! file that it comes from. No file makes the expansion run for long: nesting, the number of steps and the size of the
+//! output are bounded.
 #![forbid(unsafe_code)]
 
 mod block;
@@ -61,12 +62,12 @@ pub use writer::Span;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What an expansion depends on, beside the files.
+/// The inputs of an expansion besides the files.
 #[derive(Debug, Clone)]
 pub struct Settings {
     /// Names and values of arguments. Of two with the same name the last counts.
     pub arguments: Vec<(String, String)>,
-    /// Reads a file: the robot itself, what it includes, YAML that it loads.
+    /// Reads a file: the robot, an included file, or a YAML file.
     pub read: fn(&Path) -> io::Result<Vec<u8>>,
 }
 
@@ -85,12 +86,13 @@ pub struct Expansion {
     pub files: Vec<File>,
     /// The parts of the text, in ascending order of their beginnings. An attribute follows the start tag that it lies in.
     pub spans: Vec<Span>,
-    /// What a reader should know: parts that were left out.
+    /// Notes for the user about omitted parts.
     pub notes: Vec<String>,
 }
 
 impl Expansion {
-    /// The place that a byte of the text comes from: that of the attribute, or else of the start tag, that it lies in or behind.
+    /// Returns the source of a byte of the text: the place of the attribute, or else of the start tag, in or after
+    /// which it lies.
     #[must_use]
     pub fn place(&self, offset: usize) -> Option<&Place> {
         let begun = self.spans.partition_point(|span| span.range.start <= offset);
@@ -111,14 +113,14 @@ pub fn expand(path: &Path, settings: &Settings) -> Result<Expansion, Error> {
     expander::Expander::new(settings).run(path.to_owned())
 }
 
-/// Whether a text uses xacro: an element or attribute in its namespace, or an expression in an attribute. A text that merely
-/// declares the namespace does not.
+/// Returns true if a text uses xacro: an element or attribute in its namespace, or an expression in an attribute. A
+/// declaration of the namespace alone does not count.
 #[must_use]
 pub fn is_xacro(text: &str) -> bool {
     document::uses_xacro(text)
 }
 
-/// The path of a file beside another.
+/// Returns the path of a file relative to another file's folder.
 fn beside(file: &Path, name: &str) -> PathBuf {
     file.with_file_name("").join(name)
 }

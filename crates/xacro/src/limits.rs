@@ -1,4 +1,4 @@
-//! Bounds on what a file may make of itself.
+//! Bounds on the size of an expansion.
 
 use crate::error::Fault;
 
@@ -18,7 +18,7 @@ pub(crate) const LARGEST: usize = 64 << 20;
 /// Items of a list.
 pub(crate) const LONGEST: usize = 100_000;
 
-/// What an expansion has used so far.
+/// The resources that an expansion has used so far.
 #[derive(Debug, Default)]
 pub(crate) struct Budget {
     steps: usize,
@@ -26,7 +26,7 @@ pub(crate) struct Budget {
     depth: usize,
 }
 
-const HINT: &str = "a macro or include that goes on without end does that; give it a condition (xacro:if) that ends it";
+const HINT: &str = "a macro or include may repeat without end; give it a condition (xacro:if) that ends it";
 
 impl Budget {
     /// Counts a step that makes a text of so many bytes.

@@ -16,21 +16,21 @@ pub(crate) struct Macro {
 
 #[derive(Debug, PartialEq, Eq)]
 struct Parameter {
-    /// With the stars of a block.
+    /// The name with the stars of a block.
     name: String,
     default: Option<Default>,
 }
 
-/// What a parameter is if the call does not give it.
+/// The default of a parameter.
 #[derive(Debug, PartialEq, Eq)]
 struct Default {
-    /// Whether it is what the caller's property of its name is.
+    /// True if the default is the caller's property of the same name.
     is_forwarded: bool,
     /// Otherwise this text, evaluated by the caller.
     text: Option<String>,
 }
 
-/// The parameters in `params="a b:=1 c:=^ d:=^|2 *e **f"`.
+/// Parses the parameters in `params="a b:=1 c:=^ d:=^|2 *e **f"`.
 fn parameters(text: &str) -> Vec<Parameter> {
     words(text)
         .into_iter()
@@ -48,7 +48,7 @@ fn parameters(text: &str) -> Vec<Parameter> {
         .collect()
 }
 
-/// Words between blanks, but for those within quotes and `${...}`.
+/// Splits a text at blanks, except within quotes and `${...}`.
 fn words(text: &str) -> Vec<&str> {
     let (mut words, mut begin, mut closing) = (Vec::new(), None, None);
     for (at, c) in text.char_indices() {
@@ -79,7 +79,7 @@ impl Expander<'_> {
         Ok(())
     }
 
-    /// Replaces a call by what the macro makes of it.
+    /// Replaces a call by the expansion of its macro.
     pub(crate) fn call(
         &mut self,
         name: &str,
@@ -133,7 +133,7 @@ impl Expander<'_> {
         Ok(())
     }
 
-    /// What a parameter is that the call does not give, if anything.
+    /// Returns the default of a parameter that a call omits.
     fn default(
         &mut self,
         parameter: &Parameter,

@@ -3,7 +3,8 @@
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-/// Folders above a file below which packages are looked for: a package, its repository, and the workspace about it.
+/// Number of parent folders of a file that are searched for packages: a package, its repository, and the workspace
+/// around it.
 const LEVELS_UP: usize = 5;
 
 /// Levels of folders below each of those.
@@ -44,7 +45,7 @@ pub fn packages(name: &str, file: &Path) -> impl Iterator<Item = PathBuf> + use<
     about.chain(below).chain(called).chain(installed.filter(|folder| folder.is_dir()))
 }
 
-/// The folders below one, in breadth, in the order of their names. Hidden folders are left out.
+/// Returns the folders below a folder, breadth first and sorted by name. Hidden folders are skipped.
 fn folders_below(folder: &Path) -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = Vec::new();
     let mut next = VecDeque::from([(folder.to_owned(), LEVELS_DOWN)]);
@@ -69,7 +70,7 @@ fn folders_below(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// The name that a folder's `package.xml` gives the package.
+/// Returns the package name in a folder's `package.xml`.
 fn manifest_name(folder: &Path) -> Option<String> {
     let path = folder.join("package.xml");
     if path.metadata().ok()?.len() > LARGEST_MANIFEST {

@@ -1,4 +1,4 @@
-//! Names and what they stand for.
+//! Scopes of names.
 
 use crate::document::{Node, Place};
 use crate::macros::Macro;
@@ -6,10 +6,10 @@ use crate::value::Value;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Debug, Clone)]
 pub(crate) enum Slot {
-    /// A text that is evaluated when it is asked for, and where it is written.
+    /// A text that is evaluated on use, and its place.
     Unevaluated(Rc<str>, Place),
     /// A text that is being evaluated.
     Evaluating,
@@ -20,7 +20,7 @@ pub(crate) enum Slot {
 #[derive(Debug, Clone)]
 pub(crate) struct Block {
     pub nodes: Vec<Node>,
-    /// Whether the nodes are to be evaluated where they are inserted: those of a property, not those of a parameter.
+    /// True if the nodes are evaluated where they are inserted: those of a property, not those of a parameter.
     pub is_source: bool,
 }
 
@@ -29,13 +29,13 @@ pub(crate) struct Block {
 pub(crate) struct Scope {
     parent: Option<usize>,
     slots: BTreeMap<String, Slot>,
-    /// By their names and stars: `*a` is an element, `**a` what is in it.
+    /// Blocks by name with stars: `*a` is an element, `**a` its content.
     blocks: BTreeMap<String, Rc<Block>>,
     macros: BTreeMap<String, Rc<Macro>>,
     namespaces: BTreeMap<String, usize>,
 }
 
-/// All scopes. The first is the robot's own; others refer to the one in which they lie by its index.
+/// All scopes. The first is the robot's own. The others refer to their parent by index.
 #[derive(Debug)]
 pub(crate) struct Scopes(Vec<Scope>);
 
@@ -47,25 +47,25 @@ impl Scopes {
         Self(vec![Scope::default()])
     }
 
-    /// A new scope in another one.
+    /// Opens a scope within another one.
     pub fn open(&mut self, parent: usize) -> usize {
         self.0.push(Scope { parent: Some(parent), ..Scope::default() });
         self.0.len() - 1
     }
 
-    /// A new scope with a name.
+    /// Opens a scope with a name.
     pub fn open_namespace(&mut self, parent: usize, name: &str) -> usize {
         let scope = self.open(parent);
         self.0[parent].namespaces.insert(name.to_owned(), scope);
         scope
     }
 
-    /// The scope about one; the robot's own has none.
+    /// Returns the parent scope; the robot's own scope has none.
     pub fn parent(&self, scope: usize) -> Option<usize> {
         self.0[scope].parent
     }
 
-    /// The scopes in which a name is looked for, and the name there: without the namespaces in front of it.
+    /// Returns the scopes in which to look for a name, and the name without its namespaces.
     fn candidates<'n>(&self, scope: usize, name: &'n str) -> (Vec<usize>, &'n str) {
         let mut about: Vec<usize> = std::iter::successors(Some(scope), |scope| self.0[*scope].parent).collect();
         let mut rest = name;
@@ -78,13 +78,13 @@ impl Scopes {
         (about, rest)
     }
 
-    /// The scope that has a property, and its name there.
+    /// Returns the scope that has a property, and the property's name there.
     pub fn find<'n>(&self, scope: usize, name: &'n str) -> Option<(usize, &'n str)> {
         let (about, name) = self.candidates(scope, name);
         about.into_iter().find(|scope| self.0[*scope].slots.contains_key(name)).map(|scope| (scope, name))
     }
 
-    /// What a name stands for in this very scope.
+    /// Returns the meaning of a name in exactly this scope.
     pub fn slot(&self, scope: usize, name: &str) -> Option<&Slot> {
         self.0[scope].slots.get(name)
     }
@@ -117,7 +117,7 @@ impl Scopes {
         self.0[scope].macros.insert(name.to_owned(), Rc::new(defined));
     }
 
-    /// The names of all macros that can be called.
+    /// Returns the names of all macros that can be called.
     pub fn macro_names(&self, scope: usize) -> Vec<String> {
         let about = std::iter::successors(Some(scope), |scope| self.0[*scope].parent);
         let mut names: Vec<String> = about.flat_map(|scope| self.0[scope].macros.keys().cloned()).collect();

@@ -10,7 +10,7 @@ use crate::value::Value;
 use crate::{beside, package, yaml};
 use std::path::Path;
 
-/// Where a text is evaluated.
+/// The scope and the file in which a text is evaluated.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context {
     /// The names that it sees.
@@ -28,7 +28,7 @@ enum Part<'t> {
     Extension(&'t str),
 }
 
-/// The parts of a text. `$${` and `$$(` are `${` and `$(` that are meant so.
+/// Splits a text into parts. `$${` and `$$(` are escapes for `${` and `$(`.
 fn parts(text: &str) -> Result<Vec<Part<'_>>, Fault> {
     let mut parts = Vec::new();
     let mut rest = text;
@@ -58,7 +58,7 @@ fn parts(text: &str) -> Result<Vec<Part<'_>>, Fault> {
 }
 
 impl Expander<'_> {
-    /// The value of a text: that of an expression, if it is nothing else, or a text.
+    /// Evaluates a text. A text that is a single expression has that expression's type; any other is a string.
     pub fn text(&mut self, text: &str, context: Context) -> Result<Value, Fault> {
         if !text.contains('$') {
             self.budget.spend(text.len())?;
@@ -89,7 +89,7 @@ impl Expander<'_> {
         Ok(Value::text(whole))
     }
 
-    /// `$(...)`.
+    /// Evaluates `$(...)`.
     fn extension(&mut self, text: &str, context: Context) -> Result<Value, Fault> {
         let (command, rest) = text.trim().split_once(char::is_whitespace).unwrap_or((text.trim(), ""));
         let rest = rest.trim();
@@ -113,12 +113,12 @@ impl Expander<'_> {
                 .map_err(|fault| about(text, fault)),
             _ => Err(Fault::with_hint(
                 format!("\"$({text})\" is not known"),
-                "what is known: $(arg NAME), $(find PACKAGE), $(env NAME), $(optenv NAME DEFAULT), $(eval EXPRESSION), $(dirname)",
+                "known extensions: $(arg NAME), $(find PACKAGE), $(env NAME), $(optenv NAME DEFAULT), $(eval EXPRESSION), $(dirname)",
             )),
         }
     }
 
-    /// The value of an argument.
+    /// Returns the value of an argument.
     fn argument(&mut self, name: &str) -> Result<Value, Fault> {
         self.asked_arguments.insert(name.to_owned());
         let value = self.arguments.get(name).or_else(|| self.given.get(name));
@@ -130,7 +130,7 @@ impl Expander<'_> {
         })
     }
 
-    /// The folder of a package.
+    /// Returns the folder of a package.
     pub fn package(&mut self, name: &str, file: usize) -> Result<String, Fault> {
         if let Some(known) = self.packages.get(&(name.to_owned(), file)) {
             return Ok(known.clone());
@@ -148,7 +148,7 @@ impl Expander<'_> {
         Ok(found)
     }
 
-    /// The value of a property, evaluated where it is defined.
+    /// Evaluates a property in the scope of its definition.
     fn property(&mut self, scope: usize, name: &str) -> Result<Option<Value>, Fault> {
         let Some((scope, name)) = self.scopes.find(scope, name) else { return Ok(None) };
         match self.scopes.slot(scope, name).cloned() {
@@ -169,7 +169,7 @@ impl Expander<'_> {
     }
 }
 
-/// A fault of an expression, with the expression.
+/// Adds the expression to a fault.
 fn about(expression: &str, fault: Fault) -> Fault {
     match fault {
         Fault::Here(message, hint) => {
@@ -180,7 +180,7 @@ fn about(expression: &str, fault: Fault) -> Fault {
     }
 }
 
-/// What an expression sees.
+/// The environment of an expression in a context.
 struct InContext<'e, 's> {
     expander: &'e mut Expander<'s>,
     context: Context,
@@ -208,12 +208,12 @@ impl Names for InContext<'_, '_> {
 }
 
 impl Expander<'_> {
-    /// The property that a parameter's default is forwarded from.
+    /// Returns the property from which a parameter's default is forwarded.
     pub fn forwarded(&mut self, scope: usize, name: &str) -> Result<Option<Value>, Fault> {
         self.property(scope, name)
     }
 
-    /// The place in which an attribute's text is evaluated.
+    /// Returns the context of an attribute's text.
     pub fn context(scope: usize, place: &Place) -> Context {
         Context { scope, file: place.file }
     }

@@ -11,7 +11,7 @@ pub(crate) enum Value {
     Float(f64),
     Text(Rc<str>),
     List(Rc<Vec<Value>>),
-    /// In the order of insertion.
+    /// A dict in the order of insertion.
     Dict(Rc<Vec<(Value, Value)>>),
 }
 
@@ -49,7 +49,7 @@ impl Value {
         Self::List(Rc::new(items))
     }
 
-    /// The type's name in Python.
+    /// Returns the name of the type in Python.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::None => "None",
@@ -62,7 +62,7 @@ impl Value {
         }
     }
 
-    /// The value as a number; `True` counts as 1.
+    /// Returns the value as a number; `True` counts as 1.
     pub fn number(&self) -> Option<Number> {
         match self {
             Self::Bool(x) => Some(Number::Int(i64::from(*x))),
@@ -72,7 +72,7 @@ impl Value {
         }
     }
 
-    /// Whether Python takes the value for true.
+    /// Returns the truth value by Python's rules.
     pub fn is_true(&self) -> bool {
         match self {
             Self::None => false,
@@ -85,7 +85,7 @@ impl Value {
         }
     }
 
-    /// What the value of a property or parameter is: a text that reads like a number or a truth value is one.
+    /// Converts a text that reads like a number or a truth value, as for properties and parameters.
     pub fn literal(self) -> Self {
         let Self::Text(text) = &self else { return self };
         if text.len() >= 2 && text.starts_with('\'') && text.ends_with('\'') {
@@ -108,7 +108,7 @@ impl Value {
         }
     }
 
-    /// The truth value of a condition, which a text must spell.
+    /// Returns the truth value of a condition, which a text must spell out.
     pub fn condition(&self) -> Option<bool> {
         let Self::Text(text) = self else { return Some(self.is_true()) };
         match text.trim() {
@@ -118,7 +118,7 @@ impl Value {
         }
     }
 
-    /// Whether Python's `==` holds.
+    /// Compares two values by Python's `==`.
     pub fn equals(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Text(a), Self::Text(b)) => a == b,
@@ -132,7 +132,7 @@ impl Value {
         }
     }
 
-    /// The order of numbers, and that of texts.
+    /// Orders numbers, or texts.
     pub fn compare(&self, other: &Self) -> Option<Ordering> {
         match (self, other) {
             (Self::Text(a), Self::Text(b)) => Some(a.cmp(b)),
@@ -143,13 +143,13 @@ impl Value {
         }
     }
 
-    /// The value of a key of a dict.
+    /// Returns the value for a key of a dict.
     pub fn item(&self, key: &Self) -> Option<&Self> {
         let Self::Dict(items) = self else { return None };
         items.iter().find(|(known, _)| known.equals(key)).map(|(_, value)| value)
     }
 
-    /// The value as Python prints it.
+    /// Formats the value as Python prints it.
     pub fn printed(&self) -> String {
         match self {
             Self::Text(text) => text.to_string(),
@@ -157,7 +157,7 @@ impl Value {
         }
     }
 
-    /// The value as Python prints it within a list.
+    /// Formats the value as Python prints it within a list.
     fn written(&self) -> String {
         let joined = |parts: Vec<String>| parts.join(", ");
         match self {
@@ -176,13 +176,13 @@ impl Value {
     }
 }
 
-/// A number as Python's `float` reads it, without its underscores.
+/// Parses a number as Python's `float` does, without underscores.
 pub(crate) fn float(text: &str) -> Option<f64> {
     // Rust takes the same words, in any case, but also "infinity" with signs, as Python does.
     text.trim().parse().ok()
 }
 
-/// A number as Python writes it: the shortest text that reads as the same, with an exponent beyond 16 digits.
+/// Formats a number as Python does: the shortest text that reads back the same, with an exponent beyond 16 digits.
 fn float_text(x: f64) -> String {
     let size = x.abs();
     if !x.is_finite() {

@@ -8,13 +8,13 @@ use std::ops::Range;
 pub struct Span {
     /// Bytes of the text.
     pub range: Range<usize>,
-    /// Whether it is a start tag; else it is an attribute.
+    /// True for a start tag, false for an attribute.
     pub is_tag: bool,
-    /// Where it comes from.
+    /// The place that it comes from.
     pub place: Place,
 }
 
-/// The text of an element and all that is in it, with the namespaces declared in its start tag; and its spans.
+/// Returns the text of an element with its content and the namespaces of its start tag, and the spans of its parts.
 pub(crate) fn write(root: &Element, namespaces: &[(String, String)]) -> (String, Vec<Span>) {
     let mut writer = Writer { text: "<?xml version=\"1.0\"?>\n".to_owned(), spans: Vec::new() };
     writer.element(root, 0, namespaces);

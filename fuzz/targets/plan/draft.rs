@@ -84,7 +84,7 @@ impl JointDraft {
 }
 
 impl Draft {
-    /// The problem, if its start and a goal are free.
+    /// Returns the problem, if its start and a goal are free.
     pub fn problem(&self) -> Option<MotionProblem> {
         let [a, b] = &self.joints;
         let joints = [a.joint("one")?, b.joint("two")?];

@@ -16,19 +16,19 @@ use parry2d_f64::math::{Pose, Vector};
 use parry2d_f64::query;
 use parry2d_f64::shape::SharedShape;
 
-/// What parry's iterations (GJK) may be off by, metres.
+/// Error of parry's iterations (GJK), metres.
 const PARRY: f64 = 1e-6;
 
 /// Samples of a straight piece.
 const SAMPLES: u32 = 200;
 
-/// Little, so that many scenes are tried.
+/// Returns options with little effort, so that many scenes are tried.
 fn options(method: Method) -> Options {
     let planner = Planner::named(method).with_margin(1e-2).with_cells(32);
     Options { levels: 2, boxes: 2000, bounded: false, ..planner.into() }
 }
 
-/// A shape's core, turned by an angle and moved; none where parry's constructor refuses a sliver.
+/// Returns a shape's core, turned by an angle and moved, or `None` if parry's constructor refuses a sliver.
 fn core(shape: &Convex, angle: f64, by: Vector) -> Option<(Pose, SharedShape)> {
     let (sin, cos) = angle.sin_cos();
     let points: Vec<Vector> =
@@ -40,7 +40,7 @@ fn core(shape: &Convex, angle: f64, by: Vector) -> Option<(Pose, SharedShape)> {
     })
 }
 
-/// Angle and place of both links.
+/// Returns angle and position of both links.
 fn frames(scene: &Scene, q: Configuration) -> [(f64, Vector); 2] {
     let arm = scene.arm();
     let mut angle = 0.0_f64;

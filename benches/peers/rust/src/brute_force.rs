@@ -23,7 +23,7 @@ impl Solid {
     }
 }
 
-/// A link at `at`, turned by `cos, sin`.
+/// Returns the pose of a link at `at`, turned by `cos, sin`.
 fn placed(at: Vector, cos: f32, sin: f32) -> Pose {
     Pose::from_parts(at, Rotation { re: cos, im: sin })
 }
@@ -43,7 +43,7 @@ impl Arm {
         }
     }
 
-    /// Whether the arm collides at the centre of each cell, row by row; joint values by axis.
+    /// Returns whether the arm collides at the centre of each cell, row by row; joint values by axis.
     pub fn cells(&self, first: &[f64], second: &[f64]) -> Vec<bool> {
         let mut blocked = vec![false; first.len() * second.len()];
         let turns: Vec<(f32, f32)> = second.iter().map(|q| (q.cos() as f32, q.sin() as f32)).collect();

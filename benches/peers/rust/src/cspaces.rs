@@ -7,10 +7,10 @@ use cplan::cspace::{bitmap, grid_from_slices, outer_grid, regions};
 use cplan::space::Configuration;
 use serde_json::{Value, json};
 
-/// The margin of the polygons, metres: what the planners begin with.
+/// The initial margin of the planners' polygons, metres.
 const MARGIN: f64 = 1e-3;
 
-/// How many times cplan's contenders are run for once of parry2d's, which take hundreds of times as long.
+/// Runs of cplan's contenders per run of parry2d's, which take hundreds of times as long.
 const REPEATS: usize = 5;
 
 pub fn run(urdf: &str, world: &str, cells: usize, rounds: usize) -> Result<Value> {

@@ -18,7 +18,7 @@ use std::path::Path;
 /// Greatest error of the multigrid's values.
 const ERROR: f64 = 1e-6;
 
-/// A rectangle with ten boxes scattered by the golden ratio.
+/// Returns a rectangle with ten boxes distributed by the golden ratio.
 pub fn boxes(cells: usize) -> Grid {
     let mut blocked = vec![false; cells * cells];
     for k in 0..10_usize {
@@ -31,12 +31,12 @@ pub fn boxes(cells: usize) -> Grid {
     rectangle(cells, blocked)
 }
 
-/// A maze without loops, corridors one cell wide.
+/// Returns a maze without loops and with corridors one cell wide.
 pub fn maze(cells: usize) -> Grid {
     rectangle(cells, mazes::maze(cells, 0))
 }
 
-/// The arm's configuration space, cut open at half a turn: none of the peers here knows a torus.
+/// Returns the arm's configuration space, cut open at half a turn, because the peers here do not support a torus.
 pub fn of_arm(urdf: &str, world: &str, cells: usize) -> Result<Grid> {
     Ok(rectangle(cells, grid_from_slices(&scenes::scene(urdf, world)?, [cells; 2], 0.0).blocked))
 }
@@ -79,7 +79,7 @@ pub fn run(grid: Grid, rounds: usize, directory: &str) -> Result<Value> {
     write("free.u8", free.iter().map(|&free| u8::from(free)).collect())?;
     write("multigrid.f64", values.iter().flat_map(|value| value.to_le_bytes()).collect())?;
     write("steps.u32", steps.labels().iter().flat_map(|label| label.to_le_bytes()).collect())?;
-    // Values of the harmonic planner's field are below what doubles can hold: their natural logarithms.
+    // Values of the harmonic planner's field are below the range of doubles: take natural logarithms.
     let ln = |cell: usize| component.position_of(cell).map_or(f64::NEG_INFINITY, |at| field.potential.ln(at));
     write("harmonic.f64", (0..free.len()).flat_map(|cell| ln(cell).to_le_bytes()).collect())?;
     let costs = (0..free.len()).map(|cell| ways.cost(cell).map_or(f64::INFINITY, |cost| cost.value()));

@@ -1,6 +1,6 @@
-//! cplan's library and its Rust peers on the same problems. Every subcommand takes its contenders in turn, round after
-//! round, and prints one JSON object: lists of milliseconds, and what it takes to judge the answers. `benches/peers/run`
-//! calls it.
+//! Runs cplan's library and its Rust peers on the same problems. Every subcommand runs its contenders in turn, round
+//! after round, and prints one JSON object: lists of milliseconds, and the data needed to judge the answers.
+//! `benches/peers/run` calls it.
 
 mod answers;
 mod brute_force;
@@ -23,7 +23,7 @@ const USAGE: &str = "usage: cplan-peers answers URDF WORLD ROUNDS
        cplan-peers oxmpl URDF WORLD PLANNER SEED LIMIT_SECONDS
        cplan-peers collides URDF WORLD < configurations, two numbers a line";
 
-/// What went wrong, in words.
+/// A result with the error as text.
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 fn run(arguments: &[&str]) -> Result<serde_json::Value> {

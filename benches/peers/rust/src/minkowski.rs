@@ -10,13 +10,14 @@ use std::f64::consts::TAU;
 /// Differences a round, so that a round is long enough for the clock.
 const BATCH: usize = 100;
 
-/// A regular polygon; `phase` turns it, so that no sides of two polygons are parallel.
+/// Returns a regular polygon, turned by `phase` so that the sides of two polygons are not parallel.
 fn regular(corners: usize, phase: f64) -> Vec<Point> {
     let angle = |k: usize| phase + k as f64 / corners as f64 * TAU;
     (0..corners).map(|k| Point::new(angle(k).cos(), angle(k).sin())).collect()
 }
 
-/// `b - a` for convex polygons, counter-clockwise: the sides of `b` and of `-a`, merged by the sign of a cross product.
+/// Computes `b - a` for convex counter-clockwise polygons: merges the sides of `b` and of `-a` by the sign of a cross
+/// product.
 fn plain(b: &[Point], a: &[Point]) -> Vec<Point> {
     let mirrored: Vec<Point> = a.iter().map(|p| -*p).collect();
     let lowest = |polygon: &[Point]| {

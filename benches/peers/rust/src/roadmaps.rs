@@ -19,7 +19,7 @@ use polyanya::{Mesh, Triangulation};
 use polygons::star_crowd;
 use serde_json::{Value, json};
 
-/// How many queries are asked of each map.
+/// Number of queries per map.
 const QUERIES: usize = 32;
 
 /// Pairs of free places anywhere in the window.
@@ -40,7 +40,7 @@ fn single(p: Point) -> Vec2 {
     vec2(p.x as f32, p.y as f32)
 }
 
-/// polyanya's mesh: of triangles, or with neighbouring ones merged to polygons, as its documentation advises.
+/// Returns polyanya's mesh of triangles, or with neighbouring ones merged to polygons, as its documentation recommends.
 fn mesh(regions: &Regions, is_merged: bool) -> Mesh {
     let free = &regions.free[0];
     let outer: Vec<Vec2> = free.outer.iter().copied().map(single).collect();
@@ -54,7 +54,7 @@ fn mesh(regions: &Regions, is_merged: bool) -> Mesh {
     mesh
 }
 
-/// Length of polyanya's path, whose first waypoint is the first corner.
+/// Returns the length of polyanya's path, whose first waypoint is the first corner.
 fn polyanya_length(mesh: &Mesh, [from, to]: &[Configuration; 2]) -> Option<f64> {
     let path = mesh.path(single(Point::from(*from)), single(Point::from(*to)))?;
     Some(f64::from(path.length))

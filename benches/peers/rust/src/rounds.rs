@@ -1,4 +1,4 @@
-//! Contenders taken in turn, so that whatever else the machine does meets all alike.
+//! Runs contenders in turn, so that other load on the machine affects all of them alike.
 
 use serde_json::{Map, Value, json};
 use std::hint::black_box;

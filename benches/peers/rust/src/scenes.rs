@@ -21,7 +21,7 @@ pub struct Bars {
     pub elbow: f64,
 }
 
-/// The arm, if it is of the simple kind that the peers' checkers are written for.
+/// Returns the arm, if it is of the simple kind that the peers' checkers support.
 pub fn bars(scene: &Scene) -> Result<Bars> {
     let arm = scene.arm();
     let simple = arm.base.coords.norm() == 0.0 && arm.offset.y == 0.0 && arm.links.iter().all(|l| l.parts.len() == 1);

@@ -20,10 +20,10 @@ pub struct Joints(pub [f64; 2]);
 
 impl State for Joints {}
 
-/// All pairs of angles.
+/// The set of all pairs of angles.
 pub struct Torus;
 
-/// The angle in `[-pi, pi)`.
+/// Returns the angle in `[-pi, pi)`.
 fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
@@ -51,13 +51,13 @@ impl StateSpace for Torus {
         Ok(Joints([0, 1].map(|_| rng.random_range(-PI..PI))))
     }
 
-    /// oxmpl tests at a tenth of this: every 0.01 rad.
+    /// Returns the length; oxmpl tests at a tenth of it, every 0.01 rad.
     fn get_longest_valid_segment_length(&self) -> f64 {
         0.1
     }
 }
 
-/// One configuration, exactly.
+/// A goal of exactly one configuration.
 pub struct Target(pub Joints);
 
 impl Goal<Joints> for Target {
@@ -117,7 +117,7 @@ impl Checker {
         }
     }
 
-    /// Whether the arm meets an obstacle there.
+    /// Returns true if the arm touches an obstacle at a configuration.
     pub fn collides(&self, [q1, q2]: [f64; 2]) -> bool {
         let first = Pose::from_parts(Vector::ZERO, Rotation { re: q1.cos(), im: q1.sin() });
         let elbow = first.transform_point(Vector::new(self.elbow, 0.0));
@@ -132,7 +132,7 @@ impl StateValidityChecker<Joints> for Checker {
     }
 }
 
-/// The checker's verdicts on configurations from standard input, for the harness's test of its checkers.
+/// Prints the checker's verdicts on configurations from standard input, for the harness's test of its checkers.
 pub fn answer_standard_input(urdf: &str, world: &str) -> Result<Value> {
     let scene = scenes::scene(urdf, world)?;
     let checker = Checker::new(&scenes::bars(&scene)?, &scenes::obstacles(&scene));

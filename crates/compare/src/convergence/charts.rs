@@ -11,11 +11,11 @@ const COLUMNS: usize = 2;
 /// Above the charts, for the title.
 const HEAD: f64 = 44.0;
 
-/// The PNG writer brings the first; viewers take what they have.
+/// The PNG writer has the first font; viewers use those that they have.
 const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
 
 impl Convergence {
-    /// All charts as one SVG document. The same figures make the same document, byte for byte.
+    /// Draws all charts as one SVG document. The same figures give the same bytes.
     #[must_use]
     pub fn to_svg(&self) -> String {
         let charts = self.charts();
@@ -89,12 +89,12 @@ impl Convergence {
     }
 }
 
-/// The points of relaxations that converged.
+/// Returns the points of converged relaxations.
 fn converged(points: &[Point]) -> Vec<[f64; 2]> {
     points.iter().filter_map(|point| Some([point.at, point.converged()? as f64])).collect()
 }
 
-/// The relaxations of one equation: the error where it is known, else the sum of squared changes.
+/// Charts the relaxations of one equation: the error if it is known, else the sum of squared changes.
 fn errors(courses: &[Course]) -> LineChart {
     let known = courses.iter().flat_map(|course| &course.trace.samples).any(|sample| sample.error.is_some());
     let line = |course: &Course| {

@@ -11,7 +11,7 @@ const HEADER: &str =
     "series,equation,relaxation,order,factor,epsilon,stage,sweep,squared_change,relative_change,error,ending";
 
 impl Convergence {
-    /// What there is to see, in 80 columns.
+    /// Returns the result as text, 80 characters wide.
     #[must_use]
     pub fn to_text(&self) -> String {
         let [rows, columns] = self.cells;
@@ -44,7 +44,7 @@ impl Convergence {
         text + &self.strengths.iter().map(|scan| lost(scan) + "\n").collect::<String>()
     }
 
-    /// A row a relaxation.
+    /// Returns a table with one row per relaxation.
     #[must_use]
     pub fn table(&self) -> Table {
         let row = |course: &Course| {
@@ -61,7 +61,7 @@ impl Convergence {
         Table { columns, rows: self.courses.iter().map(row).collect() }
     }
 
-    /// A row an equation: best factor, formula, Young's.
+    /// Returns a table with one row per equation: best factor, formula, Young's.
     #[must_use]
     pub fn factor_table(&self) -> Table {
         let cells =
@@ -74,7 +74,8 @@ impl Convergence {
         Table { columns, rows: self.factors.iter().map(row).collect() }
     }
 
-    /// A row an equation: the best factor of weighted Jacobi, Jacobi's own, the first that does not converge.
+    /// Returns a table with one row per equation: the best factor of weighted Jacobi, Jacobi's own, the first that does
+    /// not converge.
     #[must_use]
     pub fn weight_table(&self) -> Table {
         let row = |scan: &WeightScan| {
@@ -92,7 +93,7 @@ impl Convergence {
         Table { columns, rows: self.weights.iter().map(row).collect() }
     }
 
-    /// A row a relaxation of two stages: how its changes leap where preferences begin.
+    /// Returns a table with one row per relaxation of two stages: the leap of its changes where preferences begin.
     #[must_use]
     pub fn leap_table(&self) -> Table {
         let row = |course: &Course| {
@@ -105,7 +106,7 @@ impl Convergence {
         Table { columns, rows: self.courses.iter().filter_map(row).collect() }
     }
 
-    /// A row for every fifth strength of the scan.
+    /// Returns a table with one row for every fifth strength of the scan.
     #[must_use]
     pub fn strength_table(&self) -> Table {
         let names: Vec<String> = self.strengths.iter().map(|scan| scan.difference.to_string()).collect();
@@ -119,9 +120,9 @@ impl Convergence {
         Table { columns, rows: (0..count).step_by(5).map(row).collect() }
     }
 
-    /// A line a sample, with full precision: after a sweep (`error`), of the scans over the factor (`factor` of SOR, `weight` of weighted Jacobi) and over the drift
-    /// (`epsilon`), where `sweep` is how many it took. What does not apply is empty; `ending` stands in the last line of a
-    /// relaxation.
+    /// Returns one line per sample, with full precision: after a sweep (`error`), and for the scans over the factor
+    /// (`factor` of SOR, `weight` of weighted Jacobi) and over the drift (`epsilon`), where `sweep` is the total
+    /// number. Columns that do not apply are empty. `ending` is in the last line of a relaxation.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut text = format!("{HEADER}\n");
@@ -132,7 +133,7 @@ impl Convergence {
                 let ending = if *sweep == trace.sweeps { word(trace.ending) } else { "" };
                 text += &format!("{head},,{stage},{sweep},{squares:e},{relative:e},{error},{ending}\n");
             }
-            // Values that are no numbers leave no samples: how it ended is said all the same.
+            // Sweeps with NaN leave no samples, but the ending must be reported.
             if trace.samples.last().is_none_or(|sample| sample.sweep != trace.sweeps) {
                 text += &format!("{head},,,{},,,,{}\n", trace.sweeps, word(trace.ending));
             }
@@ -158,7 +159,8 @@ impl Convergence {
         text
     }
 
-    /// All there is, as a JSON object; samples as lists of one length each, with null for what is not known or infinite.
+    /// Returns everything as a JSON object. Samples are lists of equal length, with null for unknown or infinite
+    /// values.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let course = |Course { equation, relaxation, trace }: &Course| {
@@ -222,7 +224,7 @@ impl Convergence {
         })
     }
 
-    /// Name, order and factor of a relaxation on this domain.
+    /// Returns name, order and factor of a relaxation on this domain.
     fn parts(&self, relaxation: &Relaxation) -> (&'static str, Option<String>, f64) {
         let factor = relaxation.factor(self.cells);
         match relaxation.scheme {
@@ -241,7 +243,7 @@ impl Convergence {
     }
 }
 
-/// The name of the equation that the scans over epsilon are of.
+/// Returns the name of the equation in the scans over epsilon.
 pub(super) fn oriented(difference: Difference) -> String {
     format!("oriented, {}", if difference == Difference::Central { "central" } else { "upwind" })
 }

@@ -3,7 +3,7 @@
 use crate::page::{Axis, number};
 use cplan_text::markup;
 
-/// Of the plot, pixels.
+/// Size of the plot, pixels.
 const PLOT: [f64; 2] = [400.0, 250.0];
 /// Left of the plot, for the ticks and the title of the vertical axis.
 const LEFT: f64 = 74.0;
@@ -16,7 +16,7 @@ const BOTTOM: f64 = 52.0;
 /// Between two names of lines.
 const LINE: f64 = 19.0;
 
-/// What a chart takes, pixels.
+/// Size of a chart, pixels.
 pub const SIZE: [f64; 2] = [LEFT + PLOT[0] + RIGHT, TOP + PLOT[1] + BOTTOM];
 
 /// Okabe and Ito's, as on the pages.
@@ -24,7 +24,7 @@ const COLORS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#b04f88", "#a87400"
 /// Lines of one colour differ in their dashes.
 const DASHES: [&str; 4] = ["", "7 3", "2 3", "7 3 2 3"];
 
-/// The pen of the line of this number: another colour for each, and other dashes once all colours are taken.
+/// Returns colour and dashes of a line by its number: a new colour for each, and new dashes once all colours are used.
 pub fn pen(line: usize) -> [usize; 2] {
     [line % COLORS.len(), line / COLORS.len()]
 }
@@ -32,7 +32,7 @@ pub fn pen(line: usize) -> [usize; 2] {
 /// Lines over a horizontal axis.
 pub struct LineChart {
     pub title: String,
-    /// What the axes measure.
+    /// Titles of the axes.
     pub axes: [&'static str; 2],
     pub lines: Vec<Line>,
     /// Values of the horizontal axis with names.
@@ -45,13 +45,13 @@ pub struct Line {
     /// Numbers of colour and dashes.
     pub pen: [usize; 2],
     pub points: Vec<[f64; 2]>,
-    /// Whether each point is a dot, too.
+    /// True to draw a dot at each point.
     pub dots: bool,
 }
 
 impl LineChart {
-    /// The chart with its upper left corner there; nothing without points. Axes are logarithmic where values differ much, and
-    /// values that such an axis has no place for are left out.
+    /// Draws the chart with its upper left corner at a place; nothing without points. Axes are logarithmic if values
+    /// differ greatly; values that a logarithmic axis cannot show are omitted.
     pub fn svg(&self, [left, top]: [f64; 2]) -> String {
         let of = |k: usize| self.lines.iter().flat_map(|line| &line.points).map(move |point| point[k]);
         let marks = self.marks.iter().map(|mark| mark.0);
@@ -97,7 +97,7 @@ impl LineChart {
     }
 }
 
-/// Of ticks.
+/// Style of ticks.
 const GREY: &str = " fill=\"#5f666e\" font-size=\"11\"";
 
 fn rule(path: &str, color: &str) -> String {
@@ -114,7 +114,7 @@ fn text([x, y]: [f64; 2], anchor: &str, style: &str, content: &str) -> String {
 }
 
 impl Line {
-    /// Through these places.
+    /// Draws the line through these places.
     fn svg(&self, places: &[[f64; 2]]) -> String {
         let mut path = String::new();
         let mut last = String::new();
@@ -133,7 +133,7 @@ impl Line {
         format!("<path d=\"{path}\" {}><title>{}</title></path>\n{dots}", self.stroke(), markup(&self.name))
     }
 
-    /// A piece of it and its name.
+    /// Draws a sample of the line and its name.
     fn key(&self, [x, y]: [f64; 2]) -> String {
         let piece = format!("<path d=\"M{} {}h22\" {}/>\n", number(x), number(y - 4.0), self.stroke());
         piece + &text([x + 28.0, y], "start", "", &self.name)

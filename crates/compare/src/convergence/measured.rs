@@ -6,18 +6,18 @@ use cplan_fields::{
     Stopping, eliminated, relax, trace,
 };
 
-/// What is to be measured.
+/// The setup of a measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup<'a> {
-    /// What the domain is of, for people.
+    /// Title of the domain.
     pub title: String,
-    /// Where the equations are to be solved.
+    /// The domain of the equations.
     pub domain: &'a Domain,
     /// Names and equations.
     pub equations: Vec<(String, Equation)>,
     /// The direction of the drift in the scans over its strength, in cells.
     pub direction: Direction,
-    /// In which order cells go in the scans.
+    /// Order of cells in the scans.
     pub order: Order,
     /// When relaxations end.
     pub stopping: Stopping,
@@ -26,7 +26,7 @@ pub struct Setup<'a> {
 /// The factor of weighted Jacobi: the usual choice of smoothers in the plane.
 const WEIGHT: f64 = 0.8;
 
-/// The relaxations that are traced.
+/// Returns the traced relaxations.
 fn relaxations() -> Vec<Relaxation> {
     let orders = [Order::Lines(Scan::ROWS), Order::Corners(Lines::Rows), Order::RedBlack];
     let at_once = [Relaxation::JACOBI, Relaxation::weighted_jacobi(WEIGHT)];
@@ -50,12 +50,13 @@ fn strengths() -> Vec<f64> {
     (0..=30).map(|k| f64::from(k) / 5.0).collect()
 }
 
-/// Relaxes each equation by Jacobi, weighted Jacobi, Gauss-Seidel and SOR in each order and measures the error after each sweep;
-/// then scans the factors of SOR and of weighted Jacobi for each equation, and the strength of the drift by Gauss-Seidel with either discretisation.
-/// `progress` hears what is begun. It costs some hundred relaxations, and an elimination for each equation.
+/// Relaxes each equation by Jacobi, weighted Jacobi, Gauss-Seidel and SOR in each order, and measures the error after
+/// each sweep. Then scans the factors of SOR and of weighted Jacobi for each equation, and the strength of the drift by
+/// Gauss-Seidel with either discretisation. Reports each part to `progress`. Runs some hundred relaxations, and an
+/// elimination for each equation.
 ///
 /// # Errors
-/// [`RelaxError::Refused`] where an equation does not fit the domain. That a relaxation diverges is a result.
+/// [`RelaxError::Refused`] if an equation does not fit the domain. Divergence is a result, not an error.
 pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Convergence, RelaxError> {
     let Setup { domain, direction, order, stopping, .. } = setup;
     let mut courses = Vec::new();
@@ -126,7 +127,7 @@ fn weight_scan(
     Ok(WeightScan { equation: name.to_owned(), points })
 }
 
-/// Young's, of Jacobi's rate.
+/// Returns Young's best factor for the rate of Jacobi.
 fn best_factor(rate: f64) -> Option<f64> {
     (rate < 1.0).then(|| 2.0 / (1.0 + (1.0 - rate * rate).sqrt()))
 }

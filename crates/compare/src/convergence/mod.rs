@@ -1,12 +1,12 @@
-//! How relaxations converge: the error against sweeps for each equation, relaxation and order, sweeps against the factor of SOR,
-//! and against the strength of a drift.
+//! Convergence of relaxations: error against sweeps for each equation, relaxation and order; sweeps against the factor
+//! of SOR and against the strength of a drift.
 //!
 //! ```text
 //! Setup (a domain and equations on it) -> convergence -> Convergence -> table, CSV, JSON
 //!                                                                  \-> charts (SVG) -> page
 //! ```
 //!
-//! What is measured comes from [`cplan_fields::trace()`] and, of the scans, from [`cplan_fields::relax()`]; all outputs are pure
+//! Measurements come from [`cplan_fields::trace()`], scans from [`cplan_fields::relax()`]. All outputs are pure
 //! functions of the [`Convergence`].
 
 mod charts;
@@ -18,10 +18,10 @@ pub use measured::{Setup, convergence};
 
 use cplan_fields::{Difference, Ending, Order, Relaxation, Stopping, Trace};
 
-/// How relaxations converge on one domain.
+/// Convergence of relaxations on one domain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convergence {
-    /// What the domain is of, for people.
+    /// Title of the domain.
     pub title: String,
     /// Rows and columns.
     pub cells: [usize; 2],
@@ -29,7 +29,7 @@ pub struct Convergence {
     pub free: usize,
     /// When relaxations end.
     pub stopping: Stopping,
-    /// Of the scans' relaxations.
+    /// Order of cells in the scans.
     pub order: Order,
     /// Relaxation by relaxation, by equation.
     pub courses: Vec<Course>,
@@ -48,9 +48,9 @@ pub struct Convergence {
 pub struct Course {
     /// The name of the equation.
     pub equation: String,
-    /// What relaxes it.
+    /// The relaxation.
     pub relaxation: Relaxation,
-    /// How it went.
+    /// Its measurements.
     pub trace: Trace,
 }
 
@@ -59,11 +59,12 @@ pub struct Course {
 pub struct FactorScan {
     /// The name of the equation.
     pub equation: String,
-    /// At `4 / (2 + sqrt(4 - c^2))`, the best factor for Laplace's equation in an empty rectangle of so many cells.
+    /// The result at `4 / (2 + sqrt(4 - c^2))`, the best factor for Laplace's equation in an empty rectangle of this
+    /// many cells.
     pub formula: Point,
-    /// At `2 / (1 + sqrt(1 - r^2))`, `r` the rate of Jacobi's relaxation that was measured on this very domain: the best factor of
-    /// an order that is consistent, as rows and red-black are, where all eigenvalues are real (Young 1954). None where `r` is not
-    /// known or not below 1, or the equation not monotone.
+    /// The result at `2 / (1 + sqrt(1 - r^2))`, where `r` is the measured rate of Jacobi relaxation on this domain. For
+    /// consistent orders, such as rows and red-black, this is the best factor if all eigenvalues are real (Young 1954).
+    /// `None` if `r` is unknown or not below 1, or the equation is not monotone.
     pub by_rate: Option<Point>,
     /// Factors of the scan, rising.
     pub points: Vec<Point>,
@@ -82,20 +83,20 @@ pub struct WeightScan {
 /// Sweeps against the strength of the drift, `epsilon` per cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrengthScan {
-    /// How the drift is discretised.
+    /// Discretisation of the drift.
     pub difference: Difference,
     /// Strengths, rising.
     pub points: Vec<Point>,
 }
 
-/// A relaxation with one value of what is varied.
+/// A relaxation with one value of the varied parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Point {
     /// The factor, or the strength.
     pub at: f64,
     /// Sweeps until it ended.
     pub sweeps: usize,
-    /// How it ended.
+    /// Reason why it ended.
     pub ending: Ending,
 }
 
@@ -108,8 +109,8 @@ impl Point {
 }
 
 impl FactorScan {
-    /// The point of the scan, marked ones included, with the fewest sweeps; of several the one with the least factor. None if none
-    /// converged.
+    /// Returns the point of the scan, marked ones included, with the fewest sweeps; of several, the one with the least
+    /// factor. Returns `None` if no relaxation converged.
     #[must_use]
     pub fn best(&self) -> Option<Point> {
         fewest(self.points.iter().chain([&self.formula]).chain(&self.by_rate))
@@ -130,20 +131,20 @@ impl WeightScan {
     }
 }
 
-/// The first of the points after all that converged.
+/// Returns the first point after all converged ones.
 fn lost_from(points: &[Point]) -> Option<Point> {
     let after = points.iter().rposition(|point| point.converged().is_some()).map_or(0, |last| last + 1);
     points.get(after).copied()
 }
 
-/// Of the points that converged the one with the fewest sweeps, and of several the one that comes first on the axis.
+/// Returns the converged point with the fewest sweeps; of several, the first on the axis.
 fn fewest<'a>(points: impl Iterator<Item = &'a Point>) -> Option<Point> {
     let converged = points.filter(|point| point.converged().is_some()).copied();
     converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
 }
 
 impl StrengthScan {
-    /// The least strength from which on no relaxation of the scan converged; none if the last one did.
+    /// Returns the least strength from which no relaxation of the scan converged, or `None` if the last one did.
     #[must_use]
     pub fn lost_from(&self) -> Option<Point> {
         lost_from(&self.points)

@@ -3,7 +3,7 @@
 /// Greatest over least value from which a logarithmic axis shows more than a linear one.
 const WIDE: f64 = 8.0;
 
-/// Ticks at the most, but for those of a logarithmic axis over many decades.
+/// Largest number of ticks, except on a logarithmic axis over many decades.
 const TICKS: usize = 6;
 
 /// A stretch of values, to be laid over a stretch of pixels.
@@ -16,8 +16,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// One that holds these values, with a little room, and `base` too if it is given; none without values. Logarithmic if
-    /// all of them are positive and they differ much.
+    /// Returns an axis that contains these values with a small margin, and `base` if it is given; `None` without
+    /// values. It is logarithmic if all values are positive and differ greatly.
     pub fn over(values: impl Iterator<Item = f64> + Clone, base: Option<f64>) -> Option<Self> {
         let all = values.chain(base).filter(|v| v.is_finite());
         let min = all.clone().reduce(f64::min)?;
@@ -27,24 +27,24 @@ impl Axis {
             return Some(Self { lower: min / room, upper: max * room, is_logarithmic: true });
         }
         let room = if max > min { 0.04 * (max - min) } else { 0.1 * max.abs().max(1e-9) };
-        // Room below zero, or below the base, would show what cannot be.
+        // A margin below zero, or below the base, would show impossible values.
         let floor = if base == Some(min) || (min >= 0.0 && min < room) { min } else { min - room };
         Some(Self { lower: floor, upper: max + room, is_logarithmic: false })
     }
 
-    /// One from a value to a greater one, without room.
+    /// Returns an axis from one value to a greater one, without a margin.
     pub fn between(lower: f64, upper: f64) -> Self {
         Self { lower, upper, is_logarithmic: false }
     }
 
-    /// Where a value lies: 0 at the lower end, 1 at the upper.
+    /// Returns the position of a value: 0 at the lower end, 1 at the upper.
     pub fn place(&self, value: f64) -> f64 {
         let [value, lower, upper] =
             [value, self.lower, self.upper].map(|v| if self.is_logarithmic { v.ln() } else { v });
         ((value - lower) / (upper - lower)).clamp(0.0, 1.0)
     }
 
-    /// Round values within the axis, ascending, and how they are written.
+    /// Returns round values within the axis, ascending, with their texts.
     pub fn ticks(&self) -> Vec<(f64, String)> {
         if self.is_logarithmic {
             self.factors().into_iter().map(|v| (v, written(v, v))).collect()
@@ -69,7 +69,7 @@ impl Axis {
         })
     }
 
-    /// A round number of which a few multiples lie within the axis: at least three, which tell how far apart values are.
+    /// Returns a round number with at least three multiples within the axis, so that distances are readable.
     fn step(&self) -> f64 {
         let least = (self.upper - self.lower) / (TICKS - 1) as f64;
         let power = 10_f64.powf(least.log10().floor());
@@ -86,7 +86,7 @@ impl Axis {
     }
 }
 
-/// A round number with as many digits as tell it from its neighbours, which are `apart` from it.
+/// Formats a round number with as many digits as needed to distinguish it from its neighbours at a distance of `apart`.
 fn written(value: f64, apart: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();

@@ -18,7 +18,7 @@ const BOTTOM: f64 = 26.0;
 /// Runs that are shown as dots, too; more make a grey surface.
 const DOTS: usize = 250;
 
-/// The chart of one measure; none where no run has a value.
+/// Draws the chart of one measure, or returns `None` if no run has a value.
 pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     let values: Vec<Vec<f64>> = (0..study.planners().len())
         .map(|i| study.runs(i).filter_map(|(c, row)| measure.of(c, row)).map(|v| v * measure.scale()).collect())
@@ -80,7 +80,7 @@ fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) 
     svg + &format!("<path class=\"median\" d=\"M{} {top}V{bottom}\"/>", number(median))
 }
 
-/// What the chart shows, for who hovers over it or has it read out.
+/// Describes the chart, for tooltips and screen readers.
 fn described(name: &str, spread: &Spread) -> String {
     let [min, low, median, high, max, _] = spread.numbers().map(|v| format!("{v:.4}"));
     let runs = counted(spread.n, "run");
@@ -93,7 +93,7 @@ mod tests {
     use crate::{Comparison, Family, Row};
     use cplan_core::model::Status;
 
-    /// A study of one planner with these durations.
+    /// Returns a study of one planner with these durations.
     fn study(durations: &[f64]) -> Study {
         let comparison = |duration: &f64| Comparison {
             problem: "p".to_owned(),

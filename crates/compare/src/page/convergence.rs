@@ -1,11 +1,11 @@
-//! How relaxations converge, as a page: charts and tables.
+//! The page about the convergence of relaxations: charts and tables.
 
 use super::markup::{image_source, table};
 use super::{foot, head, section};
 use crate::Convergence;
 
 impl Convergence {
-    /// The page, in a file that needs no other, no network and no script. The same figures make the same page, byte for byte.
+    /// Returns the page as a self-contained file without scripts. The same figures give the same bytes.
     #[must_use]
     pub fn to_html(&self) -> String {
         let [rows, columns] = self.cells;
@@ -24,7 +24,7 @@ impl Convergence {
             + &foot(HOW)
     }
 
-    /// Where preferences begin, if there are any.
+    /// Describes the leap where preferences begin, if there are any.
     fn leaps(&self) -> String {
         let leaps = self.leap_table();
         if leaps.rows.is_empty() { String::new() } else { section("Where preferences begin", &table(&leaps)) }

@@ -9,15 +9,15 @@ const SIZE: [f64; 2] = [460.0, 380.0];
 /// Left of the plot, above it, right of it, below it.
 const MARGINS: [f64; 4] = [78.0, 10.0, 14.0, 46.0];
 
-/// A chart that has its axes, and is open for what it shows.
+/// A chart with its axes, open for its contents.
 pub struct Frame<F> {
-    /// What is written of it.
+    /// The SVG text so far.
     pub svg: String,
-    /// Where shares of both axes lie, pixels.
+    /// Maps positions on both axes to pixels.
     pub place: F,
 }
 
-/// A frame with ticks and titles along both axes.
+/// Starts a chart with ticks and titles along both axes.
 pub fn frame(axes: [Axis; 2], titles: [&str; 2], what: &str) -> Frame<impl Fn([f64; 2]) -> [f64; 2]> {
     let [left, top, right, bottom] = MARGINS;
     let [width, height] = [SIZE[0] - left - right, SIZE[1] - top - bottom];

@@ -9,8 +9,8 @@ const NAME: usize = 24;
 /// Pixels between two lines of a name.
 const NAME_LINE: f64 = 13.0;
 
-/// A name in front of a chart's line, which ends at `right` about the height `middle`: in two lines if it is long. Of a longer one the
-/// second line holds the end.
+/// Writes a name before a chart's line, right-aligned at `right` around the height `middle`, in two lines if it is
+/// long. The second line of a longer name holds its end.
 pub fn name_before(name: &str, right: f64, middle: f64) -> String {
     let lines = name_lines(name);
     let first = middle - NAME_LINE * 0.5 * (lines.len() - 1) as f64;
@@ -21,7 +21,7 @@ pub fn name_before(name: &str, right: f64, middle: f64) -> String {
     lines.iter().enumerate().map(line).collect()
 }
 
-/// A name in at most two lines of [`NAME`] characters.
+/// Splits a name into at most two lines of [`NAME`] characters.
 fn name_lines(name: &str) -> Vec<String> {
     let end = |text: &str| match text.chars().count() {
         n if n > NAME => ['\u{2026}'].into_iter().chain(text.chars().skip(n - NAME + 1)).collect(),
@@ -40,19 +40,19 @@ pub fn margin(names: &[&str]) -> f64 {
     18.0 + 7.4 * longest as f64
 }
 
-/// A coordinate: two decimals at the most.
+/// Formats a coordinate with at most two decimals.
 pub fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// An SVG picture as the source of an image. It keeps its own names and styles there, and runs no scripts.
+/// Encodes an SVG picture as the source of an image. There it keeps its own names and styles, and runs no scripts.
 pub fn image_source(svg: &str) -> String {
     let mut source = String::from("data:image/svg+xml,");
     for byte in svg.bytes() {
         match byte {
-            // What a URI in double quotes may hold as it is; blanks and slashes are fine in data.
+            // Characters allowed in a URI in double quotes; blanks and slashes are allowed in data.
             b'A'..=b'Z'
             | b'a'..=b'z'
             | b'0'..=b'9'
@@ -74,7 +74,7 @@ pub fn image_source(svg: &str) -> String {
     source
 }
 
-/// A table with its first column as headings of the rows. It scrolls where it is, by keys, too.
+/// Writes a table with its first column as headings of the rows. It scrolls in place, also by keys.
 pub fn table(table: &Table) -> String {
     let class = |align| if align == Align::Right { " class=\"r\"" } else { "" };
     let head = table.columns.iter().map(|c| format!("<th scope=\"col\"{}>{}</th>", class(c.align()), markup(c.name())));

@@ -25,13 +25,13 @@ const COLORS: usize = 6;
 /// A drawing that the page holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// What it shows.
+    /// Title of the picture.
     pub title: String,
-    /// As an SVG document.
+    /// The picture as an SVG document.
     pub svg: String,
 }
 
-/// What the page is made of.
+/// The contents of the page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Page<'a> {
     /// The figures that are shown.
@@ -43,7 +43,7 @@ pub struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// The page. The same figures make the same page, byte for byte.
+    /// Returns the page. The same figures give the same bytes.
     #[must_use]
     pub fn html(&self) -> String {
         let study = self.study;
@@ -146,7 +146,7 @@ impl Page<'_> {
     }
 }
 
-/// What a page begins with.
+/// Returns the head of a page.
 pub fn head(title: &str, subtitle: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
@@ -159,7 +159,7 @@ pub fn head(title: &str, subtitle: &str) -> String {
     )
 }
 
-/// What it ends with, after words on how its numbers came about, as HTML.
+/// Returns the foot of a page, with an HTML text on how its numbers were obtained.
 pub fn foot(how: &str) -> String {
     format!("<footer>{how}</footer>\n</main>\n</body>\n</html>\n")
 }
@@ -176,7 +176,7 @@ const HOW: &str = "Every run is a whole one, from the problem to a certificate o
                    most. Times and memory are of the machine that made this page; all other numbers are the same \
                    everywhere, up to the rounding of its sine and cosine.";
 
-/// A paragraph whose first sentence, what the others bear out, stands out.
+/// Formats a paragraph whose first sentence, the conclusion, is emphasised.
 fn paragraph(text: &str) -> String {
     match text.split_once(". ") {
         Some((claim, figures)) => format!("<p><strong>{}.</strong> {}</p>\n", markup(claim), markup(figures)),
@@ -184,13 +184,13 @@ fn paragraph(text: &str) -> String {
     }
 }
 
-/// A section of a page, with its heading.
+/// Formats a section of a page, with its heading.
 #[must_use]
 pub fn section(heading: &str, content: &str) -> String {
     format!("<section>\n<h2>{}</h2>\n{content}</section>\n", markup(heading))
 }
 
-/// A part of a page that is folded away until its heading is clicked.
+/// Formats a part of a page that is hidden until its heading is clicked.
 #[must_use]
 pub fn folded(heading: &str, content: &str) -> String {
     format!("<details><summary>{}</summary>\n{content}</details>\n", markup(heading))

@@ -1,4 +1,4 @@
-//! What became of each problem: bars, and a matrix.
+//! Results for each problem: bars, and a matrix.
 
 use super::markup::{margin, name_before, number};
 use crate::{Comparison, Measure, Row, Study, labels};
@@ -12,8 +12,8 @@ const LINE: f64 = 28.0;
 /// Pixels that a number and a sign need.
 const DIGITS: f64 = 44.0;
 
-/// A bar a planner, of the problems that it solved, proved to have no path, and left open. Pieces carry their sign, and
-/// their number where there is room.
+/// Draws one bar per planner, with the problems that it solved, proved infeasible, and left open. Pieces show their
+/// sign, and their number if there is room.
 pub fn bars(study: &Study) -> String {
     let planners = study.planners();
     let height = LINE * planners.len() as f64 + 4.0;
@@ -51,7 +51,7 @@ pub fn bars(study: &Study) -> String {
     svg + "</svg>\n"
 }
 
-/// The signs of outcomes, with what they mean.
+/// Returns the legend of the signs.
 pub fn key() -> String {
     let meaning = |outcome| match outcome {
         Status::Found => "a certified path; the number is its length over the proven optimum",
@@ -71,7 +71,7 @@ fn sign(outcome: Status) -> char {
     }
 }
 
-/// A line a problem, a column a planner: sign and figure, and colours that add nothing to them.
+/// Draws one line per problem and one column per planner: sign and figure, with redundant colours.
 pub fn matrix(study: &Study) -> String {
     let head: String = study.planners().iter().map(|name| format!("<th scope=\"col\">{}</th>", markup(name))).collect();
     let cell = |c: &Comparison, row: &Row| {

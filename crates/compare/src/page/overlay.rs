@@ -9,19 +9,19 @@ pub type Spot = [f64; 2];
 /// A configuration space, and the paths that each planner found in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overlay {
-    /// Of the world.
+    /// Title of the world.
     pub title: String,
     /// Names of the joints, with their units.
     pub joints: [String; 2],
     /// Lower and upper value of each joint.
     pub window: [(f64, f64); 2],
-    /// Whether an axis is a circle, whose copies a turn apart are the same.
+    /// True for each axis that is a circle, whose copies a turn apart are the same.
     pub circles: [bool; 2],
-    /// Contours of what is blocked, unwrapped.
+    /// Contours of the blocked region, unwrapped.
     pub blocked: Vec<Vec<Spot>>,
     /// Paths, unwrapped, by planner.
     pub planners: Vec<(String, Vec<Vec<Spot>>)>,
-    /// What is shown of what, in words, if not all.
+    /// Note on the selection shown, if not all.
     pub note: Option<String>,
 }
 
@@ -30,7 +30,7 @@ const SIZE: f64 = 220.0;
 /// Left of it, and below it, for the names of the joints.
 const EDGE: f64 = 18.0;
 
-/// A panel a planner. `id` tells the blocked parts of this overlay from those of others in the page.
+/// Draws one panel per planner. `id` distinguishes the blocked region of this overlay from others in the page.
 pub fn panels(overlay: &Overlay, id: usize) -> String {
     let mut html = String::from("<div class=\"panels\">\n");
     for (i, (name, paths)) in overlay.planners.iter().enumerate() {
@@ -71,7 +71,7 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
     html + "</div>\n"
 }
 
-/// The lines as one path's data; on circles with those copies that reach into the window.
+/// Returns the lines as one path; on circles with the copies that reach into the window.
 fn lines(overlay: &Overlay, lines: &[Vec<Spot>], closed: bool) -> String {
     let mut data = String::new();
     for line in lines {
@@ -85,7 +85,7 @@ fn lines(overlay: &Overlay, lines: &[Vec<Spot>], closed: bool) -> String {
     data
 }
 
-/// By how much a line is to be moved along an axis to reach into the window; once, as it is, on an interval.
+/// Returns the shifts along an axis that move a line into the window; for an interval only zero.
 fn shifts(overlay: &Overlay, line: &[Spot], axis: usize) -> Vec<f64> {
     if !overlay.circles[axis] {
         return vec![0.0];

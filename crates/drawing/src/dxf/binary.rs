@@ -3,13 +3,13 @@
 use super::tags::cut;
 use crate::Error;
 
-/// What the binary form begins with.
+/// First bytes of the binary form.
 const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
-/// The pairs of a binary DXF as lines of text; none if the bytes are not one.
+/// Converts a binary DXF to the equivalent text. Returns `None` if the bytes are not a binary DXF.
 ///
 /// # Errors
-/// A file that ends within a group.
+/// If the file ends within a group.
 pub(super) fn as_text(bytes: &[u8]) -> Result<Option<Vec<u8>>, Error> {
     let Some(mut rest) = bytes.strip_prefix(SENTINEL) else { return Ok(None) };
     // Since release 13 codes have two bytes: the first one, 0, shows it.
@@ -31,7 +31,7 @@ pub(super) fn as_text(bytes: &[u8]) -> Result<Option<Vec<u8>>, Error> {
     Ok(Some(text))
 }
 
-/// The next code and its value as text; none if the bytes end before.
+/// Reads the next code and its value as text. Returns `None` if the bytes end too early.
 fn pair(rest: &mut &[u8], is_wide: bool) -> Option<(i32, Vec<u8>)> {
     let code = match (is_wide, *rest.first()?) {
         (false, code) if code < 255 => i32::from(take::<1>(rest)?[0]),

@@ -20,16 +20,16 @@ pub(super) struct Block<'a> {
 
 #[derive(Debug, Default)]
 pub(super) struct Document<'a> {
-    /// None if the file does not say it.
+    /// The unit, if the file states one that cplan knows.
     pub unit: Option<Unit>,
-    /// What it says instead.
+    /// The stated unit, if cplan does not know it.
     pub unread_unit: Option<Tag<'a>>,
     /// Layers that are not seen, in capitals: names are the same in upper and lower case.
     hidden: HashMap<String, Hidden>,
-    /// By name in capitals.
+    /// Blocks by name in capitals.
     pub blocks: HashMap<String, Block<'a>>,
     pub entities: Vec<Entity<'a>>,
-    /// What dictionaries hold: handles by the dictionary's handle and the entry's name.
+    /// Dictionary entries: handles by the dictionary's handle and the entry's name.
     entries: HashMap<(&'a str, &'a str), &'a str>,
     /// Handles of clips that are on.
     clips: HashSet<&'a str>,
@@ -38,17 +38,17 @@ pub(super) struct Document<'a> {
 /// Why a layer is not seen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Hidden {
-    /// Off or never printed: what lies on it is hidden.
+    /// Off or never printed. Hides entities on the layer itself.
     Off,
-    /// So is all that is inserted on it.
+    /// Frozen. Hides insertions on the layer as well.
     Frozen,
 }
 
-/// What programs put definition points of dimensions on; it is never printed.
+/// The layer that CAD programs use for definition points of dimensions. It is never printed.
 const UNPRINTED: &str = "DEFPOINTS";
 
 impl<'a> Document<'a> {
-    /// The sections of interest; whatever else there is means nothing in the plane.
+    /// Reads the relevant sections. All other sections have no meaning in the plane.
     pub fn read(records: &[Record<'a>]) -> Result<Self, Error> {
         let mut document = Self::default();
         let mut rest = records.iter().copied().peekable();
@@ -91,7 +91,7 @@ impl<'a> Document<'a> {
             match record.kind {
                 "SPATIAL_FILTER" if record.integer_or(71, 1)? != 0 => _ = self.clips.insert(handle),
                 "DICTIONARY" => {
-                    // Each entry is a name and the handle of what it names.
+                    // Each entry has a name and the handle of its object.
                     let pairs =
                         record.tags.windows(2).filter(|pair| pair[0].code == 3 && [350, 360].contains(&pair[1].code));
                     self.entries.extend(pairs.map(|pair| ((handle, pair[0].value), pair[1].value)));
@@ -102,25 +102,25 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Whether an insertion is clipped: its own dictionary leads to the clip.
+    /// Returns true if an insertion is clipped: its own dictionary leads to the clip.
     pub fn clips(&self, insertion: Record<'a>) -> bool {
         let entry = |dictionary, name| self.entries.get(&(dictionary, name)).copied();
         let filters = insertion.text(360).and_then(|own| entry(own, "ACAD_FILTER"));
         filters.and_then(|filters| entry(filters, "SPATIAL")).is_some_and(|clip| self.clips.contains(clip))
     }
 
-    /// Whether what lies on a layer is hidden.
+    /// Returns true if entities on a layer are hidden.
     pub fn hides(&self, layer: &str) -> bool {
         self.hidden.contains_key(&layer.to_uppercase())
     }
 
-    /// Whether all that is inserted on a layer is hidden, too.
+    /// Returns true if insertions on a layer are hidden, too.
     pub fn freezes(&self, layer: &str) -> bool {
         self.hidden.get(&layer.to_uppercase()) == Some(&Hidden::Frozen)
     }
 }
 
-/// `$INSUNITS`: the unit, or what stands there and is none.
+/// Reads `$INSUNITS`. Returns the unit, or the value if it is not a known unit.
 fn unit<'a>(header: &[Tag<'a>]) -> Result<(Option<Unit>, Option<Tag<'a>>), Error> {
     let at = header.iter().position(|tag| tag.code == 9 && tag.value == "$INSUNITS");
     let value = at.and_then(|at| header[at + 1..].iter().find(|tag| tag.code == 70));

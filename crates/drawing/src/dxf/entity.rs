@@ -11,7 +11,7 @@ use crate::stroke::{Piece, covered};
 use crate::{Error, FillRule, Point, filled};
 use std::f64::consts::TAU;
 
-/// A corner of a polyline, and how the way to the next one bends and how wide it is at both ends.
+/// A corner of a polyline, with the bulge and the widths of the segment that follows.
 struct Corner {
     at: Point,
     bulge: f64,
@@ -19,7 +19,7 @@ struct Corner {
 }
 
 impl<'a> Reader<'_, 'a> {
-    /// Puts an entity on the sheet, or says that it is left out.
+    /// Adds an entity to the sheet, or adds a note about the omission.
     pub(super) fn entity(&mut self, entity: &Entity<'a>, place: &Place<'a>, origin: &Origin) -> Result<(), Error> {
         let record = entity.record;
         if is_tilted(&record)? {
@@ -97,7 +97,7 @@ impl<'a> Reader<'_, 'a> {
         if is_closed { self.sheet.closed(points, origin) } else { self.open(points, place, origin) }
     }
 
-    /// What a polyline of some width covers, and lines where it has none.
+    /// Adds the area of a polyline with width. Segments of width 0 become lines.
     fn wide(
         &mut self,
         ways: &[(&Corner, &Corner)],
@@ -130,13 +130,13 @@ impl<'a> Reader<'_, 'a> {
         }
         let parts = filled(&rings, FillRule::NonZero);
         if is_closed && parts.iter().any(|(_, holes)| !holes.is_empty()) {
-            let message = "closed polylines of some width: frames as wide, what they go round is free";
+            let message = "closed polylines with a width: taken as frames of that width, free inside";
             self.sheet.note(message, origin);
         }
         parts.into_iter().try_for_each(|(outer, holes)| self.sheet.polygon(outer, holes, origin))
     }
 
-    /// The polyline of older programs: its vertices are records of their own.
+    /// Adds a polyline of the older form, whose vertices are separate records.
     fn old_polyline(&mut self, entity: &Entity, map: &Map, place: &Place, origin: &Origin) -> Result<(), Error> {
         const MESHES: i64 = 16 | 64;
         const CONTROL: i64 = 16;
@@ -156,7 +156,7 @@ impl<'a> Reader<'_, 'a> {
         self.polyline(&corners, record.flag(1)?, map, place, origin)
     }
 
-    /// An arc by its parameters, or the whole.
+    /// Adds an elliptical arc between two parameters, or the whole ellipse.
     fn arc(&mut self, ellipse: &Ellipse, from: f64, to: f64, place: &Place, origin: &Origin) -> Result<(), Error> {
         const WHOLE: f64 = 1e-9;
         let turn = (to - from).rem_euclid(TAU);
@@ -185,7 +185,7 @@ impl<'a> Reader<'_, 'a> {
         self.open(points, place, origin)
     }
 
-    /// A spline of which the file has the points alone that it passes.
+    /// Adds a spline that the file gives only by its fit points.
     fn fitted(&mut self, record: &Record, map: &Map, place: &Place, origin: &Origin) -> Result<(), Error> {
         const CLOSED: i64 = 1 | 2;
         let is_closed = record.flag(CLOSED)?;
@@ -201,7 +201,7 @@ impl<'a> Reader<'_, 'a> {
     }
 }
 
-/// A length that is none if it is not above 0.
+/// Reads a length, which must be above 0.
 fn size(record: &Record, code: i32) -> Result<f64, Error> {
     let size = record.needed(code)?;
     if size > 0.0 {
@@ -211,7 +211,7 @@ fn size(record: &Record, code: i32) -> Result<f64, Error> {
     Err(Error::new(record.line, message, "give it a size above 0, or remove it"))
 }
 
-/// Whether its own z axis is not that of the drawing.
+/// Returns true if its own z axis is not that of the drawing.
 fn is_tilted(record: &Record) -> Result<bool, Error> {
     const ALONG: f64 = 1e-6;
     let [x, y] = [record.number_or(210, 0.0)?, record.number_or(220, 0.0)?];

@@ -1,4 +1,4 @@
-//! DXF, as text or binary: what lies in the plane of model space.
+//! DXF, as text or binary: the entities in the plane of model space.
 
 mod binary;
 mod document;
@@ -20,7 +20,7 @@ const MOST_ENTITIES: usize = 1 << 20;
 /// Reads a DXF.
 ///
 /// # Errors
-/// Text that is none, or is cut; numbers that are none; blocks that hold themselves.
+/// If the text is not a DXF or is incomplete, a number is not one, or a block contains itself.
 pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> {
     let binary = binary::as_text(bytes)?;
     let text = tags::decoded(binary.as_deref().unwrap_or(bytes))?;
@@ -29,7 +29,7 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
     let document = Document::read(&records)?;
     let mut sheet = Sheet::new(settings);
     if surplus.is_some() {
-        sheet.notes.add("what follows EOF is left out", surplus);
+        sheet.notes.add("text after EOF: left out", surplus);
     }
     let unit = settings.unit.or(document.unit).unwrap_or_else(|| {
         match document.unread_unit {
@@ -47,7 +47,7 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
     Ok(reader.sheet.finish())
 }
 
-/// Where the entities of a block go: all that an insertion says.
+/// Placement of a block's entities, accumulated from its insertions.
 #[derive(Debug, Clone)]
 struct Place<'a> {
     map: Map,
@@ -55,11 +55,12 @@ struct Place<'a> {
     up: [f64; 2],
     /// The block that came in first, if it has a name for people.
     name: Option<&'a str>,
-    /// The layer of what lies on layer 0 in a block.
+    /// Layer of the insertion, which replaces layer 0 within the block.
     layer: Option<&'a str>,
     /// Entities of one insertion are joined with each other only.
     instance: usize,
-    /// The layer of an insertion that is frozen: it hides whatever comes in, where one that is off hides its own alone.
+    /// The frozen layer of an insertion. It hides the whole insertion, while a layer that is off hides only its own
+    /// entities.
     frozen: Option<&'a str>,
     /// The outermost insertion.
     frame: Option<Frame>,
@@ -74,7 +75,7 @@ impl Default for Place<'_> {
 struct Reader<'d, 'a> {
     document: &'d Document<'a>,
     sheet: Sheet,
-    /// By insertion and layer.
+    /// Group numbers by insertion and layer.
     groups: HashMap<(usize, String), usize>,
     instances: usize,
     entities: usize,
@@ -88,11 +89,11 @@ impl<'d, 'a> Reader<'d, 'a> {
             let record = entity.record;
             if self.entities > MOST_ENTITIES {
                 let message = format!("with all blocks inserted the drawing has more than {MOST_ENTITIES} entities");
-                return Err(Error::new(record.line, message, "leave out what no arm can meet"));
+                return Err(Error::new(record.line, message, "leave out all that the arm cannot reach"));
             }
             if record.integer_or(67, 0)? == 1 {
                 let origin = self.origin(entity, place)?;
-                self.sheet.leave_out("what lies in paper space", &origin);
+                self.sheet.leave_out("entities in paper space", &origin);
             } else if record.integer_or(60, 0)? == 1 {
                 let origin = self.origin(entity, place)?;
                 self.sheet.leave_out("what is invisible", &origin);
@@ -106,7 +107,7 @@ impl<'d, 'a> Reader<'d, 'a> {
         Ok(())
     }
 
-    /// Whose an entity is.
+    /// Returns the origin of an entity: its name, layer and line.
     fn origin(&self, entity: &Entity<'a>, place: &Place<'a>) -> Result<Origin, Error> {
         let record = entity.record;
         let layer = layer(entity, place);
@@ -126,7 +127,7 @@ impl<'d, 'a> Reader<'d, 'a> {
         })
     }
 
-    /// The group of what may be joined with the entities of a layer.
+    /// Returns the number of the group of curves that may be joined with entities of a layer.
     fn group(&mut self, place: &Place, origin: &Origin) -> usize {
         let next = self.groups.len();
         let layer = origin.layer.clone().unwrap_or_default();
@@ -181,7 +182,7 @@ impl<'d, 'a> Reader<'d, 'a> {
                 if self.entities > MOST_ENTITIES {
                     let message =
                         format!("with all blocks inserted the drawing has more than {MOST_ENTITIES} entities");
-                    return Err(Error::new(record.line, message, "leave out what no arm can meet"));
+                    return Err(Error::new(record.line, message, "leave out all that the arm cannot reach"));
                 }
                 let shift = Map::moving([column as f64 * spacing[0], row as f64 * spacing[1]]);
                 let here = map.after(&at).after(&shift);
@@ -196,19 +197,19 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 }
 
-/// The layer of an entity: in blocks, layer 0 is that of the insertion.
+/// Returns the layer of an entity. Within blocks, layer 0 means the layer of the insertion.
 fn layer<'a>(entity: &Entity<'a>, place: &Place<'a>) -> &'a str {
     let own = entity.record.text(8).unwrap_or("0");
     if own == "0" { place.layer.unwrap_or(own) } else { own }
 }
 
-/// Which way the entity's own z axis points, as far as it is the plane's.
+/// Returns the sign of the entity's own z axis relative to that of the plane.
 fn upwards(entity: &Entity) -> f64 {
     let down = entity.record.number(230).ok().flatten().is_some_and(|z| z < 0.0);
     if down { -1.0 } else { 1.0 }
 }
 
-/// From an entity's own coordinates to those of the drawing: seen from below, x is turned round.
+/// Returns the map from an entity's own coordinates to those of the drawing. Seen from below, x is mirrored.
 fn oriented(entity: &Entity) -> Result<Map, Error> {
     Ok(if upwards(entity) < 0.0 { Map::scaling(-1.0, 1.0) } else { Map::IDENTITY })
 }

@@ -8,12 +8,12 @@ use std::borrow::Cow;
 pub(super) struct Tag<'a> {
     pub code: i32,
     pub value: &'a str,
-    /// That of the value.
+    /// Line of the value.
     pub line: usize,
 }
 
 impl Tag<'_> {
-    /// The value as a finite number.
+    /// Returns the value as a finite number.
     pub fn number(&self) -> Result<f64, Error> {
         self.value.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| {
             let message = format!("group {} needs a number, found \"{}\"", self.code, self.value);
@@ -29,7 +29,7 @@ impl Tag<'_> {
     }
 }
 
-/// What begins with code 0, up to the next.
+/// A record: the pairs from one with code 0 up to the next.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Record<'a> {
     pub kind: &'a str,
@@ -54,12 +54,12 @@ impl<'a> Record<'a> {
         Ok(self.tag(code).map(Tag::integer).transpose()?.unwrap_or(default))
     }
 
-    /// Whether a bit of group 70 is set.
+    /// Returns true if a bit of group 70 is set.
     pub fn flag(&self, bit: i64) -> Result<bool, Error> {
         Ok(self.integer_or(70, 0)? & bit != 0)
     }
 
-    /// A number that the record cannot do without.
+    /// Returns a number that the record must have.
     pub fn needed(&self, code: i32) -> Result<f64, Error> {
         self.number(code)?.ok_or_else(|| {
             let message = format!("{} has no group {code}", self.kind);
@@ -67,12 +67,12 @@ impl<'a> Record<'a> {
         })
     }
 
-    /// A point whose coordinates have these code and that plus 10.
+    /// Returns the point whose coordinates have this code and this code plus 10.
     pub fn point(&self, code: i32) -> Result<Point, Error> {
         Ok([self.needed(code)?, self.needed(code + 10)?])
     }
 
-    /// All points of that code, in order.
+    /// Returns all points with that code, in order.
     pub fn points(&self, code: i32) -> Result<Vec<Point>, Error> {
         let x = self.numbers(code)?;
         let y = self.numbers(code + 10)?;
@@ -92,7 +92,7 @@ impl<'a> Record<'a> {
     }
 }
 
-/// The text: UTF-8 or, as older programs write it, with a byte a character.
+/// Decodes the text: UTF-8 or, in files of older programs, one byte per character.
 pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Error> {
     if bytes.starts_with(b"AC10") {
         let message = "this is a DWG, AutoCAD's own format, not a DXF";
@@ -107,7 +107,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Error> {
     })
 }
 
-/// The pairs up to EOF, comments left out; and the line of whatever follows that.
+/// Splits the text into pairs up to EOF, without comments. Also returns the line of any text after EOF.
 pub(super) fn tags(text: &str) -> Result<(Vec<Tag<'_>>, Option<usize>), Error> {
     let mut tags = Vec::new();
     let mut lines = text.lines().zip(1..);
@@ -146,7 +146,7 @@ pub(super) fn cut(line: usize) -> Error {
     Error::new(line, message, "copy or export the drawing again")
 }
 
-/// The records.
+/// Groups the pairs into records.
 pub(super) fn records<'a>(tags: &'a [Tag<'a>]) -> Vec<Record<'a>> {
     let begins: Vec<usize> = (0..tags.len()).filter(|&i| tags[i].code == 0).collect();
     let ends = begins.iter().skip(1).copied().chain([tags.len()]);

@@ -1,4 +1,4 @@
-//! SVG: what it fills is solid, and what it strokes alone and leaves open is a wall.
+//! SVG: filled shapes are solid, and open shapes that are only stroked are walls.
 
 mod path;
 mod style;
@@ -24,10 +24,10 @@ const NAMESPACE: &str = "http://www.w3.org/2000/svg";
 const XLINK: &str = "http://www.w3.org/1999/xlink";
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
-/// Reads an SVG. Its coordinates begin at the lower left corner of the page.
+/// Reads an SVG. The origin is the lower left corner of the page.
 ///
 /// # Errors
-/// What is no XML, with its line, or no SVG.
+/// If the text is not XML (with its line) or not SVG.
 pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     const CURE: &str = "save the drawing again, as a plain SVG";
     if text.trim().is_empty() {
@@ -59,12 +59,12 @@ fn is_svg(node: Node) -> bool {
     node.is_element() && node.tag_name().namespace().is_none_or(|space| space == NAMESPACE)
 }
 
-/// What holds inside of an element.
+/// Properties inherited within an element.
 #[derive(Debug, Clone)]
 struct Inside {
     map: Map,
     style: Style,
-    /// Of the group that names what has no name, or of the use that names all it shows.
+    /// Name of the enclosing group, for elements without a name, or of the `use` element that shows them.
     name: Option<String>,
     is_used: bool,
     layer: Option<String>,
@@ -73,7 +73,7 @@ struct Inside {
 }
 
 struct Reader<'a, 'i> {
-    /// Where lines end, bytes.
+    /// Byte positions of line ends.
     ends: Vec<usize>,
     ids: HashMap<&'a str, Node<'a, 'i>>,
     styles: StyleSheet<'a>,
@@ -87,7 +87,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.ends.partition_point(|&end| end < node.range().start) + 1
     }
 
-    /// The page: metres, y upwards, from its lower left corner.
+    /// Sets up the page: metres, y upwards, from its lower left corner.
     fn page(&mut self, root: Node<'a, 'i>, settings: &Settings) -> Result<Inside, Error> {
         let unit = settings.unit;
         let view: Option<ViewBox> = self.parsed(root, "viewBox")?;
@@ -138,7 +138,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         })
     }
 
-    /// The map that puts a view box into a space of this size.
+    /// Returns the map that fits a view box into a space of this size.
     fn fitted(&self, node: Node, view: ViewBox, size: [f64; 2]) -> Result<Map, Error> {
         let ratio = self.parsed(node, "preserveAspectRatio")?;
         let ratio = ratio.unwrap_or(AspectRatio { defer: false, align: Align::XMidYMid, slice: false });
@@ -163,7 +163,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(Map { o, ..Map::scaling(sx, sy) })
     }
 
-    /// An attribute that has a grammar, if it is there.
+    /// Parses an attribute with a grammar, if it is present.
     fn parsed<T: FromStr>(&self, node: Node, name: &str) -> Result<Option<T>, Error> {
         let Some(text) = node.attribute(name) else { return Ok(None) };
         text.trim().parse().map(Some).map_err(|_| self.wrong(node, name, text))
@@ -175,7 +175,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Error::new(self.line(node), message, "save the drawing again, as a plain SVG")
     }
 
-    /// A length in units of its coordinates; percentages are parts of `whole`.
+    /// Returns a length in units of its coordinates. Percentages refer to `whole`.
     fn length(&self, node: Node, name: &str, whole: f64) -> Result<Option<f64>, Error> {
         const INCH: f64 = 96.0;
         let Some(Length { number, unit }) = self.parsed(node, name)? else { return Ok(None) };
@@ -194,7 +194,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(Some(number * factor).filter(|length| length.is_finite()))
     }
 
-    /// The same of one that is 0 if it is not there.
+    /// Does the same, with 0 for a missing attribute.
     fn length_or_0(&self, node: Node, name: &str, whole: f64) -> Result<f64, Error> {
         Ok(self.length(node, name, whole)?.unwrap_or(0.0))
     }
@@ -216,11 +216,11 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.elements += 1;
         if depth > DEEPEST {
             let message = format!("<{kind}> is in more than {DEEPEST} others, or uses itself");
-            return Err(Error::new(line, message, "ungroup what is grouped, and take the loop out"));
+            return Err(Error::new(line, message, "ungroup the elements and remove the loop"));
         }
         if self.elements > MOST_ELEMENTS {
             let message = format!("with all uses followed the drawing has more than {MOST_ELEMENTS} elements");
-            return Err(Error::new(line, message, "leave out what no arm can meet"));
+            return Err(Error::new(line, message, "leave out all that the arm cannot reach"));
         }
         let style = around.style.of(node, &self.styles);
         let own_name = node.attribute((INKSCAPE, "label")).or(node.attribute("id")).map(str::to_owned);
@@ -229,7 +229,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         if !style.is_displayed {
             let hidden =
                 Origin { hidden_by: around.name.clone(), ..origin(kind, line, &Inside { name, ..around.clone() }) };
-            self.sheet.leave_out("what is not displayed", &hidden);
+            self.sheet.leave_out("elements not displayed", &hidden);
             return Ok(());
         }
         if node.has_attribute("clip-path") || node.has_attribute("mask") {
@@ -256,7 +256,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             }
             "use" => self.used(node, inside, own_name.is_some(), depth),
             "path" | "polygon" | "polyline" | "line" | "rect" | "circle" | "ellipse" if !style.is_visible => {
-                self.sheet.leave_out("what is not visible", &origin(kind, line, &inside));
+                self.sheet.leave_out("elements not visible", &origin(kind, line, &inside));
                 Ok(())
             }
             "path" => {
@@ -291,12 +291,12 @@ impl<'a, 'i> Reader<'a, 'i> {
                 self.sheet.leave_out(&format!("<{kind}>"), &origin(kind, line, &inside));
                 Ok(())
             }
-            // What is not drawn itself: definitions, titles, animations.
+            // Elements that are not drawn: definitions, titles, animations.
             _ => Ok(()),
         }
     }
 
-    /// The inside of an `svg` or a `symbol`, as wide and high as `sized` says.
+    /// Returns the properties within an `svg` or a `symbol` element of the size that `sized` gives.
     fn viewport(&self, node: Node<'a, 'i>, sized: Node<'a, 'i>, mut inside: Inside) -> Result<Inside, Error> {
         let corner = [0, 1].map(|k| self.length_or_0(node, ["x", "y"][k], inside.page[k]));
         let [x, y] = corner;
@@ -315,7 +315,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         Ok(inside)
     }
 
-    /// What is drawn somewhere else, once more.
+    /// Draws the element to which a `use` element refers.
     fn used(&mut self, node: Node<'a, 'i>, mut inside: Inside, is_named: bool, depth: usize) -> Result<(), Error> {
         let line = self.line(node);
         let reference = node.attribute("href").or(node.attribute((XLINK, "href"))).unwrap_or_default();

@@ -13,7 +13,7 @@ pub(super) struct Stretch {
     pub is_closed: bool,
 }
 
-/// Why path data is none.
+/// Errors in path data.
 pub(super) enum PathError {
     Syntax(String),
     TooFine,
@@ -25,20 +25,20 @@ impl From<TooFine> for PathError {
     }
 }
 
-/// Where the pen is, before the map.
+/// The state of the pen, in coordinates before the map.
 struct Pen<'m> {
     map: &'m Map,
     tolerance: f64,
     at: Point,
     begin: Point,
-    /// The last control point, for curves that go on smoothly: of degree 3, and of degree 2.
+    /// The last control point, for smooth curves of degree 3 and of degree 2.
     control: [Option<Point>; 2],
     stretches: Vec<Stretch>,
-    /// Whether the next segment begins a stretch.
+    /// True if the next segment starts a new stretch.
     is_up: bool,
 }
 
-/// The stretches of a path.
+/// Returns the connected stretches of a path.
 pub(super) fn stretches(data: &str, map: &Map, tolerance: f64) -> Result<Vec<Stretch>, PathError> {
     let (at, begin) = ([0.0; 2], [0.0; 2]);
     let mut pen = Pen { map, tolerance, at, begin, control: [None; 2], stretches: Vec::new(), is_up: true };
@@ -94,7 +94,7 @@ impl Pen<'_> {
         Ok(())
     }
 
-    /// The stretch that is drawn; a new one where the last has ended.
+    /// Returns the current stretch, or starts a new one if the last has ended.
     fn begin_stretch(&mut self) -> &mut Stretch {
         if std::mem::take(&mut self.is_up) {
             self.begin = self.at;
@@ -117,7 +117,7 @@ impl Pen<'_> {
         Ok(())
     }
 
-    /// A curve of degree 2 is one of degree 3, too.
+    /// Draws a quadratic curve as a cubic one.
     fn quadratic(&mut self, b: Point, c: Point) -> Result<(), TooFine> {
         let towards = |p: Point| [0, 1].map(|k| p[k] + (b[k] - p[k]) * 2.0 / 3.0);
         self.curve(towards(self.at), towards(c), c)?;
@@ -126,7 +126,7 @@ impl Pen<'_> {
     }
 }
 
-/// The ellipse of an arc, where on it the arc begins and how far it goes; none if it is a straight line.
+/// Returns the ellipse of an arc with its start parameter and its range. Returns `None` if the arc is a straight line.
 /// (SVG 2, implementation notes, B.2.4.)
 fn arc(a: Point, b: Point, radii: [f64; 2], turn: f64, large: bool, sweep: bool) -> Option<(Ellipse, f64, f64)> {
     let [mut rx, mut ry] = radii.map(f64::abs);

@@ -1,10 +1,10 @@
-//! What of an element's style matters here: whether it is shown, and what is filled.
+//! The relevant parts of an element's style: whether it is visible, and whether it is filled.
 
 use crate::FillRule;
 use roxmltree::Node;
 use simplecss::{AttributeOperator, DeclarationTokenizer, Element, PseudoClass, StyleSheet};
 
-/// An element's style, with what it has from those around it.
+/// An element's style, including inherited properties.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Style {
     pub is_displayed: bool,
@@ -20,7 +20,8 @@ impl Default for Style {
 }
 
 impl Style {
-    /// The style of an element in one of this style: its attributes, over them style sheets, over these its own declarations.
+    /// Returns the style of an element inside one of this style: its attributes, overridden by style sheets, overridden
+    /// by its own declarations.
     pub fn of(mut self, node: Node, sheet: &StyleSheet) -> Self {
         for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
             self.set(attribute.name(), attribute.value());

@@ -34,7 +34,7 @@ msp.add_blockref("feeder", (1500, -500), dxfattribs={"layer": "fixtures", "rotat
 # A post, and a tray that is an ellipse.
 msp.add_circle((-750, -840), 100, dxfattribs={"layer": "fixtures"})
 msp.add_ellipse((500, -1140), major_axis=(300, 0), ratio=0.5, dxfattribs={"layer": "fixtures"})
-# What no arm can meet.
+# Entities that no arm can meet.
 msp.add_text("CELL 7", dxfattribs={"layer": "notes", "height": 75}).set_placement((-1440, 1380))
 msp.add_linear_dim(base=(0, 1700), p1=(-1500, 1500), p2=(2400, 1500), dxfattribs={"layer": "notes"}).render()
 hatch = msp.add_hatch(color=2, dxfattribs={"layer": "notes"})

@@ -6,7 +6,7 @@ use cplan_drawing::{Format, Geometry, Settings, Shape, read};
 
 const CELL: &[u8] = include_bytes!("../../../../workspaces/drawings/cell.dxf");
 
-/// Layer, block, and the area (mm2) with what may be missing of it, or the length (mm).
+/// Layer, block, and the expected area (mm2) with its allowance, or the expected length (mm).
 enum Measure {
     Area(f64),
     Length(f64),
@@ -34,7 +34,7 @@ fn a_cell_by_ezdxf_measures_what_others_measure() {
         match (measure, &shape.geometry) {
             // Chords up to a tenth of a millimetre inside, along a metre and a half of curve at most.
             (Area(mm2), Geometry::Polygon { .. }) => near(area(ring(shape)).abs() * 1e6, mm2, 150.0),
-            // ezdxf has Bézier curves for what is a circle here.
+            // ezdxf represents circles by Bézier curves.
             (Area(mm2), Geometry::Circle { radius, .. }) => {
                 near(std::f64::consts::PI * radius * radius * 1e6, mm2, 15.0)
             }

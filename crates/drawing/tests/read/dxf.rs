@@ -4,7 +4,7 @@ use super::{apart, area, drawing, length, near, notes, one, ring, same, wall};
 use cplan_drawing::{Drawing, Format, Geometry, Point, Settings, Shape, Unit, read};
 use std::f64::consts::PI;
 
-/// A DXF in millimetres: words in turn are codes and values.
+/// Returns a DXF in millimetres. Words are alternately codes and values.
 pub fn file(blocks: &str, entities: &str) -> String {
     sections("9 $INSUNITS 70 4", "", blocks, entities)
 }
@@ -83,7 +83,7 @@ fn polylines_of_older_programs_are_the_same() {
     assert_eq!(notes(&mesh), ["POLYLINE that is a mesh: left out (line 28)"]);
 }
 
-/// The area of a polygon without its holes, and the number of these.
+/// Returns the area of a polygon without its holes, and the number of holes.
 fn covers(shape: &Shape) -> (f64, usize) {
     let Geometry::Polygon { outer, holes } = &shape.geometry else { panic!("{shape:?}") };
     (area(outer).abs() - holes.iter().map(|hole| area(hole).abs()).sum::<f64>(), holes.len())
@@ -91,7 +91,8 @@ fn covers(shape: &Shape) -> (f64, usize) {
 
 #[test]
 fn a_polyline_of_some_width_covers_it() {
-    // Areas in mm2 by ezdxf's `TraceBuilder` and Shapely, and by hand: what a bent piece covers is its length by its middle width.
+    // Areas in mm2 by ezdxf's `TraceBuilder` and Shapely, and by hand: a bent piece covers its length times its mean
+    // width.
     let quarters = 2.0 * PI * 50.0;
     for (corners, mm2, missing, holes) in [
         ("70 0 43 20 10 0 20 0 10 200 20 0 10 200 20 100", 6000.0, 0.0, 0),
@@ -103,7 +104,7 @@ fn a_polyline_of_some_width_covers_it() {
         // AutoCAD's DONUTs: a ring and a disc of 60 mm.
         ("70 1 43 20 10 -50 20 0 42 1 10 50 20 0 42 1", quarters * 20.0, 60.0, 1),
         ("70 1 43 60 10 -30 20 0 42 1 10 30 20 0 42 1", PI * 3600.0, 40.0, 0),
-        // A line that goes on as an arc, and another one.
+        // A line followed by an arc, and another line.
         ("70 0 43 20 10 0 20 0 10 100 20 0 42 1 10 100 20 100 10 0 20 100", 20.0 * (200.0 + PI * 50.0), 30.0, 0),
     ] {
         for entity in ["0 LWPOLYLINE 8 a ", "0 LWPOLYLINE 8 a 210 0 220 0 230 -1 "] {
@@ -111,7 +112,7 @@ fn a_polyline_of_some_width_covers_it() {
             let (covered, count) = covers(one(&given));
             assert!((mm2 - missing - 1e-3..=mm2 + missing + 1e-3).contains(&(covered * 1e6)), "{corners}: {covered}");
             assert_eq!(count, holes, "{corners}");
-            let told = "closed polylines of some width: frames as wide, what they go round is free (line 28)";
+            let told = "closed polylines with a width: taken as frames of that width, free inside (line 28)";
             assert_eq!(notes(&given), vec![told; holes], "{corners}");
         }
     }
@@ -238,7 +239,7 @@ fn ends_that_meet_are_joined_two_at_a_time() {
     // On another layer it is not part of it.
     let d = dxf("0 LINE 8 b 10 0 20 0 11 0 21 100 0 ARC 8 a 10 0 20 50 40 50 50 270 51 90");
     assert_eq!(d.shapes.len(), 2);
-    // A wall of two pieces; where three meet none is joined with another.
+    // A wall of two pieces. Where three ends meet, nothing is joined.
     let bend = dxf("0 LINE 8 a 10 0 20 0 11 100 21 0 0 LINE 8 a 10 100 20 100 11 100 21 0");
     same(wall(one(&bend)), &[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]]);
     let fork = dxf("0 LINE 8 a 10 0 20 0 11 100 21 0 0 LINE 8 a 10 100 20 100 11 100 21 0 \
@@ -368,7 +369,7 @@ fn what_is_not_taken_is_told() {
         "MTEXT: left out (line 38)",
         "HATCH: left out (line 50)",
         "3DFACE: left out (line 54)",
-        "what lies in paper space: left out (line 58)",
+        "entities in paper space: left out (line 58)",
         "INSERT of block \"NOWHERE\", which the file does not hold: left out (line 72)",
         "LINE without extent: left out (line 92)",
     ];
@@ -376,7 +377,7 @@ fn what_is_not_taken_is_told() {
     assert_eq!(given.shapes.len(), 1);
 }
 
-/// The same file in the binary form: of codes of two bytes, or of one.
+/// Returns the same file in the binary form, with codes of one or of two bytes.
 fn binary(text: &str, is_wide: bool) -> Vec<u8> {
     let mut bytes = b"AutoCAD Binary DXF\r\n\x1a\0".to_vec();
     let lines: Vec<&str> = text.lines().collect();
@@ -424,7 +425,7 @@ fn what_follows_the_end_and_circles_of_no_radius_are_notes() {
     assert_eq!(found.shapes.len(), 1);
     let said = notes(&found);
     assert!(said.iter().any(|note| note.contains("CIRCLE of radius 0: left out")), "{said:?}");
-    assert!(said.iter().any(|note| note.contains("what follows EOF is left out")), "{said:?}");
+    assert!(said.iter().any(|note| note.contains("text after EOF: left out")), "{said:?}");
     assert!(!notes(&drawing(&(text + "\n\u{1a}\n"), Format::Dxf)).iter().any(|note| note.contains("EOF")));
 }
 

@@ -1,4 +1,4 @@
-//! Features, holes, heights, and what is refused.
+//! Tests of features, holes, heights, and refused files.
 
 use super::{area, drawing, notes, one, ring, wall};
 use cplan_drawing::{Format, Geometry, Settings, read};

@@ -1,4 +1,4 @@
-//! Drawings against closed forms, against what other programs measure, and against what the tests wrote themselves.
+//! Tests of drawings against closed forms, results of other programs, and files that the tests write themselves.
 
 mod cell;
 mod dxf;
@@ -14,13 +14,13 @@ pub fn drawing(text: &str, format: Format) -> Drawing {
     read(text.as_bytes(), format, &Settings::default()).unwrap_or_else(|error| panic!("{error:?}"))
 }
 
-/// The only shape.
+/// Returns the only shape.
 pub fn one(drawing: &Drawing) -> &Shape {
     let [shape] = &drawing.shapes[..] else { panic!("{drawing:?}") };
     shape
 }
 
-/// The outer ring of a shape without holes.
+/// Returns the outer ring of a shape without holes.
 pub fn ring(shape: &Shape) -> &Ring {
     match &shape.geometry {
         Geometry::Polygon { outer, holes } if holes.is_empty() => outer,
@@ -28,24 +28,24 @@ pub fn ring(shape: &Shape) -> &Ring {
     }
 }
 
-/// The points of a wall.
+/// Returns the points of a wall.
 pub fn wall(shape: &Shape) -> &[Point] {
     let Geometry::Polyline(points) = &shape.geometry else { panic!("{shape:?}") };
     points
 }
 
-/// The area that a ring surrounds, positive if it is counter-clockwise.
+/// Returns the area that a ring surrounds, positive if it is counter-clockwise.
 pub fn area(ring: &[Point]) -> f64 {
     let next = ring.iter().cycle().skip(1);
     ring.iter().zip(next).map(|(p, q)| p[0] * q[1] - p[1] * q[0]).sum::<f64>() / 2.0
 }
 
-/// The length of a polyline.
+/// Returns the length of a polyline.
 pub fn length(points: &[Point]) -> f64 {
     points.windows(2).map(|w| apart(w[0], w[1])).sum()
 }
 
-/// The distance of two points.
+/// Returns the distance of two points.
 pub fn apart(p: Point, q: Point) -> f64 {
     (p[0] - q[0]).hypot(p[1] - q[1])
 }
@@ -56,7 +56,7 @@ pub fn near(a: f64, b: f64, within: f64) {
     assert!((a - b).abs() <= within, "{a} against {b}, within {within}");
 }
 
-/// Holds points to be those, but for rounding.
+/// Asserts that points are equal up to rounding.
 #[track_caller]
 pub fn same(given: &[Point], expected: &[Point]) {
     assert_eq!(given.len(), expected.len(), "{given:?} against {expected:?}");

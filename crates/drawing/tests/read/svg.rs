@@ -4,7 +4,7 @@ use super::{apart, area, drawing, length, near, notes, one, ring, same, wall};
 use cplan_drawing::{Drawing, FillRule, Format, Geometry, Point, Settings, filled, read};
 use std::f64::consts::PI;
 
-/// A page of 1 m by 1 m, its units millimetres.
+/// Reads elements on a page of 1 m by 1 m with millimetres as units.
 fn svg(elements: &str) -> Drawing {
     let head = "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' \
                 xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' \
@@ -12,7 +12,7 @@ fn svg(elements: &str) -> Drawing {
     drawing(&format!("{head}{elements}</svg>"), Format::Svg)
 }
 
-/// From the page's millimetres, downwards, to metres, upwards.
+/// Converts the page's millimetres, downwards, to metres, upwards.
 fn up(points: &[Point]) -> Vec<Point> {
     points.iter().map(|[x, y]| [x / 1000.0, 1.0 - y / 1000.0]).collect()
 }
@@ -146,10 +146,10 @@ fn filling_makes_holes_and_closes() {
         ));
         assert_eq!(wall(one(&given)).len(), 3, "{style}");
     }
-    // What its ends nearly close, it closes.
+    // A path whose ends almost meet is closed.
     let nearly = svg("<path fill='none' d='M0 0H100V100L0.05 0'/>");
     assert_eq!((ring(one(&nearly)).len(), notes(&nearly).len()), (3, 1));
-    // An outline that crosses itself is what it goes round, by the user's own rule.
+    // An outline that crosses itself covers the region of its fill rule.
     let star: Vec<Point> = (0..5).map(|k| (4.0 * PI * f64::from(k) / 5.0).sin_cos().into()).collect();
     let sums = [FillRule::NonZero, FillRule::EvenOdd]
         .map(|rule| filled(std::slice::from_ref(&star), rule).iter().map(|(outer, _)| area(outer).abs()).sum::<f64>());
@@ -182,8 +182,8 @@ fn names_layers_uses_and_what_is_not_shown() {
     near(radius, 0.01, 1e-15);
     let told: Vec<String> = notes(&given).iter().map(|note| note.replace(" (line 1)", "")).collect();
     let expected = [
-        "what is not displayed: left out",
-        "what is not visible: left out",
+        "elements not displayed: left out",
+        "elements not visible: left out",
         "<text>: left out",
         "<image>: left out",
         "<use> of \"#nowhere\", which the file does not hold: left out",

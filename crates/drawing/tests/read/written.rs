@@ -1,4 +1,4 @@
-//! What the tests wrote themselves comes back as it was, and anything is read without a panic.
+//! Tests that written files are read back unchanged, and that no input causes a panic.
 
 use super::{drawing, dxf::file, one, ring, wall};
 use cplan_drawing::{Format, Point, Settings, Unit, read};
@@ -34,7 +34,7 @@ proptest! {
         prop_assert_eq!(ring(one(&given)), &corners);
     }
 
-    /// Elliptical arcs of paths against kurbo's: its ellipse, its angle.
+    /// Compares elliptical arcs of paths with kurbo's: its ellipse, its angle.
     #[test]
     fn arcs_are_those_of_another_library(
         from in (0.0..500.0, 0.0..500.0), to in (0.0..500.0, 0.0..500.0), radii in (5.0..400.0, 5.0..400.0),
@@ -65,7 +65,7 @@ proptest! {
         prop_assert!((turned - arc.sweep_angle).abs() < 1e-4, "{turned} against {arc:?}");
     }
 
-    /// Whatever of a file is missing, it is refused, or at least read without a panic.
+    /// Removes parts of a file. The rest is refused, or at least read without a panic.
     #[test]
     fn nothing_makes_a_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400), at in 0_usize..20_000) {
         let cell = include_bytes!("../../../../workspaces/drawings/cell.dxf");

@@ -5,13 +5,13 @@ use cplan_core::cspace::Grid;
 use cplan_interrupt::checkpoint;
 use std::f64::consts::TAU;
 
-/// What obstacle cells of charge 1 do to every cell, `d` being the distance of the centres in cells, the short way round
-/// circles: the sums of `1 / d` and of the forces `1 / d^2` away from each. In cells that are not square a length counts in
-/// sides of a square of the same area. With [`Limits::High`] a frame of one cell beyond the limits of intervals is
-/// obstacle, too.
+/// The effect of obstacle cells of charge 1 on every cell: the sums of `1 / d` and of the forces `1 / d^2` away from
+/// each. `d` is the distance of the centres in cells, by the short direction on circles. If cells are not square,
+/// lengths are in sides of a square of the same area. With [`Limits::High`], a frame of one cell beyond the limits of
+/// intervals also counts as obstacle.
 ///
-/// The sum of `1 / d^2` is that of the areas over the squares of the distances: it hardly depends on how fine the cells are.
-/// Within rounding of the sums term by term; `O(n log n)` in the cells.
+/// The sum of `1 / d^2` approximates the integral of area over squared distance, so it hardly depends on the cell size.
+/// The result equals the direct sums up to rounding; `O(n log n)` in the number of cells.
 #[derive(Debug, Clone)]
 pub(super) struct Charges {
     /// Sum of `1 / d`, one a cell.
@@ -88,7 +88,7 @@ impl Plane {
         Self { cells, values: vec![[0.0; 2]; cells[0] * cells[1]] }
     }
 
-    /// The Fourier transform (`sign` 1), or the inverse one times the number of cells (-1).
+    /// Computes the Fourier transform (`sign` 1), or the inverse one times the number of cells (-1).
     fn transform(&mut self, sign: f64) {
         for _ in 0..2 {
             let columns = self.cells[1];
@@ -104,7 +104,7 @@ impl Plane {
     }
 }
 
-/// The fast Fourier transform of Cooley and Tukey, in place.
+/// Computes the fast Fourier transform of Cooley and Tukey in place.
 fn transform(row: &mut [[f64; 2]], sign: f64) {
     let n = row.len();
     let bits = n.trailing_zeros();

@@ -1,4 +1,4 @@
-//! Attraction and repulsion as a guide for the way between the cells.
+//! Attraction and repulsion as a guide for the curve between the cells.
 
 use super::{Escape, ForceField, Trap};
 use cplan_harmonic::{Guide, Place};
@@ -20,31 +20,31 @@ pub struct Downforce<'a, F> {
 /// The local minima that a way has left.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Escaped {
-    /// How many there were.
+    /// Number of local minima.
     pub minima: usize,
     /// Moves from cell to cell on the ways out of them.
     pub moves: usize,
 }
 
 impl<'a, F: Fn(Place) -> Option<usize>> Downforce<'a, F> {
-    /// `at` tells the free cell at a place of the lattice.
+    /// Creates the guide. `at` returns the free cell at a place of the lattice.
     pub fn new(field: &'a ForceField<'a>, goals: &[usize], at: F) -> Self {
         let goals = goals.iter().copied().collect();
         Self { field, goals, visited: BTreeSet::new(), at, escape: None, escaped: Escaped::default() }
     }
 
-    /// The same that leaves local minima. Saturated forces have none: where they trap the way, it ends.
+    /// Adds a method for leaving local minima. Saturated forces have none: the path ends where they trap it.
     #[must_use]
     pub fn with_escape(self, escape: Option<Escape>) -> Self {
         Self { escape, ..self }
     }
 
-    /// The local minima that have been left so far.
+    /// Returns the number of local minima left so far.
     pub fn escaped(&self) -> Escaped {
         self.escaped
     }
 
-    /// The cells that lead from a local minimum to a better one.
+    /// Returns the cells that lead from a local minimum to a better cell.
     fn out_of(&mut self, trap: Trap) -> Result<Vec<usize>, Trap> {
         let by = self.escape.filter(|_| trap.minimum).ok_or(trap)?;
         let number = self.escaped.minima as u64;
@@ -54,7 +54,7 @@ impl<'a, F: Fn(Place) -> Option<usize>> Downforce<'a, F> {
         Ok(way[1..].to_vec())
     }
 
-    /// The place of a neighbouring cell. On a circle of two cells one is a neighbour both ways.
+    /// Returns the place of a neighbouring cell. On a circle of two cells, a cell is a neighbour in both directions.
     fn place_beside(&self, from: Place, cell: usize) -> Option<Place> {
         let mut around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [from[0] + i, from[1] + j]));
         around.find(|&place| (self.at)(place) == Some(cell))

@@ -3,12 +3,12 @@
 use super::Limits;
 use cplan_core::cspace::Grid;
 
-/// For every cell the displacement from its centre to that of the nearest blocked cell (zero for a blocked one), in the
-/// units of the joints, the short way round circles; infinite where nothing is blocked. With [`Limits::High`] the cells
-/// beyond the limits of intervals are blocked, too.
+/// Returns, for every cell, the displacement from its centre to that of the nearest blocked cell, in the units of the
+/// joints and by the short direction on circles. It is zero for a blocked cell, and infinite if no cell is blocked.
+/// With [`Limits::High`], the cells beyond the limits of intervals are blocked, too.
 ///
-/// Exact up to rounding: along rows first, then the lower envelope of parabolas along columns (Felzenszwalb, Huttenlocher
-/// 2012). Linear in the number of cells.
+/// Exact up to rounding: first along rows, then by the lower envelope of parabolas along columns (Felzenszwalb,
+/// Huttenlocher 2012). Linear in the number of cells.
 #[must_use]
 pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     let [rows, columns] = grid.cells;
@@ -53,7 +53,7 @@ fn in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
         }
     };
     let mut nearest: Vec<Option<i64>> = vec![None; row.len()];
-    // A circle is gone through twice, so that what lies across the seam is known.
+    // A circle is passed twice, so that cells across the seam are known.
     let (first, last) = if wraps { (-n, 2 * n) } else { (-1, n + 1) };
     let mut pass = |places: &mut dyn Iterator<Item = i64>| {
         let mut seen = None;
@@ -83,7 +83,7 @@ struct Site {
 #[derive(Default)]
 struct Envelope {
     sites: Vec<Site>,
-    /// Where each begins to be the lowest.
+    /// Start of the range in which each parabola is the lowest.
     from: Vec<f64>,
 }
 
@@ -109,7 +109,7 @@ impl Envelope {
         self.from.push(from);
     }
 
-    /// The lowest at each of the places `0..n`; none if there is no parabola.
+    /// Iterates over the lowest parabola at each of the places `0..n`. Empty if there are no parabolas.
     fn lowest(&self, n: usize) -> impl Iterator<Item = (usize, Site)> + '_ {
         let mut k = 0;
         (0..n).filter_map(move |i| {
@@ -121,7 +121,7 @@ impl Envelope {
     }
 }
 
-/// Where `b`, to the right, becomes lower than `a`.
+/// Returns where `b`, to the right, becomes lower than `a`.
 fn crossing(a: &Site, b: &Site) -> f64 {
     let (x, y) = (a.at as f64, b.at as f64);
     0.5 * ((b.height - a.height) / (y - x) + (x + y))
@@ -137,7 +137,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(300))]
 
-        /// Against all pairs of cells and of their copies.
+        /// Compares with all pairs of cells and of their copies.
         #[test]
         fn distances_are_those_to_the_nearest_of_all_blocked_cells(
             (rows, columns, blocked) in (1..9_usize, 1..9_usize).prop_flat_map(|(rows, columns)| {

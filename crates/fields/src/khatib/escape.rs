@@ -15,13 +15,13 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Escape {
-    /// By random walks from it, each followed by a descent, until one comes to a lower cell. It may find none.
+    /// Random walks from the minimum, each followed by a descent, until one reaches a lower cell. The search may fail.
     Walk {
         /// Seed of the random numbers: the same seed gives the same walks.
         seed: u64,
     },
-    /// By a wave that fills its basin from the bottom, the lowest cell at the edge first, until it runs over into a lower
-    /// cell. It finds the goal if the cells are connected with it.
+    /// A wave that fills the basin of the minimum from the bottom, lowest edge cell first, until it overflows into a
+    /// lower cell. It finds the goal if the cells are connected to it.
     Wave,
 }
 
@@ -36,7 +36,7 @@ impl Escape {
     }
 }
 
-/// As on the command line.
+/// The words of the command line.
 impl fmt::Display for Escape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -8,7 +8,7 @@ use cplan_core::space::Configuration;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// How strongly the nearest goal attracts at a distance `d`.
+/// Law of attraction by the nearest goal, at a distance `d`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Attraction {
@@ -18,7 +18,7 @@ pub enum Attraction {
     Linear(f64),
 }
 
-/// How strongly an obstacle repels at a distance `p`.
+/// Law of repulsion by an obstacle, at a distance `p`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Repulsion {
@@ -39,17 +39,17 @@ pub enum Repulsion {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Khatib {
-    /// Of the goal.
+    /// Attraction of the goal.
     pub attraction: Attraction,
-    /// Of the obstacles.
+    /// Repulsion of the obstacles.
     pub repulsion: Repulsion,
-    /// Whether each component of either force goes through tanh before they are added, so that none exceeds 1 (Gonçalves
-    /// da Silva). Such a force is no gradient: there is no potential to go down.
+    /// If true, each component of either force is passed through tanh before they are added, so that none exceeds 1
+    /// (Gonçalves da Silva). Such a force is not a gradient: it has no potential.
     pub saturated: bool,
 }
 
 impl Attraction {
-    /// Potential at a distance.
+    /// Returns the potential at a distance.
     #[must_use]
     pub fn potential(self, d: f64) -> f64 {
         match self {
@@ -58,7 +58,7 @@ impl Attraction {
         }
     }
 
-    /// Force towards the goal at a distance; none at the goal.
+    /// Returns the force towards the goal at a distance; zero at the goal.
     #[must_use]
     pub fn force(self, d: f64) -> f64 {
         match self {
@@ -70,7 +70,7 @@ impl Attraction {
 }
 
 impl Repulsion {
-    /// Potential at a distance, which may be infinite.
+    /// Returns the potential at a distance, which may be infinite.
     #[must_use]
     pub fn potential(self, p: f64) -> f64 {
         match self {
@@ -80,7 +80,7 @@ impl Repulsion {
         }
     }
 
-    /// Force away from the obstacle at a distance.
+    /// Returns the force away from the obstacle at a distance.
     #[must_use]
     pub fn force(self, p: f64) -> f64 {
         match self {
@@ -91,7 +91,7 @@ impl Repulsion {
     }
 }
 
-/// As on the command line.
+/// The words of the command line.
 impl fmt::Display for Attraction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -101,7 +101,7 @@ impl fmt::Display for Attraction {
     }
 }
 
-/// As on the command line.
+/// The words of the command line.
 impl fmt::Display for Repulsion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -121,28 +121,28 @@ pub struct ForceField<'a> {
     obstacles: Obstacles,
 }
 
-/// What repels, for every cell.
+/// The repelling obstacles of every cell.
 #[derive(Debug, Clone)]
 enum Obstacles {
     /// Displacements to the nearest.
     Nearest(Vec<[f64; 2]>),
-    /// All obstacle cells together repel.
+    /// All obstacle cells repel together.
     Sum(Charges),
 }
 
-/// Where all ways are worse.
+/// A cell all of whose neighbours are worse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trap {
     /// The cell that cannot be left.
     pub cell: usize,
-    /// Its potential; of saturated forces, which have none, the strength of the force there.
+    /// Its potential; for saturated forces, which have none, the strength of the force.
     pub value: f64,
-    /// Whether it is a local minimum of the potential; otherwise the forces led back to where the way had been.
+    /// True if it is a local minimum of the potential. Otherwise the forces led back to a visited cell.
     pub minimum: bool,
 }
 
 impl<'a> ForceField<'a> {
-    /// Linear in the number of cells, of [`Repulsion::Sum`] times a logarithm. There must be a goal.
+    /// Builds the field. Linear in the number of cells, times a logarithm for [`Repulsion::Sum`]. There must be a goal.
     #[must_use]
     pub fn new(grid: &'a Grid, laws: Khatib, goals: &[Configuration], limits: Limits) -> Self {
         let obstacles = match laws.repulsion {
@@ -154,7 +154,7 @@ impl<'a> ForceField<'a> {
         Self { grid, laws, goals: goals.to_vec(), obstacles }
     }
 
-    /// The potential in a free cell; of saturated forces the one that they would have if they were not.
+    /// Returns the potential in a free cell. For saturated forces, returns that of the unsaturated ones.
     #[must_use]
     pub fn potential(&self, cell: usize) -> f64 {
         let Khatib { attraction, repulsion, .. } = self.laws;
@@ -166,7 +166,7 @@ impl<'a> ForceField<'a> {
         attraction.potential(self.to_goal(cell).norm()) + push
     }
 
-    /// The force in a free cell.
+    /// Returns the force in a free cell.
     #[must_use]
     pub fn force(&self, cell: usize) -> [f64; 2] {
         let Khatib { attraction, repulsion, saturated } = self.laws;
@@ -184,18 +184,18 @@ impl<'a> ForceField<'a> {
         [0, 1].map(|k| saturate(pull * to_goal[k]) + saturate(push[k]))
     }
 
-    /// Side of a square of a cell's area.
+    /// Returns the side of a square of a cell's area.
     fn side(&self) -> f64 {
         let [a, b] = self.grid.step();
         (a * b).sqrt()
     }
 
-    /// Side lengths of a cell.
+    /// Returns the side lengths of a cell.
     pub(super) fn step(&self) -> [f64; 2] {
         self.grid.step()
     }
 
-    /// Whether the forces have no potential.
+    /// Returns true if the forces have no potential.
     pub(super) fn is_saturated(&self) -> bool {
         self.laws.saturated
     }
@@ -220,7 +220,7 @@ impl<'a> ForceField<'a> {
         Ok(cells)
     }
 
-    /// The cell to go to from another; with saturated forces none that was visited.
+    /// Returns the next cell from a cell. With saturated forces it must not have been visited.
     pub(super) fn next(&self, at: usize, visited: impl Fn(usize) -> bool) -> Result<usize, Trap> {
         if self.laws.saturated { self.along_force(at, visited) } else { self.lower(at) }
     }
@@ -245,15 +245,15 @@ impl<'a> ForceField<'a> {
         if best.1 == at || visited(best.1) { Err(trap) } else { Ok(best.1) }
     }
 
-    /// The shortest displacement to a goal.
+    /// Returns the shortest displacement to a goal.
     fn to_goal(&self, cell: usize) -> Configuration {
         let center = self.grid.center(cell);
         let displacements = self.goals.iter().map(|&goal| self.grid.topology.displacement(center, goal));
         displacements.min_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_else(Configuration::zeros)
     }
 
-    /// Free neighbours with a side or a corner in common, and the displacements to them; corners only between two free
-    /// cells.
+    /// Iterates over the free neighbours that share a side or a corner, with their displacements. A corner counts only
+    /// between two free cells.
     pub(super) fn neighbors(&self, at: usize) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
         const AROUND: [[i64; 2]; 8] = [[-1, 0], [1, 0], [0, -1], [0, 1], [-1, -1], [-1, 1], [1, -1], [1, 1]];
         let step = self.grid.step();
@@ -264,7 +264,7 @@ impl<'a> ForceField<'a> {
         })
     }
 
-    /// The cell so many rows and columns away, if it is one and free.
+    /// Returns the cell this many rows and columns away, if it exists and is free.
     fn free(&self, from: usize, by: [i64; 2]) -> Option<usize> {
         let [rows, columns] = self.grid.cells;
         let place = |k: usize, at: usize, n: usize| {

@@ -1,4 +1,4 @@
-//! Linear equations with a drift by multigrid: what a relaxation converges to, in a few steps.
+//! Linear equations with a drift, solved by multigrid: the limit of a relaxation in a few steps.
 
 use super::stencil::sides;
 use super::sweeps::begun;
@@ -15,17 +15,20 @@ const ADVICE: f64 = 0.1;
 /// The least error to which a step solves where there is no drift: about what single precision allows.
 const FINEST: f64 = 1e-6;
 
-/// The part of what is asked for that a step is content with: the residual is what counts, not its estimate, and rounding adds to it.
+/// Fraction of the requested change at which a step may stop. The residual decides, not its estimate, and rounding adds
+/// to it.
 const ENOUGH: f64 = 0.5;
 
-/// Solves a linear equation from `start`, such as the field for obstacles that have moved a little since. Flexible GMRES (Saad 1993),
-/// preconditioned by the multigrid solution of the same problem without the drift, to a digit. A step costs as much as that; how many
-/// there are depends on the drift times the width of what it holds in, not on the number of cells: 2 to 14 from nothing in the
-/// fields of `examples/robot_football`, where Gauss and Seidel's relaxation takes 400 to 1400 sweeps to the same rule. Without a drift
-/// a step is the multigrid solution itself, as exact as the rule asks for: one is enough as a rule.
+/// Solves a linear equation from `start`, such as the field before obstacles moved slightly. Flexible GMRES (Saad
+/// 1993), preconditioned by the multigrid solution of the same problem without the drift, to one digit.
 ///
-/// [`Convergence::sweeps`] counts steps; [`Convergence::change`] is the sum of squared changes that a sweep of Jacobi's would make.
-/// Where the start fulfils the rule nothing is done.
+/// A step costs as much as that solution. The number of steps depends on the drift times the width of its region, not
+/// on the number of cells: from zero it is 2 to 14 in the fields of `examples/robot_football`, where Gauss-Seidel
+/// relaxation takes 400 to 1400 sweeps by the same rule. Without a drift, a step is the multigrid solution itself, as
+/// exact as requested, so one step usually suffices.
+///
+/// [`Convergence::sweeps`] counts steps. [`Convergence::change`] is the sum of squared changes that a Jacobi sweep
+/// would make. If the start already satisfies the rule, nothing is done.
 ///
 /// ```
 /// use cplan_fields::*;
@@ -43,9 +46,9 @@ const ENOUGH: f64 = 0.5;
 /// ```
 ///
 /// # Errors
-/// [`RelaxError::Refused`] for preferences, whose drift depends on a field, for another measure than [`Measure::SumOfSquares`], and
-/// where sizes differ; [`RelaxError::Diverged`] where values are numbers no more. One that comes to no end within
-/// `stopping.max_sweeps` steps says so in its [`Convergence`].
+/// [`RelaxError::Refused`] for preferences (whose drift depends on a field), for measures other than
+/// [`Measure::SumOfSquares`], and if sizes differ; [`RelaxError::Diverged`] if values become NaN. A solve that does not
+/// end within `stopping.max_sweeps` steps reports that in its [`Convergence`].
 pub fn by_multigrid(
     domain: &Domain,
     equation: &Equation,
@@ -55,7 +58,8 @@ pub fn by_multigrid(
     by_multigrid_in(domain, equation, stopping, start, &mut Memory::default())
 }
 
-/// What a solve works in, kept for the next one on a domain of as many rows and columns with the same boundaries. It says nothing of the field.
+/// Workspace of a solve, reusable on domains of the same shape with the same boundaries. It holds no information about
+/// the field.
 #[derive(Debug, Clone, Default)]
 pub struct Memory(Option<Workspace>);
 
@@ -110,7 +114,7 @@ pub fn by_multigrid_in(
         }
         let advice = preconditioner.get_or_insert_with(|| Preconditioner::new(&system, memory));
         if !has_drift {
-            // The advice is the solution: as near to it as is asked for.
+            // The preconditioner returns the solution, as precisely as requested.
             let error = (ENOUGH * stopping.below / stage.change).sqrt().clamp(FINEST, ADVICE);
             let way = advice.way(&system, &residual, error);
             values.iter_mut().zip(&way).for_each(|(value, way)| *value += way);
@@ -122,13 +126,13 @@ pub fn by_multigrid_in(
     }
 }
 
-/// What the neighbours ask of each cell. Vectors have an entry a cell, row by row, 0 where nothing is sought, so that neighbours are found by
-/// constant offsets.
+/// The equations of all cells. Vectors have one entry per cell, row by row, 0 for cells that are not unknowns, so that
+/// neighbours are at constant offsets.
 struct System {
     cells: [usize; 2],
     boundaries: [Boundary; 2],
     sought: Vec<bool>,
-    /// Those of the neighbours `-q1, +q1, -q2, +q2` of each cell; none where all are 1.
+    /// Weights of the neighbours `-q1, +q1, -q2, +q2` of each cell. `None` if all are 1.
     weights: Option<Vec<[f64; 4]>>,
     /// Their sums, over neighbours that are not the cell itself.
     sums: Vec<f64>,
@@ -137,7 +141,7 @@ struct System {
 }
 
 impl System {
-    /// Of the weights of each cell; 1 without.
+    /// Creates a system with these weights, or with weights 1.
     fn new(domain: &Domain, weights: Option<impl Fn(usize) -> [f64; 4]>) -> Self {
         let (cells, boundaries, count) = (domain.cells(), domain.boundaries(), domain.kinds().len());
         let sought: Vec<bool> = (0..count).map(|cell| domain.is_sought(cell)).collect();
@@ -171,8 +175,8 @@ impl System {
         Self { cells, boundaries, sought, weights, sums, shares }
     }
 
-    /// Values with a frame of one cell around them, which holds what is beyond the limits; `values` are one a cell, and last that of
-    /// high limits.
+    /// Returns values with a frame of one cell that holds the boundary values. `values` has one entry per cell, and the
+    /// value of high limits last.
     fn framed(&self, values: &[f64]) -> Vec<f64> {
         let ([rows, columns], beyond) = (self.cells, values[values.len() - 1]);
         let stride = columns + 2;
@@ -197,7 +201,8 @@ impl System {
         framed
     }
 
-    /// How far each cell is from what its neighbours ask for; `values` are one a cell, and last that beyond limits.
+    /// Returns the difference of each cell from the value that its neighbours imply. `values` has one entry per cell,
+    /// and the boundary value last.
     fn residual(&self, values: &[f64]) -> Vec<f64> {
         match &self.weights {
             Some(weights) => self.residual_by(values, |cell| weights[cell]),
@@ -287,7 +292,7 @@ impl System {
     }
 }
 
-/// The same problem without the drift.
+/// Multigrid for the same problem without the drift.
 struct Preconditioner {
     multigrid: Multigrid,
     workspace: Workspace,
@@ -306,7 +311,8 @@ impl Preconditioner {
         Self { workspace, multigrid, right: vec![0.0; system.sought.len()] }
     }
 
-    /// Where the values are to go for their residual to fall by this, up to an `error`: one a cell, and last 0 for what is beyond limits.
+    /// Returns the correction that reduces the residual by `residual`, up to an `error`: one entry per cell, and 0 last
+    /// for the boundary.
     fn way(&mut self, system: &System, residual: &[f64], error: f64) -> Vec<f64> {
         let asked = residual.iter().zip(&system.sums).map(|(residual, sum)| sum * residual);
         self.right.iter_mut().zip(asked).for_each(|(to, asked)| *to = asked);

@@ -1,17 +1,17 @@
-//! The way to a goal: from cell to cell, and the slope at each for the way between them.
+//! Descent to a goal: from cell to cell, and slopes for the curve between cells.
 
 use super::{Cell, Domain, Neighbor};
 use cplan_harmonic::{Guide, Place};
 use std::collections::{BTreeMap, VecDeque};
 
-/// Where a descent ended without a goal.
+/// A cell at which a descent ended without a goal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stuck {
     /// The cell in which it ended.
     pub cell: usize,
     /// The value of the field there.
     pub value: f64,
-    /// Whether a free neighbour has the very same value; otherwise all are worse.
+    /// True if a free neighbour has exactly the same value. Otherwise all are worse.
     pub flat: bool,
 }
 
@@ -56,19 +56,19 @@ impl Values<'_> {
         })
     }
 
-    /// The value as obstacles are high.
+    /// Returns the value, oriented so that obstacles are high.
     fn height(&self, cell: usize) -> f64 {
         self.domain.levels().orientation() * self.values[cell]
     }
 
-    /// The best neighbour, if it is strictly better.
+    /// Returns the best neighbour, if it is strictly better.
     fn lowest(&self, cell: usize) -> Option<usize> {
         let lower = |best, next| if self.height(next) < self.height(best) { next } else { best };
         let best = self.neighbors(cell).fold(cell, lower);
         (best != cell).then_some(best)
     }
 
-    /// The cells after `from`, all of its value, to the nearest one that has a better neighbour.
+    /// Returns the cells after `from`, all of its value, up to the nearest one that has a better neighbour.
     fn across(&self, from: usize) -> Result<Vec<usize>, Stuck> {
         let value = self.values[from];
         let is_level = |cell: usize| self.values[cell] == value && self.domain.kinds()[cell] == Cell::Free;
@@ -108,16 +108,16 @@ pub struct Slope<'a, F> {
 }
 
 impl<'a, F: Fn(Place) -> Option<usize>> Slope<'a, F> {
-    /// `at` tells the cell at a place of the lattice.
+    /// Creates the guide. `at` returns the cell at a place of the lattice.
     ///
     /// # Panics
-    /// If there is not one value a cell.
+    /// If there is not one value per cell.
     pub fn new(domain: &'a Domain, values: &'a [f64], at: F) -> Self {
         assert_eq!(values.len(), domain.kinds().len(), "one value a cell");
         Self { values: Values { domain, values }, at }
     }
 
-    /// The cell at a place, if it is of this kind.
+    /// Returns the cell at a place, if it is of this kind.
     fn of_kind(&self, place: Place, kind: Cell) -> Option<usize> {
         (self.at)(place).filter(|&cell| self.values.domain.kinds()[cell] == kind)
     }

@@ -1,24 +1,25 @@
-//! What a relaxation runs on.
+//! The device that relaxes a field.
 
 use super::{Domain, Equation, RelaxError, Relaxation, Relaxed, Stopping, relax};
 use serde::{Deserialize, Serialize};
 
-/// Where sweeps are done.
+/// A device for sweeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Device {
-    /// In double precision on the CPU.
+    /// The CPU, in double precision.
     #[default]
     Cpu,
-    /// In single precision on a GPU: values below 10^-38 are 0. Cells go all at once or [red-black](super::Order::RedBlack).
+    /// A GPU, in single precision: values below 10^-38 are 0. Cells are updated all at once or
+    /// [red-black](super::Order::RedBlack).
     Gpu,
 }
 
 impl Device {
-    /// The name of the adapter, if it is one.
+    /// Returns the name of the GPU adapter, or `None` for the CPU.
     ///
     /// # Errors
-    /// Why there is none, with the cure: no driver, or a program that was built without the feature `gpu`.
+    /// The reason with a hint: no driver, or a program built without the feature `gpu`.
     pub fn adapter(self) -> Result<Option<&'static str>, String> {
         match self {
             Self::Cpu => Ok(None),
@@ -29,13 +30,13 @@ impl Device {
         }
     }
 
-    /// Whether all is computed on the CPU in doubles: what is said nothing of.
+    /// Returns true for the CPU, which reports leave unmentioned.
     #[must_use]
     pub fn is_cpu(&self) -> bool {
         *self == Self::Cpu
     }
 
-    /// What tells values apart there.
+    /// Returns the name of its precision.
     #[must_use]
     pub fn precision(self) -> &'static str {
         if self.is_cpu() { "doubles" } else { "single precision" }
@@ -45,11 +46,13 @@ impl Device {
 #[cfg(not(feature = "gpu"))]
 const WITHOUT_GPU: &str = "this program was built without GPU; build it with --features gpu, or relax on the CPU";
 
-/// As [`relax`], on a device. On a GPU fields differ from the CPU's by rounding to single precision; a stage that can come no further in it
-/// ends unconverged before `stopping.max_sweeps`.
+/// Does the same as [`relax`], on a device. On a GPU, fields differ from the CPU's by rounding to single precision. A
+/// stage that cannot improve in single precision ends unconverged before `stopping.max_sweeps`.
 ///
 /// # Errors
-/// As [`relax`]; [`RelaxError::Refused`] where there is no GPU, or it cannot do what is asked for: other orders, too many cells.
+/// Same as [`relax`]; [`RelaxError::Refused`] if there is no GPU, or it does not support the request (other orders, too
+/// many cells).
+/// As [`relax`]; [`RelaxError::Refused`] if there is no GPU, or the GPU does not support the request: other orders, too many cells.
 pub fn relax_on(
     device: Device,
     domain: &Domain,

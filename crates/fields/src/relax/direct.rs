@@ -4,20 +4,20 @@ use super::stencil::{Stencil as _, Weighted};
 use super::{Domain, Equation, Neighbor};
 use cplan_interrupt::checkpoint;
 
-/// A solution whose values disagree with what their neighbours ask for by more than this part of the greatest one is none:
-/// central differences under a strong drift may lose all digits on the way.
+/// Largest residual of an accepted solution, as a fraction of the greatest value. Elimination of central differences
+/// with a strong drift may lose all digits.
 const RESIDUAL: f64 = 1e-9;
 
 /// Numbers that a band may have: 256 MB of them.
 const MOST: usize = 1 << 25;
 
-/// The solution of a linear equation by Gauss's elimination in a band. None of preferences, whose drift depends on a field; none
-/// where elimination without exchanges of rows does not do (strong drifts by central differences), where the band would take more
-/// than 256 MB, and of an equation for another domain.
+/// Solves a linear equation by banded Gaussian elimination. Returns `None` for preferences (whose drift depends on a
+/// field), if elimination without pivoting fails (strong drifts with central differences), if the band would take more
+/// than 256 MB, or if the equation is for another domain.
 ///
-/// It shares nothing with the sweeps but the weights of the neighbours. Rows are numbered from both ends in turn, so that a circle
-/// is no wider than twice a row: `O(cells * columns^2)` time and `O(cells * columns)` memory for unknowns in rows of so many
-/// columns.
+/// It shares only the neighbours' weights with the sweeps. Rows are numbered alternately from both ends, so that a
+/// circle needs at most twice the bandwidth. Takes `O(cells * columns^2)` time and `O(cells * columns)` memory, for
+/// rows of this many columns.
 #[must_use]
 pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     if equation.refusal(domain).is_some() {
@@ -56,7 +56,7 @@ pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     fits(domain, &unknowns, &weights, &values).then_some(values)
 }
 
-/// The cells whose values are sought, row by row from both ends in turn.
+/// Returns the unknown cells, row by row and alternately from both ends.
 fn folded(domain: &Domain) -> Vec<u32> {
     let [rows, columns] = domain.cells();
     let row = |k: usize| if k.is_multiple_of(2) { k / 2 } else { rows - 1 - k / 2 };
@@ -64,7 +64,7 @@ fn folded(domain: &Domain) -> Vec<u32> {
     cells.filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
 }
 
-/// The greatest distance between neighbours in the order of the unknowns.
+/// Returns the greatest distance between neighbours in the order of the unknowns.
 fn reach(domain: &Domain, unknowns: &[u32], place: &[Option<usize>]) -> usize {
     let of = |(k, &cell): (usize, &u32)| {
         let places = domain.neighbors(cell as usize).into_iter().filter_map(|neighbor| match neighbor {
@@ -76,7 +76,7 @@ fn reach(domain: &Domain, unknowns: &[u32], place: &[Option<usize>]) -> usize {
     unknowns.iter().enumerate().map(of).max().unwrap_or(0)
 }
 
-/// Whether each value is what its neighbours ask for.
+/// Returns true if each value agrees with the one that its neighbours imply.
 fn fits(domain: &Domain, unknowns: &[u32], weights: &Weighted, values: &[f64]) -> bool {
     let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
     greatest.is_finite()
@@ -87,12 +87,12 @@ fn fits(domain: &Domain, unknowns: &[u32], weights: &Weighted, values: &[f64]) -
                 Neighbor::Limit => domain.levels().obstacle,
                 Neighbor::Mirror => own,
             });
-            // What is no number fits nowhere.
+            // NaN agrees with nothing.
             (weights.asked(k, own, around) - own).abs() <= RESIDUAL * greatest
         })
 }
 
-/// Equations of which each has unknowns within `reach` of its own.
+/// Banded equations: each has unknowns within `reach` of its own.
 struct Band {
     reach: usize,
     /// `2 * reach + 1` factors an equation, its own unknown's in the middle.
@@ -101,7 +101,7 @@ struct Band {
 }
 
 impl Band {
-    /// None if it is too large.
+    /// Allocates a band, or returns `None` if it is too large.
     fn new(reach: usize, equations: usize) -> Option<Self> {
         let size = equations.checked_mul(2 * reach + 1).filter(|&size| size <= MOST)?;
         Some(Self { reach, factors: vec![0.0; size], right: vec![0.0; equations] })
@@ -116,7 +116,7 @@ impl Band {
         self.factors[index] += factor;
     }
 
-    /// The unknowns; none if a pivot vanishes.
+    /// Solves for the unknowns, or returns `None` if a pivot vanishes.
     fn solved(mut self) -> Option<Vec<f64>> {
         let n = self.right.len();
         for pivot in 0..n {

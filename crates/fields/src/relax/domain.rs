@@ -1,26 +1,26 @@
-//! Where a field equation is to be solved: cells, what they are, and what lies beyond the limits.
+//! The domain of a field equation: cells, their kinds, and boundary conditions.
 
 use cplan_core::cspace::Grid;
 use cplan_harmonic::Place;
 use serde::{Deserialize, Serialize};
 
-/// What a cell is to a field.
+/// The kind of a cell in a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Cell {
-    /// Its value is sought.
+    /// An unknown.
     Free,
-    /// Its value is [`Levels::obstacle`].
+    /// A cell with the value [`Levels::obstacle`].
     Obstacle,
-    /// Its value is [`Levels::goal`].
+    /// A cell with the value [`Levels::goal`].
     Goal,
 }
 
-/// What lies beyond the first and the last cell of an axis.
+/// Boundary condition at the first and the last cell of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Boundary {
     /// The cells of the other end: a circle.
     Periodic,
-    /// As high as obstacles (Dirichlet).
+    /// The value of obstacles (Dirichlet).
     High,
     /// The mirror image: no flow through the limit (Neumann). A cell at the limit has itself as its neighbour there.
     Reflecting,
@@ -30,7 +30,7 @@ pub enum Boundary {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Limits {
-    /// As high as obstacles: [`Boundary::High`].
+    /// The value of obstacles: [`Boundary::High`].
     #[default]
     High,
     /// Mirrors: [`Boundary::Reflecting`].
@@ -44,12 +44,12 @@ pub struct Levels {
     pub obstacle: f64,
     /// The value that goals keep.
     pub goal: f64,
-    /// Of free cells before the first sweep.
+    /// Initial value of free cells.
     pub free: f64,
 }
 
 impl Levels {
-    /// As the literature has it: obstacles 1, goals 0, free cells start at 0; paths descend.
+    /// The levels of the literature: obstacles 1, goals 0, free cells start at 0; paths descend.
     pub const PUBLISHED: Self = Self { obstacle: 1.0, goal: 0.0, free: 0.0 };
 
     /// The complement: the probability that a random walk comes to a goal before it comes to an obstacle. Paths ascend. It
@@ -57,7 +57,8 @@ impl Levels {
     /// 1. All free cells start as low as obstacles, so that without over-relaxation values only rise.
     pub const PROBABILITY: Self = Self { obstacle: 0.0, goal: 1.0, free: 0.0 };
 
-    /// 1 where obstacles are high, -1 where they are low: what turns a difference of values into the published one.
+    /// Returns 1 if obstacles are high and -1 if they are low: the factor that converts differences of values to the
+    /// published sign.
     pub(super) fn orientation(self) -> f64 {
         if self.obstacle < self.goal { -1.0 } else { 1.0 }
     }
@@ -74,11 +75,11 @@ pub enum Neighbor {
     Mirror,
 }
 
-/// Whether an equation sees that cells are not square.
+/// Whether an equation takes the shape of cells into account.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stencil {
-    /// All four neighbours weigh the same, whatever the sides of a cell.
+    /// All four neighbours have the same weight, whichever shape cells have.
     #[default]
     Square,
     /// The neighbours along axis 2 weigh `beta^2` as much as those along axis 1, `beta` the width of a cell along axis 1 over that
@@ -87,13 +88,13 @@ pub enum Stencil {
 }
 
 impl Stencil {
-    /// Whether cells count as square.
+    /// Returns true if cells count as square.
     #[must_use]
     pub fn is_square(&self) -> bool {
         *self == Self::Square
     }
 
-    /// `beta` on the cells of a grid.
+    /// Returns `beta` for the cells of a grid.
     #[must_use]
     pub fn beta(self, grid: &Grid) -> f64 {
         let [dx, dy] = grid.step();
@@ -114,10 +115,11 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Of `cells[0]` rows and `cells[1]` columns; `boundaries[0]` is beyond the first and the last row.
+    /// Creates a domain of `cells[0]` rows and `cells[1]` columns. `boundaries[0]` applies beyond the first and the
+    /// last row.
     ///
     /// # Panics
-    /// If there is not one kind a cell, or there are `2^32` cells or more.
+    /// If there is not one kind per cell, or there are `2^32` cells or more.
     #[must_use]
     pub fn new(cells: [usize; 2], kinds: Vec<Cell>, boundaries: [Boundary; 2], levels: Levels) -> Self {
         assert_eq!(cells[0].checked_mul(cells[1]), Some(kinds.len()), "one kind a cell");
@@ -125,7 +127,7 @@ impl Domain {
         Self { cells, kinds, boundaries, levels, beta: 1.0 }
     }
 
-    /// The same with cells that are not square: 1 wide along axis 1, `1 / beta` along axis 2 (`beta = dx / dy`).
+    /// Sets the shape of the cells: 1 wide along axis 1, `1 / beta` along axis 2 (`beta = dx / dy`).
     ///
     /// # Panics
     /// If `beta` is not a positive finite number.
@@ -135,17 +137,17 @@ impl Domain {
         Self { beta, ..self }
     }
 
-    /// Width of a cell along axis 1 over that along axis 2; 1 where cells count as square.
+    /// Returns the width of a cell along axis 1 divided by that along axis 2; 1 if cells count as square.
     #[must_use]
     pub fn beta(&self) -> f64 {
         self.beta
     }
 
-    /// A grid with goals (indices of cells). Free cells without a chain of free neighbours to a goal count as obstacles:
-    /// nobody asks for values there, and with reflecting limits they would not be determined.
+    /// Creates the domain of a grid with goals (indices of cells). Free cells that are not connected to a goal count as
+    /// obstacles: their values are not needed, and with reflecting limits they would be undetermined.
     ///
     /// # Panics
-    /// If a goal is no cell, or there are `2^32` cells or more.
+    /// If a goal is not a cell, or there are `2^32` cells or more.
     #[must_use]
     pub fn of_grid(grid: &Grid, goals: &[usize], limits: Limits, levels: Levels) -> Self {
         let mut kinds = vec![Cell::Obstacle; grid.blocked.len()];
@@ -178,25 +180,25 @@ impl Domain {
         self.cells
     }
 
-    /// What each cell is.
+    /// Returns the kind of each cell.
     #[must_use]
     pub fn kinds(&self) -> &[Cell] {
         &self.kinds
     }
 
-    /// What lies beyond each axis.
+    /// Returns the boundary condition of each axis.
     #[must_use]
     pub fn boundaries(&self) -> [Boundary; 2] {
         self.boundaries
     }
 
-    /// The fixed values.
+    /// Returns the fixed values.
     #[must_use]
     pub fn levels(&self) -> Levels {
         self.levels
     }
 
-    /// The neighbours of a cell, in the order `-q1, +q1, -q2, +q2`.
+    /// Returns the neighbours of a cell, in the order `-q1, +q1, -q2, +q2`.
     #[must_use]
     pub fn neighbors(&self, cell: usize) -> [Neighbor; 4] {
         let [rows, columns] = self.cells;
@@ -212,13 +214,14 @@ impl Domain {
         ]
     }
 
-    /// Whether a cell's value is to be found. A free cell that has no neighbour but itself keeps that which it has.
+    /// Returns true if a cell is an unknown with neighbours. A free cell that is its own only neighbour keeps its
+    /// value.
     pub(super) fn is_sought(&self, cell: usize) -> bool {
         let has_neighbors = self.kinds.len() > 1 || self.boundaries.contains(&Boundary::High);
         self.kinds[cell] == Cell::Free && has_neighbors
     }
 
-    /// The cell at a place of the unbounded lattice; none beyond the ends of an interval.
+    /// Returns the cell at a place of the unbounded lattice, or `None` beyond the ends of an interval.
     #[must_use]
     pub fn cell_at(&self, place: Place) -> Option<usize> {
         let index = |axis: usize| {
@@ -229,13 +232,13 @@ impl Domain {
         Some(index(0)? * self.cells[1] + index(1)?)
     }
 
-    /// The values before the first sweep.
+    /// Returns the values before the first sweep.
     #[must_use]
     pub fn start(&self) -> Vec<f64> {
         self.kinds.iter().map(|&kind| self.fixed(kind).unwrap_or(self.levels.free)).collect()
     }
 
-    /// The value of a cell that is not free.
+    /// Returns the value of a cell that is not free.
     pub(super) fn fixed(&self, kind: Cell) -> Option<f64> {
         match kind {
             Cell::Free => None,
@@ -245,7 +248,7 @@ impl Domain {
     }
 }
 
-/// Where a step along one axis leads.
+/// The result of a step along one axis.
 enum Step {
     To(usize),
     Beyond(Boundary),

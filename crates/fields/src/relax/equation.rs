@@ -1,13 +1,14 @@
-//! Which equation a field fulfils.
+//! The field equations.
 //!
-//! All are of the form `lap p + <b, grad p> = 0`, `b = epsilon v` a drift: `p` is what a random walk with that drift can
-//! expect of the values of obstacles and goals. Lengths are counted in cells, so `epsilon` is a number per cell.
+//! All have the form `lap p + <b, grad p> = 0` with a drift `b = epsilon v`: `p` is the expected value at which a
+//! random walk with that drift ends, of the values of obstacles and goals. Lengths are in cells, so `epsilon` is a
+//! number per cell.
 
 use super::Domain;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// How the slope in a drift term is discretised.
+/// Discretisation of the slope in a drift term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Difference {
@@ -39,7 +40,7 @@ pub struct Direction([f64; 2]);
 impl TryFrom<[f64; 2]> for Direction {
     type Error = &'static str;
 
-    /// Of a vector of length 1 itself, so that one that was written is read as it was.
+    /// Keeps a vector of length 1 unchanged, so that a written direction is read back the same.
     fn try_from(vector: [f64; 2]) -> Result<Self, &'static str> {
         let length = vector[0].hypot(vector[1]);
         ((length - 1.0).abs() <= UNIT_ROUNDING).then_some(Self(vector)).ok_or("a direction is a vector of length 1")
@@ -53,7 +54,7 @@ impl From<Direction> for [f64; 2] {
 }
 
 impl Direction {
-    /// The direction of a vector; none of one without length, and of what is no number.
+    /// Returns the direction of a vector, or `None` if its length is zero or NaN.
     #[must_use]
     pub fn of(vector: [f64; 2]) -> Option<Self> {
         let greatest = vector[0].abs().max(vector[1].abs());
@@ -63,13 +64,13 @@ impl Direction {
         (greatest > 0.0 && length.is_finite()).then(|| Self(scaled.map(|x| x / length)))
     }
 
-    /// Its components along the first and the second joint.
+    /// Returns its components along the first and the second joint.
     #[must_use]
     pub fn components(self) -> [f64; 2] {
         self.0
     }
 
-    /// The drift `epsilon v`.
+    /// Returns the drift `epsilon v`.
     #[must_use]
     pub fn drift(self, epsilon: f64) -> [f64; 2] {
         self.0.map(|v| epsilon * v)
@@ -88,24 +89,23 @@ pub enum Equation {
         direction: Direction,
         /// `epsilon`, per cell.
         epsilon: f64,
-        /// How the drift is discretised.
+        /// Discretisation of the drift.
         difference: Difference,
     },
-    /// The same with a drift of its own in every cell, 0 where there is none: around robots (Faria 2006, see
-    /// [`around`]), or in regions.
+    /// A separate drift in every cell, possibly 0: around robots (Faria 2006, see [`around`]), or in regions.
     LocallyOriented {
         /// `epsilon v`, per cell.
         drift: Vec<[f64; 2]>,
-        /// How the drift is discretised.
+        /// Discretisation of the drift.
         difference: Difference,
     },
     /// Preferences: `v` is the normalised gradient of the converged harmonic field, up towards obstacles, and `epsilon`
     /// that of each cell's region: positive makes the region less attractive, negative more (Prestes, Idiart 2009).
     /// Relaxed in two stages, the first harmonic.
     Preference {
-        /// One a cell.
+        /// One value per cell.
         epsilon: Vec<f64>,
-        /// How the drift is discretised.
+        /// Discretisation of the drift.
         difference: Difference,
     },
     /// Altered preferences ("BVP 2" of Deicu 2012): `p = h + epsilon / 4 d`, `h` the mean of the four neighbours and
@@ -114,7 +114,7 @@ pub enum Equation {
     /// That is with obstacles high. Where they are low the sign before `epsilon` turns: with `u = 1 - p` the mean becomes
     /// `1 - h` and `d` stays, so `u = h - epsilon / 4 d`.
     AlteredPreference {
-        /// One a cell.
+        /// One value per cell.
         epsilon: Vec<f64>,
     },
 }
@@ -122,16 +122,16 @@ pub enum Equation {
 /// A disc of cells with a drift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Influence {
-    /// Its centre, as (fractions of) row and column; whole numbers are centres of cells.
+    /// Centre, as (fractional) row and column. Integers are centres of cells.
     pub center: [f64; 2],
-    /// Its radius, in cells.
+    /// Radius, in cells.
     pub radius: f64,
     /// The drift `epsilon v` of its cells.
     pub drift: [f64; 2],
 }
 
-/// The drift of [`Equation::LocallyOriented`] around robots: each cell has that of the nearest one, if it lies nearer
-/// than that one's radius. `O(cells * influences)`.
+/// Returns the drift of [`Equation::LocallyOriented`] around robots. Each cell has the drift of the nearest robot, if
+/// it is within that robot's radius. `O(cells * influences)`.
 #[must_use]
 pub fn around(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
     let columns = domain.cells()[1];
@@ -149,14 +149,14 @@ pub fn around(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
 pub(super) type DriftOf<'a> = Box<dyn Fn(usize) -> [f64; 2] + 'a>;
 
 impl Equation {
-    /// Whether a cell's value is a mean of its neighbours' with weights that are not negative, whatever the values are.
-    /// Then no value leaves the range of the fixed ones, and the goals are the only minima.
+    /// Returns true if a cell's value is always a mean of its neighbours' with non-negative weights. Then no value
+    /// leaves the range of the fixed ones, and the goals are the only minima.
     #[must_use]
     pub fn is_monotone(&self) -> bool {
         self.is_monotone_with(1.0)
     }
 
-    /// The same on the cells of a domain, which need not be square.
+    /// Does the same for the cells of a domain, which need not be square.
     #[must_use]
     pub fn is_monotone_on(&self, domain: &Domain) -> bool {
         self.is_monotone_with(domain.beta())
@@ -178,7 +178,7 @@ impl Equation {
         }
     }
 
-    /// The drift of each cell, and how it is discretised. None where the drift depends on a field.
+    /// Returns the drift of each cell with its discretisation. Returns `None` if the drift depends on a field.
     pub(super) fn drift(&self) -> Option<(DriftOf<'_>, Difference)> {
         match self {
             Self::Harmonic => Some((Box::new(|_| [0.0; 2]), Difference::Central)),
@@ -191,7 +191,7 @@ impl Equation {
         }
     }
 
-    /// What keeps it from being an equation on this domain, if anything.
+    /// Returns the reason why it is invalid on this domain, or `None`.
     pub(super) fn refusal(&self, domain: &Domain) -> Option<String> {
         let cells = domain.kinds().len();
         let (count, finite) = match self {

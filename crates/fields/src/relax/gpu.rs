@@ -8,16 +8,16 @@ use super::{Relaxed, Scheme, Stopping};
 use cplan_gpu::{Edge, Ending, Gpu, GpuError, Problem, Settings, Stencil, Sweep};
 use std::sync::OnceLock;
 
-/// The GPU of this process, opened when it is asked for first.
+/// Returns the GPU of this process, which is opened on first use.
 ///
 /// # Errors
-/// Why there is none, with the cure.
+/// The reason with a hint.
 pub(super) fn shared() -> Result<&'static Gpu, String> {
     static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
     GPU.get_or_init(|| Gpu::open().map_err(|error| error.to_string())).as_ref().map_err(Clone::clone)
 }
 
-/// As [`super::relax`].
+/// Does the same as [`super::relax`].
 pub(super) fn relax(
     domain: &Domain,
     equation: &Equation,
@@ -74,7 +74,7 @@ impl Stages for Field<'_> {
 
     fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError> {
         let weighted = Weighted::new(self.domain, &self.unknowns, drift, difference);
-        // Where all are alike the GPU need not be told cell by cell.
+        // If all cells have the same weights, the GPU needs no list of them.
         let stencil = if (0..self.unknowns.len()).all(|k| weighted.at(k) == [0.25; 4]) {
             Stencil::Mean
         } else {
@@ -116,7 +116,7 @@ impl Field<'_> {
         let converged = relaxed.ending == Ending::Converged;
         self.stages.push(Convergence { sweeps, change: relaxed.change, converged });
         self.values = relaxed.values;
-        // What is fixed keeps all its digits.
+        // Fixed values keep all their digits.
         for (value, &kind) in self.values.iter_mut().zip(domain.kinds()).filter(|(_, kind)| **kind != Cell::Free) {
             *value = domain.fixed(kind).unwrap_or(*value);
         }

@@ -1,10 +1,10 @@
-//! The family of field equations and their relaxations, as values that combine: a [`Domain`], an [`Equation`], a
-//! [`Relaxation`] and a [`Stopping`] rule; [`relax`] takes one of each, [`relax_on`] a GPU as well.
+//! The field equations and their relaxations, as values that combine. [`relax`] takes a [`Domain`], an [`Equation`], a
+//! [`Relaxation`] and a [`Stopping`] rule; [`relax_on`] also takes a device.
 //!
-//! An equation becomes a `Stencil` (what the neighbours ask of a cell), an order a list of passes, a measure a `Tally`;
-//! the sweeps are compiled for each pair of stencil and tally, and know no other combinations. A new linear equation is a
-//! drift per cell; another one is a stencil. Attraction and repulsion ([`super::Khatib`]) are no equation: their
-//! potential is given, not sought.
+//! An equation becomes a `Stencil` (the value that neighbours imply for a cell), an order becomes a list of passes, and
+//! a measure a `Tally`. The sweeps are compiled for each pair of stencil and tally. A new linear equation is a drift
+//! per cell; any other equation is a new stencil. Attraction and repulsion ([`super::Khatib`]) are not an equation,
+//! because their potential is given in closed form.
 
 mod by_multigrid;
 mod descent;

@@ -1,4 +1,4 @@
-//! How cells take turns and how far each goes.
+//! The order of updates and the relaxation factor.
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -12,20 +12,20 @@ use std::fmt;
 pub struct Relaxation {
     /// Who goes when, and how far.
     pub scheme: Scheme,
-    /// New values are brought into this range, if any: over-relaxation leaves the range of the fixed values at first.
+    /// Range to which new values are clamped, if any. Over-relaxation initially leaves the range of the fixed values.
     pub clamp: Option<[f64; 2]>,
-    /// How new values are kept.
+    /// Precision in which new values are stored.
     pub precision: Precision,
-    /// Whether over-relaxation stays on the free side of the obstacles' value: see [`Relaxation::guarded`].
+    /// True if over-relaxation stays on the free side of the obstacles' value: see [`Relaxation::guarded`].
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub guarded: bool,
 }
 
-/// With how many digits values are kept from one update to the next. Updates themselves are reckoned in doubles.
+/// Precision in which values are stored between updates. Updates themselves are computed in doubles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
-    /// All digits of a double.
+    /// Double precision.
     #[default]
     Double,
     /// Rounded to single precision, as by programs that store a `float`: what goes less than half a unit in its last place
@@ -37,16 +37,16 @@ pub enum Precision {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
-    /// All cells at once, from the values of the sweep before (Jacobi; weighted if the factor is not 1).
+    /// All cells at once from the values of the previous sweep (Jacobi; weighted if the factor is not 1).
     Simultaneous {
         /// Factor 1 is Jacobi's; weighted Jacobi's are between 0 and 1.
         factor: f64,
     },
-    /// One after the other, each from the newest values.
+    /// One cell after the other, each from the newest values.
     Successive {
         /// 1 is Gauss-Seidel; other factors make successive over-relaxation (SOR).
         factor: Factor,
-        /// In this order.
+        /// The order of cells.
         order: Order,
     },
 }
@@ -64,7 +64,7 @@ pub enum Factor {
 }
 
 impl Factor {
-    /// The number, for a domain of so many cells.
+    /// Returns the factor for a domain of this many cells.
     #[must_use]
     pub fn value(self, cells: [usize; 2]) -> f64 {
         match self {
@@ -78,7 +78,7 @@ impl Factor {
     }
 }
 
-/// In which order cells go. Whatever the order, every cell goes once a sweep.
+/// The order in which cells are updated. Every cell is updated once per sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Order {
@@ -87,15 +87,15 @@ pub enum Order {
     /// Line by line from another corner in each sweep: `(0, 0)`, then the end of the first line, the beginning of the
     /// last, the end of the last ("simultaneous" with Deicu 2012, whose sweeps are counted one by one, too).
     Corners(Lines),
-    /// All cells whose indices have an even sum, then the others. On circles of odd length neighbours across the seam
-    /// have the same colour; they go one after the other all the same.
+    /// All cells whose indices have an even sum, then the others. On circles of odd length, neighbours across the seam
+    /// have the same colour and are updated one after the other.
     RedBlack,
     /// Four colours: cells whose row and column are both even, then those of even row, those of even column, the others. No two
     /// cells of one colour share a side or a corner.
     FourColors,
 }
 
-/// What a line is.
+/// The direction of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Lines {
@@ -106,13 +106,13 @@ pub enum Lines {
     Columns,
 }
 
-/// A way through all cells, line by line.
+/// An order of all cells, line by line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scan {
     /// Cells of a line follow one another.
     pub lines: Lines,
-    /// Whether the index along each axis falls instead of rising.
+    /// True for each axis along which the index decreases.
     pub falling: [bool; 2],
 }
 
@@ -125,7 +125,7 @@ impl Relaxation {
     /// Jacobi's relaxation: each cell goes all the way, all at once.
     pub const JACOBI: Self = Self::weighted_jacobi(1.0);
 
-    /// Jacobi's with a factor.
+    /// Returns weighted Jacobi relaxation.
     #[must_use]
     pub const fn weighted_jacobi(factor: f64) -> Self {
         Self { scheme: Scheme::Simultaneous { factor }, clamp: None, precision: Precision::Double, guarded: false }
@@ -137,38 +137,40 @@ impl Relaxation {
         Self::sor(Factor::Given(1.0), order)
     }
 
-    /// Successive over-relaxation with this factor, cells in this order.
+    /// Returns successive over-relaxation with this factor and order.
     #[must_use]
     pub const fn sor(factor: Factor, order: Order) -> Self {
         Self { scheme: Scheme::Successive { factor, order }, clamp: None, precision: Precision::Double, guarded: false }
     }
 
-    /// The same with new values brought into a range.
+    /// Clamps new values to a range.
     #[must_use]
     pub const fn clamped(self, range: [f64; 2]) -> Self {
         Self { clamp: Some(range), ..self }
     }
 
-    /// The same with new values kept otherwise.
+    /// Stores new values in another precision.
     #[must_use]
     pub const fn kept(self, precision: Precision) -> Self {
         Self { precision, ..self }
     }
 
-    /// The same for values that span many orders of magnitude, on the CPU. Over-relaxation carries the rounding errors of large
-    /// values to cells whose values are smaller than these errors. There signs flip, and relative changes never settle. So:
+    /// Adapts the relaxation to values that span many orders of magnitude, on the CPU.
     ///
-    /// - A cell that would pass the obstacles' value takes what its neighbours ask for, without the factor. Where equations
-    ///   are monotone no value passes that of obstacles.
-    /// - Under [`Measure::GreatestRelativeChange`](super::Measure) the factor becomes 1 when no value changes by more than `1e-13` of
-    ///   the distance between the obstacles' and the goals' value. What is left is relaxed by Gauss and Seidel's sweeps, which keep
-    ///   relative errors small.
+    /// Over-relaxation carries the rounding errors of large values to cells with smaller values. There signs flip, and
+    /// relative changes never settle. Therefore:
+    ///
+    /// - A cell that would pass the obstacles' value takes the value that its neighbours imply, without the factor.
+    ///   With monotone equations no value then passes that of obstacles.
+    /// - With [`Measure::GreatestRelativeChange`](super::Measure), the factor becomes 1 when no value changes by more
+    ///   than `1e-13` of the difference between the obstacles' and the goals' value. The rest is relaxed by
+    ///   Gauss-Seidel sweeps, which keep relative errors small.
     #[must_use]
     pub const fn guarded(self) -> Self {
         Self { guarded: true, ..self }
     }
 
-    /// The factor on a domain of so many cells.
+    /// Returns the factor on a domain of this many cells.
     #[must_use]
     pub fn factor(&self, cells: [usize; 2]) -> f64 {
         match self.scheme {
@@ -207,8 +209,8 @@ impl fmt::Display for Order {
 }
 
 impl Order {
-    /// The way through `unknowns` (indices of cells, rising) in each sweep, as positions among them; after the last it
-    /// begins anew.
+    /// Returns the order of the `unknowns` (ascending indices of cells) in each sweep, as positions among them. The
+    /// list repeats after its last sweep.
     pub(super) fn passes(self, cells: [usize; 2], unknowns: &[u32]) -> Vec<Vec<u32>> {
         let sorted = |key: &dyn Fn([usize; 2]) -> [usize; 2]| {
             let mut positions: Vec<u32> = (0..unknowns.len() as u32).collect();
@@ -229,7 +231,7 @@ impl Order {
             })
         };
         match self {
-            // As they are: sorting takes as long as some sweeps, which is more than a field that moves a little needs.
+            // Unsorted: sorting takes as long as several sweeps, which is more than a field needs after a small change.
             Self::Lines(Scan::ROWS) => vec![(0..unknowns.len() as u32).collect()],
             Self::Lines(way) => vec![scan(way)],
             Self::Corners(lines) => {

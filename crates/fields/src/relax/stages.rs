@@ -3,22 +3,22 @@
 use super::sweeps::{normalized_gradient, strengths};
 use super::{Difference, Domain, Equation, RelaxError};
 
-/// What can relax a stage. Each begins with the values that the last one ended with.
+/// A device that relaxes stages. Each stage starts with the final values of the previous one.
 pub(super) trait Stages {
-    /// The equation without a drift.
+    /// Relaxes the equation without a drift.
     fn harmonic(&mut self) -> Result<(), RelaxError>;
 
-    /// A linear equation, of a drift in each cell.
+    /// Relaxes a linear equation with a drift in each cell.
     fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError>;
 
-    /// Altered preferences, of a strength in each cell.
+    /// Relaxes altered preferences with a strength in each cell.
     fn altered(&mut self, strengths: Vec<f64>) -> Result<(), RelaxError>;
 
-    /// The values so far, one a cell at least.
+    /// Returns the current values, at least one per cell.
     fn values(&self) -> &[f64];
 }
 
-/// All stages of an equation: preferences begin with the harmonic field.
+/// Runs all stages of an equation: preferences start with the harmonic field.
 pub(super) fn in_stages(equation: &Equation, domain: &Domain, on: &mut impl Stages) -> Result<(), RelaxError> {
     match equation {
         Equation::Harmonic => on.harmonic(),

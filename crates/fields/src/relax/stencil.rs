@@ -1,14 +1,15 @@
-//! What the neighbours of a cell ask for.
+//! Stencils: the value that neighbours imply for a cell.
 
 use super::{Difference, Domain, Neighbor};
 
 /// The value that a cell should have.
 pub(super) trait Stencil {
-    /// For the unknown at `position` with the value `own`, from those `around` it in the order `-q1, +q1, -q2, +q2`.
+    /// Returns the implied value for the unknown at `position` with the value `own`, from its neighbours in the order
+    /// `-q1, +q1, -q2, +q2`.
     fn asked(&self, position: usize, own: f64, around: [f64; 4]) -> f64;
 }
 
-/// The mean of the four neighbours. With reflecting limits this is not what the equation says: see [`Weighted`].
+/// The mean of the four neighbours. It does not hold at reflecting limits: see [`Weighted`].
 pub(super) struct Mean;
 
 impl Stencil for Mean {
@@ -22,7 +23,7 @@ impl Stencil for Mean {
 pub(super) struct Weighted(Vec<[f64; 4]>);
 
 impl Weighted {
-    /// For a drift at each of the unknowns (indices of cells).
+    /// Computes the weights for a drift at each of the unknowns (indices of cells).
     pub fn new(domain: &Domain, unknowns: &[u32], drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Self {
         let weights = unknowns.iter().map(|&cell| {
             let weights = weights(domain, cell as usize, drift(cell as usize), difference);
@@ -32,7 +33,7 @@ impl Weighted {
         Self(weights.collect())
     }
 
-    /// Those of the unknown at `position`, in the order of its neighbours.
+    /// Returns the weights of the unknown at `position`, in the order of its neighbours.
     pub fn at(&self, position: usize) -> [f64; 4] {
         self.0[position]
     }
@@ -45,8 +46,8 @@ impl Stencil for Weighted {
     }
 }
 
-/// The weights of a cell's neighbours for a drift: `lap p + <b, grad p>` is the weighted sum of their values, less the sum of the weights
-/// times its own.
+/// Returns the weights of a cell's neighbours for a drift: `lap p + <b, grad p>` is the weighted sum of their values,
+/// minus the sum of the weights times the cell's value.
 pub(super) fn weights(domain: &Domain, cell: usize, drift: [f64; 2], difference: Difference) -> [f64; 4] {
     let mut weights = sides(domain.beta(), drift, difference);
     for (weight, neighbor) in weights.iter_mut().zip(domain.neighbors(cell)) {
@@ -57,7 +58,8 @@ pub(super) fn weights(domain: &Domain, cell: usize, drift: [f64; 2], difference:
     weights
 }
 
-/// The same where no neighbour is the cell itself. Along axis 2 second differences weigh `beta^2` and first ones `beta`.
+/// Does the same for a cell that is not its own neighbour. Along axis 2, second differences have the weight `beta^2`
+/// and first ones `beta`.
 pub(super) fn sides(beta: f64, drift: [f64; 2], difference: Difference) -> [f64; 4] {
     let side = |beta: f64, b: f64| match difference {
         Difference::Central => beta * (beta + 0.5 * b),
@@ -66,9 +68,9 @@ pub(super) fn sides(beta: f64, drift: [f64; 2], difference: Difference) -> [f64;
     [side(1.0, -drift[0]), side(1.0, drift[0]), side(beta, -drift[1]), side(beta, drift[1])]
 }
 
-/// The altered preferences: `h + strength d`, `strength` being `epsilon / 4` with the sign that the levels ask for. Beyond
-/// a reflecting limit there is the cell's own value as it is. Where cells are not square `h` is the weighted mean, the slope along
-/// axis 2 counts `beta` times, and 4 becomes the sum of the weights, `2 + 2 beta^2`.
+/// Altered preferences: `h + strength d`, where `strength` is `epsilon / 4` with the sign that fits the levels. Beyond
+/// a reflecting limit lies the cell's own value. If cells are not square, `h` is the weighted mean, the slope along
+/// axis 2 has the factor `beta`, and 4 becomes the sum of the weights, `2 + 2 beta^2`.
 pub(super) struct Altered {
     /// `epsilon / 4`, one a position.
     pub strength: Vec<f64>,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What is measured in a sweep; `change` is the difference between a value after and before it.
+/// The quantity measured in a sweep. `change` is the difference of a value before and after it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
@@ -21,7 +21,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// Whether it is [`Measure::GreatestRelativeChange`].
+    /// Returns true for [`Measure::GreatestRelativeChange`].
     #[must_use]
     pub fn is_relative(&self) -> bool {
         *self == Self::GreatestRelativeChange
@@ -31,7 +31,7 @@ impl Measure {
 /// When a relaxation ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stopping {
-    /// What is measured.
+    /// The measured quantity.
     pub measure: Measure,
     /// It has converged when the measure falls below this, and when a sweep changes nothing at all.
     pub below: f64,
@@ -39,20 +39,20 @@ pub struct Stopping {
     pub max_sweeps: usize,
 }
 
-/// How a relaxation ended.
+/// Result of a relaxation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Convergence {
     /// Passes over all cells.
     pub sweeps: usize,
     /// The measure in the last of them; infinite before the first.
     pub change: f64,
-    /// Whether the measure fell below what was asked for.
+    /// True if the measure fell below the requested bound.
     pub converged: bool,
 }
 
 /// Sums up the changes of a sweep.
 pub(super) trait Tally {
-    /// The measure so far, with one more value.
+    /// Adds a value to the measure.
     fn add(total: f64, old: f64, new: f64) -> f64;
 }
 

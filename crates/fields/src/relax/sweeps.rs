@@ -11,9 +11,9 @@ use std::fmt;
 /// A relaxed field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relaxed {
-    /// One a cell; those of obstacles and goals are their levels.
+    /// One value per cell. Those of obstacles and goals are their levels.
     pub values: Vec<f64>,
-    /// How each stage ended: with preferences the first is the harmonic field that they start from; otherwise there is one.
+    /// Result of each stage. With preferences, the first stage is the harmonic field; other equations have one stage.
     pub stages: Vec<Convergence>,
 }
 
@@ -24,13 +24,13 @@ impl Relaxed {
         self.stages.iter().map(|stage| stage.sweeps).sum()
     }
 
-    /// Whether every stage converged.
+    /// Returns true if every stage converged.
     #[must_use]
     pub fn converged(&self) -> bool {
         self.stages.iter().all(|stage| stage.converged)
     }
 
-    /// The measure in the very last sweep.
+    /// Returns the measure in the last sweep.
     #[must_use]
     pub fn change(&self) -> f64 {
         self.stages.last().map_or(f64::INFINITY, |stage| stage.change)
@@ -40,7 +40,7 @@ impl Relaxed {
 /// Why there is no relaxed field.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RelaxError {
-    /// What was asked for makes no sense: why, in words.
+    /// The request is invalid, with the reason.
     Refused(String),
     /// Values grew without bound, or are numbers no more.
     Diverged {
@@ -50,7 +50,7 @@ pub enum RelaxError {
         cell: [usize; 2],
         /// The value of that cell.
         value: f64,
-        /// What the reason may be, and what to do, in words.
+        /// Possible reason and advice.
         hint: String,
     },
 }
@@ -75,11 +75,12 @@ impl std::error::Error for RelaxError {}
 /// on the way against it by `exp(b / 2)` a cell, which may be many orders of magnitude, and converges all the same.
 const BEYOND: f64 = 1e100;
 
-/// A guarded relaxation goes on without its factor when no value changes by more than this part of the distance between
-/// the obstacles' and the goals' value: some hundred roundings of the greatest values, which is what over-relaxation makes of one.
+/// A guarded relaxation drops its factor when no value changes by more than this fraction of the difference between the
+/// obstacles' and the goals' value. This is about a hundred roundings of the greatest values, the amplification by
+/// over-relaxation.
 const OVER_RELAXED_TO: f64 = 1e-13;
 
-/// Every so many sweeps values are looked at for divergence.
+/// Number of sweeps between checks for divergence.
 const LOOKED_AT: usize = 16;
 
 /// Relaxes from [`Domain::start`]. A sweep costs some nanoseconds a free cell.
@@ -131,15 +132,15 @@ pub struct Watched<'a> {
     pub stage: usize,
     /// Sweeps of this stage so far; 0 before the first.
     pub sweep: usize,
-    /// One a cell.
+    /// One value per cell.
     pub values: &'a [f64],
 }
 
-/// As [`relax_from`], and `watch` sees the values before the first sweep of each stage and after every one. What it sees may be
-/// no numbers any more, where the relaxation diverges.
+/// Does the same as [`relax_from`], and calls `watch` with the values before the first sweep of each stage and after
+/// every sweep. The values may be NaN if the relaxation diverges.
 ///
 /// # Errors
-/// As [`relax_from`].
+/// Same as [`relax_from`].
 pub fn relax_watched(
     domain: &Domain,
     equation: &Equation,
@@ -157,7 +158,7 @@ pub fn relax_watched(
     Ok(Relaxed { values: engine.values, stages: engine.stages })
 }
 
-/// Why what is asked for makes no sense, if it does not.
+/// Returns the reason why the request is invalid, or `None`.
 pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxation) -> Option<RelaxError> {
     if let Some(refusal) = equation.refusal(domain) {
         return Some(RelaxError::Refused(refusal));
@@ -174,7 +175,7 @@ pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxat
     None
 }
 
-/// The free cells that have neighbours, rising. A cell that has no neighbour but itself keeps its value.
+/// Returns the free cells that have neighbours, ascending. A cell that is its own only neighbour keeps its value.
 pub(super) fn unknowns(domain: &Domain) -> Vec<u32> {
     (0..domain.kinds().len()).filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
 }
@@ -192,7 +193,7 @@ pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> 
     around.collect()
 }
 
-/// Values to begin with: those of obstacles and goals are set to their levels, and one more is what lies beyond limits.
+/// Returns initial values: obstacles and goals have their levels, and the value beyond limits comes last.
 pub(super) fn begun(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64>, RelaxError> {
     if start.len() != domain.kinds().len() {
         return Err(RelaxError::Refused("there must be one value a cell to start from".into()));
@@ -201,13 +202,13 @@ pub(super) fn begun(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64>, RelaxE
     Ok(fixed.chain([domain.levels().obstacle]).collect())
 }
 
-/// `epsilon / 4` of altered preferences, with the sign that the levels ask for; one a cell.
+/// Returns `epsilon / 4` of altered preferences, with the sign that fits the levels, one per cell.
 pub(super) fn strengths(domain: &Domain, epsilon: &[f64]) -> Vec<f64> {
     let quarter = 0.25 * domain.levels().orientation();
     epsilon.iter().map(|epsilon| quarter * epsilon).collect()
 }
 
-/// What may be the reason of a divergence, and what to do.
+/// Explains a possible reason of a divergence, with advice.
 pub(super) fn hint(domain: &Domain, equation: &Equation, factor: f64) -> String {
     if equation.is_monotone_on(domain) {
         format!("the factor {factor:.4} is too great for this equation")
@@ -220,8 +221,8 @@ pub(super) fn hint(domain: &Domain, equation: &Equation, factor: f64) -> String 
     }
 }
 
-/// The direction in which each free cell's value rises towards that of obstacles, by central differences; 0 where values
-/// around it are level.
+/// Returns the direction in which each free cell's value rises towards that of obstacles, by central differences; 0
+/// where values are level.
 pub(super) fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 2]> {
     let levels = domain.levels();
     let at = |cell: usize| {
@@ -245,7 +246,7 @@ struct Engine<'a> {
     equation: &'a Equation,
     relaxation: &'a Relaxation,
     stopping: &'a Stopping,
-    /// One a cell, and last that of obstacles, for what lies beyond limits.
+    /// One value per cell, and last that of obstacles, for the boundary.
     values: Vec<f64>,
     /// Greatest absolute value before the first sweep.
     greatest: f64,
@@ -292,7 +293,7 @@ impl<'a> Engine<'a> {
         Self { domain, equation, relaxation, stopping, values, greatest, unknowns, around, stages: Vec::new(), watch }
     }
 
-    /// Whether the neighbours of some cell weigh differently without a drift.
+    /// Returns true if the neighbours of some cell have unequal weights without a drift.
     fn is_weighted(&self) -> bool {
         let has_mirrors = self.domain.boundaries().contains(&Boundary::Reflecting) || self.domain.cells().contains(&1);
         has_mirrors || self.domain.beta() != 1.0
@@ -347,7 +348,7 @@ impl<'a> Engine<'a> {
     }
 
     fn show(&mut self, sweep: usize) {
-        // Without the last, which is what lies beyond limits.
+        // Without the last value, which is for the boundary.
         let values = &self.values[..self.values.len() - 1];
         (self.watch)(Watched { stage: self.stages.len(), sweep, values });
     }
@@ -390,10 +391,10 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// What changed in a sweep.
+/// The changes in a sweep.
 #[derive(Default)]
 struct Changes {
-    /// What the stopping rule measures.
+    /// The measured quantity.
     total: f64,
     /// The greatest `|change|`.
     greatest: f64,
@@ -406,7 +407,7 @@ impl Changes {
     }
 }
 
-/// How far a cell goes.
+/// The update of a cell.
 struct Step<'a, S> {
     stencil: &'a S,
     factor: f64,
@@ -419,7 +420,7 @@ struct Step<'a, S> {
 impl<S: Stencil> Step<'_, S> {
     fn new_value(&self, position: usize, old: f64, around: [f64; 4]) -> f64 {
         let asked = self.stencil.asked(position, old, around);
-        // With factor 1 exactly what is asked, without the rounding of a detour.
+        // With factor 1 take exactly the implied value, without additional rounding.
         let new = if self.factor == 1.0 { asked } else { old + self.factor * (asked - old) };
         let new = match self.guard {
             Some([orientation, obstacle]) if orientation * (new - obstacle) > 0.0 => asked,

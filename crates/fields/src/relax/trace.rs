@@ -1,8 +1,8 @@
-//! How a relaxation converges, sweep by sweep.
+//! The convergence of a relaxation, sweep by sweep.
 
 use super::{Domain, Equation, RelaxError, Relaxation, Stopping, Watched, relax_watched};
 
-/// How a relaxation ended.
+/// Reasons why a relaxation ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Ending {
     /// The stopping rule's measure fell below its bound, in all stages.
@@ -13,7 +13,7 @@ pub enum Ending {
     Diverged,
 }
 
-/// What is measured after a sweep.
+/// Measurements after a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
     /// The stage, from 0: with preferences 0 is the harmonic field.
@@ -32,17 +32,16 @@ pub struct Sample {
 /// A relaxation from its start to its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// After every sweep up to the hundredth, from there on after each that is later by a hundredth part, and after the first and the
-    /// last of each stage.
-    /// Sweeps after which squares or error are no finite numbers are left out.
+    /// Samples after every sweep up to the hundredth, then after each sweep that is later by one percent, and after the
+    /// first and the last of each stage. Sweeps whose squares or error are not finite are omitted.
     pub samples: Vec<Sample>,
     /// Passes over all cells, of all stages.
     pub sweeps: usize,
-    /// How it ended.
+    /// Reason why it ended.
     pub ending: Ending,
 }
 
-/// Where the second stage begins: preferences, added to the harmonic field.
+/// The start of the second stage: preferences, added to the harmonic field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leap {
     /// Sweeps of the first stage.
@@ -64,8 +63,9 @@ const SETTLED: f64 = 0.5;
 /// Below this error is nothing but rounding, which has no rate.
 const ROUNDING: f64 = 1e-13;
 
-/// Relaxes from `start` and measures as it goes. `exact` is the solution, for the error ([`eliminated`](super::eliminated));
-/// that of an equation with preferences has two stages and no error. It costs about as much again as the relaxation itself.
+/// Relaxes from `start` and measures after each sweep. `exact` is the solution, for the error
+/// ([`eliminated`](super::eliminated)). An equation with preferences has two stages and no known error. Measuring takes
+/// about as long as the relaxation.
 ///
 /// ```
 /// use cplan_fields::*;
@@ -81,7 +81,7 @@ const ROUNDING: f64 = 1e-13;
 /// ```
 ///
 /// # Errors
-/// [`RelaxError::Refused`] alone: that a relaxation diverges is what may be found out.
+/// [`RelaxError::Refused`] only. Divergence is not an error, because it may be the subject of the measurement.
 pub fn trace(
     domain: &Domain,
     equation: &Equation,
@@ -104,8 +104,9 @@ pub fn trace(
 }
 
 impl Trace {
-    /// The factor that a sweep multiplies the error by, in the end: the geometric mean over the last half of the sweeps, as far as
-    /// the error is no rounding. None where the error is not known or there are too few sweeps.
+    /// Returns the asymptotic factor by which a sweep multiplies the error: the geometric mean over the second half of
+    /// the sweeps, as far as the error exceeds rounding. Returns `None` if the error is unknown or there are too few
+    /// sweeps.
     #[must_use]
     pub fn rate(&self) -> Option<f64> {
         let errors: Vec<(usize, f64)> = self
@@ -131,7 +132,7 @@ impl Trace {
         Some(Leap { sweep: last.sweep, before, after, more: self.sweeps - last.sweep })
     }
 
-    /// The last error that was measured.
+    /// Returns the last measured error.
     #[must_use]
     pub fn error(&self) -> Option<f64> {
         self.samples.last()?.error
@@ -145,13 +146,13 @@ struct Observer<'a> {
     before: Vec<f64>,
     /// The greatest error before the first sweep.
     first: f64,
-    /// Of stages that have ended.
+    /// Number of sweeps of finished stages.
     earlier: usize,
     sweeps: usize,
     /// Number of the sweep that is sampled next.
     next: usize,
     samples: Vec<Sample>,
-    /// Of the last sweep, if it was not kept.
+    /// The last sweep, if it was not sampled.
     last: Option<Sample>,
 }
 
@@ -183,7 +184,7 @@ impl Observer<'_> {
         self.samples.extend(self.last.take());
     }
 
-    /// None if a number is not finite.
+    /// Measures a sweep. Returns `None` if a number is not finite.
     fn measured(&self, seen: &Watched) -> Option<Sample> {
         let (mut squares, mut relative) = (0.0, 0.0_f64);
         for (old, new) in self.before.iter().zip(seen.values) {
@@ -200,7 +201,7 @@ impl Observer<'_> {
     }
 }
 
-/// Infinite where a value is no number.
+/// Returns the greatest error, or infinity if a value is NaN.
 fn greatest_error(exact: &[f64], values: &[f64]) -> f64 {
     let error = |(exact, value): (&f64, &f64)| (value - exact).abs();
     let errors = exact.iter().zip(values).map(error);

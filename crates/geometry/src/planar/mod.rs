@@ -1,7 +1,8 @@
-//! Polygons with holes as distinct vertices and directed sides that meet in vertices, and their triangulation.
+//! The boundary of a region of polygons as a planar graph: distinct vertices, and directed sides that meet in vertices
+//! only.
 //!
-//! Sides that touch, or that the rounding of their corners has made cross by a hair, are cut and joined there (`noding`).
-//! All sweeps keep the sides under the line in the same balanced tree (`status`).
+//! `noding` cuts sides where they touch, or where rounding has made them cross slightly. `triangulation` triangulates
+//! the region. All sweeps keep the sides under the sweep line in the same balanced tree, `status`.
 
 mod noding;
 mod simplicity;
@@ -16,65 +17,68 @@ use super::{Orientation, Point, orientation};
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// No index, in tables of indices.
+/// Marks an empty entry in tables of indices.
 pub const NONE: u32 = u32::MAX;
 
-/// A side of the boundary, by vertex number; the inside (for planners free space) lies to the left of its direction.
+/// A side of the boundary, by vertex numbers. The inside (for planners: free space) lies to its left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Side {
-    /// Where it begins.
+    /// The vertex where it starts.
     pub from: u32,
-    /// Where it ends.
+    /// The vertex where it ends.
     pub to: u32,
 }
 
 impl Side {
-    /// End with the lesser abscissa (on a vertical side the lower one): vertices are numbered in that order.
+    /// Returns the end with the lesser abscissa, or the lower end of a vertical side. Vertices are numbered in that
+    /// order.
     pub fn left_end(self) -> usize {
         self.from.min(self.to) as usize
     }
 
-    /// The other end.
+    /// Returns the other end.
     pub fn right_end(self) -> usize {
         self.from.max(self.to) as usize
     }
 
-    /// Whether it is directed to the right, so that the inside lies above.
+    /// Returns true if the side is directed to the right, so that the inside lies above it.
     pub fn is_floor(self) -> bool {
         self.from < self.to
     }
 }
 
-/// Distinct vertices in lexicographic order, directed sides that meet in vertices only.
+/// Distinct vertices in lexicographic order, and directed sides that meet in vertices only.
 ///
-/// Contours that touch (in a shared corner, or a corner on a side) are cut there, so that what is inside around a point
-/// is told by the sides that end there, whichever way the contours were traced. Sides must not cross or overlap each
-/// other, which holds for the result of any polygon union; where the rounding of its corners has made them cross by a
-/// hair, they are cut and joined at the corner next to the crossing. Two coincident sides, where obstacles touch along
-/// a side, are allowed.
+/// Where contours touch (in a shared corner, or a corner on a side), sides are cut. The sides that end at a point then
+/// determine where the inside is, independent of the direction in which contours were traced.
+///
+/// Sides must not cross or overlap, which holds for the result of any polygon union. Sides that cross only by rounding
+/// are cut and joined at the corner next to the crossing. Two coincident sides, where obstacles touch along a side, are
+/// allowed.
 #[derive(Debug, Clone)]
 pub struct Boundary {
-    /// Distinct, in lexicographic order.
+    /// The vertices, distinct and in lexicographic order.
     pub vertices: Vec<Point>,
-    /// By left end, and of one left end from bottom to top.
+    /// The sides, by left end; sides with the same left end from bottom to top.
     pub sides: Vec<Side>,
     /// The sides that begin at vertex `v` are `first[v]..first[v + 1]`.
     first: Vec<u32>,
-    /// Sides by right end, of one right end from bottom to top: those of `v` are `last[v]..last[v + 1]` of them.
+    /// The sides by right end; those with the same right end from bottom to top. Those of `v` are `last[v]..last[v +
+    /// 1]` of them.
     by_right_end: Vec<u32>,
     last: Vec<u32>,
-    /// For every vertex the side straight below that does not end there, or `NONE`.
+    /// For each vertex, the side straight below it that does not end there, or `NONE`.
     below: Vec<u32>,
 }
 
 impl Boundary {
-    /// Of contours with the inside to the left, `O(n log n)` for `n` corners.
+    /// Builds the boundary of contours that have the inside to their left. `O(n log n)` for `n` corners.
     #[must_use]
     pub fn new(contours: &[&[Point]]) -> Self {
         noding::planar(Self::bare(contours))
     }
 
-    /// Vertices and sides in no order.
+    /// Collects vertices and sides, in arbitrary order.
     fn bare(contours: &[&[Point]]) -> Self {
         let mut order: Vec<(Point, u32)> =
             contours.iter().copied().flatten().zip(0..).map(|(p, index)| (unsigned_zero(*p), index)).collect();
@@ -98,7 +102,8 @@ impl Boundary {
         Self { vertices, sides, first: vec![], by_right_end: vec![], last: vec![], below: vec![] }
     }
 
-    /// Of the first `count` sides of a ring of distinct corners, each from a corner to the next one; nothing is cut.
+    /// Builds the first `count` sides of a ring of distinct corners, without cutting. Side `i` runs from corner `i` to
+    /// the next one.
     fn of_chain(ring: &[Point], count: usize) -> Self {
         let mut this = Self::bare(&[ring]);
         this.sides.truncate(count);
@@ -106,7 +111,7 @@ impl Boundary {
         this
     }
 
-    /// Puts the sides in order and sets up the lists by vertex.
+    /// Sorts the sides and builds the lists by vertex.
     fn arrange(&mut self) {
         let point = |v: usize| self.vertices[v];
         self.sides.sort_unstable_by(|a, b| {
@@ -127,51 +132,52 @@ impl Boundary {
             let group = &mut self.by_right_end[self.last[v] as usize..self.last[v + 1] as usize];
             if group.len() > 1 {
                 let left = |k: u32| self.vertices[self.sides[k as usize].left_end()];
-                // Seen from the right end the lower side is the one counter-clockwise of the other.
+                // Seen from the right end, the lower side is the one counter-clockwise of the other.
                 group.sort_by(|&a, &b| below_at(self.vertices[v], left(b), left(a)).then(a.cmp(&b)));
             }
         }
     }
 
-    /// Sides that begin at vertex `v`, going to the right, from bottom to top.
+    /// Returns the sides that start at vertex `v` and run to the right, from bottom to top.
     pub fn beginning(&self, v: usize) -> Range<usize> {
         self.first[v] as usize..self.first[v + 1] as usize
     }
 
-    /// Sides that end at vertex `v`, coming from the left, from bottom to top.
+    /// Iterates over the sides that end at vertex `v` and come from the left, from bottom to top.
     pub fn ending(&self, v: usize) -> impl DoubleEndedIterator<Item = usize> + Clone + '_ {
         self.by_right_end[self.last[v] as usize..self.last[v + 1] as usize].iter().map(|&side| side as usize)
     }
 
-    /// The side straight below vertex `v` that does not end there.
+    /// Returns the side straight below vertex `v` that does not end there.
     pub fn below(&self, v: usize) -> Option<usize> {
         (self.below[v] != NONE).then_some(self.below[v] as usize)
     }
 
-    /// Sets what [`Boundary::below`] tells.
+    /// Stores the sides that [`Boundary::below`] returns.
     fn set_below(&mut self, below: Vec<u32>) {
         self.below = below;
     }
 
-    /// Ends of a side.
+    /// Returns the ends of a side.
     pub fn ends(&self, side: usize) -> (Point, Point) {
         (self.vertices[self.sides[side].from as usize], self.vertices[self.sides[side].to as usize])
     }
 
-    /// On which side of the line through a side, directed to the right, `p` lies: counter-clockwise means above.
+    /// Returns the position of `p` relative to the line through a side, directed to the right: counter-clockwise means
+    /// above.
     pub fn place(&self, side: usize, p: Point) -> Orientation {
         let side = self.sides[side];
         orientation(self.vertices[side.left_end()], self.vertices[side.right_end()], p)
     }
 
-    /// Whether a side is vertical.
+    /// Returns true if a side is vertical.
     pub fn is_vertical(&self, side: usize) -> bool {
         let (from, to) = self.ends(side);
         from.x == to.x
     }
 
-    /// The ordinate at which a side that is not vertical meets the abscissa `x` within its range, rounded *into* the
-    /// inside: the point `(x, y)` is on the side or on its inner side, exactly.
+    /// Returns the ordinate of a side that is not vertical at the abscissa `x` within its range, rounded *into* the
+    /// inside: the point `(x, y)` lies exactly on the side or inside.
     pub fn ordinate(&self, side: usize, x: f64) -> f64 {
         let is_floor = self.sides[side].is_floor();
         let (from, to) = self.ends(side);
@@ -184,7 +190,7 @@ impl Boundary {
         }
         let (low, high) = (a.y.min(b.y), a.y.max(b.y));
         let mut y = (a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x))).clamp(low, high);
-        // Doubling the step from the rounding error's size on reaches the far end, which is inside, in any case.
+        // Doubling the step from the size of the rounding error eventually reaches the far end, which is inside.
         let mut step = f64::EPSILON * low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
         while orientation(from, to, Point::new(x, y)) == Orientation::Clockwise {
             y = if is_floor { (y + step).min(high) } else { (y - step).max(low) };
@@ -194,17 +200,17 @@ impl Boundary {
     }
 }
 
-/// By abscissa, then ordinate.
+/// Compares points by abscissa, then by ordinate.
 fn lexicographic(a: Point, b: Point) -> Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
 }
 
-/// The same point with `0.0` for `-0.0`, which sort apart.
+/// Replaces `-0.0` by `0.0`, because the two sort differently.
 fn unsigned_zero(p: Point) -> Point {
     Point::new(p.x + 0.0, p.y + 0.0)
 }
 
-/// Order of two segments that begin at `apex` by slope, both to the right of it.
+/// Compares two segments that start at `apex` and run to the right, by slope.
 fn below_at(apex: Point, a: Point, b: Point) -> Ordering {
     match orientation(apex, a, b) {
         Orientation::CounterClockwise => Ordering::Less,
@@ -213,7 +219,7 @@ fn below_at(apex: Point, a: Point, b: Point) -> Ordering {
     }
 }
 
-/// How many of the `keys` are less than each number up to `count`.
+/// Returns, for each number up to `count`, how many of the `keys` are less than it.
 fn starts(count: usize, keys: impl Iterator<Item = usize>) -> Vec<u32> {
     let mut starts = vec![0; count + 1];
     for key in keys {

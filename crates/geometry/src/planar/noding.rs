@@ -1,20 +1,20 @@
-//! Cutting sides where they touch or cross, so that they meet in vertices only.
+//! Noding: cuts sides where they touch or cross, so that they meet in vertices only.
 
 use super::{Boundary, NONE, Side, Status};
 use crate::{Orientation, Point};
 use cplan_interrupt::checkpoint;
 use std::cmp::Ordering;
 
-/// Sides that cross by no more than this, relative to the greatest coordinate, cross by rounding: a few units in the last
-/// place of what the corners were computed from.
+/// Sides that cross by at most this much cross because of rounding, as a fraction of the greatest coordinate: a few
+/// units in the last place of the values from which the corners were computed.
 const HAIR: f64 = 64.0 * f64::EPSILON;
 
-/// Passes after which sides that still cross are left so. Corners that rounding has moved across a side by a hair are
-/// joined to it in the first pass; the piece of side that this turns by a hair seldom crosses anything new.
+/// Number of passes after which remaining crossings are left. The first pass joins corners to the sides that rounding
+/// has moved them across. The pieces of these sides turn slightly, which rarely causes another crossing.
 const PASSES: usize = 16;
 
-/// A boundary whose sides meet in vertices only, and what lies below each vertex. `O(n log n)` a pass; the first is the
-/// only one where contours neither touch nor cross.
+/// Returns a boundary whose sides meet in vertices only, with the side below each vertex. Each pass takes `O(n log n)`,
+/// and one pass suffices if contours neither touch nor cross.
 pub(super) fn planar(mut boundary: Boundary) -> Boundary {
     for pass in 1..=PASSES {
         boundary.arrange();
@@ -30,11 +30,12 @@ pub(super) fn planar(mut boundary: Boundary) -> Boundary {
     boundary
 }
 
-/// Replaces sides by pieces between the vertices at which they are cut, given as pairs of side and vertex in order.
+/// Replaces sides by pieces between the vertices at which they are cut. `cuts` has pairs of a side and a vertex,
+/// sorted.
 fn cut(sides: &mut Vec<Side>, cuts: &[(usize, u32)]) {
     for of_side in cuts.chunk_by(|a, b| a.0 == b.0) {
         let whole = sides[of_side[0].0];
-        // Along a line, the order of vertex numbers is the order of the points.
+        // Along a line, vertex numbers have the order of the points.
         let mut stops: Vec<u32> = of_side.iter().map(|cut| cut.1).collect();
         if !whole.is_floor() {
             stops.reverse();
@@ -45,13 +46,13 @@ fn cut(sides: &mut Vec<Side>, cuts: &[(usize, u32)]) {
     }
 }
 
-/// A vertical line that passes over all vertices from left to right. Sides cross only if two cross that are neighbours on
-/// it at some time (Shamos, Hoey 1976).
+/// A vertical sweep line that passes over all vertices from left to right. If sides cross, then two of them cross that
+/// are neighbours on it at some time (Shamos, Hoey 1976).
 struct Sweep<'a> {
     boundary: &'a mut Boundary,
     status: Status,
     below: Vec<u32>,
-    /// [`HAIR`] in absolute terms.
+    /// [`HAIR`] as a length.
     hair: f64,
     /// Sides and the vertices at which they must be cut.
     cuts: Vec<(usize, u32)>,
@@ -79,7 +80,7 @@ impl<'a> Sweep<'a> {
             Some(lowest) => status.below(lowest),
             None => status.last_where(|side| boundary.place(side, at) == Orientation::CounterClockwise),
         };
-        // Only where sides cross do others lie between those that end here.
+        // Other sides lie between those that end here only where sides cross.
         while let Some(side) = below.filter(|&side| ends_here(side)) {
             below = status.below(side);
         }
@@ -103,7 +104,7 @@ impl<'a> Sweep<'a> {
         self.check(last, above);
     }
 
-    /// Floors and ceilings alternate: that tells the order of two coincident sides, where obstacles touch.
+    /// Orders two coincident sides, where obstacles touch: floors and ceilings alternate.
     fn tell_coincident(&mut self, below: Option<usize>, side: usize) {
         let sides = &mut self.boundary.sides;
         let expects_floor = below.is_none_or(|below| !sides[below].is_floor());
@@ -115,7 +116,7 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Notes where to cut if two sides that have become neighbours meet before the right end of either.
+    /// Records where to cut two new neighbours that meet before the right end of either.
     fn check(&mut self, below: Option<usize>, above: Option<usize>) {
         let (Some(below), Some(above)) = (below, above) else { return };
         let ends = [below, above].map(|side| self.boundary.sides[side].right_end());
@@ -128,14 +129,14 @@ impl<'a> Sweep<'a> {
         if place == Orientation::Collinear {
             self.cuts.push((other, first as u32));
         } else if place != proper {
-            // Two that do not cross may be neighbours by mistake, after others that do.
+            // Sides that do not cross can be neighbours by mistake, behind others that do.
             let cut = nearest_end(self.boundary, below, above).filter(|cut| cut.1 <= self.hair);
             self.cuts.extend(cut.map(|cut| cut.0));
         }
     }
 }
 
-/// Of two sides that cross, one and the end of the other that is nearest to it, and how near.
+/// For two sides that cross, returns one of them, the end of the other that is nearest to it, and the distance.
 fn nearest_end(boundary: &Boundary, a: usize, b: usize) -> Option<((usize, u32), f64)> {
     let candidates = [(a, b), (b, a)].into_iter().flat_map(|(side, other)| {
         let Side { from, to } = boundary.sides[other];
@@ -146,7 +147,7 @@ fn nearest_end(boundary: &Boundary, a: usize, b: usize) -> Option<((usize, u32),
     candidates.filter(|&(side, v)| !is_end(side, v)).map(distance).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Distance of a point from a segment.
+/// Returns the distance of a point from a segment.
 fn distance((a, b): (Point, Point), p: Point) -> f64 {
     let along = b - a;
     let t = ((p - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);

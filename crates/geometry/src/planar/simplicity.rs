@@ -1,19 +1,20 @@
-//! Whether any sides of a chain of corners meet that should not.
+//! The test whether sides of a ring meet where they should not.
 
 use super::{Boundary, Orientation, Point, Status};
 use cplan_interrupt::checkpoint;
 use std::cmp::Ordering;
 
-/// Of the sides of a closed ring (side `i` runs from corner `i` to the next one) the first that meets an earlier one which is
-/// not its neighbour; the greater number second. Exact, `O(n log n)`, with another factor of `log n` if there is one.
+/// Finds the first side of a closed ring that meets an earlier side which is not its neighbour. Side `i` runs from
+/// corner `i` to the next one, and the greater number is returned second. Exact, `O(n log n)`, with another factor of
+/// `log n` if there is one.
 ///
-/// The corners are distinct and finite, and no side folds back onto the one before it.
+/// The corners must be distinct and finite, and no side may fold back onto the previous one.
 pub fn first_meeting(ring: &[Point]) -> Option<(usize, usize)> {
     let n = ring.len();
     if !meets_itself(ring, n) {
         return None;
     }
-    // Adding sides never mends what has met, so halving finds the first that spoils it.
+    // More sides never remove an intersection, so bisection finds the first side that causes one.
     let (mut clear, mut spoilt) = (2, n);
     while spoilt - clear > 1 {
         let middle = clear.midpoint(spoilt);
@@ -30,13 +31,13 @@ pub fn first_meeting(ring: &[Point]) -> Option<(usize, usize)> {
     (0..last).find(meets).map(|first| (first, last))
 }
 
-/// Whether two of the first `count` sides of a ring meet anywhere but in a common corner: a line that sweeps over the plane
-/// has them side by side before (Shamos, Hoey 1976).
+/// Returns true if two of the first `count` sides of a ring meet other than in a common corner. Such sides become
+/// neighbours on a sweep line (Shamos, Hoey 1976).
 fn meets_itself(ring: &[Point], count: usize) -> bool {
     let boundary = Boundary::of_chain(ring, count);
     let mut status = Status::new(boundary.sides.len());
     let place = |side: usize, v: usize| boundary.place(side, boundary.vertices[v]);
-    // Sides in order left of the first right end of both meet unless that is on its own side of the other.
+    // Two sides that are in order left of the first right end meet unless that end lies on its own side of the other.
     let meet = |below: Option<usize>, above: Option<usize>| {
         let (Some(below), Some(above)) = (below, above) else { return false };
         let ends = [below, above].map(|side| boundary.sides[side].right_end());

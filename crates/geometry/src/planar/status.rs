@@ -1,13 +1,15 @@
-//! The sides under a sweep line, in order: a balanced tree.
+//! The status of a sweep line: the sides under it, in order, in a balanced tree.
 
 use super::NONE;
 
-/// A sequence of sides, each at most once, from bottom to top.
+/// A sequence of sides from bottom to top, each at most once.
 ///
-/// A *treap* (Aragon, Seidel 1989): a search tree by place, a heap by priorities that are hashes of the sides' numbers,
-/// so that the same input gives the same tree. Insertion and search take expected logarithmic time, removal and
-/// neighbours constant time. Sides are found again by their number, never by comparison, so an order that rounding of
-/// the input has made inconsistent costs results, not termination.
+/// A *treap* (Aragon, Seidel 1989): a search tree by position and a heap by priorities. Priorities are hashes of the
+/// sides' numbers, so the same input gives the same tree. Insertion and search take expected logarithmic time, removal
+/// and neighbours constant time.
+///
+/// Sides are located by number, never by comparison. If rounding of the input has made the order inconsistent, results
+/// can be wrong, but every operation ends.
 #[derive(Debug, Clone)]
 pub struct Status {
     root: u32,
@@ -18,7 +20,7 @@ pub struct Status {
 #[derive(Debug, Clone, Copy)]
 struct Node {
     parent: u32,
-    /// Children: below and above.
+    /// The children, below and above.
     children: [u32; 2],
     previous: u32,
     next: u32,
@@ -27,25 +29,26 @@ struct Node {
 const ALONE: Node = Node { parent: NONE, children: [NONE; 2], previous: NONE, next: NONE };
 
 impl Status {
-    /// No sides, of `count` that may be inserted.
+    /// Creates an empty sequence for up to `count` sides.
     #[must_use]
     pub fn new(count: usize) -> Self {
         Self { root: NONE, first: NONE, nodes: vec![ALONE; count] }
     }
 
-    /// The side above `side`, or the lowest of all.
+    /// Returns the side above `side`, or the lowest side if `side` is `None`.
     #[must_use]
     pub fn above(&self, side: Option<usize>) -> Option<usize> {
         index(side.map_or(self.first, |side| self.nodes[side].next))
     }
 
-    /// The side below `side`.
+    /// Returns the side below `side`.
     #[must_use]
     pub fn below(&self, side: usize) -> Option<usize> {
         index(self.nodes[side].previous)
     }
 
-    /// The highest side for which `holds`, if that is true of a side whenever it is true of one above it.
+    /// Returns the highest side for which `holds`. The condition must be true for all sides below one for which it is
+    /// true.
     pub fn last_where(&self, mut holds: impl FnMut(usize) -> bool) -> Option<usize> {
         let (mut at, mut best) = (self.root, NONE);
         while at != NONE {
@@ -58,7 +61,7 @@ impl Status {
         index(best)
     }
 
-    /// Inserts a side above another, or below all.
+    /// Inserts a side above another, or below all if `below` is `None`.
     pub fn insert_above(&mut self, below: Option<usize>, side: usize) {
         let next = self.above(below);
         let number = side as u32;
@@ -70,7 +73,7 @@ impl Status {
         if let Some(next) = next {
             self.nodes[next].previous = number;
         }
-        // Of two neighbours one is below the other in the tree, and has no child on that side.
+        // One of two neighbours is below the other in the tree, and has no child on that side.
         let (parent, child) = match (below, next) {
             (Some(below), _) if self.nodes[below].children[1] == NONE => (below, 1),
             (_, Some(next)) => (next, 0),
@@ -86,7 +89,7 @@ impl Status {
         }
     }
 
-    /// Removes a side that is in the sequence.
+    /// Removes a side, which must be in the sequence.
     pub fn remove(&mut self, side: usize) {
         let Node { previous, next, .. } = self.nodes[side];
         match index(previous) {
@@ -105,7 +108,7 @@ impl Status {
         self.nodes[side] = ALONE;
     }
 
-    /// Exchanges a node and its parent.
+    /// Swaps a node with its parent.
     fn rotate_up(&mut self, side: usize) {
         let number = side as u32;
         let parent = self.nodes[side].parent;
@@ -159,7 +162,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Against a sorted list: places of sides are known numbers.
+        /// Compared with a sorted list, whose positions are known.
         #[test]
         fn keeps_order_like_a_sorted_list(steps in proptest::collection::vec((0usize..60, any::<bool>()), 0..300)) {
             let place = |side: usize| (side * 37) % 61;

@@ -7,17 +7,18 @@ use cplan_interrupt::checkpoint;
 /// Triangles as half-edges: triangle `t` has the half-edges `3 t`, `3 t + 1`, `3 t + 2`, counter-clockwise.
 #[derive(Debug, Clone, Default)]
 pub struct HalfEdges {
-    /// The vertex at which each begins.
+    /// The vertex at which each half-edge starts.
     pub origin: Vec<u32>,
-    /// The same edge in the triangle on its other side; `NONE` on the boundary.
+    /// The half-edge of the same edge in the triangle on its other side; `NONE` on the boundary.
     pub twin: Vec<u32>,
 }
 
-/// Triangulates the inside of a boundary: no new vertices, every triangle counter-clockwise, exactly.
+/// Triangulates the inside of a boundary without new vertices. Every triangle is exactly counter-clockwise.
 ///
-/// The sweep of Hertel and Mehlhorn (1983). Left of the sweep line what is inside between two neighbouring sides is
-/// triangulated up to a chain from the floor's left end to the ceiling's, from which nothing more can be cut off:
-/// each vertex is joined to as much of the chain as it sees, `O(n)` in all after the sweep that made the boundary.
+/// The sweep of Hertel and Mehlhorn (1983). Left of the sweep line, the inside between two neighbouring sides is
+/// triangulated up to a chain of vertices. The chain runs from the left end of the floor to that of the ceiling, and no
+/// triangle can be cut off it. Each vertex is joined to as much of the chain as it sees. This takes `O(n)` after the
+/// sweep that made the boundary.
 #[must_use]
 pub fn triangulate(boundary: &Boundary) -> HalfEdges {
     let mut sweep = Sweep {
@@ -41,10 +42,10 @@ pub fn triangulate(boundary: &Boundary) -> HalfEdges {
 #[derive(Debug, Clone, Copy)]
 struct Link {
     vertex: u32,
-    /// Neighbours in the chain.
+    /// The neighbours in the chain.
     below: u32,
     above: u32,
-    /// The edge to the one above, an index into [`Sweep::pending`]; `NONE` if that is a side.
+    /// The edge to the link above, as an index into [`Sweep::pending`]; `NONE` if that edge is a side.
     edge: u32,
 }
 
@@ -59,7 +60,7 @@ struct Region {
 struct Sweep<'a> {
     vertices: &'a [Point],
     links: Vec<Link>,
-    /// For every inner edge the half-edge that was made first, or `NONE`.
+    /// For each inner edge, the half-edge that was made first, or `NONE`.
     pending: Vec<u32>,
     result: HalfEdges,
 }
@@ -114,13 +115,13 @@ impl Sweep<'_> {
         self.links.len() as u32 - 1
     }
 
-    /// The region between two sides that begin at `v`.
+    /// Starts a region between two sides that start at `v`.
     fn begin(&mut self, v: u32) -> Region {
         let link = self.link(Link { vertex: v, below: NONE, above: NONE, edge: NONE });
         Region { bottom: link, top: link, rightmost: link }
     }
 
-    /// Joins `v` to the chain from below: its floor ends there.
+    /// Joins `v` to the chain from below, where the floor ends.
     fn extend_bottom(&mut self, region: &mut Region, v: u32) {
         let link = self.link(Link { vertex: v, below: NONE, above: region.bottom, edge: NONE });
         self.links[region.bottom as usize].below = link;
@@ -128,7 +129,7 @@ impl Sweep<'_> {
         self.cut_upwards(region);
     }
 
-    /// Joins `v` to the chain from above: its ceiling ends there.
+    /// Joins `v` to the chain from above, where the ceiling ends.
     fn extend_top(&mut self, region: &mut Region, v: u32) {
         let link = self.link(Link { vertex: v, below: region.top, above: NONE, edge: NONE });
         self.links[region.top as usize].above = link;
@@ -136,9 +137,9 @@ impl Sweep<'_> {
         self.cut_downwards(region);
     }
 
-    /// The regions below and above a vertex from which sides begin within a region.
+    /// Splits a region at a vertex from which sides start within it. Returns the regions below and above.
     fn split(&mut self, region: Region, v: u32) -> (Option<Region>, Option<Region>) {
-        // Nothing lies between it and the rightmost vertex before it.
+        // Nothing lies between the vertex and the rightmost vertex before it.
         let middle = region.rightmost;
         let edge = self.edge(NONE);
         let copy = self.link(Link { below: NONE, ..self.links[middle as usize] });
@@ -158,7 +159,7 @@ impl Sweep<'_> {
         (Some(lower), Some(upper))
     }
 
-    /// The region right of two that end at one vertex, the top of the one and the bottom of the other.
+    /// Merges two regions that end at one vertex, the top of the lower one and the bottom of the upper one.
     fn merge(&mut self, lower: Region, upper: Region) -> Region {
         let Link { above, edge, .. } = self.links[upper.bottom as usize];
         self.links[lower.top as usize] = Link { above, edge, ..self.links[lower.top as usize] };
@@ -204,13 +205,15 @@ impl Sweep<'_> {
         }
     }
 
-    /// Whether the inside lies in the angle at `b` of three vertices of a chain, from bottom to top.
+    /// Returns true if the inside lies in the angle at `b` of three consecutive vertices of a chain, from bottom to
+    /// top.
     fn is_open(&self, a: u32, b: u32, c: u32) -> bool {
         let [a, b, c] = [a, b, c].map(|v| self.vertices[v as usize]);
         orientation(a, b, c) == Orientation::Clockwise
     }
 
-    /// Makes a triangle; the edges after its second and third corner are given, the one after the first is returned.
+    /// Makes a triangle from its corners and the edges after the second and third one. Returns the edge after the
+    /// first.
     fn triangle(&mut self, corners: [u32; 3], second: u32, third: u32) -> u32 {
         let half_edge = self.result.origin.len() as u32;
         self.result.origin.extend(corners);
@@ -220,13 +223,13 @@ impl Sweep<'_> {
         self.edge(half_edge)
     }
 
-    /// A new inner edge, of which so far only `half` is known.
+    /// Makes an inner edge. Only its first half-edge, `half`, exists so far.
     fn edge(&mut self, half: u32) -> u32 {
         self.pending.push(half);
         self.pending.len() as u32 - 1
     }
 
-    /// Adds a half-edge to an edge.
+    /// Adds the second half-edge to an edge.
     fn join(&mut self, edge: u32, half: u32) {
         let Some(pending) = self.pending.get_mut(edge as usize) else { return };
         if *pending == NONE {

@@ -1,9 +1,12 @@
-//! Diagonals that join holes to what is around them, so that no part of the region goes round anything.
+//! Bridges: diagonals that join holes to their surroundings, so that every face of the region is a simple polygon.
 //!
-//! Each hole gets a diagonal from its leftmost vertex to one further left, and from its rightmost to one further right,
-//! unless an edge leads there already, or the hole hangs there in a corner of what surrounds it. Then no single vertex separates the graph inside an outer loop: a part that is cut
-//! off by one vertex would have both its least and its greatest neighbour outside in that vertex, which would have to lie
-//! to the left and to the right of the part. So every face is bounded by a simple polygon.
+//! Each hole gets a diagonal from its leftmost vertex to one further left, and from its rightmost vertex to one further
+//! right. A diagonal is not needed if an edge already leads there, or if the hole touches a corner of its surroundings
+//! there.
+//!
+//! Then no single vertex separates the graph inside an outer loop. Suppose a vertex cuts off a part. The neighbours
+//! outside of the leftmost and of the rightmost vertex of that part would both be this vertex, so it would lie both
+//! left and right of the part.
 
 use super::super::Point;
 use super::super::box_tree::BoxTree;
@@ -18,7 +21,7 @@ pub(super) struct Bridged {
     pub bridges: Vec<Bridge>,
 }
 
-/// A diagonal: the region lies on both sides of it.
+/// A diagonal. The region lies on both sides of it.
 pub(super) struct Bridge {
     pub ends: [usize; 2],
     /// The hole for which it was made.
@@ -28,12 +31,12 @@ pub(super) struct Bridge {
 /// Joins every hole to its surroundings.
 ///
 /// # Errors
-/// When a hole sees nothing on one side, because it is not inside.
+/// If a hole sees nothing on one side, because it is not inside.
 pub(super) fn bridged(noded: Noded) -> Result<Bridged, RingError> {
     let Noded { points, edges, around, loops } = &noded;
     let sight = Sight::new(points, edges);
     let mut bridges: Vec<Bridge> = Vec::new();
-    // Whether an edge leads to the left, and to the right, of each vertex.
+    // For each vertex, whether an edge leads to the left, and whether one leads to the right.
     let mut has: Vec<[bool; 2]> = vec![[false; 2]; points.len()];
     let note = |has: &mut Vec<[bool; 2]>, [a, b]: [usize; 2]| {
         has[a.max(b)][0] = true;
@@ -43,15 +46,15 @@ pub(super) fn bridged(noded: Noded) -> Result<Bridged, RingError> {
     for hole in loops.iter().filter(|l| !is_counter_clockwise(points, l)) {
         let extremes = [hole.vertices.iter().min(), hole.vertices.iter().max()];
         for (side, &from) in extremes.into_iter().flatten().enumerate() {
-            // Where all edges go to one side, the first of them tells what is on the other: nothing of the region where the
-            // hole hangs in a corner of what surrounds it.
+            // If all edges run to one side, the first of them determines whether the region is on the other side. It is
+            // not if the hole touches a corner of its surroundings there.
             let is_inside = around[from].first().is_some_and(|(_, goes_out)| !goes_out);
             if has[from][side] || !is_inside {
                 continue;
             }
             let candidates = if side == 0 { 0..from } else { from + 1..points.len() };
             let Some(to) = sight.nearest(from, candidates, &bridges) else {
-                // A loop of the outer ring has a corner in which the ring crosses itself: the faces tell which.
+                // A loop of the outer ring has a corner in which the ring crosses itself. The faces will show it.
                 match hole.ring {
                     0 => continue,
                     hole => return Err(RingError::Misplaced { hole }),
@@ -64,7 +67,7 @@ pub(super) fn bridged(noded: Noded) -> Result<Bridged, RingError> {
     Ok(Bridged { noded, bridges })
 }
 
-/// Direction of a loop, from its leftmost vertex, where it cannot be straight.
+/// Returns true if a loop is counter-clockwise, by its leftmost vertex, where it cannot be straight.
 fn is_counter_clockwise(points: &[Point], walk: &Loop) -> bool {
     let n = walk.vertices.len();
     let at = (0..n).min_by_key(|i| walk.vertices[*i]).unwrap_or(0);
@@ -72,7 +75,7 @@ fn is_counter_clockwise(points: &[Point], walk: &Loop) -> bool {
     orientation(a, b, c) == Orientation::CounterClockwise
 }
 
-/// What sees what.
+/// Visibility between vertices.
 struct Sight<'a> {
     points: &'a [Point],
     edges: &'a [[usize; 2]],
@@ -88,7 +91,7 @@ impl<'a> Sight<'a> {
         Self { points, edges, tree: BoxTree::new(edges.iter().map(bounds).collect()) }
     }
 
-    /// The nearest of the candidates that is seen from a vertex.
+    /// Returns the nearest candidate that a vertex sees.
     fn nearest(&self, from: usize, candidates: impl Iterator<Item = usize>, bridges: &[Bridge]) -> Option<usize> {
         let distance = |v: usize| (self.points[v] - self.points[from]).norm_squared();
         let mut candidates: Vec<(f64, usize)> = candidates.map(|v| (distance(v), v)).collect();
@@ -104,7 +107,7 @@ impl<'a> Sight<'a> {
         })
     }
 
-    /// Whether an edge has more in common with a sight line than a common end.
+    /// Returns true if an edge shares more with a sight line than a common end.
     fn hides(&self, [from, to]: [usize; 2], edge: [usize; 2]) -> bool {
         let [a, b] = [self.points[from], self.points[to]];
         let [c, d] = edge.map(|v| self.points[v]);

@@ -5,22 +5,23 @@ use super::RingError;
 use super::bridges::Bridged;
 use super::noding::counter_clockwise;
 
-/// An edge as it leaves a vertex.
+/// An edge seen from one of its vertices.
 #[derive(Clone, Copy)]
 struct End {
     /// The vertex at the other end.
     to: usize,
-    /// Whether the region is to its left, and to its right, as seen from the vertex.
+    /// True if the region is to its left (and `right`: to its right), seen from the vertex.
     left: bool,
     right: bool,
-    /// The hole for which a diagonal was made.
+    /// The hole for which the diagonal was made, if it is one.
     bridge: Option<usize>,
 }
 
-/// Each face of the region as a simple polygon.
+/// Returns each face of the region as a simple polygon.
 ///
 /// # Errors
-/// When round some vertex it is not clear what is inside: there the rings cross, or one lies on the wrong side of another.
+/// If the inside around some vertex is ambiguous, because the rings cross there, or one lies on the wrong side of
+/// another.
 pub(super) fn faces(graph: &Bridged) -> Result<Vec<SimplePolygon>, RingError> {
     let points = &graph.noded.points;
     let around = ends(graph);
@@ -47,7 +48,7 @@ pub(super) fn faces(graph: &Bridged) -> Result<Vec<SimplePolygon>, RingError> {
             while !std::mem::replace(&mut walked[at][leave], true) {
                 corners.push(points[at]);
                 let to = around[at][leave].to;
-                // The region is between the edge just walked, seen from its end, and the next one clockwise of it.
+                // The region lies between the edge just walked, seen from its end, and the next edge clockwise.
                 let back = around[to].iter().position(|end| end.to == at).unwrap_or(0);
                 leave = (back + around[to].len() - 1) % around[to].len();
                 at = to;
@@ -58,7 +59,7 @@ pub(super) fn faces(graph: &Bridged) -> Result<Vec<SimplePolygon>, RingError> {
     Ok(faces)
 }
 
-/// Of each vertex its edges, counter-clockwise.
+/// Returns the edges of each vertex, counter-clockwise.
 fn ends(graph: &Bridged) -> Vec<Vec<End>> {
     let points = &graph.noded.points;
     let mut around: Vec<Vec<End>> = vec![Vec::new(); points.len()];

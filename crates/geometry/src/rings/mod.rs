@@ -1,4 +1,4 @@
-//! Polygons as people have them: with holes, and with rings that touch themselves or each other in single points.
+//! Polygons with holes, whose rings may touch themselves or each other in single points.
 
 mod bridges;
 mod faces;
@@ -13,19 +13,19 @@ use std::fmt;
 
 /// The closed region inside an outer ring and outside its holes.
 ///
-/// Rings may touch themselves and each other in single points (a corner on a corner or on a side); they neither cross nor
-/// share a stretch. Holes lie inside the outer ring and outside each other. All of it is decided exactly.
+/// Rings may touch themselves and each other in single points (a corner on a corner or on a side). They must not cross
+/// or share a stretch. Holes lie inside the outer ring and outside each other. All conditions are decided exactly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     parts: Vec<SimplePolygon>,
 }
 
-/// A side of a ring, as given: ring 0 is the outer one, hole `k` is ring `k`; side `i` follows corner `i`.
+/// A side of a given ring. Ring 0 is the outer ring, ring `k` is hole `k`, and side `i` starts at corner `i`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RingSide {
-    /// The number of the ring; 0 is the outer one.
+    /// Number of the ring; 0 is the outer one.
     pub ring: usize,
-    /// The number of the side in the ring, from 0.
+    /// Number of the side in the ring, from 0.
     pub side: usize,
 }
 
@@ -38,55 +38,56 @@ impl fmt::Display for RingSide {
     }
 }
 
-/// Why rings make no polygon. Numbers refer to the lists as they were given.
+/// Reasons why rings do not form a polygon. Numbers refer to the given lists.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RingError {
-    /// The outer ring has a defect that has nothing to do with the holes.
+    /// The outer ring has a defect that does not involve the holes.
     #[error("{0}")]
     Outer(PolygonError),
-    /// A hole by itself is no polygon.
+    /// A hole is not a valid polygon.
     #[error("hole {hole}: {error}")]
     Hole {
-        /// Counted from 1.
+        /// Number of the hole, from 1.
         hole: usize,
-        /// What is wrong with it.
+        /// The defect.
         error: PolygonError,
     },
     /// Two sides cross.
     #[error("{first} and {second} cross")]
     Cross {
-        /// The one given first.
+        /// The side that was given first.
         first: RingSide,
-        /// The one given later.
+        /// The side that was given later.
         second: RingSide,
     },
     /// Two sides have more than a point in common.
     #[error("{first} and {second} overlap")]
     Overlap {
-        /// The one given first.
+        /// The side that was given first.
         first: RingSide,
-        /// The one given later.
+        /// The side that was given later.
         second: RingSide,
     },
-    /// Where rings touch, one passes through the other or lies on its wrong side.
+    /// Rings cross, or one lies on the wrong side of the other, at a point where they touch.
     #[error("the boundary crosses itself at ({}, {})", at.x, at.y)]
     CrossesAt {
-        /// The point at which it does.
+        /// The point.
         at: Point,
     },
     /// A hole does not lie inside the outer ring and outside all other holes.
     #[error("hole {hole} does not lie inside the outer ring and outside the other holes")]
     Misplaced {
-        /// Counted from 1.
+        /// Number of the hole, from 1.
         hole: usize,
     },
 }
 
 impl Polygon {
-    /// The region inside `outer` and outside `holes`, rings in either direction, the first corner not repeated at the end.
+    /// Creates the region inside `outer` and outside `holes`. Rings have either direction and do not repeat their first
+    /// corner.
     ///
-    /// A simple ring without holes costs what [`SimplePolygon::new`] costs. Otherwise sides are compared where their boxes
-    /// meet, and each hole is joined to its surroundings by two diagonals, each of which is looked for in `O(n log n)`.
+    /// A simple ring without holes costs as much as [`SimplePolygon::new`]. Otherwise sides are compared if their boxes
+    /// meet, and two diagonals join each hole to its surroundings. Finding each of them takes `O(n log n)`.
     ///
     /// # Errors
     /// The first defect found.
@@ -94,7 +95,7 @@ impl Polygon {
         if holes.is_empty() {
             match SimplePolygon::new(outer.clone()) {
                 Ok(simple) => return Ok(Self { parts: vec![simple] }),
-                // Corners that meet without any side crossing: what is inside is clear.
+                // Corners meet but no side crosses, so the inside is well defined.
                 Err(PolygonError::RepeatedCorner { .. } | PolygonError::SidesTouch { .. }) => {}
                 Err(error) => return Err(RingError::Outer(error)),
             }
@@ -108,33 +109,33 @@ impl Polygon {
             super::polygon::check_ring(corners).map_err(error)?;
         }
         let noded = Noded::of(&rings)?;
-        // No hole is to be joined to a straight corner. Where sides cross in one that is told below.
+        // Holes must not be joined to a straight corner. If sides cross in one, the noding below reports it.
         let bared: Vec<Vec<Point>> = rings.iter().map(|ring| bare(ring)).collect();
         let noded = if bared == rings { noded } else { Noded::of(&bared).unwrap_or(noded) };
         Ok(Self { parts: faces(&bridged(noded)?)? })
     }
 
-    /// The polygon as simple polygons with disjoint interiors, whose corners are corners of the rings; one if the outer ring
-    /// is simple and there are no holes.
+    /// Returns the polygon as simple polygons with disjoint interiors, whose corners are corners of the rings. There is
+    /// one part if the outer ring is simple and there are no holes.
     #[must_use]
     pub fn parts(&self) -> &[SimplePolygon] {
         &self.parts
     }
 
-    /// Strictly convex polygons with disjoint interiors whose union is this polygon; no new corners.
+    /// Decomposes the polygon into strictly convex polygons with disjoint interiors, without new corners.
     #[must_use]
     pub fn convex_pieces(&self) -> Vec<Convex> {
         self.parts.iter().flat_map(SimplePolygon::convex_pieces).collect()
     }
 
-    /// Area, square metres.
+    /// Returns the area, square metres.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.parts.iter().map(SimplePolygon::area).sum()
     }
 }
 
-/// A ring without straight corners, and without repetitions.
+/// Removes straight corners and repetitions from a ring.
 fn bare(ring: &[Point]) -> Vec<Point> {
     let mut once = ring.to_vec();
     once.dedup();

@@ -7,22 +7,23 @@ use super::{RingError, RingSide};
 use cplan_interrupt::checkpoint;
 use std::cmp::Ordering;
 
-/// The graph of some rings. The region is to the left of every edge, if the rings fit together at all.
+/// The graph of several rings. The region lies to the left of every edge, if the rings are consistent.
 pub(super) struct Noded {
-    /// Places of the vertices, which are numbered from left to right and upwards on verticals: along any segment numbers
-    /// rise or fall.
+    /// Positions of the vertices, numbered from left to right, and upwards on vertical lines. Along any segment the
+    /// numbers increase or decrease.
     pub points: Vec<Point>,
-    /// Directed edges: from, to.
+    /// Directed edges, as pairs of vertices.
     pub edges: Vec<[usize; 2]>,
-    /// Of each vertex its neighbours, counter-clockwise from straight down, and whether the edge goes out to them.
+    /// For each vertex, its neighbours counter-clockwise from straight down, and whether the edge leads to the
+    /// neighbour.
     pub around: Vec<Vec<(usize, bool)>>,
-    /// The rings taken apart where they touch themselves: each passes no vertex twice.
+    /// The rings, split where they touch themselves. No loop passes a vertex twice.
     pub loops: Vec<Loop>,
 }
 
-/// A closed way round that passes no vertex twice.
+/// A closed walk that passes no vertex twice.
 pub(super) struct Loop {
-    /// The ring that it is of.
+    /// The ring to which it belongs.
     pub ring: usize,
     pub vertices: Vec<usize>,
 }
@@ -35,7 +36,7 @@ struct Piece {
 
 impl Noded {
     /// # Errors
-    /// When two sides cross or overlap.
+    /// If two sides cross or overlap.
     pub fn of(rings: &[Vec<Point>]) -> Result<Self, RingError> {
         let (points, numbers) = numbered(rings);
         let sides: Vec<Piece> = numbers
@@ -45,7 +46,7 @@ impl Noded {
                 let ends = move |side: usize| [corners[side], corners[(side + 1) % corners.len()]];
                 (0..corners.len()).map(move |side| Piece { ends: ends(side), of: RingSide { ring, side } })
             })
-            // A corner that repeats the one before it is the same corner.
+            // A corner that repeats the previous one is the same corner.
             .filter(|side| side.ends[0] != side.ends[1])
             .collect();
         let cuts = cuts(&points, &sides)?;
@@ -87,9 +88,9 @@ impl Noded {
     }
 }
 
-/// Order of two edges that leave `at` in different directions: from straight down counter-clockwise.
+/// Compares two edges that leave `at` in different directions, counter-clockwise from straight down.
 pub(super) fn counter_clockwise(points: &[Point], at: usize, a: usize, b: usize) -> Ordering {
-    // Vertices of higher numbers are to the right, or straight above.
+    // Vertices with higher numbers are to the right, or straight above.
     (a < at).cmp(&(b < at)).then_with(|| match orientation(points[at], points[a], points[b]) {
         Orientation::CounterClockwise => Ordering::Less,
         Orientation::Collinear => Ordering::Equal,
@@ -97,9 +98,9 @@ pub(super) fn counter_clockwise(points: &[Point], at: usize, a: usize, b: usize)
     })
 }
 
-/// The different places from left to right, and of each corner the number of its place.
+/// Returns the distinct positions from left to right, and for each corner the number of its position.
 fn numbered(rings: &[Vec<Point>]) -> (Vec<Point>, Vec<Vec<usize>>) {
-    // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would tell apart.
+    // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would distinguish.
     let mut points: Vec<Point> = rings.iter().flatten().map(|p| Point::new(p.x + 0.0, p.y + 0.0)).collect();
     let order = |a: &Point, b: &Point| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
     points.sort_unstable_by(order);
@@ -112,7 +113,7 @@ fn numbered(rings: &[Vec<Point>]) -> (Vec<Point>, Vec<Vec<usize>>) {
     (points, numbers)
 }
 
-/// Of each side the vertices that lie on it, ends left out, in any order.
+/// Returns, for each side, the vertices on it except its ends, in arbitrary order.
 fn cuts(points: &[Point], sides: &[Piece]) -> Result<Vec<Vec<usize>>, RingError> {
     let segment = |k: usize| sides[k].ends.map(|v| points[v]);
     let bounds = |k: usize| {
@@ -145,8 +146,8 @@ fn cuts(points: &[Point], sides: &[Piece]) -> Result<Vec<Vec<usize>>, RingError>
     Ok(cuts)
 }
 
-/// Direction of a ring that may touch itself, but neither crosses nor overlaps itself. At its leftmost vertex all its edges
-/// go to the right, and what is below the lowest of them is outside.
+/// Returns true if a ring is counter-clockwise. It may touch itself, but must not cross or overlap itself. At its
+/// leftmost vertex all its edges run to the right, and the outside is below the lowest of them.
 fn is_counter_clockwise(points: &[Point], walk: &[usize]) -> bool {
     let n = walk.len();
     let Some(&least) = walk.iter().min() else { return true };
@@ -162,7 +163,7 @@ fn is_counter_clockwise(points: &[Point], walk: &[usize]) -> bool {
     ends.reduce(lower).is_some_and(|(_, goes_out)| goes_out)
 }
 
-/// The loops of a walk.
+/// Splits a walk into loops.
 fn taken_apart(walk: &[usize], vertices: usize) -> Vec<Vec<usize>> {
     const NOWHERE: usize = usize::MAX;
     let mut place = vec![NOWHERE; vertices];

@@ -1,27 +1,31 @@
-//! A bar about the joint against a convex polygon: closed form, two arc tangents a pair.
+//! The arc of contact of a bar that turns about the joint and a convex polygon, in closed form with two arc tangents.
 //!
-//! A point at distance `r` from the joint touches the sides of a bar of half-width `w` when the bar's axis is
-//! `asin(w / r)` off the point's direction, as long as `r` is at most the reach of the bar's front corners. Let `K` be
-//! the polygon within that reach. If `K` keeps farther from the joint than the bar's rear and comes as near as its front
-//! side, the directions at which the bar meets it are *one* arc: it runs from the least to the greatest such direction
-//! over the points of `K`, because between two of them the points of `K` on the segment to its nearest one leave no gap.
-//! Both are attained at corners of `K`: corners of the polygon, and places where its sides cross the circle of the
-//! reach. All these directions lie within a right angle of the one towards the polygon, so that signs of cross products
-//! order them. No comparison decides more than its own rounding: of two candidates that tie either will do.
+//! A point at distance `r` from the joint touches the sides of a bar of half-width `w` when the angle between the bar's
+//! axis and the direction of the point is `asin(w / r)`, as long as `r` is at most the reach of the bar's front
+//! corners.
+//!
+//! Let `K` be the part of the polygon within that reach. Suppose `K` is farther from the joint than the bar's rear
+//! corners and at least as close as its front side. Then the directions at which the bar meets it are *one* arc, from
+//! the least to the greatest such direction over the points of `K`: between any two of them, the segment to the nearest
+//! point of `K` leaves no gap.
+//!
+//! Both ends are attained at corners of `K`: corners of the polygon, and points where its sides cross the circle of the
+//! reach. All these directions lie within a right angle of the direction to the polygon, so signs of cross products
+//! order them. Comparisons matter only up to rounding: if two candidates tie, either is correct.
 
 use super::features::{Features, quotient};
 use super::{Hits, wrap};
 use crate::{Convex, Point, Vector, cross, perpendicular};
 use std::f64::consts::TAU;
 
-/// Lengths that differ by less count as equal, metres: more than the rounding of coordinates up to some 100 m, and far
-/// below [`super::ROUNDING`].
+/// Lengths that differ by less count as equal, metres. This exceeds the rounding of coordinates up to about 100 m, and
+/// is far below [`super::ROUNDING`].
 const BLUR: f64 = 1e-11;
 
-/// A bar is at least this wide for its reach. The arcs are then far wider than the rounding of their ends.
+/// Least ratio of width to reach of a bar. The arcs are then much wider than the rounding errors of their ends.
 const LEAST_WIDTH: f64 = 1e-6;
 
-/// The rectangle from `rear` to `front` along the axis, symmetric about it, with the joint at the origin.
+/// A rectangle from `rear` to `front` along the axis, symmetric about it, with the joint at the origin.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bar {
     /// Unit vector from the joint to the middle of the front side.
@@ -35,7 +39,7 @@ pub(super) struct Bar {
 }
 
 impl Bar {
-    /// The shape as a bar, if it is one.
+    /// Returns the shape as a bar, or `None` if it is not one.
     pub fn of(shape: &Convex) -> Option<Self> {
         let core: &[Point; 4] = shape.core().try_into().ok()?;
         (0..4).find_map(|k| {
@@ -60,8 +64,8 @@ impl Bar {
         })
     }
 
-    /// [`super::turning_from`] where nothing is rounded or grown; `None` where the joint is too near to the piece, or
-    /// only the bar's front corners reach it. `O(n)`.
+    /// Does the same as [`super::turning_from`] without radii and growth. Returns `None` if the joint is too close to the
+    /// piece, or if only the front corners of the bar reach it. `O(n)`.
     pub fn arc(&self, pivot: Point, zero: Vector, piece: &Features, out: &mut Vec<[f64; 2]>) -> Option<Hits> {
         let side_gap = |normal: Vector, offset: f64| normal.dot(&pivot.coords) - offset;
         let (gap, toward) = piece
@@ -125,14 +129,14 @@ impl Bar {
     }
 }
 
-/// The first and the last direction of the bar's axis at which it meets one of some points; of any length.
+/// The first and the last direction of the bar's axis at which it meets any of the given points. Vectors of any length.
 struct Extremes {
     first: Vector,
     last: Vector,
 }
 
 impl Extremes {
-    /// Takes in a point whose foot on the bar's axis is `along` from the joint when it lies `across` beside it.
+    /// Adds a point that lies `across` beside the axis, at `along` from the joint along it.
     fn add(&mut self, at: Vector, along: f64, across: f64) {
         let first = Vector::new(along * at.x + across * at.y, along * at.y - across * at.x);
         let last = Vector::new(along * at.x - across * at.y, along * at.y + across * at.x);
@@ -171,7 +175,7 @@ mod tests {
         assert!(Bar::of(&Convex::trusted(vec![Point::origin(), Point::new(1.0, 0.0)], 0.0)).is_none());
     }
 
-    /// Rounding has the corner that touches on the inner side of the bar's by more than the distance along its normal says.
+    /// Rounding moves the touching corner further inside the bar's side than the distance along its normal says.
     #[test]
     fn what_touches_is_not_apart() {
         let part = bar(0.8, 0.14258016639302604, 0.01648044041409189, -1.856738282955592);
@@ -193,8 +197,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(20_000))]
 
-        /// All critical angles, sorted, with one distance between neighbours, give the same arcs; and the shapes touch
-        /// at the ends, by an independent distance. Corners at the very reach of the bar are among the positions.
+        /// All critical angles, sorted, with one distance between neighbours, give the same arcs. The shapes touch at
+        /// the ends, by an independent distance. Some positions have corners exactly at the reach of the bar.
         #[test]
         fn arcs_are_those_of_all_critical_angles(
             (back, half_width, turn) in (-0.2..0.2f64, 0.01..0.15f64, -PI..PI),
@@ -226,7 +230,7 @@ mod tests {
                 separation(&part.shape().at(&pose), piece.shape()).distance
             };
             if hits == Hits::Never {
-                // What the exhaustive way calls contact within rounding may be none.
+                // The exhaustive method may report contacts within rounding that are not contacts.
                 prop_assert!(expected == Hits::Never || exhaustive.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));
             } else if expected == Hits::Never {
                 prop_assert!(arcs.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));

@@ -1,4 +1,4 @@
-//! The exhaustive way to the arcs of contact: every critical angle, and one distance between neighbours.
+//! The exhaustive method for arcs of contact: every critical angle, and one distance between each two neighbours.
 
 use super::features::quotient;
 use super::touching::Placement;
@@ -6,16 +6,16 @@ use super::{Hits, ROUNDING, normalized, wrap};
 use crate::{Pose, Vector, separation};
 use std::f64::consts::{PI, TAU};
 
-/// Critical angles closer than this are one: a turn by it moves no point of an arm of 100 m by more than a tenth of
-/// [`ROUNDING`].
+/// Critical angles closer than this count as one, radians. A turn by it moves no point of a 100 m arm by more than a
+/// tenth of [`ROUNDING`].
 const SAME_ANGLE: f64 = 1e-12;
 
-/// `cos` may exceed 1 by this and still count as grazing, so that a touch lost to rounding is looked at.
+/// `cos` may exceed 1 by this much and still count as grazing, so that a contact lost to rounding is examined.
 const GRAZING_COSINE: f64 = 1e-7;
 
-/// The arcs of [`super::turning_from`] right in every degenerate position: on the
-/// critical angles themselves and halfway between neighbours the distance decides, with [`ROUNDING`] in favour of
-/// contact. `O(n m)` critical angles and as many distances.
+/// Computes the arcs of [`super::turning_from`] correctly in every degenerate position. The distance decides, at the
+/// critical angles and halfway between neighbours, with a margin of [`ROUNDING`] in favour of contact. `O(n m)` angles
+/// and distances.
 pub(super) fn critical_arcs(placement: &Placement<'_>, out: &mut Vec<[f64; 2]>) -> Hits {
     let &Placement { part, pivot, zero, piece, radius, .. } = placement;
     let mut angles = critical_angles(placement);
@@ -58,7 +58,7 @@ pub(super) fn critical_arcs(placement: &Placement<'_>, out: &mut Vec<[f64; 2]>) 
     if out.len() == from { Hits::Never } else { Hits::Within }
 }
 
-/// Every angle at which some corner lies on the line of some side (at `radius`), or two corners are `radius` apart.
+/// Returns every angle at which a corner lies on the line of a side (at `radius`), or two corners are `radius` apart.
 fn critical_angles(placement: &Placement<'_>) -> Vec<f64> {
     let &Placement { part, pivot, piece, radius, .. } = placement;
     let mut angles = Vec::new();
@@ -108,7 +108,7 @@ mod tests {
         Convex::trusted((0..corners).map(corner).collect(), radius)
     }
 
-    /// In general position no comparison is in doubt, and both ways give the same arcs.
+    /// In general position no comparison is in doubt, and both methods give the same arcs.
     #[test]
     fn the_local_test_and_the_exhaustive_way_agree() {
         let bar = [(0.0, -0.05), (0.8, -0.05), (0.8, 0.05), (0.0, 0.05)].map(|(x, y)| Point::new(x, y)).to_vec();

@@ -6,12 +6,12 @@
 use super::bar::Bar;
 use crate::{Convex, Point, Vector, cross, perpendicular};
 
-/// Product of two vectors as complex numbers: `b` turned by the angle of `a`, lengths multiplied.
+/// Returns the product of two vectors as complex numbers: `b` turned by the angle of `a`, with lengths multiplied.
 pub fn product(a: Vector, b: Vector) -> Vector {
     Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
 }
 
-/// `b` turned back by the angle of `a`, lengths multiplied: the complex product with the conjugate of `a`.
+/// Returns `b` turned back by the angle of `a`, with lengths multiplied: the complex product with the conjugate of `a`.
 pub(super) fn quotient(b: Vector, a: Vector) -> Vector {
     Vector::new(a.dot(&b), cross(a, b))
 }
@@ -19,7 +19,7 @@ pub(super) fn quotient(b: Vector, a: Vector) -> Vector {
 /// A corner of a core.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corner {
-    /// Where it is.
+    /// Position.
     pub at: Vector,
     /// Squared distance from the origin.
     pub distance2: f64,
@@ -31,12 +31,12 @@ pub(super) struct Corner {
 }
 
 impl Corner {
-    /// To the next corner and to the previous one, as far as there are any.
+    /// Returns the vectors to the next and to the previous corner, if they exist.
     pub fn to_neighbors(&self) -> &[Vector] {
         &self.to_neighbors[..self.neighbors]
     }
 
-    /// The same turned and scaled with the corner's position to `(1, 0)`. Zero for a corner at the origin.
+    /// Returns the same vectors, turned and scaled so that the corner is at `(1, 0)`. Zero for a corner at the origin.
     pub fn polar(&self) -> &[Vector] {
         &self.polar[..self.neighbors]
     }
@@ -45,17 +45,18 @@ impl Corner {
 /// A side of a core: the points `normal * offset + tangent * t`, `t` from `from` to `to`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Side {
-    /// Unit outward normal. The tangent is its counter-clockwise perpendicular and points along the outline.
+    /// Outward unit normal. The tangent is its counter-clockwise perpendicular and points along the outline.
     pub normal: Vector,
     /// Signed distance of the side's line from the origin.
     pub offset: f64,
-    /// Where the side begins along its tangent.
+    /// Position of the side's start along its tangent.
     pub from: f64,
-    /// Where it ends.
+    /// Position of its end.
     pub to: f64,
 }
 
-/// A rounded convex polygon as the contact equations want it. One corner has no sides, two have two (one each way).
+/// A rounded convex polygon prepared for the contact equations. A core of one corner has no sides, one of two corners
+/// has two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Features {
     pub(super) shape: Convex,
@@ -67,7 +68,7 @@ pub struct Features {
     /// A disc around the core.
     pub(super) center: Vector,
     pub(super) extent: f64,
-    /// The core, where it is a bar about the origin.
+    /// The core as a bar about the origin, if it is one.
     pub(super) bar: Option<Bar>,
 }
 
@@ -108,20 +109,20 @@ impl Features {
         }
     }
 
-    /// The shape itself.
+    /// Returns the shape.
     #[must_use]
     pub fn shape(&self) -> &Convex {
         &self.shape
     }
 
-    /// Least and greatest distance that a point of the core can have from `pivot`, from the disc around it.
+    /// Returns bounds on the least and the greatest distance of the core from `pivot`, by the disc around it.
     pub(super) fn distances(&self, pivot: Point) -> (f64, f64) {
         let center = (self.center - pivot.coords).norm();
         (center - self.extent, center + self.extent)
     }
 }
 
-/// Distance of the origin from a core; 0 inside.
+/// Returns the distance of the origin from a core; 0 inside.
 fn inner_distance(corners: &[Corner], sides: &[Side]) -> f64 {
     if corners.len() > 2 && sides.iter().all(|s| s.offset >= 0.0) {
         return 0.0;

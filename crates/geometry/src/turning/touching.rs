@@ -4,46 +4,45 @@ use super::features::{Corner, Features, product, quotient};
 use crate::{Point, Vector};
 use std::f64::consts::{PI, TAU};
 
-/// A comparison of lengths closer than this, in metres, is not trusted to rounding, nor are ends nearer to each other
-/// than this in radians. Coordinates up to some 100 m lose about 1e-11 m where a path is not grazing.
+/// Lengths closer than this, metres, are not compared because of rounding. Nor are ends closer than this, radians.
+/// Coordinates up to about 100 m lose about 1e-11 m, except where a corner's circle grazes a line.
 const DOUBT: f64 = 1e-9;
 
-/// A corner whose path grazes a line: relative excess of its squared distance below which the square root has lost too
-/// many digits (half of them at 1e-16) for [`DOUBT`].
+/// Relative excess of a corner's squared distance below which its circle grazes a line: the square root has then lost
+/// too many digits (half of them at 1e-16) for [`DOUBT`].
 const GRAZING: f64 = 1e-8;
 
-/// Directions between corners `r` apart lose digits as `r` shrinks: their doubt grows by this, in square metres, over
-/// `r`.
+/// Directions between corners `r` apart lose digits as `r` shrinks. Their doubt grows by this, in square metres,
+/// divided by `r`.
 const DOUBT_OF_DIRECTIONS: f64 = 1e-13;
 
-/// Two circles graze when the gap between their radii is nearer than this fraction to the distance that counts as
-/// contact.
+/// Two circles graze each other if the gap between their radii is closer than this fraction to the contact distance.
 const GRAZING_CIRCLES: f64 = 1e-6;
 
-/// Arcs of one pair of convex shapes beyond which the exhaustive way takes over; more than two are rare.
+/// Largest number of arcs of one pair of convex shapes. With more, which is rare, the exhaustive method takes over.
 const MOST_ARCS: usize = 8;
 
 /// A comparison was too close for rounding.
 pub(super) struct Doubtful;
 
-/// Which shapes, and where.
+/// Two shapes and their positions.
 #[derive(Clone, Copy)]
 pub(super) struct Placement<'a> {
-    /// Turns about its origin.
+    /// The shape that turns about its own origin.
     pub part: &'a Features,
-    /// Where that origin is.
+    /// Position of that origin.
     pub pivot: Point,
     /// Unit vector of angle 0.
     pub zero: Vector,
-    /// The shape that stands still.
+    /// The fixed shape.
     pub piece: &'a Features,
     /// Distance of the cores that counts as contact.
     pub radius: f64,
-    /// No corner of the part nearer to the pivot or farther from it than this touches.
+    /// Corners of the part closer to the pivot or farther from it than this cannot touch.
     pub reach: (f64, f64),
 }
 
-/// Where the forbidden arcs begin and end; angles in `[-pi, pi)`.
+/// Starts and ends of the forbidden arcs; angles in `[-pi, pi)`.
 #[derive(Default)]
 pub(super) struct Ends {
     starts: [f64; MOST_ARCS],
@@ -52,12 +51,12 @@ pub(super) struct Ends {
 }
 
 impl Ends {
-    /// Whether nothing begins or ends: the shapes meet at all angles or at none.
+    /// Returns true if no arc starts or ends: the shapes meet at all angles or at none.
     pub(super) fn is_empty(&self) -> bool {
         self.count == [0, 0]
     }
 
-    /// Notes a start (or an end) at the angle of `direction`.
+    /// Records a start (or an end) at the angle of `direction`.
     fn push(&mut self, start: bool, direction: Vector) -> Result<(), Doubtful> {
         let angle = direction.y.atan2(direction.x);
         let (list, count) =
@@ -67,7 +66,7 @@ impl Ends {
         Ok(())
     }
 
-    /// Joins each start with the end that follows it; in doubt, pushes nothing.
+    /// Joins each start with the next end. If in doubt, appends nothing.
     pub(super) fn arcs(mut self, out: &mut Vec<[f64; 2]>) -> Result<(), Doubtful> {
         let n = self.count[0];
         if n != self.count[1] {
@@ -92,14 +91,14 @@ impl Ends {
 }
 
 impl Placement<'_> {
-    /// All true contacts.
+    /// Finds all true contacts.
     pub(super) fn ends(&self) -> Result<Ends, Doubtful> {
         let mut ends = Ends::default();
         self.corners_on_fixed_sides(&mut ends)?;
         for corner in &self.piece.corners {
             let at = corner.at - self.pivot.coords;
             let distance2 = at.norm_squared();
-            // A corner on the pivot is met at all angles or at none.
+            // A corner on the pivot is in contact at all angles or at none.
             if distance2 > 0.0 {
                 self.corner_on_turning_sides(corner, at, distance2, &mut ends)?;
                 if self.radius > 0.0 {
@@ -110,16 +109,16 @@ impl Placement<'_> {
         Ok(ends)
     }
 
-    /// The part's corners that can touch, and are not on the pivot.
+    /// Iterates over the corners of the part that can touch, except those on the pivot.
     fn corners_in_reach(&self) -> impl Iterator<Item = &Corner> {
         let (near, far) = self.reach;
         self.part.corners.iter().filter(move |c| c.distance > 0.0 && near <= c.distance && c.distance <= far)
     }
 
-    /// Corners of the part on sides of the piece.
+    /// Finds contacts of corners of the part with sides of the piece.
     fn corners_on_fixed_sides(&self, ends: &mut Ends) -> Result<(), Doubtful> {
         for side in &self.piece.sides {
-            // Seen from the pivot, the side moved out by the radius.
+            // The side moved outwards by the radius, seen from the pivot.
             let along = side.offset - side.normal.dot(&self.pivot.coords) + self.radius;
             let shift = side.normal.x * self.pivot.y - side.normal.y * self.pivot.x;
             let (from, to) = (side.from - shift, side.to - shift);
@@ -137,8 +136,8 @@ impl Placement<'_> {
         Ok(())
     }
 
-    /// A corner of the piece, `at` from the pivot, on sides of the part: the same in the part's frame, which sees the
-    /// corner turn the other way.
+    /// Finds contacts of a corner of the piece, `at` from the pivot, with sides of the part. In the part's frame the
+    /// corner turns in the opposite direction.
     fn corner_on_turning_sides(
         &self,
         corner: &Corner,
@@ -160,7 +159,8 @@ impl Placement<'_> {
         Ok(())
     }
 
-    /// Corners of the part at the contact distance from a corner of the piece, `at` and `distance` from the pivot.
+    /// Finds corners of the part at the contact distance from a corner of the piece, `at` and `distance` from the
+    /// pivot.
     fn corners_apart(&self, fixed: &Corner, at: Vector, distance: f64, ends: &mut Ends) -> Result<(), Doubtful> {
         let radius = self.radius;
         let doubt = DOUBT + DOUBT_OF_DIRECTIONS / radius;
@@ -175,8 +175,8 @@ impl Placement<'_> {
             if gap < GRAZING_CIRCLES * radius || sum - radius < DOUBT {
                 return Err(Doubtful);
             }
-            // Along the direction from the pivot to the fixed corner, and across it, the turned corner lies at `beyond`
-            // and `across` from that corner. Products of sums and differences keep the digits of a small radius.
+            // Along the direction from the pivot to the fixed corner, the turned corner is at `beyond` from that
+            // corner; across it, at `across`. Products of sums and differences keep the digits of a small radius.
             let beyond = (excess * sum - radius * radius) / (2.0 * distance);
             let across2 = (sum - radius) * (sum + radius) * gap * (radius + excess.abs());
             let root = across2.sqrt() / (2.0 * distance);
@@ -198,9 +198,9 @@ impl Placement<'_> {
     }
 }
 
-/// Where a circle about the origin crosses the side `along` its normal, `from`..`to` along its tangent: up to two
-/// places, each with its sign from `[at the positive root, at the negative one]`. Those clearly off the side are left
-/// out; doubtful if the circle grazes the side.
+/// Returns where a circle about the origin crosses the side at `along` on its normal, from `from` to `to` on its
+/// tangent: up to two positions, each with its sign from `[at the positive root, at the negative one]`. Positions
+/// clearly off the side are omitted. Doubtful if the circle grazes the side.
 fn crossings(
     distance2: f64,
     along: f64,
@@ -223,12 +223,12 @@ fn crossings(
     Ok([(root, start[0]), (-root, start[1])].into_iter().filter(move |&(across, _)| on_side(across)))
 }
 
-/// How far a place on a side's line is from leaving the side.
+/// Returns the distance of a position on a side's line from the nearest end of the side, positive within it.
 fn foot_margin(across: f64, from: f64, to: f64) -> f64 {
     (across - from).min(to - across)
 }
 
-/// Whether a length is positive; doubtful when it is too small to tell.
+/// Returns true if a length is positive. Doubtful if it is too small to decide.
 fn is_positive(margin: f64, doubt: f64) -> Result<bool, Doubtful> {
     if margin.abs() <= doubt { Err(Doubtful) } else { Ok(margin > 0.0) }
 }

@@ -1,9 +1,9 @@
-//! Whether there is an adapter, and what is said where there is none.
+//! Tests of opening an adapter, with and without a driver.
 
 use cplan_gpu::{Gpu, GpuError};
 use std::process::Command;
 
-/// Where Vulkan's loader is told to look for drivers, and a place that has none.
+/// The variable that tells the Vulkan loader where drivers are, and a path without drivers.
 const DRIVERS: &str = "VK_DRIVER_FILES";
 const NOWHERE: &str = "/nowhere/driver.json";
 
@@ -21,7 +21,7 @@ fn an_adapter_is_found_where_drivers_are() {
     }
 }
 
-/// The test above once more, in a process that finds no drivers.
+/// Runs the test above in a process that finds no drivers.
 #[test]
 #[cfg(target_os = "linux")]
 #[ignore = "needs a Vulkan loader: .ci/gpu"]

@@ -1,6 +1,6 @@
-//! What the GPU computes, against plain relaxations and dense elimination that share no code with it.
+//! Tests of GPU results against plain relaxations and dense elimination that share no code with them.
 //!
-//! Each needs a driver of Vulkan, Metal or Direct3D 12, in software if need be: `.ci/gpu` fetches one where there is none.
+//! Each needs a driver of Vulkan, Metal or Direct3D 12, possibly in software: `.ci/gpu` installs one if needed.
 
 mod adapter;
 mod multigrid;
@@ -10,7 +10,7 @@ mod relax;
 use cplan_gpu::Gpu;
 use std::sync::OnceLock;
 
-/// One for all tests.
+/// Returns the GPU that all tests share.
 fn gpu() -> &'static Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
     GPU.get_or_init(|| Gpu::open().expect("a driver: .ci/gpu fetches one"))

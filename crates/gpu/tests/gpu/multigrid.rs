@@ -20,7 +20,7 @@ proptest! {
     }
 }
 
-/// A square with a goal in its middle and bars across it.
+/// Returns a square with a goal in its middle and bars across it.
 fn bars(n: usize) -> Case {
     let mut unknown = vec![true; n * n];
     for bar in 1..8 {

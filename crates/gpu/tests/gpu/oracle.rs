@@ -15,7 +15,7 @@ pub struct Case {
     pub stencil: Stencil,
 }
 
-/// Which equation.
+/// The kind of equation.
 #[derive(Debug, Clone, Copy)]
 pub enum Kind {
     Mean,
@@ -30,7 +30,7 @@ impl Case {
         Problem::new(cells, edges, outside, values, unknown, stencil).unwrap()
     }
 
-    /// The places around a cell: another (or the same) cell, or none for what lies outside.
+    /// Returns the cells around a cell (possibly the same cell), with `None` outside.
     fn around(&self, cell: usize) -> [Option<usize>; 4] {
         let [rows, columns] = self.cells.map(|n| n as isize);
         let (i, j) = (cell as isize / columns, cell as isize % columns);
@@ -56,7 +56,7 @@ impl Case {
         }
     }
 
-    /// The values after so many sweeps, and the measure of each.
+    /// Returns the values after this many sweeps, and the measure of each sweep.
     pub fn relaxed(&self, settings: &Settings, sweeps: u32) -> (Vec<f64>, Vec<f64>) {
         let columns = self.cells[1];
         let mut order: Vec<usize> = (0..self.values.len()).filter(|&cell| self.unknown[cell]).collect();
@@ -86,7 +86,7 @@ impl Case {
         (values, measures)
     }
 
-    /// The solution of a linear equation; none where it is singular.
+    /// Returns the solution of a linear equation, or `None` if it is singular.
     pub fn solved(&self) -> Option<Vec<f64>> {
         let n = self.values.len();
         let (mut matrix, mut right) = (DMatrix::identity(n, n), DVector::from_column_slice(&self.values));
@@ -139,17 +139,17 @@ pub fn case(kind: Kind, most: usize) -> impl Strategy<Value = Case> {
     })
 }
 
-/// Any equation.
+/// Generates problems of all kinds.
 pub fn any(most: usize) -> impl Strategy<Value = Case> {
     prop_oneof![case(Kind::Mean, most), linear(most), case(Kind::Altered, most)]
 }
 
-/// Any linear one.
+/// Generates linear problems.
 pub fn linear(most: usize) -> impl Strategy<Value = Case> {
     prop_oneof![case(Kind::Mean, most), case(Kind::Central, most), case(Kind::Upwind, most)]
 }
 
-/// The greatest difference of two fields.
+/// Returns the greatest difference of two fields.
 pub fn apart(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter()

@@ -61,7 +61,7 @@ proptest! {
     }
 }
 
-/// A square with walls around and a goal in its middle, free cells from 0.
+/// Returns a square with walls around it and a goal in its middle. Free cells start at 0.
 fn square(n: usize) -> Case {
     let mut values = vec![0.0; n * n];
     let mut unknown = vec![true; n * n];
@@ -168,7 +168,7 @@ proptest! {
         let on_gpu = gpu().relax(&case.problem(), &settings).unwrap();
         let Some(solution) = case.solved() else { return Ok(()) };
         prop_assert!(on_gpu.ending != Ending::Unconverged);
-        // What is left after small changes is those times the number of sweeps that an error lives.
+        // The remaining error after small changes is the change times the number of sweeps for which an error persists.
         prop_assert!(apart(&on_gpu.values, &solution) < 1e-3, "{}", apart(&on_gpu.values, &solution));
     }
 }

@@ -21,15 +21,15 @@ const MOST_CONNECTIONS: usize = 32;
 /// Time that a client has to send the head of a request.
 const HEAD_TIME: Duration = Duration::from_secs(10);
 
-/// Time that a connection lives, but for WebSockets, which have times of their own. A browser opens another one. Without it
-/// clients that ask and never read would keep all others out.
+/// Time limit of a connection, except for WebSockets, which have their own. A browser opens another one. Without it,
+/// clients that send requests and never read would block all others.
 const LIFE: Duration = Duration::from_secs(10);
 
 /// Bytes of the head of a request.
 const LARGEST_HEAD: usize = 16 << 10;
 
-/// Headers of every response. The page is one file, the same for every world (what it shows comes by the WebSocket, and is
-/// never taken for HTML), so its own scripts and styles may stand in it; nothing comes from anywhere else.
+/// Headers of every response. The page is one file, the same for every world (its data comes by the WebSocket, and is
+/// never treated as HTML), so its scripts and styles may be inline; nothing is loaded from elsewhere.
 const HEADERS: [(HeaderName, &str); 6] = [
     (
         header::CONTENT_SECURITY_POLICY,
@@ -69,7 +69,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
         tokio::spawn(async move {
             let mut http = hyper::server::conn::http1::Builder::new();
             http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIME).max_buf_size(LARGEST_HEAD);
-            // What a client does wrong is its own affair.
+            // Errors of the client are ignored.
             let _ =
                 tokio::time::timeout(LIFE, http.serve_connection(TokioIo::new(stream), service).with_upgrades()).await;
             drop(permit);
@@ -77,7 +77,7 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
     }
 }
 
-/// Refuses what no page of ours asks for, and puts [`HEADERS`] on everything.
+/// Refuses requests that the page does not make, and adds [`HEADERS`] to all responses.
 async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
     let mut response = match refusal(&server, request.headers()) {
         Some((status, why)) => (status, why).into_response(),
@@ -89,7 +89,7 @@ async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next
     response
 }
 
-/// Why a request is refused, if it is.
+/// Returns the reason why a request is refused, or `None`.
 fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static str)> {
     let named = headers.get(header::HOST).and_then(|value| value.to_str().ok());
     if !named.is_some_and(|named| is_ours(named, server.address)) {
@@ -106,8 +106,8 @@ fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static
     has_body.then_some((StatusCode::PAYLOAD_TOO_LARGE, "no request to this server has a body\n"))
 }
 
-/// Whether a Host header names this server by an address, or `localhost`. A name that a stranger's DNS server resolves to
-/// this machine (DNS rebinding) is none of ours.
+/// Returns true if a Host header names this server by an address, or `localhost`. A name that a foreign DNS server
+/// resolves to this machine (DNS rebinding) is refused.
 fn is_ours(named: &str, here: SocketAddr) -> bool {
     let (name, port) = match named.rsplit_once(':') {
         Some((name, port)) if !port.ends_with(']') => (name, port.parse().ok()),
@@ -122,7 +122,7 @@ fn is_ours(named: &str, here: SocketAddr) -> bool {
     known && port == Some(here.port())
 }
 
-/// The WebSocket. Browsers always say where they come from, so who does not is none of ours.
+/// Opens the WebSocket. Browsers always state their origin, so clients without one are refused.
 async fn upgrade(State(server): State<Arc<Server>>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
     if !headers.contains_key(header::ORIGIN) {
         return (StatusCode::FORBIDDEN, "this server answers its own page alone\n").into_response();

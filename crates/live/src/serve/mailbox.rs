@@ -1,4 +1,4 @@
-//! What a page has asked and its worker has not done yet: the latest counts.
+//! The requests of a page that its worker has not handled yet. The latest counts.
 
 use crate::Request;
 use cplan_interrupt::Interrupt;
@@ -18,7 +18,7 @@ pub struct Mailbox {
 #[derive(Default)]
 struct Inside {
     waiting: VecDeque<Request>,
-    /// Of the request that is being worked on.
+    /// Interrupt of the request in progress.
     running: Option<Interrupt>,
     closed: bool,
 }
@@ -29,8 +29,8 @@ impl Mailbox {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Puts a request in: plans that wait are dropped for a newer one, and what is being worked on is stopped. Whether there
-    /// was room.
+    /// Adds a request. Waiting plans are dropped in favour of a newer one, and the request in progress is interrupted.
+    /// Returns false if the mailbox is full.
     pub fn post(&self, request: Request) -> bool {
         let mut inside = self.inside();
         if matches!(request, Request::Plan(_)) {
@@ -68,7 +68,7 @@ impl Mailbox {
         }
     }
 
-    /// Ends it: what is being worked on is stopped, what waits is forgotten.
+    /// Closes the mailbox: interrupts the request in progress and drops the waiting ones.
     pub fn close(&self) {
         let mut inside = self.inside();
         inside.closed = true;

@@ -21,19 +21,19 @@ use tokio::sync::Semaphore;
 /// Pages that may be open at a time: each has a thread that plans.
 const MOST_PAGES: usize = 8;
 
-/// What all connections share.
+/// The state that all connections share.
 struct Server {
-    /// Where it listens.
+    /// Its address.
     address: SocketAddr,
     /// Room for pages.
     sessions: Arc<Semaphore>,
     host: Arc<Host>,
 }
 
-/// Serves until it is told to stop. Plans that are under way end with the process.
+/// Serves until interrupted. Plans in progress end with the process.
 ///
 /// # Errors
-/// A machine without what it takes to wait for connections.
+/// If the machine cannot wait for connections.
 pub fn run(listener: TcpListener, host: Host) -> std::io::Result<()> {
     let address = listener.local_addr()?;
     let server = Server { address, sessions: Arc::new(Semaphore::new(MOST_PAGES)), host: Arc::new(host) };

@@ -20,7 +20,7 @@ const WAITING: usize = 4;
 /// Time that the page has to take a message.
 const SEND_TIME: Duration = Duration::from_secs(20);
 
-/// How often a page is asked whether it is still there.
+/// Interval of checks whether a page is still connected.
 const PING: Duration = Duration::from_secs(20);
 
 /// A page that has said nothing for so long is gone.
@@ -80,12 +80,12 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
     mailbox.close();
 }
 
-/// Whether the page took it.
+/// Sends a message. Returns true if the page received it.
 async fn tell(socket: &mut WebSocket, message: Message) -> bool {
     matches!(timeout(SEND_TIME, socket.send(message)).await, Ok(Ok(())))
 }
 
-/// A message as the socket carries it.
+/// Converts a message for the socket.
 fn carried(message: crate::Message) -> Message {
     match message {
         crate::Message::Text(text) => Message::Text(Utf8Bytes::from(text)),
@@ -97,7 +97,7 @@ fn failed(id: u64, error: String) -> Message {
     carried(crate::Message::from(&Reply::Failed { id, error }))
 }
 
-/// Does what the page asks, one thing after the other, until its mailbox is closed.
+/// Handles the page's requests in sequence until its mailbox is closed.
 fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
     // A page that is gone closes the mailbox, too.
     let tell = |message: Message| drop(send.blocking_send(message));
@@ -110,8 +110,8 @@ fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
     }
 }
 
-/// What to tell the page if the work panics. A desk changes nothing before all that can fail is done, so that it goes on
-/// with what it had.
+/// Runs work and returns an error message if it panics. A desk changes its state only after everything that can fail,
+/// so it continues with its previous state.
 fn guarded(id: u64, work: impl FnOnce()) -> Option<Message> {
     let error = || "the planner failed on this world: that is an error of cplan's, and the page goes on".to_owned();
     catch_unwind(AssertUnwindSafe(work)).is_err().then(|| failed(id, error()))

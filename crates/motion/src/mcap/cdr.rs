@@ -1,24 +1,24 @@
 //! Messages in the bytes that ROS 2 sends.
 
-/// Writes plain CDR, version 1, little endian (OMG Common Object Request Broker Architecture 3.3, part 2, section 9.3; OMG
-/// DDSI-RTPS 2.5, section 10): a header of four bytes, then each value at a multiple of its own size, counted from the end
-/// of the header. What lies between is filled with zeros.
+/// Writes plain CDR, version 1, little endian (OMG Common Object Request Broker Architecture 3.3, part 2, section 9.3;
+/// OMG DDSI-RTPS 2.5, section 10): a four-byte header, then each value aligned to its own size, counted from the end of
+/// the header. Padding is zero.
 #[derive(Debug, Clone)]
 pub struct Cdr {
     bytes: Vec<u8>,
 }
 
-/// Which encoding follows: plain CDR, little endian; no options (DDSI-RTPS).
+/// Identifier of the encoding: plain CDR, little endian; no options (DDSI-RTPS).
 const HEADER: [u8; 4] = [0, 1, 0, 0];
 
 impl Cdr {
-    /// A message without content.
+    /// Starts an empty message.
     #[must_use]
     pub fn new() -> Self {
         Self { bytes: HEADER.to_vec() }
     }
 
-    /// The message's bytes, header and all.
+    /// Returns the message's bytes with the header.
     #[must_use]
     pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
@@ -49,25 +49,25 @@ impl Cdr {
         self.put(value.to_le_bytes());
     }
 
-    /// The number of elements of a sequence, which is to be followed by them.
+    /// Writes the length of a sequence. Its elements must follow.
     pub fn length(&mut self, length: usize) {
         self.u32(u32::try_from(length).expect("fewer than 2^32 elements"));
     }
 
-    /// A `string`, with its length in bytes and a zero at its end, which counts.
+    /// Writes a `string`: its length in bytes including a final zero, then the bytes and the zero.
     pub fn string(&mut self, value: &str) {
         self.length(value.len() + 1);
         self.bytes.extend_from_slice(value.as_bytes());
         self.bytes.push(0);
     }
 
-    /// A sequence of `string`.
+    /// Writes a sequence of `string`.
     pub fn strings(&mut self, values: &[String]) {
         self.length(values.len());
         values.iter().for_each(|value| self.string(value));
     }
 
-    /// A sequence of `float64`. An empty one is its length alone, without filling for elements that it has not.
+    /// Writes a sequence of `float64`. An empty one consists of its length, without padding for elements.
     pub fn f64s(&mut self, values: &[f64]) {
         self.length(values.len());
         values.iter().for_each(|value| self.f64(*value));
@@ -84,7 +84,7 @@ impl Cdr {
 mod tests {
     use super::*;
 
-    /// The bytes after the header of what `write` writes.
+    /// Returns the bytes that `write` writes after the header.
     fn content(write: impl FnOnce(&mut Cdr)) -> Vec<u8> {
         let mut cdr = Cdr::new();
         write(&mut cdr);

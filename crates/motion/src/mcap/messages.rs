@@ -1,4 +1,4 @@
-//! The ROS 2 messages that hold a motion, and those that show it: what they are made of, and their bytes.
+//! The ROS 2 messages for motions and their display: definitions and bytes.
 
 use super::super::JointMotion;
 use super::super::clock::{PER_SECOND, nanoseconds};
@@ -7,7 +7,7 @@ use super::scene::{Body, Place, Stage};
 
 /// A message type.
 pub struct Type {
-    /// Its full name.
+    /// Full name.
     pub name: &'static str,
     fields: &'static str,
     parts: &'static [Part],
@@ -49,7 +49,7 @@ const MARKER: Part = (
 );
 const FIELD: Part = ("sensor_msgs/PointField", "string name\nuint32 offset\nuint8 datatype\nuint32 count\n");
 
-/// Where the joints are at one time.
+/// Joint values at one time.
 pub const JOINT_STATE: Type = Type {
     name: "sensor_msgs/msg/JointState",
     fields: "std_msgs/Header header\n\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n",
@@ -63,7 +63,7 @@ pub const JOINT_TRAJECTORY: Type = Type {
     parts: &[HEADER, TIME, POINT, DURATION],
 };
 
-/// Where frames are.
+/// Poses of frames.
 pub const TRANSFORMS: Type = Type {
     name: "tf2_msgs/msg/TFMessage",
     fields: "geometry_msgs/TransformStamped[] transforms\n",
@@ -86,8 +86,8 @@ pub const POINTS: Type = Type {
 };
 
 impl Type {
-    /// The definition in the encoding `ros2msg` (MCAP registry): its own fields, then those of every type within it, each
-    /// after a line of 80 equals signs and one with its name. So readers need no ROS to decode a message.
+    /// Returns the definition in the encoding `ros2msg` (MCAP registry): its own fields, then those of every nested
+    /// type, each after a line of 80 equals signs and a line with its name. So readers can decode messages without ROS.
     #[must_use]
     pub fn definition(&self) -> String {
         let parts = self.parts.iter().map(|(name, fields)| format!("{}\nMSG: {name}\n{fields}", "=".repeat(80)));
@@ -95,7 +95,7 @@ impl Type {
     }
 }
 
-/// The bytes of a [`JOINT_STATE`] at a time of the recording, nanoseconds. Efforts are not known, and left out.
+/// Returns the bytes of a [`JOINT_STATE`] at a time of the recording, nanoseconds. Efforts are unknown and omitted.
 #[must_use]
 pub fn joint_state(joints: &[String], time: u64, position: &[f64], velocity: &[f64]) -> Vec<u8> {
     let mut cdr = Cdr::new();
@@ -107,7 +107,8 @@ pub fn joint_state(joints: &[String], time: u64, position: &[f64], velocity: &[f
     cdr.into_bytes()
 }
 
-/// The bytes of a [`JOINT_TRAJECTORY`]. As in [`super::super::ros_yaml`] the stamp is 0, which means "begin now".
+/// Returns the bytes of a [`JOINT_TRAJECTORY`]. As in [`super::super::ros_yaml`] the stamp is 0, which means "begin
+/// now".
 #[must_use]
 pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
     let mut cdr = Cdr::new();
@@ -127,7 +128,7 @@ pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
 /// The frame in which all others are: that of the robot's root.
 const WORLD: &str = "world";
 
-/// The bytes of [`TRANSFORMS`]: names of frames, and where they are from a time on.
+/// Returns the bytes of [`TRANSFORMS`]: names of frames, and their poses from a time on.
 #[must_use]
 pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
     let mut cdr = Cdr::new();
@@ -141,7 +142,7 @@ pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// The bytes of [`MARKERS`]: a list of triangles for each solid of all bodies, which move with their frames.
+/// Returns the bytes of [`MARKERS`]: a list of triangles for each solid of all bodies, which move with their frames.
 #[must_use]
 pub fn markers(stage: &Stage) -> Vec<u8> {
     /// `TRIANGLE_LIST`.
@@ -182,7 +183,7 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// The bytes of [`POINTS`]: the rims of a body.
+/// Returns the bytes of [`POINTS`]: the rims of a body.
 #[must_use]
 pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
     /// `FLOAT32`, and its bytes.
@@ -211,13 +212,13 @@ pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// A header whose frame is empty: joint values are in none.
+/// Writes a header with an empty frame, because joint values have none.
 fn header(cdr: &mut Cdr, time: u64) {
     since(cdr, time);
     cdr.string("");
 }
 
-/// A `Time` or a `Duration`.
+/// Writes a `Time` or a `Duration`.
 fn since(cdr: &mut Cdr, nanoseconds: u64) {
     // The types end after 68 years; motions after eleven days.
     cdr.i32(i32::try_from(nanoseconds / PER_SECOND).unwrap_or(i32::MAX));

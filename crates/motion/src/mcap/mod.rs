@@ -69,12 +69,12 @@ struct Recording {
 impl Recording {
     fn channel(&mut self, topic: &str, kind: &Type) -> McapResult<u16> {
         let schema = self.writer.add_schema(kind.name, "ros2msg", kind.definition().as_bytes())?;
-        // The profile asks for this key; empty means the defaults of whoever plays the recording.
+        // The profile requires this key. Empty means the defaults of the player.
         let metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), String::new())]);
         self.writer.add_channel(schema, topic, "cdr", &metadata)
     }
 
-    /// What there is to see.
+    /// Writes the stage.
     fn show(&mut self, stage: &Stage) -> McapResult<()> {
         let scene = self.channel("/scene", &MARKERS)?;
         self.message(scene, 0, &messages::markers(stage))?;

@@ -1,4 +1,4 @@
-//! What there is to see while a motion runs: bodies with a frame each, and where these are.
+//! The stage shown while a motion runs: bodies, each with a frame, and the poses of the frames.
 
 use super::super::clock::nanoseconds;
 use cplan_core::model::{Heights, Plane};
@@ -13,8 +13,8 @@ pub struct Stage {
     pub plane: Plane,
     /// The first one does not move: what stays where it is.
     pub bodies: Vec<Body>,
-    /// In the order of time: seconds from the beginning, the number of a body, its pose from then on, and by how much it is raised
-    /// along the plane's normal, metres.
+    /// Poses in order of time: seconds from the beginning, number of a body, its pose from then on, and its lift along
+    /// the plane's normal, metres.
     pub poses: Vec<(f64, usize, Pose, f64)>,
     /// The size of all this, metres: that of the arm.
     pub size: f64,
@@ -23,9 +23,9 @@ pub struct Stage {
 /// Something rigid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
-    /// Of its frame. That of the first body is the frame of all others.
+    /// Name of its frame. The frame of the first body is the parent of all others.
     pub name: String,
-    /// In its frame, whose axes are the plane's two and a normal.
+    /// Its solids in the frame, whose axes are those of the plane and a normal.
     pub solids: Vec<Solid>,
 }
 
@@ -53,7 +53,7 @@ const THIN: f64 = 0.02;
 const SPACING: f64 = 0.01;
 
 impl Stage {
-    /// The extent that stands for one without end: that of all that ends.
+    /// Returns the extent shown for infinite heights: the extent of all finite ones.
     pub fn heights(&self) -> Heights {
         let pieces = self.bodies.iter().flat_map(|body| &body.solids).flat_map(|solid| &solid.pieces);
         let ends = pieces.flat_map(|(_, heights)| [heights.lower, heights.upper]).filter(|end| end.is_finite());
@@ -61,18 +61,18 @@ impl Stage {
         if lower < upper { Heights { lower, upper } } else { Heights { lower: 0.0, upper: THIN * self.size } }
     }
 
-    /// Where the plane's axes are in space: a rotation, whose third axis is the normal or against it.
+    /// Returns the plane's axes in space as a rotation, whose third axis is the normal or its opposite.
     fn basis(&self) -> Matrix3<f64> {
         let Plane { u, v, .. } = self.plane;
         Matrix3::from_columns(&[u, v, u.cross(&v)])
     }
 
-    /// Along the third axis of frames.
+    /// Returns the direction of the normal along the third axis of frames.
     fn up(&self) -> f64 {
         self.basis().column(2).dot(&self.plane.normal).signum()
     }
 
-    /// Place and orientation (x, y, z, w) of a body's frame in space.
+    /// Returns position and orientation (x, y, z, w) of a body's frame in space.
     fn transform(&self, pose: &Pose, raised: f64) -> (Place, [f64; 4]) {
         let basis = Rotation3::from_matrix_unchecked(self.basis());
         let at = basis * Vector3::new(pose.translation.x, pose.translation.y, raised * self.up());
@@ -81,7 +81,7 @@ impl Stage {
         (at.into(), [turn.i, turn.j, turn.k, turn.w])
     }
 
-    /// When and where to bodies move: nanoseconds, numbers and transforms. What stays where it was is left out.
+    /// Returns the movements of bodies: nanoseconds, numbers and transforms. Bodies that stay in place are omitted.
     pub fn moves(&self) -> Vec<(u64, usize, (Place, [f64; 4]))> {
         let mut last = vec![None; self.bodies.len()];
         let moved = |&(time, body, pose, raised): &(f64, usize, Pose, f64)| {
@@ -127,7 +127,7 @@ impl Stage {
         points
     }
 
-    /// The ends of a piece along the third axis of its frame, the lower first.
+    /// Returns the ends of a piece along the third axis of its frame, the lower one first.
     fn ends(&self, heights: Heights) -> [f64; 2] {
         let usual = self.heights();
         let or = |end: f64, usual: f64| if end.is_finite() { end } else { usual };

@@ -18,11 +18,11 @@ const MAX_EVALUATIONS: usize = 20_000_000;
 /// decide, and a motion that slides along an obstacle leaves spans open without end.
 const MORE_EVALUATIONS: usize = 200_000;
 
-/// Configurations, evenly spread over the pieces, that are looked at beforehand: they show how near the motion comes, and so
-/// how fine it pays to look.
+/// Number of configurations sampled in advance, evenly over the pieces. They show how close the motion comes, and so
+/// which resolution is useful.
 const LOOKS: usize = 1024;
 
-/// Of so many of these one is looked at first.
+/// One of this many samples is taken first.
 const COARSE: usize = 32;
 
 /// A single configuration.
@@ -31,12 +31,12 @@ const STILL: Deviation = Deviation::Box([0.0; 2]);
 /// A moment of a recorded motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
-    /// Seconds on the recording's clock; without one, the number of the waypoint, counted from 0, and the share of the
-    /// way to the next.
+    /// Seconds on the recording's clock. Without a clock, the index of the waypoint plus the fraction of the distance
+    /// to the next.
     pub time: f64,
     /// The sample at or before it, counted from 0.
     pub sample: usize,
-    /// Where the arm is.
+    /// Configuration of the arm.
     pub at: Configuration,
 }
 
@@ -57,7 +57,7 @@ pub struct Encounter {
     pub contact: Contact,
 }
 
-/// What the continuous check of a motion found.
+/// Result of the continuous check of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CollisionCheck {
     /// Proven: the whole motion keeps more than zero and at least the clearance asked for.
@@ -65,7 +65,7 @@ pub enum CollisionCheck {
         /// Lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if nothing can
         /// meet. At least 0.9 of the true value, unless the clearance asked for is nearer to it.
         clearance: f64,
-        /// Where it came nearest, as far as was looked; none if nothing can meet.
+        /// The nearest place found; `None` if nothing can meet.
         nearest: Option<Encounter>,
     },
     /// Proven: the motion touches an obstacle, or comes nearer to it than the clearance to keep.
@@ -78,27 +78,28 @@ pub enum CollisionCheck {
         /// The least signed distance that was seen anywhere on the motion.
         deepest: Encounter,
     },
-    /// Neither: at this moment (the first such) the distance is too near to the clearance to keep to be told apart, or
-    /// the search ran out.
+    /// Undecided. At this moment (the first such) the distance is too close to the clearance to decide, or the search
+    /// reached its limit.
     Undecided(Encounter),
 }
 
-/// Checks the whole motion against every pair that can meet, in the order of time: a distance of more than zero and at
-/// least `clearance` metres. Joint limits are not its business; see [`super::limits_kept`].
+/// Checks the whole motion against every pair that can meet, in order of time: the distance must be positive and at
+/// least `clearance` metres. Joint limits are checked by [`super::limits_kept`].
 ///
-/// A span of one piece is a tube about its chord: a curve deviates from the chord by at most an eighth of its greatest
-/// second derivative times the squared width, joint by joint. A span of several pieces is the box of their control
-/// points. The bound of [`Posture::bound`] decides, else both halves are looked at, so that many samples cost little
-/// where nothing is near. Once a contact is found only what comes before it is looked at.
+/// A span of one piece is a tube around its chord: a curve deviates from its chord by at most an eighth of its greatest
+/// second derivative times the squared width, for each joint. A span of several pieces is the box of their control
+/// points. The bound of [`Posture::bound`] decides; otherwise both halves are examined. So many samples cost little if
+/// nothing is near. After a contact is found, only earlier spans are examined.
 ///
-/// Obstacles that move do so on the recording's clock, from its first sample on. Without a clock nothing is said of them.
+/// Moving obstacles follow the recording's clock, from its first sample. Without a clock they are not checked.
 #[must_use]
 pub fn check_collision(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
     check_pairs(scene, all_pairs(scene, recording), recording, clearance)
 }
 
-/// The same while joints move that the scene holds still: parts are at the heights that these give them at each moment, and what
-/// a wrist turns counts as the disc that it sweeps. Pairs are those of the scene's parts. What is carried must not be among what they move.
+/// Does the same while joints move that the scene holds still. Parts are at the heights that these joints give them at
+/// each moment, and parts that a wrist turns count as the disc that they sweep. Pairs are those of the scene's parts.
+/// These joints must not move carried objects.
 #[must_use]
 pub fn check_collision_with(
     scene: &Scene,
@@ -116,21 +117,21 @@ pub fn check_collision_with(
     search.verdict()
 }
 
-/// The pairs with what stands, and with what moves if there is a clock.
+/// Returns the pairs with static obstacles, and with a clock also those with moving ones.
 fn all_pairs<'a>(scene: &'a Scene, recording: &Recording) -> Cow<'a, [Pair]> {
     let moving = if recording.times().is_some() { scene.moving_pairs() } else { &[] };
     if moving.is_empty() { scene.pairs().into() } else { [scene.pairs(), moving].concat().into() }
 }
 
-/// The same of what moves alone, on the recording's clock from its first sample on: the arm's motion in time is certified if it is known to be
-/// free of what stands, as the motion along a [`cplan_core::check::CertifiedCurve`] is.
+/// Does the same for moving obstacles only, on the recording's clock from its first sample. The motion is certified if
+/// it is also known to avoid the static obstacles, as along a [`cplan_core::check::CertifiedCurve`].
 #[must_use]
 pub fn certify_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
     check_pairs(scene, scene.moving_pairs().into(), recording, clearance)
 }
 
-/// What a recording first comes too near to of what moves, or cannot be told apart from that; none if it is free. How free is not asked, which is a
-/// small part of the cost.
+/// Returns the first moving obstacle that a recording approaches too closely, or that cannot be decided; `None` if it
+/// is free. Does not compute the clearance, which makes it much faster.
 pub fn met_in_time(scene: &Scene, recording: &Recording, clearance: f64) -> Option<Encounter> {
     let pieces = recording.pieces();
     let mut search = Search::new(scene, scene.moving_pairs(), &pieces, clearance);
@@ -152,11 +153,11 @@ fn check_pairs(scene: &Scene, pairs: Cow<[Pair]>, recording: &Recording, clearan
 
 struct Search<'a> {
     scene: &'a Scene,
-    /// Those that are looked at; those of what moves come last.
+    /// The pairs to check; those with moving obstacles come last.
     pairs: &'a [Pair],
     pieces: &'a [Piece],
     required: f64,
-    /// What changes heights and shapes on the way.
+    /// Changes of heights and shapes during the motion.
     tool: Option<&'a ToolMotion<'a>>,
     /// A bound is accepted if it is at least this share of the least distance seen.
     tightness: f64,
@@ -166,7 +167,7 @@ struct Search<'a> {
     least: Option<Encounter>,
     /// The earliest contact seen.
     hit: Option<(Place, Encounter)>,
-    /// The earliest span that stayed open, and what was nearest there.
+    /// The earliest undecided span, and the nearest pair there.
     open: Option<(Place, Encounter)>,
     evaluations: usize,
     /// Evaluations after which spans are halved no more.
@@ -191,13 +192,14 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Places all over the motion, but for stretches in which each pair is shown to be neither in contact nor nearer than any before.
+    /// Samples the whole motion, except stretches in which each pair is shown to be neither in contact nor closer than
+    /// an earlier one.
     fn look_around(&mut self) {
         let count = self.pieces.len();
         let (stride, shares) = (count.div_ceil(LOOKS), LOOKS.div_ceil(count));
         let place = |look: usize| (look / shares * stride, (look % shares) as f64 / shares as f64);
         let looks = count.div_ceil(stride) * shares;
-        // Some first: what they show to be near makes the rest of less interest.
+        // Take some samples first: short distances found early make most others irrelevant.
         for look in (0..looks).step_by(COARSE) {
             self.look(place(look), self.pairs);
         }
@@ -226,7 +228,7 @@ impl<'a> Search<'a> {
         self.look((count - 1, 1.0), self.pairs);
     }
 
-    /// Some pairs at a place, but for those that discs around both show to be of no interest.
+    /// Samples some pairs at a place, except those that discs around both show to be irrelevant.
     fn look(&mut self, place: Place, pairs: &[Pair]) {
         let posture = Posture::new(self.scene, self.pieces[place.0].at(place.1));
         for &pair in pairs {
@@ -240,7 +242,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether a pair that comes no nearer than this may be in contact, or nearer than any before.
+    /// Returns true if a pair with at least this distance may be in contact, or closer than all before.
     fn is_of_interest(&self, apart: f64) -> bool {
         apart <= 0.0 || apart < self.required || apart < self.seen()
     }
@@ -253,17 +255,17 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether the shapes of a pair are at a place what they are taken for, and can meet there.
+    /// Returns true if at a place the shapes of a pair are exact, and can meet there.
     fn is_there(&self, pair: Pair, place: Place) -> bool {
         self.tool.is_none_or(|tool| tool.is_there(pair, place))
     }
 
-    /// Least distance seen.
+    /// Returns the least sampled distance.
     fn seen(&self) -> f64 {
         self.least.map_or(f64::INFINITY, |e| e.contact.separation.distance)
     }
 
-    /// What the obstacle of a pair does between two places, if it moves.
+    /// Returns the motion of the obstacle of a pair between two places, if it moves.
     fn drift(&self, pair: Pair, from: Place, to: Place) -> Option<Drift> {
         let time = |(piece, share): Place| self.pieces[piece].time(share) - self.pieces[0].from;
         self.scene.mover(pair).map(|mover| mover.course.drift(time(from), time(to)))
@@ -286,14 +288,14 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether a bound proves enough. Once there is a contact it is only asked whether it is the first.
+    /// Returns true if a bound suffices. After a contact the question is only whether it is the first.
     fn suffices(&self, bound: f64) -> bool {
         let is_tight = self.tightness > 0.0 && self.hit.is_none();
         let target = if is_tight { (self.tightness * self.seen()).max(self.required) } else { self.required };
         bound > 0.0 && bound >= target
     }
 
-    /// All spans in the order of time, each with the pairs that are open in it.
+    /// Examines all spans in order of time, each with its undecided pairs.
     fn run(&mut self) {
         let mut stack = vec![(Span::all(self.pieces.len()), self.pairs.to_vec())];
         while let Some((span, mut pairs)) = stack.pop() {
@@ -320,7 +322,7 @@ impl<'a> Search<'a> {
         let [from, to] = span.ends();
         pairs.retain(|&pair| {
             let is_there = self.is_there(pair, span.middle());
-            // The least distance seen is no measure for what is not there to be seen.
+            // The least sampled distance does not apply to shapes that are not really there.
             let suffices = |search: &Self, bound: f64| match is_there {
                 true => search.suffices(bound),
                 false => bound > 0.0 && bound >= search.required,
@@ -348,7 +350,7 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// A span that can neither be proven free nor halved: only its ends remain to be looked at.
+    /// Handles a span that can neither be proven free nor halved: only its ends are examined.
     fn leave_open(&mut self, span: Span, pairs: &[Pair]) {
         let mut nearest: Option<Encounter> = None;
         for place in span.ends() {
@@ -385,7 +387,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Distance of a pair in the middle of a span, and the least that it comes to in it, but for the trouble of a better bound than one that is enough.
+/// Returns the distance of a pair in the middle of a span, and a lower bound within it. Stops improving the bound once
+/// it suffices.
 fn bound(
     posture: &Posture,
     pair: Pair,
@@ -399,12 +402,12 @@ fn bound(
     }
 }
 
-/// Distance of a pair at a moment.
+/// Returns the distance of a pair at a moment.
 fn here(posture: &Posture, pair: Pair, drift: Option<&Drift>) -> Separation {
     bound(posture, pair, STILL, drift, |_| f64::NEG_INFINITY).here
 }
 
-/// The same by discs around both.
+/// Does the same by discs around both shapes.
 fn apart(posture: &Posture, pair: Pair, deviation: Deviation, drift: Option<&Drift>) -> f64 {
     match drift {
         Some(drift) => posture.apart_moving(pair, deviation, drift),

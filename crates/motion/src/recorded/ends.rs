@@ -1,48 +1,48 @@
-//! Whether a motion leads from where it should begin to where it should end.
+//! The check of a motion's start and goal.
 
 use cplan_core::model::{Arm, Goal};
 use cplan_core::space::{Configuration, Recording};
 use thiserror::Error;
 
-/// By how much a motion may miss its start or goal, radians or metres: what six printed decimals make of a tip some metres
-/// from its joints, and less than any arm repeats.
+/// Largest distance of a motion from its start or goal, radians or metres: the effect of six printed decimals on a tip
+/// several metres from its joints, and below the repeatability of any arm.
 pub const ENDS_WITHIN: f64 = 1e-5;
 
-/// Where a motion does not begin or end as it should.
+/// A difference from the required start or goal.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Miss {
     /// It begins elsewhere.
     #[error("the motion begins at ({}, {}), not at the start ({}, {})", is[0], is[1], start[0], start[1])]
     Start {
-        /// Where it begins.
+        /// The recorded start.
         is: Configuration,
-        /// Where it was to begin.
+        /// The required start.
         start: Configuration,
     },
     /// It ends elsewhere.
     #[error("the motion ends at ({}, {}), not at the goal ({}, {})", is[0], is[1], goal[0], goal[1])]
     Goal {
-        /// Where it ends.
+        /// The recorded end.
         is: Configuration,
-        /// Where it was to end.
+        /// The required goal.
         goal: Configuration,
     },
-    /// The tip is not where it was to be at first.
+    /// The tip is not at its required start.
     #[error("the motion begins with the tip {off:.6} m from the start")]
     TipAtStart {
-        /// How far it is from there, metres.
+        /// Distance of the tip from there, metres.
         off: f64,
     },
     /// The tip is not where it was to go.
     #[error("the motion ends with the tip {off:.6} m from the goal")]
     Tip {
-        /// How far it is from there, metres.
+        /// Distance of the tip from there, metres.
         off: f64,
     },
 }
 
-/// Where a motion misses its start and all of its goals by more than [`ENDS_WITHIN`], if it has any; whole turns of joints on circles aside.
-/// Of several goals the miss of the first is told.
+/// Returns the differences from the start and from all goals that exceed [`ENDS_WITHIN`], up to whole turns of joints
+/// on circles. With several goals, the difference from the first one is reported.
 #[must_use]
 pub fn ends_kept(arm: &Arm, recording: &Recording, start: Option<Goal>, goals: &[Goal]) -> Vec<Miss> {
     let positions = recording.positions();

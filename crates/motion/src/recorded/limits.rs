@@ -1,27 +1,27 @@
-//! Whether a recorded motion keeps the joints' limits, between its samples too.
+//! The check of joint limits of a recorded motion, also between its samples.
 
 use super::collision::Moment;
 use super::torque::torque_looks;
 use cplan_core::model::{Joint, Scene};
 use cplan_core::space::{Configuration, Derivative, JointRange, Piece, Recording};
 
-/// Share of a limit by which it may be exceeded: programs that plan up to a limit exceed it by what their arithmetic
-/// and six printed digits make of it, and no drive tells the two apart.
+/// Relative excess of a limit that is tolerated: programs that plan up to a limit exceed it by rounding and by six
+/// printed digits, which no drive can distinguish.
 const TOLERANCE: f64 = 1e-6;
 
-/// Numbers with this many decimals or more are taken to be rounded in the last one.
+/// Numbers with at least this many decimals count as rounded in the last one.
 const ROUNDED_FROM: i32 = 6;
 
 /// Numbers with fewer are as they were meant (`0.5` is a half, a time of `0.004` is the fourth millisecond), exact to
 /// this many decimals: the nanosecond in which ROS counts.
 const MEANT_TO: i32 = 9;
 
-/// Units in the last place by which doubles are taken to be off: what computing a sample, and the piece through it, costs.
+/// Rounding error of doubles in units in the last place: the cost of computing a sample and the piece through it.
 const ULPS: f64 = 4.0;
 
-/// Share of a speed limit that the rounding of positions and times may explain between samples at the most: six decimals
-/// at a kilohertz explain a thousandth of a radian per second. Numbers that are coarser than that for their spacing make a
-/// motion of their own, and that is what a controller plays.
+/// Largest share of a speed limit that the rounding of positions and times may explain between samples. Six decimals at
+/// a kilohertz explain a thousandth of a radian per second. Coarser numbers for their spacing define another motion,
+/// and that is the one a controller plays.
 const COARSE: f64 = 0.01;
 
 /// A limit of a joint.
@@ -29,15 +29,15 @@ const COARSE: f64 = 0.01;
 pub enum Limit {
     /// The least and the greatest value that the joint can take.
     Position,
-    /// Its top speed.
+    /// The top speed.
     Velocity,
-    /// Its greatest acceleration.
+    /// The greatest acceleration.
     Acceleration,
-    /// Its greatest jerk.
+    /// The greatest jerk.
     Jerk,
     /// The greatest torque or force that moves it.
     Torque,
-    /// Its acceleration does not jump if its jerk has a limit.
+    /// Absence of jumps in the acceleration, if the jerk is limited.
     AccelerationJump,
     /// A motion starts at rest.
     RestAtStart,
@@ -52,7 +52,7 @@ pub struct Excess {
     pub joint: usize,
     /// The limit that is broken.
     pub limit: Limit,
-    /// What the limit allows, in the unit of `value`: the nearer end of the range, or a magnitude; 0 for rest and jumps.
+    /// The allowed value, in the unit of `value`: the nearer end of the range, or a magnitude; 0 for rest and jumps.
     pub allowed: f64,
     /// The joint's position, velocity, acceleration, jerk or change of acceleration where it exceeds the limit most.
     pub value: f64,
@@ -60,24 +60,27 @@ pub struct Excess {
     pub moment: Moment,
 }
 
-/// Every limit of each joint that the motion does not keep, with the place where it is exceeded most. `O(n)`.
+/// Returns every violated limit of each joint, at the place of the greatest violation. `O(n)`.
 ///
-/// Position limits hold for every recording; velocity limits where there are times; acceleration and rest at both ends
-/// where there are velocities: without, the velocity jumps at the samples, which says nothing about how the motion is
-/// meant.
+/// Position limits apply to every recording; velocity limits if there are times; acceleration and rest at both ends if
+/// there are velocities. Without velocities, the velocity jumps at the samples, which does not show the intended
+/// motion.
 ///
-/// What a file states is judged as stated: its velocities and accelerations. So is what the consumer of its format makes of
-/// it between the samples ([`cplan_core::space::Interpolation`]), by the extremes of each piece. A limit counts as broken if it is exceeded by more
-/// than 1e-6 of it and by more than the rounding of the recording's own numbers explains: for stated numbers half a unit of
-/// their last decimal, and between samples what such roundings make of a motion within the limits. (Six decimals at a
-/// millisecond's spacing leave the acceleration of a cubic open to some radians per squared second.) What rounding explains
-/// on short pieces it does not explain on long stretches: from any sample to any later one, too, the joint moves no farther
-/// than its top speed allows, and its stated velocity changes by no more than its acceleration does.
+/// Stated velocities and accelerations are judged as stated. The motion between samples is judged as the consumer of
+/// the format joins them ([`cplan_core::space::Interpolation`]), by the extremes of each piece. A limit is violated if
+/// it is exceeded by more than a relative 1e-6 and by more than the rounding of the recording's numbers explains: half
+/// a unit of their last decimal for stated numbers, and its effect on a motion within the limits between samples. (Six
+/// decimals with a spacing of a millisecond leave the acceleration of a cubic uncertain by several radians per squared
+/// second.)
 ///
-/// The jerk of a joint that has such a limit is judged where there are velocities: the third derivative of each piece, and
-/// that the acceleration does not jump from one to the next, nor where the motion begins and ends. That is exact for
-/// motions whose jerk is constant between samples. Others, however smooth, are not what their cubics are, and these jump
-/// at the samples by as much as the square of the spacing: they are to be sampled at the ends of their phases.
+/// Rounding may explain excesses on short pieces, but not over long stretches. So between any two samples, the joint
+/// must not move farther than its top speed allows, and its stated velocity must not change by more than its
+/// acceleration allows.
+///
+/// The jerk of a joint with such a limit is judged if there are velocities: the third derivative of each piece, and
+/// continuity of the acceleration between pieces and at the ends of the motion. This is exact for motions with constant
+/// jerk between samples. Other motions differ from their cubics, which jump at the samples by as much as the square of
+/// the spacing, so they must be sampled at the ends of their phases.
 #[must_use]
 pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
     let precision = Precision::of(recording);
@@ -112,10 +115,12 @@ pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
 /// Share of an effort by which a torque may be greater between two looks at it.
 const FINE: f64 = 1e-4;
 
-/// Where the motion takes more torque than the joints' efforts, if motions of the scene's arm have to keep within them: of each joint the place
-/// where it is exceeded most. As accelerations are judged: where there are velocities, by what the format's consumer makes of the samples,
-/// beyond what rounding explains. Between the moments that are looked at a torque may be a ten-thousandth of the effort greater than there. Of a
-/// single sample it is what holds the arm there.
+/// Returns the places at which the motion needs more torque than the joints' efforts, if motions of the scene's arm
+/// must keep within them: for each joint the place of the greatest excess.
+///
+/// Like accelerations, torques are judged if there are velocities, by the format's interpolation, beyond rounding.
+/// Between the examined moments a torque may be greater by a ten-thousandth of the effort. For a single sample it is
+/// the torque that holds the arm there.
 #[must_use]
 pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
     let Some(dynamics) = scene.limiting_dynamics().filter(|_| recording.velocities().is_some()) else {
@@ -152,13 +157,13 @@ pub fn torques_kept(scene: &Scene, recording: &Recording) -> Vec<Excess> {
     judges.into_iter().flat_map(|judge| judge.worst).map(|(_, excess)| excess).collect()
 }
 
-/// One joint's limits, and how they are exceeded most.
+/// The limits of one joint, and their greatest violations.
 struct Judge<'a> {
     joint: &'a Joint,
     k: usize,
     pieces: &'a [Piece],
     precision: JointPrecision,
-    /// By how much, and how.
+    /// Greatest excess of each kind.
     worst: Vec<(f64, Excess)>,
 }
 
@@ -177,12 +182,12 @@ impl<'a> Judge<'a> {
         Moment::new(index, &self.pieces[index], u)
     }
 
-    /// The moment of a sample.
+    /// Returns the moment of a sample.
     fn sample(&self, index: usize) -> Moment {
         if index < self.pieces.len() { self.moment(index, 0.0) } else { self.moment(index - 1, 1.0) }
     }
 
-    /// The pieces that take time, with their numbers.
+    /// Iterates over the pieces of positive duration, with their numbers.
     fn lasting(&self) -> impl Iterator<Item = (usize, &'a Piece)> + use<'a> {
         self.pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from)
     }
@@ -204,7 +209,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// What the file says of velocities or accelerations, as it says it.
+    /// Judges the stated velocities or accelerations.
     fn stated(&mut self, limit: Limit, values: &[f64]) {
         let (allowed, may) = match limit {
             Limit::Velocity => (self.joint.velocity, self.precision.velocity),
@@ -239,7 +244,7 @@ impl<'a> Judge<'a> {
         self.stretches(Limit::Acceleration, allowed, self.precision.velocity, velocities, times);
     }
 
-    /// A derivative of a piece where it is least and greatest.
+    /// Judges a derivative of a piece at its least and its greatest value.
     fn extremes(&mut self, limit: Limit, allowed: f64, explained: f64, index: usize) {
         let piece = &self.pieces[index];
         let of = match limit {
@@ -256,8 +261,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The mean rate of change from any sample to any later one, of values that are off by `rounded` each. With `s` the value
-    /// less what the limit allows until then, it is too large where `s` exceeds the least of the `s` before.
+    /// Judges the mean rate of change between any two samples, of values with the rounding error `rounded`. Let `s` be
+    /// the value minus the allowed change until then. The rate is too large where `s` exceeds the least earlier `s`.
     fn stretches(&mut self, limit: Limit, allowed: f64, rounded: f64, values: &[f64], times: &[f64]) {
         let most = allowed * (1.0 + TOLERANCE);
         let may = 2.0 * rounded + most * 2.0 * self.precision.time;
@@ -276,7 +281,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Of all pieces: each one's own, and the jumps of the acceleration at their ends.
+    /// Judges the jerks of all pieces, and the jumps of the acceleration at their ends.
     fn jerks(&mut self, most: f64) {
         // Where nothing moves.
         let still = (0.0, 0.0);
@@ -298,7 +303,7 @@ impl<'a> Judge<'a> {
         self.jump(before, still, self.sample(self.pieces.len()));
     }
 
-    /// From one acceleration to another, each with its error.
+    /// Judges a jump between two accelerations, each with its error.
     fn jump(&mut self, before: (f64, f64), after: (f64, f64), moment: Moment) {
         let value = after.0 - before.0;
         if value.abs() > before.1 + after.1 + TOLERANCE * self.joint.acceleration {
@@ -312,7 +317,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// What the rounding of the recording's numbers explains of a derivative of a piece.
+    /// Returns the part of a derivative of a piece that rounding of the recording's numbers explains.
     fn explained(&self, piece: &Piece, of: &Sensitivity) -> f64 {
         let duration = piece.to - piece.from;
         let moved = 2.0 * self.precision.position + 2.0 * self.precision.time * self.speed(piece);
@@ -323,8 +328,8 @@ impl<'a> Judge<'a> {
             + over(of.acceleration * self.precision.acceleration, of.order - 2)
     }
 
-    /// Greatest speed at which the joint passes the ends of the piece, or passes from one to the other; its top speed at
-    /// the most: what is faster is not explained by rounding.
+    /// Returns the greatest speed at the ends of the piece or between them, limited by the joint's top speed, because
+    /// rounding does not explain faster motion.
     fn speed(&self, piece: &Piece) -> f64 {
         let duration = piece.to - piece.from;
         let mean = if duration > 0.0 { (piece.at(1.0) - piece.at(0.0))[self.k] / duration } else { 0.0 };
@@ -333,8 +338,8 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// By how much a derivative of a piece changes at the most, with times in units of its duration, when its data do: per
-/// change of the difference of the positions, of both velocities, of all accelerations.
+/// Sensitivity of a derivative of a piece to changes of its data, with times in units of its duration: to the
+/// difference of the positions, to both velocities, and to all accelerations.
 struct Sensitivity {
     order: i32,
     position: f64,
@@ -343,11 +348,11 @@ struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// From the derivatives of the polynomials that belong to each of the data: for cubics `3 u^2 - 2 u^3` (position),
-    /// `u - 2 u^2 + u^3` and `u^3 - u^2` (velocities); of the fourth degree `4 u^3 - 3 u^4`, `u - 3 u^3 + 2 u^4` and
-    /// `u^4 - u^3`, `u^2 / 2 - u^3 + u^4 / 2` (acceleration); of the fifth `10 u^3 - 15 u^4 + 6 u^5`,
-    /// `u - 6 u^3 + 8 u^4 - 3 u^5` and `-4 u^3 + 7 u^4 - 3 u^5`, `(u^2 - 3 u^3 + 3 u^4 - u^5) / 2` and
-    /// `(u^3 - 2 u^4 + u^5) / 2`. Rounded up; the unit tests hold them to samples.
+    /// Computes it from the derivatives of the polynomials for each datum: for cubics `3 u^2 - 2 u^3` (position), `u -
+    /// 2 u^2 + u^3` and `u^3 - u^2` (velocities); of degree four `4 u^3 - 3 u^4`, `u - 3 u^3 + 2 u^4` and `u^4 - u^3`,
+    /// `u^2 / 2 - u^3 + u^4 / 2` (acceleration); of degree five `10 u^3 - 15 u^4 + 6 u^5`, `u - 6 u^3 + 8 u^4 - 3 u^5`
+    /// and `-4 u^3 + 7 u^4 - 3 u^5`, `(u^2 - 3 u^3 + 3 u^4 - u^5) / 2` and `(u^3 - 2 u^4 + u^5) / 2`. Rounded up; the
+    /// unit tests compare them with samples.
     fn of(piece: &Piece, derivative: Derivative) -> Self {
         let (order, [position, velocity, acceleration]) = match (derivative, piece.degree()) {
             (Derivative::Position, _) => (0, [1.0, 0.5, 0.1]),
@@ -373,7 +378,7 @@ struct Precision {
     time: f64,
 }
 
-/// The same for one joint.
+/// Precision of the numbers of one joint.
 struct JointPrecision {
     position: f64,
     velocity: f64,
@@ -404,7 +409,7 @@ impl Precision {
     }
 }
 
-/// Half a unit of the last decimal that any of the numbers has, plus the rounding of doubles of their size.
+/// Returns half a unit of the last decimal of the numbers, plus the rounding of doubles of their size.
 fn rounding(values: impl Iterator<Item = f64>) -> f64 {
     let (mut most, mut largest) = (0, 0.0_f64);
     for value in values {
@@ -430,7 +435,7 @@ fn decimals(value: f64) -> i32 {
 mod tests {
     use super::*;
 
-    /// Pieces whose data are unit changes, sampled: what the greatest changes make of a derivative.
+    /// Compares with samples of pieces whose data are unit changes.
     #[test]
     fn sensitivities_are_those_of_the_pieces() {
         let unit = |i: usize, k: usize| Configuration::repeat(if i == k { 1.0 } else { 0.0 });

@@ -1,10 +1,11 @@
-//! Judges recorded motions, whoever made them, between their samples.
+//! Judges recorded motions of any origin, also between their samples.
 //!
-//! - [`check_collision`] judges a recorded motion, also among moving obstacles ([`certify_in_time`]); [`limits_kept`] its limits;
-//!   [`ends_kept`] whether it leads from start to goal.
-//! - [`replay()`] repeats a recorded task: it puts the recorded steps beside the task's (`order`), follows the objects and what is
-//!   carried from the recorded configurations (`state`), and judges each motion in the scene of its moment.
-//! - [`claims_kept`] judges what a result says besides its samples. The samples are the motion, everything else is a claim about it.
+//! - [`check_collision`] judges a recorded motion, also among moving obstacles ([`certify_in_time`]); [`limits_kept`]
+//!   judges its limits; [`ends_kept`] its start and goal.
+//! - [`replay()`] repeats a recorded task: it matches the recorded steps with the task's (`order`), tracks the objects
+//!   and the load from the recorded configurations (`state`), and judges each motion in the scene of its moment.
+//! - [`claims_kept`] judges the claims of a result. The samples are the motion, and all other members are claims about
+//!   it.
 //! - [`wrist_turn`] judges turns of a wrist by the contact angles of the payload about the tip.
 
 mod claims;

@@ -1,21 +1,21 @@
-//! Heights and shapes of the arm while joints beside the planned two move.
+//! Heights and shapes of the arm while joints other than the planned two move.
 //!
-//! Along a span a lifted part takes all heights from its least to its greatest: what is free of these is free. A contact is claimed
-//! of the heights at one moment only. A part that turns about a wrist counts as the disc about the axis that it sweeps, and no contact of
-//! such a disc is claimed, unless the part is that disc itself.
+//! Within a span, a lifted part covers all heights from its least to its greatest; a region free of these is free. A
+//! contact is claimed only for the heights at one moment. A part that turns about a wrist counts as the disc that it
+//! sweeps about the axis. No contact of such a disc is claimed, unless the part is that disc itself.
 
 use cplan_core::check::{Deviation, Place, Span};
 use cplan_core::model::{Heights, HeldEffect, HeldMotion, Pair, Part, Scene};
 use cplan_core::space::Piece;
 use cplan_geometry::{Convex, Point};
 
-/// How far a round part may be off the axis that it turns about, metres: rounding, as of heights.
+/// Largest distance of a round part from its axis of rotation, metres: rounding, as of heights.
 const ON_AXIS: f64 = 1e-9;
 
 /// A joint that lifts some bodies.
 struct Lift<'a> {
     pieces: Vec<Piece>,
-    /// Where it is held, and the direction of greater values.
+    /// Its held value, and the direction of increasing values.
     rest: f64,
     sign: f64,
     bodies: &'a [String],
@@ -40,14 +40,14 @@ pub(super) struct ToolMotion<'a> {
     lifts: Vec<Lift<'a>>,
     /// Parts at the heights where they are held; of what turns, discs.
     still: Scene,
-    /// The same at all heights of the whole motion, with the pairs that meet at some of them.
+    /// The scene with parts at all heights of the motion, with the pairs that meet at some of them.
     swept: Scene,
-    /// Of each part of both links whether it stands for more than itself.
+    /// For each part of both links, whether it covers more than the part itself.
     covers: [Vec<bool>; 2],
 }
 
 impl<'a> ToolMotion<'a> {
-    /// A scene in which these joints move.
+    /// Creates a scene in which these joints move.
     pub fn new(scene: &Scene, motions: &'a [HeldMotion]) -> Self {
         let mut lifts = Vec::new();
         let mut turns: Vec<(Point, &[String])> = Vec::new();
@@ -85,7 +85,7 @@ impl<'a> ToolMotion<'a> {
         Self { lifts, still, swept, covers }
     }
 
-    /// The scene with all pairs that meet at some time.
+    /// Returns the scene with all pairs that meet at some time.
     pub fn scene(&self) -> &Scene {
         &self.swept
     }
@@ -95,7 +95,7 @@ impl<'a> ToolMotion<'a> {
         self.lifts.iter().map(|lift| lift.extent(span)).collect()
     }
 
-    /// The heights of a pair's part with such lifts, and those of its obstacle.
+    /// Returns the heights of a pair's part with these lifts, and those of its obstacle.
     fn heights(&self, pair: Pair, extents: &[[f64; 2]]) -> [Heights; 2] {
         let part = &self.still.link(pair).parts[pair.part];
         let lifted = |link: &String, heights: Heights| {
@@ -108,13 +108,13 @@ impl<'a> ToolMotion<'a> {
         [lifted(&part.body, part.heights), of_obstacle]
     }
 
-    /// Whether the heights of a pair may meet with lifts within these bounds.
+    /// Returns true if the heights of a pair may meet with lifts within these bounds.
     pub fn may_meet(&self, pair: Pair, extents: &[[f64; 2]]) -> bool {
         let [part, obstacle] = self.heights(pair, extents);
         part.meet(obstacle)
     }
 
-    /// Whether at a moment the heights of a pair meet for certain, and its part is what it stands for.
+    /// Returns true if at a moment the heights of a pair certainly meet, and its part is exact.
     pub fn is_there(&self, pair: Pair, (piece, share): Place) -> bool {
         let is_cover = self.covers[pair.link.min(1)].get(pair.part).is_some_and(|is_cover| *is_cover);
         let [part, obstacle] = self.heights(pair, &self.extents(Span::Part(piece, share, share)));
@@ -122,12 +122,12 @@ impl<'a> ToolMotion<'a> {
     }
 }
 
-/// Whether a shape is a disc about an axis, and stays where it is as it turns.
+/// Returns true if a shape is a disc about an axis, unchanged by rotation.
 fn is_round(shape: &Convex, axis: Point) -> bool {
     shape.core().iter().all(|corner| (corner - axis).norm() <= ON_AXIS)
 }
 
-/// The disc about an axis that a shape sweeps.
+/// Returns the disc about an axis that a shape sweeps.
 fn swept_disc(shape: &Convex, axis: Point) -> Convex {
     let farthest = shape.core().iter().map(|corner| (corner - axis).norm()).fold(0.0, f64::max);
     Convex::trusted(vec![axis], (farthest + shape.radius()) * (1.0 + 4.0 * f64::EPSILON))

@@ -11,11 +11,11 @@ const MOST_LOOKS: f64 = 4096.0;
 pub struct TorqueLook {
     /// Share of the piece's time.
     pub u: f64,
-    /// Of both joints, N m or N.
+    /// Torques of both joints, N m or N.
     pub torque: Configuration,
-    /// What it takes to hold the arm at rest there.
+    /// Torques that hold the arm at rest there.
     pub holding: Configuration,
-    /// By how much the torque may be greater before the next look.
+    /// Greatest increase of the torques before the next sample.
     pub off: [f64; 2],
 }
 

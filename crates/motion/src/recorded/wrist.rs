@@ -11,14 +11,14 @@ use std::f64::consts::TAU;
 pub struct WristTurn {
     /// The payload's orientation at the beginning, radians.
     pub from: f64,
-    /// At the end; less than a turn from the beginning, and beyond it in the direction of the turn.
+    /// Angle at the end: less than one turn from the beginning, in the direction of the turn.
     pub to: f64,
     /// Proven lower bound on the distance between payload and obstacles, metres, supports aside; infinite if nothing can
     /// be met.
     pub clearance: f64,
 }
 
-/// Where a turn meets something, or comes nearer to it than it may.
+/// The first place where a turn touches an obstacle, or comes too close to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TurnContact {
     /// The payload's orientation then, radians, between both ends of the turn.
@@ -30,13 +30,13 @@ pub struct TurnContact {
 /// Halvings of the interval in which the clearance of a turn is sought.
 const HALVINGS: usize = 16;
 
-/// To how many metres the clearance of a free turn is known, if it is below the arm's reach.
+/// Returns the resolution, metres, of the clearance of a free turn, if the clearance is below the arm's reach.
 pub(super) fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
     (clearance + arm.reach()) / f64::from(1u32 << (HALVINGS - 1))
 }
 
-/// A turn about the tip from one orientation to another while the arm stands at `q`: the shorter way if that is free, else
-/// the longer; none if neither is. See [`given_turn`].
+/// Returns a free turn about the tip from one orientation to another while the arm stands at `q`: the shorter direction
+/// if it is free, else the longer; `None` if neither is. See [`given_turn`].
 #[must_use]
 pub fn wrist_turn(
     arm: &Arm,
@@ -56,12 +56,12 @@ pub fn wrist_turn(
     ways.into_iter().find_map(|end| turning.judge([from, end]).ok())
 }
 
-/// Judges the turn about the tip from one orientation to another, in the direction in which the second lies from the first,
-/// while the arm stands at `q`. The payload's point `point` is at the tip. `O(n m)` for each pair of pieces, exact up to
-/// rounding, which is added to what is to be kept.
+/// Judges the turn about the tip from one orientation to another, in the direction from the first to the second, while
+/// the arm stands at `q`. The payload's point `point` is at the tip. `O(n m)` for each pair of pieces; exact up to
+/// rounding, which is added to the required distance.
 ///
 /// # Errors
-/// Where it first meets an obstacle, or comes nearer to one than the workspace's clearance.
+/// The first place where it touches an obstacle, or comes closer than the workspace's clearance.
 pub fn given_turn(
     arm: &Arm,
     workspace: &Workspace,
@@ -73,7 +73,7 @@ pub fn given_turn(
     Turning::new(arm, workspace, payload, point, q).judge(turn)
 }
 
-/// What a payload can meet that turns about the tip.
+/// A payload that turns about the tip, and the obstacles that it can touch.
 struct Turning {
     tip: Point,
     /// A piece of the payload about the tip, one of an obstacle, and the obstacle's number.
@@ -131,7 +131,7 @@ impl Turning {
         Ok(WristTurn { from, to, clearance: kept })
     }
 
-    /// Of each pair that does not keep more than `distance` all the way, where it first fails to.
+    /// Iterates over the pairs that do not keep more than `distance` everywhere, with the first place where they fail.
     fn contacts(&self, turn: [f64; 2], distance: f64) -> impl Iterator<Item = TurnContact> {
         let mut arcs = Vec::new();
         self.pairs.iter().filter_map(move |(part, piece, obstacle)| {
@@ -149,7 +149,7 @@ impl Turning {
     }
 }
 
-/// Where a turn first meets a copy of an arc by whole turns.
+/// Returns where a turn first meets a copy of an arc by whole turns.
 fn entry([start, end]: [f64; 2], [from, to]: [f64; 2]) -> Option<f64> {
     if to < from {
         return entry([-end, -start], [-from, -to]).map(|angle| -angle);
@@ -166,7 +166,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Against a look at 4000 places of the turn, each of which is in the arc or not.
+        /// Compares with 4000 sampled angles of the turn, which are in the arc or not.
         #[test]
         fn a_turn_meets_an_arc_where_it_first_is_in_it(
             start in -9.0..9.0_f64, width in 0.01..6.2_f64, from in -9.0..9.0_f64, way in -6.2..6.2_f64,

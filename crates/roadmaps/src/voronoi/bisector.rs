@@ -7,16 +7,17 @@ use std::f64::consts::PI;
 /// Sides whose directions differ by less are one after the other: they have no bisector.
 const PARALLEL: f64 = 1e-9;
 
-/// How far up its rays a site is as near as another one.
+/// The height on the rays of a site at which another site is equally near.
 ///
-/// Of that height `h` a quadratic polynomial of the parameter `t` is kept that grows with it: over a side the height itself, over a
-/// corner `-(1 + t^2) / h`. Where one of two is nearer is so the sign of a third.
+/// Instead of the height `h`, a quadratic polynomial of the parameter `t` is stored that increases with it: the height
+/// itself over a side, and `-(1 + t^2) / h` over a corner. The sign of a third such polynomial says where one of two
+/// sites is nearer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bisector {
-    /// Of `1, t, t^2`.
+    /// Coefficients of `1, t, t^2`.
     coefficients: [f64; 3],
     on_side: bool,
-    /// Where the nearest point of the other site is none of its ends.
+    /// Start of the range in which the nearest point of the other site is not one of its ends.
     pub from: f64,
     pub to: f64,
     /// The other one.
@@ -24,8 +25,8 @@ pub(super) struct Bisector {
 }
 
 impl Bisector {
-    /// Those of a site and another one, of which `other` is the number: two where a corner sees both ends of a side better than
-    /// its middle.
+    /// Returns the bisectors of a site with another one, of number `other`. There are two if a corner sees both ends of
+    /// a side better than its middle.
     pub fn between(site: &Site, with: &Site, other: usize) -> impl Iterator<Item = Self> + use<> {
         let (parts, on_side) = match (site.is_side, with.is_side) {
             (true, true) => ([side_and_side(site, with), None, None], true),
@@ -41,19 +42,19 @@ impl Bisector {
         parts.into_iter().flatten().filter_map(made)
     }
 
-    /// Its value; the least one is the nearest.
+    /// Returns the value. The site with the least value is nearest.
     pub fn value(&self, t: f64) -> f64 {
         let [a, b, c] = self.coefficients;
         a + t * (b + t * c)
     }
 
-    /// Its slope.
+    /// Returns the slope of the value.
     pub fn slope(&self, t: f64) -> f64 {
         let [_, b, c] = self.coefficients;
         b + 2.0 * t * c
     }
 
-    /// The height that the value stands for.
+    /// Returns the height for the value.
     pub fn height(&self, t: f64) -> f64 {
         let value = self.value(t);
         match self.on_side {
@@ -63,12 +64,12 @@ impl Bisector {
         }
     }
 
-    /// How far a chord of length `step` is from a parabola over a side.
+    /// Returns the distance of a chord of length `step` from a parabola over a side.
     pub fn sag(&self, step: f64) -> f64 {
         if self.on_side { self.coefficients[2] * step * step / 4.0 } else { 0.0 }
     }
 
-    /// Where its value falls below another's: there is one such place at most.
+    /// Returns where its value falls below another's. There is at most one such place.
     pub fn falls_below(&self, other: &Self) -> Option<f64> {
         let [c, b, a] = [0, 1, 2].map(|k| self.coefficients[k] - other.coefficients[k]);
         let square = b * b - 4.0 * a * c;
@@ -82,7 +83,7 @@ impl Bisector {
     }
 }
 
-/// The polynomial for `a + b cos + c sin` of twice the angle of which the parameter is the tangent.
+/// Returns the polynomial for `a + b cos + c sin` of twice the angle whose tangent is the parameter.
 fn of_wave([a, b, c]: [f64; 3]) -> [f64; 3] {
     [a + b, 2.0 * c, a - b]
 }

@@ -21,16 +21,16 @@ const SHARE: f64 = 0.01;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Chord {
     pub ends: Segment,
-    /// Its least distance from the two sites that it is between.
+    /// Least distance from its two sites.
     pub width: f64,
 }
 
-/// The diagram of one turn of each circle, all of which look alike, and of intervals as they are.
+/// The diagram for one turn of each circle, since all turns are alike, and for whole intervals.
 #[derive(Debug, Clone)]
 pub(super) struct Diagram {
     /// Sites of that part, sides cut at its borders, and then their copies around it.
     sites: Vec<Site>,
-    /// Of each the number of the original, and the turns from there.
+    /// For each site, the number of its original and the turns from there.
     originals: Vec<(usize, [i32; 2])>,
     lower: [f64; 2],
     ranges: [JointRange; 2],
@@ -40,7 +40,8 @@ pub(super) struct Diagram {
 }
 
 impl Diagram {
-    /// `O(n m)` for `n` sites with `m` others within twice the greatest distance that they are the nearest at.
+    /// Builds the diagram. `O(n m)` for `n` sites with `m` others within twice the greatest distance to the nearest
+    /// site.
     pub fn new(space: &Regions, mesh: &Mesh) -> Self {
         let ranges = space.topology.ranges;
         let part = [0, 1].map(|k| {
@@ -76,7 +77,7 @@ impl Diagram {
         diagram
     }
 
-    /// All chords, each once.
+    /// Returns all chords, each once.
     fn drawn(&self, count: usize) -> Vec<Chord> {
         let bounds = |site: &Site| [site.at.inf(&site.to), site.at.sup(&site.to)];
         let tree = BoxTree::new(self.sites.iter().map(bounds).collect());
@@ -94,7 +95,7 @@ impl Diagram {
         chords
     }
 
-    /// The border of a site's cell: among others near by, of which it is known at last that they are all that matter.
+    /// Returns the border of a site's cell among nearby sites, after proving that no others matter.
     fn cell(&self, tree: &BoxTree, number: usize, bounds: Bounds) -> Vec<Arc> {
         let most = self.most;
         let site = &self.sites[number];
@@ -118,15 +119,15 @@ impl Diagram {
         }
     }
 
-    /// A place in the part that the diagram is of, and the turns from there back.
+    /// Returns the place in the diagram's own turn, and the turns to get back.
     fn at_home(&self, p: Point) -> (Point, [f64; 2]) {
         let turns =
             [0, 1].map(|k| if self.ranges[k].is_circle() { ((p[k] - self.lower[k]) / TAU).floor() } else { 0.0 });
         (moved(p, turns.map(|turn| -turn)), turns)
     }
 
-    /// Where the straight way from a place, away from what it is nearest to, meets the diagram (O'Dunlaing, Yap 1985).
-    /// Linear.
+    /// Returns where the straight line from a place, away from the nearest site, meets the diagram (O'Dunlaing, Yap
+    /// 1985). Linear.
     pub fn retracted(&self, p: Point) -> Option<Point> {
         let (home, turns) = self.at_home(p);
         let distance = |site: &Site| (home - site.nearest(home)).norm();
@@ -144,7 +145,7 @@ impl Diagram {
         height.is_finite().then(|| moved(ray.0 + ray.1 * height, turns))
     }
 
-    /// The distance of a free segment from the boundary. Linear in the sites, and in the length.
+    /// Returns the distance of a free segment from the boundary. Linear in the number of sites, and in the length.
     pub fn clearance(&self, a: Point, b: Point) -> f64 {
         // Copies of sites reach no farther around the part than twice the greatest distance.
         if (b - a).norm() > self.most {
@@ -156,7 +157,7 @@ impl Diagram {
         self.sites.iter().map(|site| site.distance(home, there)).fold(f64::INFINITY, f64::min)
     }
 
-    /// All chords in a window, with their copies.
+    /// Iterates over all chords in a window, with their copies.
     pub fn repeated(&self, window: [(f64, f64); 2]) -> impl Iterator<Item = Chord> + '_ {
         let (lower, upper) = (window.map(|w| w.0), window.map(|w| w.1));
         self.chords.iter().flat_map(move |chord| {
@@ -179,8 +180,8 @@ impl Diagram {
     }
 }
 
-/// A distance from the boundary that no configuration has: the sites of an interval's limits, or the copies of any site on two
-/// circles, are nearer.
+/// Returns a distance from the boundary that no configuration exceeds: the limits of an interval, or the copies of a
+/// site on two circles, are nearer.
 fn farthest(space: &Regions) -> f64 {
     let extents = [0, 1].map(|k| space.window[k].1 - space.window[k].0);
     let circles = space.topology.ranges.map(JointRange::is_circle);
@@ -193,7 +194,7 @@ fn farthest(space: &Regions) -> f64 {
     }
 }
 
-/// So many turns on.
+/// Returns a point moved by a number of turns.
 fn moved(p: Point, turns: [f64; 2]) -> Point {
     Segment::point(p.coords).turned(turns).corners()[0]
 }
@@ -204,7 +205,7 @@ fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mu
     if !(heights[0] + heights[1]).is_finite() {
         return;
     }
-    // What is narrower is no way: where a corner all but touches a side, heights are rounding.
+    // A narrower passage is not usable: where a corner almost touches a side, heights are dominated by rounding.
     if arc.bisector.sag(to - from) > SAG.min(SHARE * heights[0].min(heights[1])).max(NARROW) {
         checkpoint();
         let middle = 0.5 * (from + to);
@@ -214,7 +215,7 @@ fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mu
         }
     }
     let place = |t: f64, height: f64| match site.end(t) {
-        // Corners of free space as they are: rounded ones may lie outside.
+        // Corners of free space stay exact, because rounded ones may lie outside.
         Some(corner) if height < TOUCH => corner,
         _ => {
             let (at, direction) = site.ray(t);

@@ -1,8 +1,8 @@
 //! Paths of greatest clearance, by the Voronoi diagram of free space.
 //!
-//! `site` has the sides and corners that the diagram is of, `bisector` where one is as near as another, `cell` the border of
-//! what is nearest to one, and `diagram` all of them. The borders of cells are lower envelopes of closed forms, so that nothing
-//! but their ends is rounded, and sites that touch or coincide need no case of their own.
+//! `site` has the sides and corners of the diagram, `bisector` the points equally near to two sites, `cell` the border
+//! of the region nearest to one site, and `diagram` all of them. The borders of cells are lower envelopes of closed
+//! forms, so only their ends are rounded, and sites that touch or coincide need no special treatment.
 
 mod bisector;
 mod cell;
@@ -20,24 +20,24 @@ use cplan_geometry::planar::Boundary;
 use diagram::Diagram;
 use ways::Ways;
 
-/// The *generalised Voronoi diagram* of C-obstacles and joint limits, or medial axis of free space: a path that keeps the greatest
-/// distance from them, in joint space.
+/// The *generalised Voronoi diagram* of C-obstacles and joint limits, or medial axis of free space: a path that keeps
+/// the greatest distance from them, in joint space.
 ///
-/// Sites are the open sides of free space's boundary and its corners; the diagram is where two of them are equally near
-/// (O'Dunlaing, Yap, *A "retraction" method for planning the motion of a disc*, 1985). Start and goals are joined to it by the straight
-/// way away from what they are nearest to. Of all ways along the diagram those are looked for whose least distance from the
-/// boundary is the greatest, and of these the shortest, or what another search finds. The limits of joints are walls; on circles
-/// sites are repeated across the seam.
+/// Sites are the open sides of free space's boundary and its corners; on the diagram two of them are equally near
+/// (O'Dunlaing, Yap, *A "retraction" method for planning the motion of a disc*, 1985). Start and goals are joined to it
+/// along the straight line away from the nearest site. Among all paths along the diagram, the search looks for those
+/// whose least distance from the boundary is greatest, and among these for the shortest, unless another search is
+/// chosen. The limits of joints are walls; on circles sites are repeated across the seam.
 ///
-/// Straight arcs are straight, and parabolas are cut into chords that are within 1e-3 rad or m of them, and within a hundredth of their
-/// distance from the boundary. Borders of cells are closed forms in floating point; that a motion is free is decided
-/// exactly, in triangulated free space. `O(n m)` for `n` sites with `m` others around them.
+/// Straight arcs are exact. Parabolas are replaced by chords within 1e-3 rad or m of them, and within a hundredth of
+/// their distance from the boundary. Borders of cells are closed forms in floating point. Triangulated free space
+/// decides exactly whether a motion is free. `O(n m)` for `n` sites with `m` others around them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Voronoi {
     /// [`PathKind::Own`] is along the diagram; [`PathKind::Taut`] is pulled tight through the triangles that it crosses, so that it may
     /// touch obstacles.
     pub path: PathKind,
-    /// How the widest ways are searched.
+    /// Search method for the widest paths.
     pub search: RoadmapSearch,
 }
 

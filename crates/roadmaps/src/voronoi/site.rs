@@ -1,4 +1,4 @@
-//! What a Voronoi diagram of free space is made for: open sides of its boundary, and corners.
+//! Sites of the Voronoi diagram of free space: open sides of its boundary, and corners.
 
 use cplan_core::planner::mesh::Corner;
 use cplan_core::space::Segment;
@@ -22,21 +22,21 @@ pub(super) struct Site {
     pub along: Vector,
     /// Least and greatest parameter.
     pub range: [f64; 2],
-    /// Whether it is a side: one stays a side where its ends are rounded to one place.
+    /// True for a side, even if its ends are rounded to the same place.
     pub is_side: bool,
 }
 
-/// Where a ray begins, and its direction.
+/// Start and direction of a ray.
 pub(super) type Ray = (Point, Vector);
 
 impl Site {
-    /// A side of some length, from `at` to `to`.
+    /// Creates a side of positive length, from `at` to `to`.
     pub fn side(at: Point, to: Point) -> Self {
         let length = (to - at).norm();
         Self { at, to, along: (to - at) / length, range: [0.0, length], is_side: true }
     }
 
-    /// A corner of free space of more than half a turn.
+    /// Creates a corner of free space with an angle of more than half a turn.
     pub fn corner(corner: &Corner) -> Self {
         let first = perpendicular((corner.right - corner.at).normalize());
         let last = -perpendicular((corner.left - corner.at).normalize());
@@ -52,18 +52,18 @@ impl Site {
         }
     }
 
-    /// The same elsewhere.
+    /// Returns the same site, moved by turns.
     pub fn turned(&self, turns: [f64; 2]) -> Self {
         let [at, to] = Segment::new(self.at.coords, self.to.coords).turned(turns).corners();
         Self { at, to, ..*self }
     }
 
-    /// The normal into free space; of a corner a unit vector like any other.
+    /// Returns the normal into free space; for a corner, an arbitrary unit vector.
     pub fn normal(&self) -> Vector {
         perpendicular(self.along)
     }
 
-    /// The ray of a parameter.
+    /// Returns the ray of a parameter.
     pub fn ray(&self, parameter: f64) -> Ray {
         if self.is_side {
             (self.at + self.along * parameter, self.normal())
@@ -73,13 +73,13 @@ impl Site {
         }
     }
 
-    /// The end of a side that a parameter is as good as at.
+    /// Returns the end of a side at which a parameter lies up to rounding.
     pub fn end(&self, parameter: f64) -> Option<Point> {
         let ends = [(self.range[0], self.at), (self.range[1], self.to)];
         ends.into_iter().find(|(end, _)| self.is_side && (parameter - end).abs() < TOUCH).map(|(_, p)| p)
     }
 
-    /// The point of it that is nearest to `p`.
+    /// Returns the point of the site that is nearest to `p`.
     pub fn nearest(&self, p: Point) -> Point {
         if self.is_side {
             self.at + self.along * (p - self.at).dot(&self.along).clamp(0.0, self.range[1])
@@ -88,7 +88,7 @@ impl Site {
         }
     }
 
-    /// The distance of a segment, which does not cross it.
+    /// Returns the distance of a segment that does not cross the site.
     pub fn distance(&self, a: Point, b: Point) -> f64 {
         let way = b - a;
         let share = |p: Point| ((p - a).dot(&way) / way.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -97,8 +97,8 @@ impl Site {
         of_ends.into_iter().chain(of_site).fold(f64::INFINITY, f64::min)
     }
 
-    /// How far up a ray its points are nearer to where it begins than to this site; infinite if it does not end that, or is
-    /// where the ray begins.
+    /// Returns the distance up to which points of a ray are nearer to its start than to this site. It is infinite if
+    /// there is no such limit, or if the ray starts on this site.
     pub fn limit(&self, (from, direction): Ray) -> f64 {
         if (from - self.nearest(from)).norm() < TOUCH {
             return f64::INFINITY;

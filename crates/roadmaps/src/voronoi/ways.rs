@@ -1,4 +1,4 @@
-//! The diagram as a roadmap, and how a query is joined to it.
+//! The diagram as a roadmap, and the connection of queries to it.
 
 use super::diagram::{Chord, Diagram};
 use cplan_core::planner::mesh::Mesh;
@@ -29,7 +29,7 @@ pub(super) struct Ways {
 }
 
 impl Ways {
-    /// Of chords that lie in free space.
+    /// Builds the roadmap of the chords that lie in free space.
     pub fn new(mesh: &Mesh, chords: impl Iterator<Item = Chord>) -> Self {
         let mut ways =
             Self { roadmap: Roadmap::new(Measure::from(Metric::Euclidean)), points: Vec::new(), chords: Vec::new() };
@@ -50,7 +50,7 @@ impl Ways {
         ways
     }
 
-    /// The node at a place, or as good as there.
+    /// Returns the node at a place, up to rounding.
     fn node(&mut self, places: &mut BTreeMap<[i64; 2], Vec<NodeIndex>>, at: Point) -> NodeIndex {
         let cell = [at.x, at.y].map(|value| (value / SAME).floor() as i64);
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [cell[0] + i, cell[1] + j]));
@@ -64,7 +64,7 @@ impl Ways {
         node
     }
 
-    /// The roadmap with a query's ends.
+    /// Returns the roadmap with a query's ends.
     pub fn asked(&self, mesh: &Mesh, diagram: &Diagram, terminals: &Terminals) -> Asked {
         let mut asked = self.roadmap.clone().asked(terminals.start);
         let start = asked.start;
@@ -76,7 +76,7 @@ impl Ways {
         let mut met: BTreeMap<usize, Vec<(Ordered, NodeIndex)>> = BTreeMap::new();
         for &end in &ends {
             checkpoint();
-            // With nothing to keep away from, or no way to go, one is there.
+            // Without obstacles, or with start and goal in the same place, the end is already on the roadmap.
             let is_there = self.chords.is_empty() || (asked.at(end) - terminals.start).norm() < SAME;
             if end != start && is_there && mesh.is_clear(terminals.start, asked.at(end)) {
                 asked.join(start, end);
@@ -97,7 +97,7 @@ impl Ways {
         asked
     }
 
-    /// Joins an end to the diagram: to the chord where the way from the boundary meets it, or else to nodes near by.
+    /// Joins an end to the diagram: to the chord that the line away from the boundary meets, or else to nearby nodes.
     fn retract(
         &self,
         mesh: &Mesh,
@@ -133,7 +133,7 @@ impl Ways {
     }
 }
 
-/// The few of so many things that are nearest, nearest first.
+/// Returns the indices of the nearest of `count` things, nearest first.
 fn nearest(count: usize, distance: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut order: Vec<(Ordered, usize)> = (0..count).map(|k| (Ordered(distance(k)), k)).collect();
     if count > TRIED {

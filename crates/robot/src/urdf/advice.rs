@@ -1,4 +1,4 @@
-//! What of a robot is hardly meant, with a hint: other units, placeholders, axes that nobody gives.
+//! Warnings about properties that are probably unintended, with hints: other units, placeholders, missing axes.
 
 use super::limits::{find, key};
 use super::reduction::Reduction;
@@ -10,7 +10,7 @@ use cplan_text::{counted, short};
 /// Top speed of a joint that turns, rad/s, from which on it is hardly meant: the fastest axes of robots turn at 45 rad/s.
 const FASTEST_TURN: f64 = 60.0;
 
-/// The same of a joint that slides, m/s.
+/// Fastest plausible prismatic joint, m/s.
 const FASTEST_SLIDE: f64 = 20.0;
 
 /// Arms, slides and shapes longer than this, metres, are hardly meant: only cranes are.
@@ -34,7 +34,7 @@ pub(super) fn warnings(reduction: &Reduction, arm: &Arm) -> Vec<String> {
     warnings
 }
 
-/// What to say of a joint without an axis.
+/// Returns the warning about a joint without an axis.
 pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String> {
     let name = &reduction.document.robot.joints[index].name;
     reduction.document.joints[index].axis.is_none().then(|| {
@@ -44,7 +44,7 @@ pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String
     })
 }
 
-/// A top speed of the URDF that no drive has.
+/// Returns the warning about a top speed that no drive has.
 fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
     let Reduction { document, settings, .. } = reduction;
     let name = &joint.name;
@@ -65,7 +65,7 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
         .then(|| format!("{given} is {velocity} {unit}/s{degrees}, faster than any drive: times are too short; {help}"))
 }
 
-/// A slide as long as if its limits were in millimetres.
+/// Returns the warning about a prismatic joint whose limits seem to be in millimetres.
 fn slide(joint: &Joint) -> Option<String> {
     let JointRange::Interval { lower, upper } = joint.range else { return None };
     (!joint.joint_type.is_revolute() && upper - lower > 2.0 * LONGEST).then(|| {
@@ -76,7 +76,7 @@ fn slide(joint: &Joint) -> Option<String> {
     })
 }
 
-/// An arm as long as if its lengths were in millimetres.
+/// Returns the warning about an arm whose lengths seem to be in millimetres.
 fn length(arm: &Arm) -> Option<String> {
     let [first, second] = lengths(arm);
     (first + second > LONGEST).then(|| {
@@ -107,7 +107,7 @@ fn outreach(arm: &Arm) -> Option<String> {
     ))
 }
 
-/// From joint to joint, and from the second to the tip, metres.
+/// Returns the distances between the joints, and from the second one to the tip, metres.
 fn lengths(arm: &Arm) -> [f64; 2] {
     [arm.offset.norm(), arm.tip.coords.norm()]
 }

@@ -49,7 +49,7 @@ const UNLIMITED: [&str; 9] = [
 /// Joint types of the URDF specification.
 const JOINT_TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
 
-/// Reads attributes of one link or joint and collects what is wrong with them.
+/// Reads attributes of a link or joint and collects their defects.
 pub(super) struct Attributes<'a> {
     pub source: &'a Source,
     pub diagnostics: &'a mut Vec<Diagnostic>,
@@ -57,15 +57,16 @@ pub(super) struct Attributes<'a> {
     pub what: &'a str,
 }
 
-/// Child elements of one name, in the parent's namespace.
+/// Iterates over the child elements with a name, in the parent's namespace.
 pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterator<Item = Node<'a, 'i>> {
     node.children().filter(move |n| {
         n.is_element() && n.tag_name().name() == name && n.tag_name().namespace() == node.tag_name().namespace()
     })
 }
 
-/// The angles of a turn by a quaternion of any length, x, y, z and w; none of one without length. One angle is taken off after the other, so that
-/// together they are the turn also where pitch is a right angle and the other two are about one axis. (`urdf-rs` has them there to 5e-3.)
+/// Returns the roll, pitch and yaw of a quaternion (x, y, z, w) of any length, or `None` for length zero. The angles
+/// are removed one after the other, so that they reproduce the rotation even at a pitch of a right angle, where the
+/// other two are about one axis. (`urdf-rs` is off by 5e-3 there.)
 fn roll_pitch_yaw(quaternion: &[f64]) -> Option<[f64; 3]> {
     let &[x, y, z, w] = quaternion else { return None };
     let quaternion = Quaternion::new(w, x, y, z);
@@ -105,7 +106,7 @@ impl Attributes<'_> {
         }
     }
 
-    /// The only child element of a name; none if it is optional and absent.
+    /// Returns the only child element with a name, or `None` if it is optional and absent.
     pub fn only<'a, 'i>(&mut self, node: Node<'a, 'i>, name: &'a str, required: bool) -> Option<Node<'a, 'i>> {
         let mut found = children(node, name);
         let first = found.next();
@@ -118,7 +119,7 @@ impl Attributes<'_> {
         first
     }
 
-    /// A text attribute that must be there.
+    /// Returns a text attribute, which must exist.
     pub fn text<'a>(&mut self, node: Node<'a, '_>, name: &str) -> Option<&'a str> {
         let value = node.attribute(name).filter(|v| !v.trim().is_empty());
         if value.is_none() {
@@ -128,7 +129,8 @@ impl Attributes<'_> {
         value
     }
 
-    /// `count` finite numbers; `None` if the attribute is absent or wrong. That all are finite is reported elsewhere.
+    /// Returns `count` finite numbers, or `None` if the attribute is absent or invalid. Numbers that are not finite are
+    /// reported elsewhere.
     fn numbers(&mut self, node: Node, name: &str, count: usize) -> Option<Vec<f64>> {
         let text = node.attribute(name)?;
         let values: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
@@ -163,12 +165,12 @@ impl Attributes<'_> {
         }
     }
 
-    /// One number; `None` if the attribute is absent or wrong.
+    /// Returns one number, or `None` if the attribute is absent or invalid.
     pub fn number(&mut self, node: Node, name: &str) -> Option<f64> {
         self.numbers(node, name, 1).map(|v| v[0])
     }
 
-    /// The `<origin>` as it is to be copied; empty if there is none.
+    /// Returns the `<origin>` to copy; empty if the element is missing.
     pub fn origin(&mut self, node: Node) -> String {
         let Some(origin) = self.only(node, "origin", false) else { return String::new() };
         let mut copy = "<origin".to_owned();
@@ -197,7 +199,7 @@ impl Attributes<'_> {
         copy + "/>"
     }
 
-    /// Whether an axis is one: three numbers that are not all zero.
+    /// Returns true if an axis is valid: three numbers that are not all zero.
     pub fn direction(&mut self, axis: Node) -> bool {
         let Some(xyz) = self.numbers(axis, "xyz", 3) else {
             if !axis.has_attribute("xyz") {
@@ -220,7 +222,7 @@ impl Attributes<'_> {
         true
     }
 
-    /// The type of a joint.
+    /// Returns the type of a joint.
     pub fn joint_type<'a>(&mut self, joint: Node<'a, '_>) -> Option<&'a str> {
         let kind = self.text(joint, "type")?;
         if JOINT_TYPES.contains(&kind) {
@@ -231,9 +233,9 @@ impl Attributes<'_> {
         None
     }
 
-    /// Lower, upper, velocity and acceleration of a `<limit>`; `absent` is what a lower and an upper limit that are not
-    /// there mean. Lower may exceed upper only where the type ignores them, so not if `ranged`; there they are swapped once
-    /// that is reported, so that what is examined further is in order.
+    /// Returns lower, upper, velocity and acceleration of a `<limit>`. `absent` has the defaults for lower and upper.
+    /// Lower may exceed upper only if the joint type ignores them; if `ranged`, this is reported and they are swapped,
+    /// so that further checks work.
     pub fn limit(&mut self, limit: Node, absent: [f64; 2], ranged: bool) -> [Option<f64>; 4] {
         let mut values = ["lower", "upper", "velocity", "acceleration"].map(|name| self.number(limit, name));
         for (value, name) in values.iter_mut().zip(["lower", "upper"]) {
@@ -262,7 +264,7 @@ impl Attributes<'_> {
         values
     }
 
-    /// The soft limits, by default 0, if they are not both 0, which exporters write for none.
+    /// Returns the soft limits, by default 0, unless both are 0, which exporters write for missing ones.
     pub fn soft_limits(&mut self, safety: Node) -> Option<[f64; 2]> {
         let [lower, upper] = ["soft_lower_limit", "soft_upper_limit"].map(|name| self.number(safety, name));
         let [lower, upper] = [lower, upper].map(|limit| limit.unwrap_or(0.0));
@@ -273,7 +275,8 @@ impl Attributes<'_> {
         (lower != 0.0 || upper != 0.0).then_some([lower.min(upper), lower.max(upper)])
     }
 
-    /// The shape in a `<geometry>`, with sizes that are positive, or all zero (which exporters write for no shape).
+    /// Returns the shape in a `<geometry>`. Its sizes must be positive, or all zero, which exporters write for a
+    /// missing shape.
     pub fn geometry<'a, 'i>(&mut self, geometry: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
         let mut shapes = geometry.children().filter(Node::is_element);
         let (first, second) = (shapes.next(), shapes.next());
@@ -332,7 +335,7 @@ impl Attributes<'_> {
 mod tests {
     use super::*;
 
-    /// Together the angles are the turn, also where pitch is a right angle or nearly one.
+    /// The angles reproduce the rotation, also with a pitch at or near a right angle.
     #[test]
     fn angles_of_quaternions() {
         let half = std::f64::consts::FRAC_PI_2;

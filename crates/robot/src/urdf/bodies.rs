@@ -15,7 +15,7 @@ use cplan_text::counted;
 use nalgebra::{Isometry3, Translation2};
 use std::collections::BTreeSet;
 
-/// Corners of the largest outline that stays one shape: what is asked of it takes time that grows with them.
+/// Largest number of corners of an outline that stays one shape. The time of queries grows with them.
 const MOST_CORNERS: usize = 1024;
 
 /// Everything that the outlines are made from.
@@ -29,8 +29,8 @@ pub(super) struct Bodies<'a> {
     pub poses: &'a [Isometry3<f64>],
 }
 
-/// What a shape covers, whichever way it is turned about a point, and what it covers at all angles; none if that is nothing. `certain` is what is within
-/// the shape.
+/// Returns the region that a shape may cover in any orientation about a point, and the region that it covers in all
+/// orientations, if any. `certain` is a shape within the shape.
 fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, Option<Convex>)> {
     let is_disc = |convex: &Convex| convex.core().len() == 1 && (convex.core()[0] - axis).norm() <= OFF_AXIS;
     if is_disc(shape) && is_disc(certain) {
@@ -41,10 +41,11 @@ fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, O
     (within > 0.0).then(|| (disc(shape.reach_from(axis)), Some(disc(within))))
 }
 
-/// How far from its axis a disc may be that is about it, metres; and a share of what is known of others.
+/// Largest distance of a disc's centre from an axis that it counts as centred on, metres; and a relative tolerance for
+/// other shapes.
 const OFF_AXIS: f64 = 1e-9;
 
-/// Two links, those that are in their way, and what the user should know of them.
+/// Both links with their self obstacles and the notes for the user.
 pub(super) struct Outlines {
     pub links: [Link; 2],
     pub self_obstacles: Vec<SelfObstacle>,
@@ -53,7 +54,7 @@ pub(super) struct Outlines {
     pub warnings: Vec<String>,
 }
 
-/// What is said of a link whose mesh cannot be read and that is planned without it.
+/// Returns the message about a link without outline, whose mesh cannot be read.
 fn left_out(unread: &Diagnostic) -> String {
     format!("{}; the link is left out, and the arm may hit it", unread.message)
 }
@@ -68,11 +69,12 @@ fn visual_links(link: &Link) -> Option<String> {
 }
 
 impl Bodies<'_> {
-    /// Both links' outlines, in their frames: origin at the joint; and the links that stand still as obstacles for them.
+    /// Returns the outlines of both links in their frames (origin at the joint), and the fixed links as obstacles for
+    /// them.
     ///
     /// # Errors
-    /// When a mesh cannot be used and the world asks for no bar instead, when neither link has an outline, or when the world names
-    /// links that the robot does not have.
+    /// If a mesh cannot be used and the world does not ask for a bar instead, if neither link has an outline, or if the
+    /// world names links that the robot does not have.
     pub fn outlines(&self) -> Result<Outlines, InputError> {
         let bar = self.bar()?;
         let (mut notes, mut warnings) = (Vec::new(), Vec::new());
@@ -125,7 +127,7 @@ impl Bodies<'_> {
         Err(self.settings.source.diagnostic_at(bar.span(), message).help("bar = 0.05, metres"))
     }
 
-    /// A link of these parts, which are all that could be read of it.
+    /// Creates a link from the parts that could be read.
     fn link(
         &self,
         index: usize,
@@ -197,7 +199,7 @@ impl Bodies<'_> {
         }
     }
 
-    /// The URDF links that arm link `index` is made of, in the order of the file.
+    /// Returns the URDF links that form arm link `index`, in the order of the file.
     pub fn bodies(&self, index: usize) -> Vec<usize> {
         let [first, second] = self.chain.joints;
         (0..self.document.robot.links.len())
@@ -208,16 +210,17 @@ impl Bodies<'_> {
             .collect()
     }
 
-    /// URDF links that stand still, in the order of the file.
+    /// Iterates over the fixed URDF links, in the order of the file.
     fn fixed_links(&self) -> impl Iterator<Item = usize> + '_ {
         let is_fixed = |link: &usize| group(self.document, self.tree, self.chain, *link) == Some(Group::Fixed);
         (0..self.document.robot.links.len()).filter(is_fixed)
     }
 
-    /// A shape as parts of arm link `index`, in the link's frame: one for each layer, cut where `cuts` says.
+    /// Returns a shape as parts of arm link `index`, in the link's frame: one for each layer, cut at the heights
+    /// `cuts`.
     ///
     /// # Errors
-    /// When it turns with the wrist and covers another thing at each angle.
+    /// If it turns with the wrist and covers a different region at each angle.
     fn parts(&self, index: usize, shape: &PlacedShape, cuts: &[f64]) -> Result<Vec<Part>, Diagnostic> {
         let PlacedShape { link, number, is_visual, solid, pose, .. } = shape;
         let to_link = Translation2::from(-self.joint_at(index).0.coords);
@@ -257,14 +260,14 @@ impl Bodies<'_> {
         }
     }
 
-    /// Where the wrist's axis is that a link turns about while steps are done.
+    /// Returns the wrist's axis about which a link turns during steps.
     fn wrist_axis(&self, body: usize) -> Option<Point> {
         let name = self.settings.table.wrist_joint().filter(|_| self.settings.has_steps)?;
         let joint = self.document.robot.joints.iter().position(|joint| joint.name == *name.get_ref())?;
         self.tree.carries(joint, body).then(|| self.at(self.tree.child[joint]).0)
     }
 
-    /// Where a joint is: in the plane, and its height.
+    /// Returns the position of a joint in the plane, and its height.
     pub fn joint_at(&self, index: usize) -> (Point, f64) {
         self.at(self.tree.child[self.chain.joints[index]])
     }
@@ -274,7 +277,7 @@ impl Bodies<'_> {
         (project(self.plane, &at), at.dot(&self.plane.normal))
     }
 
-    /// The capsule from joint 1 to joint 2, or from joint 2 to the tip.
+    /// Returns the capsule from joint 1 to joint 2, or from joint 2 to the tip.
     fn bar_part(&self, index: usize, radius: f64, body: &str) -> Part {
         let (from, low) = self.joint_at(index);
         let (to, high) = if index == 0 { self.joint_at(1) } else { self.at(self.chain.tip) };

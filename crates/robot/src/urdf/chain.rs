@@ -1,4 +1,4 @@
-//! Which two joints move, where the others stand, and which link is the tip.
+//! The choice of the two planned joints, the values of the other joints, and the tip link.
 
 use super::document::Document;
 use super::held::Held;
@@ -20,7 +20,7 @@ pub(super) struct Chain {
     pub values: Vec<f64>,
     /// The other movable joints that matter to the arm. Their values are held.
     pub held: Vec<usize>,
-    /// The same in words.
+    /// The same as text.
     pub notes: Vec<String>,
 }
 
@@ -41,10 +41,10 @@ pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) 
     Ok(chain)
 }
 
-/// The chain of two joints, the first of which carries the second.
+/// Returns the chain of two joints. The first one carries the second.
 ///
 /// # Errors
-/// When they cannot be planned for on their own, or the world's tip or fixed values do not go with them.
+/// If they cannot be planned alone, or the world's tip or fixed values do not fit them.
 pub(super) fn with_joints(
     document: &Document,
     tree: &Tree,
@@ -58,17 +58,17 @@ pub(super) fn with_joints(
     Ok(Chain { joints, tip, values, held, notes })
 }
 
-/// Whether all else that the world's `[robot]` table says goes with these two joints.
+/// Returns true if everything else in the world's `[robot]` table fits these two joints.
 pub(super) fn admits(document: &Document, tree: &Tree, settings: RobotSettings, joints: [usize; 2]) -> bool {
     Chooser { document, tree, settings }.names_exist().is_ok() && with_joints(document, tree, settings, joints).is_ok()
 }
 
-/// The two joints that the world names, or that are the only ones.
+/// Returns the two joints that the world names, or that are the only ones.
 pub(super) fn joints(document: &Document, tree: &Tree, settings: RobotSettings) -> Option<[usize; 2]> {
     Chooser { document, tree, settings }.joints().ok().map(|evident| evident.joints)
 }
 
-/// Every two joints that move on their own, the first of which carries the second; base first.
+/// Returns all pairs of independent joints whose first joint carries the second; base first.
 pub(super) fn pairs(document: &Document, tree: &Tree) -> Vec<[usize; 2]> {
     let joints = &document.robot.joints;
     let mut movable: Vec<usize> =
@@ -85,12 +85,12 @@ pub(super) struct Chooser<'a> {
     pub settings: RobotSettings<'a>,
 }
 
-/// Whether a joint has one value that it can move by.
+/// Returns true if a joint has a single value that can change.
 pub(super) fn is_movable(joint: &urdf_rs::Joint) -> bool {
     matches!(joint.joint_type, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
 }
 
-/// The type as the file has it.
+/// Returns the type as written in the file.
 pub(super) fn type_name(joint: &urdf_rs::Joint) -> String {
     format!("{:?}", joint.joint_type).to_lowercase()
 }
@@ -108,7 +108,7 @@ impl Chooser<'_> {
         self.settings.source.diagnostic_at(place.span(), message)
     }
 
-    /// A movable joint that the world file names.
+    /// Returns a movable joint that the world file names.
     pub(super) fn named(&self, name: &Spanned<String>, table: &str) -> Result<usize, Diagnostic> {
         let movable = || quoted(self.all().iter().filter(|j| is_movable(j)).map(|j| &j.name));
         let help = || format!("the movable joints are {}", movable());
@@ -138,7 +138,7 @@ impl Chooser<'_> {
         InputError::check(diagnostics)
     }
 
-    /// The two joints; the reason is empty if they are named, or the only ones.
+    /// Returns the two joints. The reason is empty if they are named, or the only ones.
     fn joints(&self) -> Result<Evident, Diagnostic> {
         let settled = |joints: [usize; 2]| Evident { joints, reason: String::new() };
         let Evident { joints: pair, reason } = match &self.settings.table.joints {
@@ -287,7 +287,7 @@ impl Chooser<'_> {
         Ok(())
     }
 
-    /// Whether a joint moves a link with shapes.
+    /// Returns true if a joint moves a link with shapes.
     pub(super) fn has_shapes(&self, joint: usize) -> bool {
         let links = self.document.robot.links.iter().enumerate().filter(|(link, _)| self.tree.carries(joint, *link));
         links.map(|(_, link)| link).any(|link| !link.collision.is_empty() || !link.visual.is_empty())
@@ -326,7 +326,7 @@ impl Chooser<'_> {
     }
 }
 
-/// Unit of a joint's value.
+/// Returns the unit of a joint's value.
 pub(super) fn unit(joint: &urdf_rs::Joint) -> &'static str {
     if joint.joint_type == JointType::Prismatic { "m" } else { "rad" }
 }

@@ -1,8 +1,8 @@
 //! The URDF as a document: read by `roxmltree` for places and diagnostics, and by `urdf-rs` for its contents.
 //!
-//! `urdf-rs` gives no line numbers, takes `NaN` and wrong vectors as they come, and rejects files over elements that do
-//! not matter here (an `<inertial>` without inertia, a `<limit>` without velocity, stray text). So every element that
-//! matters is checked first, with its place, and `urdf-rs` gets a copy of the document that holds nothing else.
+//! `urdf-rs` has no line numbers, accepts `NaN` and invalid vectors, and rejects files because of irrelevant elements
+//! (an `<inertial>` without inertia, a `<limit>` without velocity, stray text). So every relevant element is checked
+//! first, with its place, and `urdf-rs` reads a copy of the document with only these elements.
 
 use super::attributes::{Attributes, children};
 use super::foreign;
@@ -13,25 +13,25 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 use std::ops::Range;
 
-/// A URDF that has been read: all numbers are finite, every element has its attributes, names are unique. Elements that
-/// are not so are left out, with a diagnostic.
+/// A valid part of a URDF: all numbers are finite, every element has its attributes, names are unique. Invalid elements
+/// are omitted, with a diagnostic.
 #[derive(Debug)]
 pub(super) struct Document {
     pub source: Source,
     pub robot: urdf_rs::Robot,
-    /// Where the links are, in the order of `robot.links`.
+    /// Places of the links, in the order of `robot.links`.
     pub links: Vec<LinkPlace>,
-    /// Where the joints are, in the order of `robot.joints`.
+    /// Places of the joints, in the order of `robot.joints`.
     pub joints: Vec<JointPlace>,
     /// Elements beside links and joints, with their number, by name.
     pub others: BTreeMap<String, usize>,
-    /// What is wrong with single elements. A robot with any is good for a report only.
+    /// Defects of single elements. A robot with defects is usable only for a report.
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether none of them is in a joint or a name, so that the kinematics are as the file has them.
+    /// True if they do not concern joints or names, so that the kinematics are those of the file.
     pub tree_is_sound: bool,
 }
 
-/// Where a link and its shapes are in the file.
+/// Place of a link and its shapes in the file.
 #[derive(Debug)]
 pub(super) struct LinkPlace {
     pub at: Range<usize>,
@@ -39,7 +39,7 @@ pub(super) struct LinkPlace {
     pub collision: Vec<Range<usize>>,
 }
 
-/// Where a joint and its parts are in the file, and which of its limits are given.
+/// Place of a joint and its parts in the file, and which of its limits are given.
 #[derive(Debug)]
 pub(super) struct JointPlace {
     pub at: Range<usize>,
@@ -58,8 +58,8 @@ impl Document {
     /// Reads a URDF.
     ///
     /// # Errors
-    /// When it is no XML, is xacro or SDF, or so defective that nothing is left to work with. Diagnostics that
-    /// can be seen without the tree of links are all collected in [`Document::diagnostics`].
+    /// If it is not XML, is xacro or SDF, or has no valid content. [`Document::diagnostics`] collects all other defects
+    /// that are visible without the tree of links.
     pub fn read(source: Source) -> Result<Self, InputError> {
         foreign::without_entities(&source)?;
         let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
@@ -87,23 +87,23 @@ impl Document {
         }
     }
 
-    /// A diagnostic at a place of the file.
+    /// Creates a diagnostic at a place of the file.
     pub fn diagnostic_at(&self, at: &Range<usize>, message: impl Into<String>) -> Diagnostic {
         self.source.diagnostic_at(at.clone(), message)
     }
 
-    /// A diagnostic of a joint, named in front of the message.
+    /// Creates a diagnostic about a joint, with its name before the message.
     pub fn joint_diagnostic(&self, joint: usize, message: &str) -> Diagnostic {
         self.diagnostic_at(&self.joints[joint].at, format!("joint \"{}\" {message}", self.robot.joints[joint].name))
     }
 
-    /// Line of a joint, for messages.
+    /// Returns the line of a joint, for messages.
     pub fn joint_line(&self, joint: usize) -> usize {
         self.source.position(self.joints[joint].at.start).line
     }
 }
 
-/// An `<inertial>` as `urdf-rs` is to see it; none if it is incomplete, as many are: nothing but torques depends on it.
+/// Returns an `<inertial>` for `urdf-rs`, or `None` if it is incomplete. Many are, and only torques need it.
 fn inertial(node: Node) -> Option<String> {
     const MOMENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
     let mass = numbers(children(node, "mass").next()?, "value", 1)?;
@@ -125,7 +125,7 @@ fn inertial(node: Node) -> Option<String> {
     Some(copy)
 }
 
-/// The value of an attribute that is so many finite numbers.
+/// Returns the value of an attribute that consists of this many finite numbers.
 fn numbers<'a>(node: Node<'a, '_>, name: &str, count: usize) -> Option<&'a str> {
     let text = node.attribute(name)?;
     let numbers: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
@@ -283,7 +283,7 @@ impl Reader<'_> {
         })
     }
 
-    /// An element with those of its attributes that `urdf-rs` is to see.
+    /// Copies an element with only the attributes for `urdf-rs`.
     fn copy_element(&mut self, node: Node, keep: &[&str]) {
         let _ = write!(self.copy, "<{}", node.tag_name().name());
         for attribute in node.attributes().filter(|a| keep.contains(&a.name())) {
@@ -301,7 +301,7 @@ impl Reader<'_> {
     }
 }
 
-/// The opening tag's first line: where a caret belongs.
+/// Returns the first line of the opening tag, for the caret.
 pub(super) fn tag(node: Node) -> Range<usize> {
     let range = node.range();
     let text = &node.document().input_text()[range.clone()];
@@ -322,7 +322,7 @@ fn version(root: Node) -> (u32, u32) {
     root.attribute("version").and_then(parse).unwrap_or((1, 0))
 }
 
-/// Text as the value of an XML attribute.
+/// Escapes text for an XML attribute.
 pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -1,4 +1,4 @@
-//! What the joints that are held would do if they moved.
+//! Effects of moving the held joints.
 
 use super::chain::{Chooser, is_movable};
 use super::plane::project;
@@ -10,7 +10,7 @@ use cplan_geometry::Point;
 use urdf_rs::JointType;
 
 impl Reduction<'_> {
-    /// The joints that are held and matter to the arm, with what they would do.
+    /// Returns the held joints that matter to the arm, with the effects of their motion.
     pub fn held_joints(&self, plane: &Plane) -> Vec<HeldJoint> {
         let below = |joint: usize| (0..self.tree.links.len()).filter(move |&link| self.tree.carries(joint, link));
         let held = |&index: &usize| HeldJoint {
@@ -22,7 +22,7 @@ impl Reduction<'_> {
         self.chain.held.iter().map(held).collect()
     }
 
-    /// What a joint would do, or why its motion is not judged.
+    /// Returns the effect of a joint's motion, or the reason why it cannot be judged.
     fn effect(&self, index: usize, plane: &Plane) -> Result<HeldEffect, String> {
         let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
         let joints = chooser.all();

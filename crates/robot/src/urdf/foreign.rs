@@ -9,7 +9,7 @@ use roxmltree::{Document, Error, Node};
 /// Namespace of xacro.
 const XACRO: &str = "ros.org/wiki/xacro";
 
-/// What a text in xacro is refused with. Files are expanded before they come here.
+/// Refuses a text in xacro. Files are expanded earlier.
 fn xacro(diagnostic: Diagnostic) -> Diagnostic {
     diagnostic.help(
         "save it as a file, which is expanded: `cplan robot.urdf.xacro world.toml`; \
@@ -32,7 +32,7 @@ pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
     }
 }
 
-/// What broken XML is reported as.
+/// Returns the diagnostic of broken XML.
 pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
     let at = error.pos();
     if matches!(error, Error::UnknownNamespace(prefix, _) if prefix == "xacro") {
@@ -75,7 +75,7 @@ pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Diagnostic> {
     }
 }
 
-/// The first element that only the xacro program understands.
+/// Returns the first element that only xacro understands.
 fn xacro_trace<'a, 'i>(document: &'a Document<'i>) -> Option<Node<'a, 'i>> {
     document.descendants().filter(Node::is_element).find(|node| {
         let foreign = |namespace: Option<&str>| namespace.is_some_and(|n| n.contains(XACRO) || n.ends_with("/xacro"));

@@ -1,4 +1,4 @@
-//! Where the joints stand that do not move: as the world says, at rest, or as a mimic makes them.
+//! Values of the joints that do not move: given by the world, at rest, or by a mimic rule.
 
 use super::chain::{Chooser, is_movable, unit};
 use super::limits::{Limits, Range, find};
@@ -22,7 +22,7 @@ impl Chooser<'_> {
         })
     }
 
-    /// The joint at the end of a chain of mimics.
+    /// Returns the joint at the end of a chain of mimics.
     pub(super) fn leader(&self, joint: usize) -> Result<usize, Diagnostic> {
         let mut at = joint;
         for _ in 0..=self.all().len() {
@@ -34,8 +34,8 @@ impl Chooser<'_> {
         Err(self.mimic_diagnostic(joint, "follows itself: the mimics form a cycle"))
     }
 
-    /// The joint that a joint follows, and the factor and the offset that make its value of that joint's: itself, 1 and 0
-    /// unless it mimics another.
+    /// Returns the joint that a joint follows, with factor and offset. Without a mimic rule it is the joint itself,
+    /// with 1 and 0.
     pub(super) fn rule(&self, joint: usize) -> Result<(usize, f64, f64), Diagnostic> {
         let leader = self.leader(joint)?;
         let mut value = Affine { factor: 1.0, offset: 0.0 };
@@ -47,7 +47,7 @@ impl Chooser<'_> {
         Ok((leader, value.factor, value.offset))
     }
 
-    /// The value of every joint, and what to say about those that matter.
+    /// Returns the value of every joint, and notes about the relevant ones.
     pub(super) fn values(&self, chosen: [usize; 2]) -> Result<Held, InputError> {
         for name in self.settings.table.fixed.keys() {
             if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {
@@ -94,7 +94,7 @@ impl Chooser<'_> {
         Ok(Held { values, held, notes })
     }
 
-    /// Value of a movable joint that does not move: the world's, else 0 clamped into its limits.
+    /// Returns the value of a held joint: the world's, else 0 clamped into its limits.
     fn held_at(&self, index: usize) -> Result<f64, Diagnostic> {
         let joint = &self.all()[index];
         let range = Limits { document: self.document, settings: self.settings }.range(index)?;

@@ -1,11 +1,11 @@
-//! What a world file would have to say for a robot to load.
+//! Entries that a world file needs for a robot to load.
 
 use super::limits::{Limits, key};
 use super::reduction::Reduction;
 use cplan_core::model::Plane;
 
-/// Entries of `[robot]` with which the pair of joints loads, each on a line of its own: the joints, and placeholders for
-/// ranges that are missing or wrong and for geometry that cannot be used. None if `[robot]` has all.
+/// Returns the entries of `[robot]` with which the pair of joints loads, one per line: the joints, and placeholders for
+/// missing or invalid ranges and for unusable geometry. Returns `None` if `[robot]` is complete.
 pub(super) fn entries(reduction: &Reduction, plane: &Plane) -> Option<String> {
     let &Reduction { document, settings, chain, .. } = reduction;
     let joints = &document.robot.joints;

@@ -1,4 +1,4 @@
-//! What of a URDF the planner takes no account of, and why.
+//! Parts of a URDF that the planner ignores, with reasons.
 
 use super::chain::is_movable;
 use super::document::Document;
@@ -48,7 +48,7 @@ pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
     ignored
 }
 
-/// Visual geometry where collision geometry does.
+/// Reports visual geometry that is replaced by collision geometry.
 pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
     let Reduction { document, tree, chain, .. } = reduction;
     let mut ignored = Vec::new();
@@ -66,7 +66,7 @@ pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
     ignored
 }
 
-/// Whether a joint is one of the two, carries them or is carried by them.
+/// Returns true if a joint is one of the two, carries them or is carried by them.
 pub(super) fn concerns_the_arm(reduction: &Reduction, joint: usize) -> bool {
     let Reduction { tree, chain, .. } = reduction;
     tree.carries(joint, tree.child[chain.joints[1]]) || tree.carries(chain.joints[0], tree.child[joint])

@@ -13,8 +13,8 @@ use urdf_rs::JointType;
 /// Longest range of a joint that slides, metres: beyond the coordinates that a world may have nothing can be hit.
 const LONGEST_SLIDE: f64 = 2.0 * LARGEST;
 
-/// Both limits of a revolute joint beyond this many radians are none: simulators write 1e16, exporters 1e9 or infinity. No
-/// start that a world may give is so far out.
+/// A revolute joint with both limits beyond this, radians, counts as unlimited: simulators write 1e16, exporters 1e9 or
+/// infinity. No valid start is that far out.
 const UNLIMITED: f64 = LARGEST;
 
 /// Limits of a revolute joint that reach this value, radians, and no farther than [`MOST_DEGREES`] look like degrees: it is four turns.
@@ -23,14 +23,14 @@ const LEAST_DEGREES: f64 = 4.0 * TAU;
 /// Two turns, degrees. More is no joint's range in either unit.
 const MOST_DEGREES: f64 = 720.0;
 
-/// Limits this near to a whole number of half turns, radians, are meant as such: what three decimals leave of them.
+/// Limits this close to a multiple of half a turn, radians, are rounded to it. This is the rounding of three decimals.
 const HALF_TURN_ROUNDING: f64 = 1e-3;
 
-/// What is known of a joint's range.
+/// The known range of a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Range {
     Known(JointRange),
-    /// Not as the file has it, with a note.
+    /// Changed from the file's range, with a note.
     Taken(JointRange, String),
     /// No limits, with the reason.
     Unset(String),
@@ -41,11 +41,11 @@ pub(super) struct Rates {
     pub velocity: f64,
     pub acceleration: f64,
     pub jerk: Option<f64>,
-    /// What was assumed for want of limits.
+    /// Rates that were assumed because limits are missing.
     pub assumed: Assumed,
 }
 
-/// Which rates nobody gives.
+/// The missing rates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Assumed {
     pub velocity: bool,
@@ -59,7 +59,7 @@ pub(super) struct Limits<'a> {
 }
 
 impl Limits<'_> {
-    /// The range of a movable joint: the world's, else the URDF's narrowed by its soft limits.
+    /// Returns the range of a movable joint: the world's, else the URDF's restricted by its soft limits.
     pub fn range(&self, index: usize) -> Result<Range, Diagnostic> {
         let joint = &self.document.robot.joints[index];
         if let Some(limits) = find(&self.settings.table.limits, &joint.name) {
@@ -101,7 +101,7 @@ impl Limits<'_> {
         Ok(Range::Known(JointRange::Interval { lower, upper }))
     }
 
-    /// The range of a joint that is to be planned for.
+    /// Returns the range of a planned joint.
     pub fn planned_range(&self, index: usize) -> Result<JointRange, Diagnostic> {
         match self.range(index)? {
             Range::Known(axis) | Range::Taken(axis, _) => Ok(axis),
@@ -124,7 +124,8 @@ impl Limits<'_> {
         }
     }
 
-    /// A range for the world file to give a joint that has none to plan in: the URDF's in degrees if it looks like that, else a placeholder.
+    /// Returns an example range for the world file, for a joint without a usable one: the URDF's in degrees if it looks
+    /// like that, else a placeholder.
     pub fn example(&self, index: usize) -> String {
         match self.degrees(index) {
             Some([lower, upper]) => format!("[\"{lower}deg\", \"{upper}deg\"]"),
@@ -133,7 +134,7 @@ impl Limits<'_> {
         }
     }
 
-    /// The URDF's limits of a revolute joint if they look like degrees.
+    /// Returns the URDF's limits of a revolute joint if they look like degrees.
     fn degrees(&self, index: usize) -> Option<[f64; 2]> {
         let joint = &self.document.robot.joints[index];
         let (lower, upper) = (joint.limit.lower, joint.limit.upper);
@@ -187,7 +188,7 @@ impl Limits<'_> {
         Ok(narrowed)
     }
 
-    /// Top speed, acceleration and jerk of a joint that is to be planned for.
+    /// Returns top speed, acceleration and jerk of a planned joint.
     pub fn rates(&self, index: usize) -> Result<Rates, Diagnostic> {
         let joint = &self.document.robot.joints[index];
         let place = &self.document.joints[index];
@@ -225,20 +226,20 @@ impl Limits<'_> {
     }
 }
 
-/// Whether limits of a revolute joint look like degrees: they go farther than any drive without end stops turns, yet no farther than
-/// two turns would in degrees, and are no multiples of half turns in radians.
+/// Returns true if limits of a revolute joint look like degrees: they exceed the range of any drive with end stops,
+/// would be at most two turns in degrees, and are not multiples of half turns in radians.
 fn are_degrees(lower: f64, upper: f64) -> bool {
     let is_half_turns = |limit: f64| ((limit / PI).round() * PI - limit).abs() < HALF_TURN_ROUNDING;
     let farthest = lower.abs().max(upper.abs());
     (LEAST_DEGREES..=MOST_DEGREES).contains(&farthest) && !(is_half_turns(lower) && is_half_turns(upper))
 }
 
-/// A joint's entry in one of the world's tables.
+/// Returns a joint's entry in one of the world's tables.
 pub(super) fn find<'a, T>(table: &'a PerJoint<T>, name: &str) -> Option<&'a T> {
     table.iter().find(|(k, _)| k.get_ref() == name).map(|(_, v)| v)
 }
 
-/// A name as a TOML key.
+/// Formats a name as a TOML key.
 pub(super) fn key(name: &str) -> String {
     let bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
     if bare { name.to_owned() } else { format!("{name:?}") }

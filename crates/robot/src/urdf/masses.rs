@@ -1,4 +1,4 @@
-//! What the two arm links weigh, and what their joints can bring.
+//! Masses of the two arm links, and efforts of their joints.
 
 use super::bodies::Bodies;
 use super::limits::{find, key};
@@ -13,14 +13,15 @@ use nalgebra::{Matrix3, Vector3};
 /// Acceleration of free fall in the root frame, whose z axis points up; m/s2.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// The least determinant of an inertia matrix, as a share of the product of its diagonal: below, a joint moves nothing. And the least effort, as a
-/// share of what moves the greatest inertia as fast as it may have to go: below, rounding is all that is left of it.
+/// Least determinant of an inertia matrix, as a fraction of the product of its diagonal; below it, a joint moves no
+/// mass. Also the least effort, as a fraction of the effort that the greatest inertia may need; below it, only rounding
+/// is left.
 const NEGLIGIBLE: f64 = 1e-12;
 
-/// Whether what the world says of efforts and gravity can be, also where nothing depends on it.
+/// Checks the world's values for efforts and gravity, even if they are not used.
 ///
 /// # Errors
-/// The first that cannot.
+/// The first invalid one.
 pub(super) fn check(settings: RobotSettings) -> Result<(), Diagnostic> {
     let bad =
         settings.table.effort.iter().find(|(_, effort)| !(effort.get_ref().is_finite() && *effort.get_ref() > 0.0));
@@ -86,7 +87,7 @@ impl Bodies<'_> {
         Err(self.document.diagnostic_at(place.limit.as_ref().unwrap_or(&place.at), message).help(help))
     }
 
-    /// All that an arm link is made of, in its frame.
+    /// Returns the mass properties of an arm link, in its frame.
     fn body(&self, index: usize) -> Result<Body, Diagnostic> {
         let joint = self.joint_at(index).0;
         let mut whole = Body::NONE;

@@ -4,10 +4,11 @@
 //! the others where `[robot] fixed` holds them), then projected on the common plane of motion.
 //!
 //! ```text
-//! Document (sound elements, diagnostics) -> Tree -> Chain (two joints, tip) -> Reduction -> Plane, Bounds, Outlines -> Arm
+//! Document (valid elements, diagnostics) -> Tree -> Chain (two joints, tip) -> Reduction -> Plane, Bounds, Outlines
+//!     -> Arm
 //! ```
 //!
-//! [`load`] stops at the first stage that fails; [`survey`] goes on as far as it makes sense and reports everything.
+//! [`load`] stops at the first stage that fails. [`survey`] continues as far as possible and reports all defects.
 
 mod advice;
 mod attributes;
@@ -45,7 +46,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use tree::Tree;
 
-/// The meshes that a robot finds where it is, but not if its text were the file `other`.
+/// Returns the meshes that a robot finds at its own place, but not if its text were the file `other`.
 #[must_use]
 pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
     let (Ok(here), Ok(xml)) = (robot.anchor(), roxmltree::Document::parse(robot.text())) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! Which two joints of a robot form a planar arm, and whether that settles which are meant.
+//! Pairs of joints that form a planar arm, and the choice of one of them.
 
 use super::chain;
 use super::document::Document;
@@ -14,7 +14,7 @@ use urdf_rs::JointType;
 /// More pairs than this are not listed in a message.
 const LISTED: usize = 6;
 
-/// Of robots with more joints than this that can move, pairs are not tried: their number grows with the square.
+/// Largest number of movable joints for which pairs are tried. The number of pairs grows with its square.
 pub(super) const MOST_TRIED: usize = 40;
 
 /// Two joints that form a planar arm.
@@ -31,7 +31,7 @@ pub(super) struct Evident {
     pub reason: String,
 }
 
-/// Every two joints that form a planar arm and go with all that the world says; base first.
+/// Returns all pairs of joints that form a planar arm and fit the world's other settings; base first.
 pub(super) fn planar(document: &Document, tree: &Tree, settings: RobotSettings) -> Vec<PlanarPair> {
     let plane = |joints: [usize; 2]| {
         let chain = chain::with_joints(document, tree, settings, joints).ok()?;
@@ -41,8 +41,9 @@ pub(super) fn planar(document: &Document, tree: &Tree, settings: RobotSettings) 
     pairs.filter_map(|joints| Some(PlanarPair { joints, plane: plane(joints)? })).collect()
 }
 
-/// The pair that must be meant: the only planar one, if none turns between; or else, of the planar ones without any joint between
-/// that moves, the only one, or the first of the chain if all share its plane.
+/// Returns the pair that must be meant. This is the only planar pair, if no joint between turns. Otherwise, among the
+/// planar pairs without movable joints between them, it is the only one, or the first of the chain if all share its
+/// plane.
 pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<Evident> {
     let between = |pair: &PlanarPair| -> Vec<&urdf_rs::Joint> {
         let [a, b] = &pair.joints;
@@ -69,7 +70,7 @@ pub(super) fn evident(document: &Document, tree: &Tree, planar: &[PlanarPair]) -
     others.iter().all(follows).then_some(Evident { joints: first.joints, reason })
 }
 
-/// The entries that would choose these pairs, for messages.
+/// Returns the entries that would choose these pairs, for messages.
 pub(super) fn choices(document: &Document, pairs: &[PlanarPair]) -> String {
     let entry = |pair: &PlanarPair| {
         let [a, b] = pair.joints.map(|j| document.robot.joints[j].name.as_str());
@@ -80,7 +81,7 @@ pub(super) fn choices(document: &Document, pairs: &[PlanarPair]) -> String {
     shown.join(", or ") + more
 }
 
-/// The table without its choice of joints and tip, and of where joints are held.
+/// Returns the table without its joints, tip and held values.
 pub(super) fn freed(table: &RobotTable) -> RobotTable {
     RobotTable { joints: None, tip: None, fixed: PerJoint::new(), ..table.clone() }
 }

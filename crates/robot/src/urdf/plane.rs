@@ -13,19 +13,19 @@ pub(super) const ALIGNED: f64 = 1e-3;
 pub(super) struct SpatialAxis<'a> {
     pub name: &'a str,
     pub revolute: bool,
-    /// Of unit length.
+    /// Unit direction of the axis.
     pub direction: Vector3<f64>,
 }
 
-/// The common plane of motion of two joints.
+/// Returns the common plane of motion of two joints.
 ///
-/// Its normal is the axis of the revolute joints, or the cross product of two slides. A normal within 1e-3 rad of a root
-/// axis is that axis: about z the plane coordinates are the root's `(x, y)`, about y `(x, z)`, about x `(y, z)`, and
-/// heights count along the positive axis. Any other plane has the first revolute axis `n` as its normal, the root's x
-/// (y where that is close to `n`) projected on it as `u`, and `v = n x u`.
+/// Its normal is the axis of the revolute joints, or the cross product of two prismatic axes. A normal within 1e-3 rad
+/// of a root axis becomes that axis: about z the plane coordinates are the root's `(x, y)`, about y `(x, z)`, about x
+/// `(y, z)`, and heights count along the positive axis. Any other plane has the first revolute axis `n` as its normal,
+/// the root's x (y if that is close to `n`) projected on it as `u`, and `v = n x u`.
 ///
 /// # Errors
-/// In words, when the joints do not move in one plane: which axis points where.
+/// If the joints do not move in one plane, with the directions of the axes.
 pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
     let [a, b] = axes;
     let cross = a.direction.cross(&b.direction).norm();
@@ -45,7 +45,7 @@ pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
     Ok(basis(normal))
 }
 
-/// What is told of axes that are off the plane's normal, and of slides that are off the plane, if it is more than anybody could notice.
+/// Describes by how much axes deviate from the plane's normal, or prismatic axes from the plane, if it is noticeable.
 pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String> {
     /// A micrometre over a metre.
     const NOTICED: f64 = 1e-6;
@@ -73,7 +73,7 @@ fn refusal(axes: [SpatialAxis; 2], reason: &str) -> String {
     )
 }
 
-/// A direction for messages.
+/// Formats a direction for messages.
 pub(super) fn vector(d: Vector3<f64>) -> String {
     // Adding 0 turns the -0 that rounding may leave into 0.
     let [x, y, z] = [d.x, d.y, d.z].map(|c| (c * 1e4).round() / 1e4 + 0.0);
@@ -92,12 +92,12 @@ fn basis(normal: Vector3<f64>) -> Plane {
     Plane { u, v: normal.cross(&u), normal }
 }
 
-/// Plane coordinates of a point of the root frame.
+/// Returns the plane coordinates of a point of the root frame.
 pub(super) fn project(plane: &Plane, x: &Vector3<f64>) -> Point {
     Point::new(x.dot(&plane.u), x.dot(&plane.v))
 }
 
-/// A joint's motion in plane coordinates.
+/// Returns a joint's motion in plane coordinates.
 pub(super) fn joint_type_in(plane: &Plane, axis: SpatialAxis) -> JointType {
     if axis.revolute {
         let turn = axis.direction.dot(&plane.u.cross(&plane.v));
@@ -106,14 +106,14 @@ pub(super) fn joint_type_in(plane: &Plane, axis: SpatialAxis) -> JointType {
     JointType::Prismatic { direction: clean(project(plane, &axis.direction).coords.normalize()) }
 }
 
-/// A unit direction without the rounding of the rotations that led to it: within 1e-12 of an axis it is that axis.
+/// Removes rounding from a unit direction: within 1e-12 of an axis it becomes that axis.
 fn clean(direction: Vector) -> Vector {
     const ROUNDING: f64 = 1e-12;
     let snapped = direction.map(|c| if c.abs() < ROUNDING { 0.0 } else { c });
     snapped.normalize()
 }
 
-/// The plane in words.
+/// Describes the plane.
 pub(super) fn describe(plane: &Plane, root: &str) -> String {
     let axis = |d: Vector3<f64>| match d {
         d if d == Vector3::x() => Some("x"),

@@ -38,7 +38,7 @@ impl<'a> Reduction<'a> {
         Self { document, tree, settings, chain, poses: tree.poses(&document.robot, &chain.values) }
     }
 
-    /// The two joints' axes in the root frame.
+    /// Returns the two joints' axes in the root frame.
     pub fn axes(&self) -> [SpatialAxis<'a>; 2] {
         self.chain.joints.map(|j| {
             let joint = &self.document.robot.joints[j];
@@ -47,7 +47,7 @@ impl<'a> Reduction<'a> {
         })
     }
 
-    /// The plane of motion.
+    /// Returns the plane of motion.
     pub fn plane(&self) -> Result<Plane, InputError> {
         self.common_plane().map_err(|message| {
             let place = &self.document.joints[self.chain.joints[1]];
@@ -67,12 +67,12 @@ impl<'a> Reduction<'a> {
         })
     }
 
-    /// The same, and why there is none in words alone.
+    /// Does the same, with the reason alone as the error.
     pub fn common_plane(&self) -> Result<Plane, String> {
         plane::common_plane(self.axes())
     }
 
-    /// What the two joints can do; all that is missing is reported together.
+    /// Returns the limits of the two joints. Reports all missing ones together.
     pub fn bounds(&self) -> Result<[Bounds; 2], InputError> {
         let limits = Limits { document: self.document, settings: self.settings };
         let mut diagnostics = Vec::new();
@@ -89,21 +89,21 @@ impl<'a> Reduction<'a> {
         }
     }
 
-    /// Whether a URDF link stands still.
+    /// Returns true if a URDF link is fixed.
     pub fn is_fixed(&self, link: usize) -> bool {
         group(self.document, self.tree, self.chain, link) == Some(Group::Fixed)
     }
 
-    /// Both links' outlines.
+    /// Returns both links' outlines.
     pub fn outlines(&self, plane: &Plane) -> Result<Outlines, InputError> {
         let &Self { document, tree, settings, chain, ref poses } = self;
         Bodies { document, tree, chain, settings, plane, poses }.outlines()
     }
 
-    /// Masses and efforts of an arm.
+    /// Returns masses and efforts of an arm.
     ///
     /// # Errors
-    /// What the file does not say of them.
+    /// The values that the file lacks.
     fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
         let &Self { document, tree, settings, chain, ref poses } = self;
         Bodies { document, tree, chain, settings, plane: &arm.plane, poses }.dynamics(arm, assumed)
@@ -187,7 +187,7 @@ impl<'a> Reduction<'a> {
         (arm, report, unknown)
     }
 
-    /// Origin of a link's frame in plane coordinates.
+    /// Returns the origin of a link's frame in plane coordinates.
     pub fn at(&self, plane: &Plane, link: usize) -> Point {
         project(plane, &self.poses[link].translation.vector)
     }

@@ -40,10 +40,10 @@ pub(super) struct SelfCollision<'a> {
 }
 
 impl<'a> SelfCollision<'a> {
-    /// Of these shapes, which are all that the robot has.
+    /// Examines these shapes, which are all shapes of the robot.
     ///
     /// # Errors
-    /// When the world lets links meet that the robot does not have.
+    /// If the world names links that the robot does not have.
     pub fn new(bodies: &'a Bodies<'a>, solid: BTreeSet<usize>) -> Result<Self, Diagnostic> {
         let groups = (0..bodies.document.robot.links.len())
             .map(|link| group(bodies.document, bodies.tree, bodies.chain, link))

@@ -14,15 +14,15 @@ use urdf_rs::Geometry;
 pub(super) struct PlacedShape {
     /// The URDF link.
     pub link: usize,
-    /// Its number among the link's shapes of that kind that have a size.
+    /// Its number among the link's shapes of the same kind with a size.
     pub number: usize,
-    /// Whether it is visual geometry.
+    /// True for visual geometry.
     pub is_visual: bool,
     pub solid: Solid,
-    /// In the root frame.
+    /// Its pose in the root frame.
     pub pose: Isometry3<f64>,
     pub heights: Heights,
-    /// Where the file has it.
+    /// Its place in the file.
     pub at: Range<usize>,
 }
 
@@ -45,7 +45,7 @@ enum Kind {
 }
 
 impl Bodies<'_> {
-    /// The shapes of these URDF links; each link's visual geometry if it has no collision geometry.
+    /// Collects the shapes of these URDF links. A link without collision geometry has its visual geometry.
     pub fn gather(&self, links: impl IntoIterator<Item = usize>) -> Gathered {
         let mut gathered = Gathered::default();
         for link in links {

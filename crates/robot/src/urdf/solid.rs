@@ -28,8 +28,8 @@ pub(super) enum Solid {
     Mesh(Mesh),
 }
 
-/// Corners nearer than this to the one before are left out, metres. They come from the rounding of rotations; the
-/// outline shrinks by no more than this.
+/// Corners closer than this to the previous one are removed, metres. They come from the rounding of rotations. The
+/// outline shrinks by at most this.
 const CORNER_ROUNDING: f64 = 1e-9;
 
 /// An oblique cylinder's outline exceeds its exact projection by at most this fraction of its radius.
@@ -48,7 +48,7 @@ pub(super) const THINNEST: f64 = 1e-6;
 const EXACT: f64 = 1e-13;
 
 impl Solid {
-    /// Whether the solid has no size at all.
+    /// Returns true if the solid has no size.
     pub fn is_nothing(&self) -> bool {
         match self {
             Solid::Box { half } => half.iter().all(|h| *h == 0.0),
@@ -58,10 +58,11 @@ impl Solid {
         }
     }
 
-    /// The projection on the plane, in plane coordinates, of the solid at `pose` in the root frame.
+    /// Returns the projection on the plane, in plane coordinates, of the solid at `pose` in the root frame.
     ///
-    /// Exact for boxes, spheres, capsules, meshes (their convex hull) and cylinders that stand or lie; an oblique
-    /// cylinder gets an outline round the exact one, larger by at most 0.5 % of its radius; see [`Solid::inner`].
+    /// Exact for boxes, spheres, capsules, meshes (their convex hull), and cylinders that are parallel or perpendicular
+    /// to the normal. An oblique cylinder has an outline around the exact one, larger by at most 0.5 % of its radius;
+    /// see [`Solid::inner`].
     pub fn outline(&self, pose: &Isometry3<f64>, plane: &Plane) -> Convex {
         let at = |p: &Point3<f64>| project(plane, &(pose * p).coords);
         let center = at(&Point3::origin());
@@ -114,8 +115,8 @@ impl Solid {
         ends().zip(ends().skip(1)).filter_map(layer).collect()
     }
 
-    /// A shape within the projection, where the outline is larger than that: of oblique cylinders. It is at most a hundredth of the radius
-    /// smaller than the outline.
+    /// Returns a shape within the projection if the outline is larger than the projection, which is the case for
+    /// oblique cylinders. It is smaller than the outline by at most a hundredth of the radius.
     pub fn inner(&self, pose: &Isometry3<f64>, plane: &Plane) -> Option<Convex> {
         let Solid::Cylinder { radius, half } = self else { return None };
         let center = project(plane, &(pose * Point3::origin()).coords);
@@ -123,7 +124,7 @@ impl Solid {
         within_cylinder(center, project(plane, &axis).coords, axis.dot(&plane.normal).abs(), *radius, *half)
     }
 
-    /// Extent along the plane's normal.
+    /// Returns the extent along the plane's normal.
     pub fn heights(&self, pose: &Isometry3<f64>, plane: &Plane) -> Heights {
         let n = plane.normal;
         let middle = pose.translation.vector.dot(&n);
@@ -148,7 +149,7 @@ impl Solid {
     }
 }
 
-/// A capsule, or a disc if its ends coincide.
+/// Returns a capsule, or a disc if its ends coincide.
 pub(super) fn capsule(a: Point, b: Point, radius: f64) -> Convex {
     let apart = (b - a).norm();
     if apart <= CORNER_ROUNDING {
@@ -157,7 +158,7 @@ pub(super) fn capsule(a: Point, b: Point, radius: f64) -> Convex {
     Convex::trusted(vec![a, b], radius)
 }
 
-/// The convex hull without corners that are mere rounding.
+/// Returns the convex hull without corners due to rounding.
 fn polygon(points: Vec<Point>) -> Convex {
     let mut corners: Vec<Point> = Vec::new();
     for corner in hull(&points) {
@@ -171,12 +172,12 @@ fn polygon(points: Vec<Point>) -> Convex {
     Convex::trusted(corners, 0.0)
 }
 
-/// Outline of a cylinder whose axis projects to `along` (its length the sine of the angle to the normal, `tilt` the
-/// cosine). The exact projection is the hull of two ellipses, the ends, with half-axes `radius` across and
+/// Returns the outline of a cylinder whose axis projects to `along` (its length is the sine of the angle to the normal,
+/// `tilt` the cosine). The exact projection is the hull of two ellipses, the ends, with half-axes `radius` across and
 /// `radius * |tilt|` along.
 fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Convex {
     if 1.0 - tilt.abs() <= EXCESS {
-        // Standing or nearly so: the ends are discs but for a factor of `tilt` in one direction.
+        // For an axis close to the normal the ends are discs, up to a factor of `tilt` in one direction.
         return capsule(center - along * half, center + along * half, radius);
     }
     let direction = along.normalize();
@@ -204,8 +205,8 @@ fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> 
     polygon(rim.collect())
 }
 
-/// What an oblique cylinder covers for certain; none where [`cylinder`] is exact. At each end a disc where they are nearly discs,
-/// else a polygon whose corners are on the outer half of the ellipse.
+/// Returns a region that an oblique cylinder certainly covers, or `None` if [`cylinder`] is exact. Each end contributes
+/// a disc if it is almost one, else a polygon whose corners are on the outer half of the ellipse.
 fn within_cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Option<Convex> {
     if tilt <= EXACT || 1.0 - tilt <= EXACT {
         return None;

@@ -42,14 +42,14 @@ pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
     report.joints = (0..document.robot.joints.len()).map(|j| joint(&limits, j)).collect();
     match Tree::build(&document) {
         Ok(tree) => in_tree(&mut report, &document, &tree, settings),
-        // What an element left out for its diagnostics does to the tree is no diagnostic of its own.
+        // Defects of the tree caused by omitted elements are not reported again.
         Err(error) if document.tree_is_sound => report.errors.push(error),
         Err(_) => {}
     }
     report
 }
 
-/// The part of the survey that needs the tree: which pairs of joints would do, and the reduction of one of them.
+/// Examines the tree: the possible pairs of joints, and the reduction of one of them.
 fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, settings: RobotSettings) {
     report.root = Some(tree.links[tree.root].clone());
     let names = |j: usize| document.robot.joints[j].name.clone();
@@ -63,7 +63,7 @@ fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, settings: 
     report.pairs = pairs.iter().map(|p| pair(document, tree, settings, *p)).collect();
     let planar: Vec<[usize; 2]> =
         pairs.iter().zip(&report.pairs).filter(|(_, entry)| entry.planar).map(|(p, _)| *p).collect();
-    // Where the choice fails, or leads nowhere, what a planar pair would take is worth knowing.
+    // If the choice fails, the entries for a planar pair are useful information.
     let named = chain::joints(document, tree, settings);
     let likely = named.filter(|p| planar.contains(p)).or(planar.first().copied());
     let trial = |p: [usize; 2]| {
@@ -99,7 +99,7 @@ fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, settings: 
     }
 }
 
-/// The part of the survey that is about two joints.
+/// Examines two joints.
 fn reduced(report: &mut Inspection, reduction: &Reduction) {
     let Reduction { document, tree, chain, .. } = reduction;
     report.chosen = Some(chain.joints.map(|j| document.robot.joints[j].name.clone()));
@@ -206,7 +206,7 @@ fn range(limits: &Limits, index: usize) -> LimitEntry {
     }
 }
 
-/// The table without its choice of joints and tip, and without values for these two joints.
+/// Returns the table without its joints and tip, and without values for these two joints.
 fn neutral(document: &Document, table: &RobotTable, joints: [usize; 2]) -> RobotTable {
     let mut table = RobotTable { joints: None, tip: None, ..table.clone() };
     table.fixed.retain(|name, _| joints.iter().all(|j| document.robot.joints[*j].name != *name.get_ref()));
@@ -286,7 +286,7 @@ fn reach(arm: &Arm) -> ReachEntry {
     }
 }
 
-/// Frames of what the joints carry, named after the joints, and of the tip's link.
+/// Returns the frames of the links that the joints carry, named after the joints, and of the tip's link.
 fn frames(reduction: &Reduction, plane: &Plane) -> Vec<Frame> {
     let Reduction { document, tree, chain, poses, .. } = reduction;
     let frame = |name: &str, link: usize| {

@@ -12,17 +12,17 @@ use cplan_core::model::{Driver, Plane, RobotJoint, RobotJoints, Stroke, ToolJoin
 use toml::Spanned;
 use urdf_rs::JointType;
 
-/// How far an axis may be from the plane's normal: the cosine falls short of 1 by no more than rounding.
+/// Rounding within which an axis is parallel to the plane's normal: 1 minus the cosine.
 pub(super) const PARALLEL: f64 = 1e-9;
 
-/// How far the tip may be off the wrist's axis, metres: rounding.
+/// Rounding within which the tip is on the wrist's axis, metres.
 const ON_AXIS: f64 = 1e-6;
 
 impl Reduction<'_> {
-    /// The movable joints in the order of the file, and which of them the tool moves by.
+    /// Returns the movable joints in the order of the file, and which of them move the tool.
     ///
     /// # Errors
-    /// A stroke or a wrist by a joint that cannot do it; mimics of joints that do not exist, or of themselves.
+    /// A stroke or wrist with an unsuitable joint; mimics of joints that do not exist, or of themselves.
     pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Diagnostic> {
         let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
         let robot = &self.settings.table;
@@ -76,7 +76,7 @@ impl Reduction<'_> {
         Ok(Stroke { joint, travel, velocity, acceleration: acceleration.unwrap_or(own), bodies })
     }
 
-    /// A joint that mimics a joint of the tool and moves something that can collide, or the tip.
+    /// Returns a joint that mimics a joint of the tool and moves the tip or a link that can collide.
     fn follower_with_shapes(&self, chooser: &Chooser, leader: usize) -> Result<Option<String>, Diagnostic> {
         for (index, joint) in chooser.all().iter().enumerate().filter(|(_, joint)| joint.mimic.is_some()) {
             let counts = chooser.has_shapes(index) || self.tree.carries(index, self.chain.tip);
@@ -87,7 +87,7 @@ impl Reduction<'_> {
         Ok(None)
     }
 
-    /// A joint that moves the tool along the plane's normal or about it.
+    /// Returns a joint that moves the tool along the plane's normal or about it.
     fn tool_joint(
         &self,
         chooser: &Chooser,

@@ -20,11 +20,11 @@ pub(super) struct Tree {
     pub above: Vec<Option<usize>>,
     /// The one link without a joint above.
     pub root: usize,
-    /// Whether the root is a `world` that the file does not declare.
+    /// True if the root is a `world` that the file does not declare.
     pub implicit_world: bool,
     /// Links from the root downwards, each right before all that hangs from it.
     order: Vec<usize>,
-    /// Of each link, the stretch of that order that it and all that hangs from it are.
+    /// For each link, the range of that order with the link and its descendants.
     stretch: Vec<Range<usize>>,
     /// Number of joints above each link.
     depth: Vec<usize>,
@@ -70,27 +70,27 @@ impl Tree {
         }
     }
 
-    /// Index of a link.
+    /// Returns the index of a link.
     pub fn link(&self, name: &str) -> Option<usize> {
         self.links.iter().position(|l| l == name)
     }
 
-    /// Number of joints from the root to a link.
+    /// Returns the number of joints from the root to a link.
     pub fn depth(&self, link: usize) -> usize {
         self.depth[link]
     }
 
-    /// A link, the one that carries it, and so on up to the root.
+    /// Returns a link, its parent, and so on up to the root.
     pub fn ancestors(&self, link: usize) -> Vec<usize> {
         std::iter::successors(Some(link), |&link| self.above[link].map(|joint| self.parent[joint])).collect()
     }
 
-    /// Whether `joint` moves `link`. `O(1)`.
+    /// Returns true if `joint` moves `link`. `O(1)`.
     pub fn carries(&self, joint: usize, link: usize) -> bool {
         self.stretch[self.child[joint]].contains(&self.stretch[link].start)
     }
 
-    /// Pose of every link in the root frame, for these values of the joints. `O(links)`.
+    /// Returns the pose of every link in the root frame, for these values of the joints. `O(links)`.
     pub fn poses(&self, robot: &urdf_rs::Robot, values: &[f64]) -> Vec<Isometry3<f64>> {
         let mut poses = vec![Isometry3::identity(); self.links.len()];
         for link in &self.order {
@@ -103,14 +103,14 @@ impl Tree {
     }
 }
 
-/// A pose as URDF writes it: fixed-axis roll, pitch, yaw, then the translation.
+/// Converts a URDF pose: fixed-axis roll, pitch, yaw, then the translation.
 pub(super) fn isometry(pose: &urdf_rs::Pose) -> Isometry3<f64> {
     let [roll, pitch, yaw] = pose.rpy.0;
     let [x, y, z] = pose.xyz.0;
     Isometry3::from_parts(Translation3::new(x, y, z), UnitQuaternion::from_euler_angles(roll, pitch, yaw))
 }
 
-/// The joint's axis in its own frame. The document has refused zero axes.
+/// Returns the joint's axis in its own frame. The document has refused zero axes.
 pub(super) fn axis(joint: &urdf_rs::Joint) -> Unit<Vector3<f64>> {
     Unit::new_normalize(Vector3::from(joint.axis.xyz.0))
 }
@@ -183,7 +183,7 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
     Ok(above)
 }
 
-/// The links that hang from roots, each right before all that hangs from it.
+/// Returns the links below the roots in preorder.
 fn downwards(roots: &[usize], links: usize, parent: &[usize], child: &[usize]) -> Vec<usize> {
     let mut below = vec![Vec::new(); links];
     for (&parent, &child) in parent.iter().zip(child) {

@@ -9,7 +9,7 @@ use serde::de::IgnoredAny;
 use serde_saphyr::Spanned;
 use std::collections::BTreeMap;
 
-/// As the file has it.
+/// The contents of the file.
 #[derive(Deserialize)]
 struct File {
     image: Spanned<String>,
@@ -37,7 +37,7 @@ enum Negate {
     Neither(serde::de::IgnoredAny),
 }
 
-/// How a picture becomes a map: valid.
+/// A valid description of how a picture becomes a map.
 pub(super) struct Description {
     pub image: Spanned<String>,
     pub resolution: f64,
@@ -114,13 +114,14 @@ impl Description {
         if self.negate { value } else { white - value }
     }
 
-    /// Whether a shade is the one of cells that nobody has seen. Whole numbers, without rounding.
+    /// Returns true if a shade is the one of unknown cells. Uses integers, without rounding.
     fn is_unseen(&self, shade: Shade) -> bool {
         self.dark(shade) * 255.0 == UNSEEN * shade.white
     }
 
-    /// What a shade, from 0 for black to that of white, says of its cell; none is of a pixel that one can see through. Of whole numbers the
-    /// quotient that is held against the thresholds is rounded as they are, so that it is no less than one that it equals.
+    /// Returns the occupancy of a cell by its shade, from 0 for black to that of white. A transparent pixel has no
+    /// shade. For integers, the quotient and the thresholds are rounded alike, so that a quotient equal to a threshold
+    /// compares as equal.
     pub fn judge(&self, shade: Option<Shade>) -> Occupancy {
         match shade.map(|shade| (self.dark(shade) / shade.white, self.is_unseen(shade))) {
             Some((p, _)) if p > self.occupied => Occupancy::Occupied,
@@ -129,7 +130,7 @@ impl Description {
         }
     }
 
-    /// What to say of a map, which has unknown cells or not.
+    /// Returns the notes about a map, which may have unknown cells.
     pub fn notes(&self, has_unknown: bool) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.unused.is_empty() {
@@ -147,7 +148,7 @@ impl Description {
     }
 }
 
-/// A diagnostic where the value is.
+/// Creates a diagnostic at the place of the value.
 fn diagnostic<T>(source: &Source, value: &Spanned<T>, message: impl Into<String>) -> Diagnostic {
     source.diagnostic_at_position(value.referenced.line() as usize, value.referenced.column() as usize, message)
 }

@@ -24,10 +24,10 @@ use nalgebra::{Isometry2, Vector2};
 use picture::Broken;
 use std::path::Path;
 
-/// What a map says of a cell.
+/// The occupancy of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Occupancy {
-    /// Nothing is there.
+    /// The cell is free.
     Free,
     /// Something is there.
     Occupied,
@@ -42,11 +42,11 @@ pub struct OccupancyMap {
     pub size: [usize; 2],
     /// Side of a cell, metres.
     pub resolution: f64,
-    /// Where the lower left corner of the picture lies, and how the picture is turned about it.
+    /// Pose of the lower left corner of the picture.
     pub pose: Pose,
     /// Row by row as in the picture: from the top, from the left.
     pub cells: Vec<Occupancy>,
-    /// What the user should know of how the description was read.
+    /// Notes for the user about the description.
     pub notes: Vec<String>,
 }
 
@@ -54,13 +54,16 @@ impl OccupancyMap {
     /// Reads a description and the picture that it names, relative to itself: PGM (P2, P5; 8 or 16 bits) or PNG.
     ///
     /// With `p = 1 - shade` (`p = shade` with `negate`), where black is 0 and white is 1, a cell is occupied if `p >
-    /// occupied_thresh`, free if `p < free_thresh`, and else unknown, in the modes `trinary` and `scale`, which for an obstacle
-    /// are the same. Except the shade that ROS's map savers give to cells that nobody has seen, 205 of 255 (50 with `negate`): it is
-    /// unknown also where `free_thresh` is above its `p` of 0.196. The mode `raw` is refused: its values are costs. Colours are averaged; what is not opaque is unknown.
+    /// occupied_thresh`, free if `p < free_thresh`, and unknown otherwise. The modes `trinary` and `scale` give the
+    /// same obstacles.
+    ///
+    /// The shade 205 of 255 (50 with `negate`) is an exception: ROS's map savers use it for unknown cells, so it is
+    /// unknown even where `free_thresh` is above its `p` of 0.196. The mode `raw` is refused, because its values are
+    /// costs. Colours are averaged. Pixels that are not opaque are unknown.
     ///
     /// # Errors
-    /// For a description that is not as above, a picture that is broken, of another format or of more than [`MOST_CELLS`], and
-    /// a place farther off than the program computes with.
+    /// An invalid description; a picture that is damaged, of another format or of more than [`MOST_CELLS`]; and a place
+    /// too far away for the program's arithmetic.
     pub fn read(yaml: &Path) -> Result<Self, InputError> {
         let source = Source::read(yaml)?;
         let description = Description::read(&source)?;
@@ -94,7 +97,7 @@ impl OccupancyMap {
         Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells, notes })
     }
 
-    /// What the map says of a place; none beyond the picture. A cell has its lower and left side, not the others.
+    /// Returns the occupancy at a place, or `None` outside the picture. A cell includes its lower and its left side.
     #[must_use]
     pub fn at(&self, place: Point) -> Option<Occupancy> {
         let cell = self.pose.inverse_transform_point(&place) / self.resolution;
@@ -105,9 +108,9 @@ impl OccupancyMap {
         Some(self.cells[(height - 1 - cell.y as usize) * width + cell.x as usize])
     }
 
-    /// What is solid as rectangles with disjoint interiors: the occupied cells, and the unknown ones unless they count as
-    /// `unknown_is_free`. As many as [`rectangles`] makes; none if these are more than `most`. Corners that cells share are the
-    /// same points.
+    /// Returns the solid cells as rectangles with disjoint interiors: the occupied cells, and the unknown ones unless
+    /// `unknown_is_free`. Their number is that of [`rectangles`]; returns `None` if it exceeds `most`. Shared corners
+    /// are exactly equal.
     #[must_use]
     pub fn pieces(&self, unknown_is_free: bool, most: usize) -> Option<Vec<Convex>> {
         let is_solid = |cell: usize| match self.cells[cell] {
@@ -118,7 +121,7 @@ impl OccupancyMap {
         self.rectangles_of(is_solid, most)
     }
 
-    /// Some cells as rectangles with disjoint interiors, as [`OccupancyMap::pieces`].
+    /// Returns some cells as rectangles with disjoint interiors, like [`OccupancyMap::pieces`].
     pub fn rectangles_of(&self, is_among: impl Fn(usize) -> bool, most: usize) -> Option<Vec<Convex>> {
         let [width, height] = self.size;
         let corner = |x: usize, y: usize| {

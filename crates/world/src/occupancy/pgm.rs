@@ -4,7 +4,7 @@
 
 use super::picture::{Broken, Judge, Picture, Shade, checked_size};
 
-/// What to do about most diagnostics.
+/// The hint of most diagnostics.
 const HELP: &str = "save the picture anew";
 
 /// Reads a greymap.
@@ -56,7 +56,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     Ok(Picture { width, height, cells })
 }
 
-/// Nothing may follow the picture, which ends before byte `at`.
+/// Checks that nothing follows the picture, which ends before byte `at`.
 fn ended(at: usize, bytes: &[u8]) -> Result<(), Broken> {
     if at >= bytes.len() {
         return Ok(());
@@ -94,7 +94,7 @@ impl Words<'_> {
         }
     }
 
-    /// The next number, with white space before it and after it.
+    /// Reads the next number and the white space around it.
     fn number(&mut self, what: &dyn std::fmt::Display) -> Result<usize, Broken> {
         let before = self.at;
         self.skip();
@@ -111,7 +111,7 @@ impl Words<'_> {
                 Ok(value)
             }
             _ => {
-                // Enough to recognise it by, whatever it is.
+                // Enough characters to recognise the word.
                 let shown: String = String::from_utf8_lossy(word).chars().take(20).collect();
                 Err(Broken::new(format!("{what}: {shown:?} is no whole number (byte {})", self.at + 1), HELP))
             }

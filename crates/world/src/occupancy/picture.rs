@@ -6,7 +6,7 @@ use super::{MOST_CELLS, Occupancy, pgm, png};
 pub(super) struct Picture {
     pub width: usize,
     pub height: usize,
-    /// From the top, from the left.
+    /// Cells from the top, from the left.
     pub cells: Vec<Occupancy>,
 }
 
@@ -23,14 +23,14 @@ impl Broken {
     }
 }
 
-/// How light a pixel is, from 0 for black on: whole numbers.
+/// Brightness of a pixel, from 0 for black, as integers.
 #[derive(Clone, Copy)]
 pub(super) struct Shade {
     pub value: f64,
     pub white: f64,
 }
 
-/// What a shade says; none is of a pixel that is not opaque.
+/// A function from shades to occupancy. A pixel that is not opaque has no shade.
 pub(super) type Judge<'a> = &'a dyn Fn(Option<Shade>) -> Occupancy;
 
 /// Reads a picture, whose format its first bytes tell.
@@ -53,7 +53,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     }
 }
 
-/// The number of pixels, if the program takes so many: before any memory is asked for.
+/// Returns the number of pixels, or an error if there are too many, before any memory is allocated.
 pub(super) fn checked_size(width: usize, height: usize) -> Result<usize, Broken> {
     if width == 0 || height == 0 {
         return Err(Broken::new(format!("has no pixels: {width} x {height}"), "draw the map anew"));

@@ -41,7 +41,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     Ok(Picture { width, height, cells })
 }
 
-/// Whether a pixel has a colour that the palette lacks, if there is one: as a colour it would be black.
+/// Returns true if a pixel has a colour that is missing from the palette. The decoder would make it black.
 fn lacks_colors(bytes: &[u8]) -> Result<bool, DecodingError> {
     let mut reader = Decoder::new(Cursor::new(bytes)).read_info()?;
     let info = reader.info();

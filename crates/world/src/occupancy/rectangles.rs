@@ -3,19 +3,20 @@
 /// A rectangle of pixels: columns and rows, the first one of it and the first one after it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PixelRectangle {
-    /// From left to right.
+    /// Columns, from left to right.
     pub columns: [usize; 2],
-    /// From top to bottom.
+    /// Rows, from top to bottom.
     pub rows: [usize; 2],
 }
 
-/// Divides the solid pixels of a picture of `[width, height]` into rectangles with disjoint interiors.
+/// Divides the solid pixels of a picture of `[width, height]` into rectangles with disjoint interiors. Linear in the
+/// number of pixels. Returns `None` if there are more than `most`.
 ///
-/// Rows are cut into runs, and equal runs in successive rows are one rectangle; the same by columns; the fewer are
-/// returned. That is a cut along one line through every concave corner of the outline. A partition into the least number
-/// needs a cut for every two concave corners at least, so of an outline without holes this makes at most twice, of one with
-/// holes at most three times as many as need be. (The least number itself takes a matching of the lines that join two
-/// concave corners: Lipski et al. 1979, Ohtsuki 1982.) Linear in the pixels. None if there are more than `most`.
+/// Rows are cut into runs, and equal runs in successive rows form one rectangle. The same is done by columns, and the
+/// smaller result is returned. This cuts along one line through every concave corner of the outline. A minimal
+/// partition needs a cut for every two concave corners at least, so the result has at most twice the minimal number for
+/// an outline without holes, and at most three times with holes. The minimal number itself takes a matching of the
+/// lines that join two concave corners (Lipski et al. 1979, Ohtsuki 1982).
 #[must_use]
 pub fn rectangles(size: [usize; 2], solid: impl Fn(usize, usize) -> bool, most: usize) -> Option<Vec<PixelRectangle>> {
     let [width, height] = size;
@@ -35,7 +36,8 @@ struct Open {
     since: usize,
 }
 
-/// Rectangles as lines and places in the line, in the order in which they end; none if there are more than `most`.
+/// Returns rectangles as lines and positions in the line, in the order in which they end. Returns `None` if there are
+/// more than `most`.
 fn merged_runs(
     [lines, length]: [usize; 2],
     solid: impl Fn(usize, usize) -> bool,

@@ -1,4 +1,4 @@
-//! What a result of cplan's says besides its samples.
+//! The claims that a cplan result makes about its samples.
 
 use crate::parsers::json_diagnostic;
 use cplan_core::model::{BlendsClaim, Claims, EventClaim, OptimumClaim, StepClaims, TaskClaims};
@@ -97,15 +97,16 @@ struct PoseMember {
     angle: f64,
 }
 
-/// A member that may be null, which says something, too.
+/// Deserialises a member that may be null, which differs from a missing one.
 fn said<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
     Option::deserialize(deserializer).map(Some)
 }
 
-/// Reads what a result says besides its samples; none if it is no result of cplan's: one has a status.
+/// Reads the claims that a result makes about its samples. Returns `None` for a file that is not a result of cplan: results
+/// have a status.
 ///
 /// # Errors
-/// Members that are none: of another type, numbers that are too large, or paths of other joints.
+/// Invalid members: of another type, numbers that are too large, or paths of other joints.
 pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, InputError> {
     let wrong = |error: serde_json::Error| json_diagnostic(source, &error).help("verify a result as cplan writes it");
     let members: serde_json::Map<String, serde_json::Value> = serde_json::from_str(source.text()).map_err(wrong)?;
@@ -115,7 +116,7 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     let document: Document = serde_json::from_str(source.text()).map_err(wrong)?;
     let order = document.joints.as_deref().map_or(Some([0, 1]), |joints| order(joints, arm));
     let Some(order) = order else {
-        // The reader of samples says what is wrong with the names.
+        // The reader of samples reports defects of the names.
         return Ok(None);
     };
     let unjudged = members.keys().filter(|name| !JUDGED.contains(&name.as_str()) && !READ.contains(&name.as_str()));
@@ -151,7 +152,7 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     Ok(Some(claims))
 }
 
-/// Where the arm's joints are among the file's.
+/// Returns the positions of the arm's joints in the file.
 fn order(joints: &[String], arm: [&str; 2]) -> Option<[usize; 2]> {
     let at = |name: &str| joints.iter().position(|joint| joint == name);
     Some([at(arm[0])?, at(arm[1])?])

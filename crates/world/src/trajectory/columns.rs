@@ -1,6 +1,6 @@
-//! What the columns of a table of joint values mean, by their names.
+//! The meaning of the columns in a table of joint values, by their names.
 
-/// What a column holds.
+/// The meaning of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// The time of the sample, seconds.
@@ -9,7 +9,7 @@ pub(super) enum Meaning {
     Of(usize, Quantity),
 }
 
-/// What of a joint.
+/// The quantity of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
     Position,
@@ -30,9 +30,9 @@ const WORDS: [(Quantity, &[&str]); 4] = [
     (Quantity::Torque, &["torque", "torques"]),
 ];
 
-/// Everything that a column's name can mean: `elbow`, `elbow_velocity`, `elbow.velocity`, `velocities_elbow` and the
-/// like, also below a topic (`/joint_states/elbow/position`); or a time. More than one meaning is for the caller to
-/// refuse.
+/// Returns all meanings of a column's name: `elbow`, `elbow_velocity`, `elbow.velocity`, `velocities_elbow` and
+/// similar, also below a topic (`/joint_states/elbow/position`); or a time. The caller must refuse names with several
+/// meanings.
 pub(super) fn meanings(column: &str, joints: &[&str]) -> Vec<Meaning> {
     let mut found = Vec::new();
     if TIMES.contains(&column.to_lowercase().as_str()) {

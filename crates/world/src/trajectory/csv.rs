@@ -1,5 +1,5 @@
-//! Joint values as a table: a header of names, then a sample a line. Values are separated by commas, semicolons or tabs, as
-//! the header has it; lines that begin with `#` are comments, but for the header itself.
+//! Joint values as a table: a header of names, then one sample per line. Values are separated by commas, semicolons or
+//! tabs, as in the header. Lines that begin with `#` are comments, except the header.
 
 use super::columns::{Meaning, Quantity, meanings};
 use super::records::{Field, Records};
@@ -61,7 +61,7 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
     Ok(samples)
 }
 
-/// The character that separates values: of comma, semicolon and tab the first with which some line names a joint.
+/// Returns the separator: of comma, semicolon and tab the first for which a line names a joint.
 fn separator(text: &str, names: &Names) -> char {
     let names_some = |separator: &char| {
         let mut heads = Records::new(text, *separator).take(HEAD);
@@ -70,14 +70,14 @@ fn separator(text: &str, names: &Names) -> char {
     [',', ';', '\t'].into_iter().find(names_some).unwrap_or(',')
 }
 
-/// So many lines are looked at for the header.
+/// Number of lines searched for the header.
 const HEAD: usize = 64;
 
 fn is_comment(record: &[Field]) -> bool {
     record.first().is_some_and(|field| field.text.starts_with('#'))
 }
 
-/// Whether a line names a joint of the arm.
+/// Returns true if a line names a joint of the arm.
 fn names_joints(record: &[Field], names: &Names) -> bool {
     let joints: Vec<&str> = names.all().collect();
     let name = |field: &Field| field.text.trim_start_matches(['#', ' ']).to_owned();
@@ -105,20 +105,20 @@ fn number(source: &Source, name: &Field, field: &Field) -> Result<f64, Diagnosti
 
 /// A column that is read.
 struct Column {
-    /// Its place in each line.
+    /// Its position in each line.
     index: usize,
     meaning: Meaning,
-    /// None: radians, metres and seconds.
+    /// Its unit. `None` for radians, metres and seconds.
     unit: Option<Unit>,
 }
 
-/// Which columns are read.
+/// The columns to read.
 struct Columns {
     /// Names of the joints that a meaning's index stands for.
     joints: Vec<String>,
     /// Ordered as in the file.
     used: Vec<Column>,
-    /// Whole seconds of the first time that are left out of all times, if it is no time from a start.
+    /// Whole seconds of the first time, subtracted from all times that are not relative to a start.
     epoch: Option<i64>,
     notes: Vec<String>,
 }
@@ -176,13 +176,13 @@ impl Columns {
         self.used.iter().any(|column| column.meaning == Meaning::Time)
     }
 
-    /// Whether a line holds nothing of any joint, as in tables of several sources, which log at different moments.
+    /// Returns true if a line has no value of any joint, as in tables of several sources that log at different moments.
     fn is_blank(&self, record: &[Field]) -> bool {
         let mut joints = self.used.iter().filter(|column| column.meaning != Meaning::Time);
         joints.all(|column| record[column.index].text.is_empty())
     }
 
-    /// The value of a column in a line, in radians, metres or seconds.
+    /// Returns the value of a column in a line, in radians, metres or seconds.
     fn value(&mut self, source: &Source, header: &[Field], k: usize, record: &[Field]) -> Result<f64, Diagnostic> {
         let Column { index, meaning, unit } = self.used[k];
         let (name, field) = (&header[index], &record[index]);
@@ -228,7 +228,7 @@ impl Columns {
 /// Times beyond this are dates and no times from a start: eleven days, in seconds.
 const LATEST: f64 = 1e6;
 
-/// What a column means, and its unit if its name has one behind it.
+/// Returns the meaning of a column, and the unit after its name if there is one.
 fn meant<'a>(name: &'a str, joints: &[&str]) -> (Vec<Meaning>, Option<&'a str>) {
     match (meanings(name, joints), units::split(name)) {
         (known, Some((base, unit))) if known.is_empty() => (meanings(base, joints), Some(unit)),
@@ -236,7 +236,7 @@ fn meant<'a>(name: &'a str, joints: &[&str]) -> (Vec<Meaning>, Option<&'a str>) 
     }
 }
 
-/// The unit of a column; none of torques, which are not read.
+/// Returns the unit of a column, or `None` for torques, which are not read.
 ///
 /// # Errors
 /// Units that are unknown, or do not fit the joint.

@@ -7,7 +7,7 @@ use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-/// The members that are looked at; others may be there.
+/// The members that are read; others may exist.
 #[derive(Deserialize)]
 struct Document {
     /// cplan's result.
@@ -60,7 +60,7 @@ enum Stamp {
 }
 
 impl Stamp {
-    /// Correctly rounded, so that as a decimal it has no more than nine digits behind the point.
+    /// Returns seconds, correctly rounded, so that the decimal has at most nine digits after the point.
     fn seconds(&self) -> f64 {
         match *self {
             Stamp::Parts { sec, nanosec } => (sec as f64 * 1e9 + f64::from(nanosec)) / 1e9,
@@ -69,7 +69,7 @@ impl Stamp {
     }
 }
 
-/// Reads a result of cplan, or what others write as JSON.
+/// Reads a result of cplan, or another program's JSON.
 pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
     let help = "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
     // A list would be taken for the members of an object in their order.
@@ -137,7 +137,7 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
     })
 }
 
-/// What the member `interpolation` of a result of cplan's makes of accelerations.
+/// Returns how accelerations join samples, by the member `interpolation` of a cplan result.
 fn own_rule(said: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolation> {
     match said {
         Some(INTERPOLATION) => Some(Interpolation::Quartic),
@@ -180,7 +180,7 @@ fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Ve
     }
 }
 
-/// A ROS message.
+/// Reads a ROS message.
 fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> Result<Samples, Diagnostic> {
     let names = named(source, names, "joint_names")?;
     let count = points.len();

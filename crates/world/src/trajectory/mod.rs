@@ -1,7 +1,7 @@
 //! Joint paths and trajectories from files: cplan's own JSON and CSV, anyone's CSV, and ROS 2 messages in YAML.
 //!
-//! Names decide which column is which joint, not their order. Every reader makes [`Samples`]; what holds for all of
-//! them (the arm's joints are there, what the held joints do can be judged, times increase) is checked once, here.
+//! Names, not the order, decide which column belongs to which joint. Every reader makes [`Samples`]. Common conditions
+//! are checked once, here: the arm's joints are present, the motion of held joints can be judged, times increase.
 
 mod claims;
 mod columns;
@@ -22,7 +22,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
 
-/// What to say of accelerations that do not join samples.
+/// Note about accelerations that do not join samples.
 const STATED: &str = "accelerations in the file are held to the limits, but do not change the motion: positions and velocities \
                       imply it";
 
@@ -31,19 +31,19 @@ const STATED: &str = "accelerations in the file are held to the limits, but do n
 pub struct LoadedRecording {
     /// The arm's two joints, base to tip.
     pub recording: Recording,
-    /// What other joints do that the world holds still, if they move.
+    /// Motions of joints that the world holds still, if they move.
     pub held: Vec<HeldMotion>,
     /// The steps of a task: of a result of cplan's for a world that has steps.
     pub steps: Option<Vec<RecordedStep>>,
-    /// What a result of cplan's says besides the samples.
+    /// The claims that a cplan result makes about the samples.
     pub claims: Option<Claims>,
-    /// Whether it has torques.
+    /// True if it has torques.
     pub has_torques: bool,
-    /// What the user should know: what was ignored, and which rule joins the samples.
+    /// Notes for the user about ignored parts and the rule that joins the samples.
     pub notes: Vec<String>,
 }
 
-/// What a file holds of one joint.
+/// The values of one joint in a file.
 #[derive(Debug, Default)]
 struct Series {
     name: String,
@@ -52,21 +52,21 @@ struct Series {
     acceleration: Option<Vec<f64>>,
 }
 
-/// What a file holds.
+/// The contents of a file.
 #[derive(Debug, Default)]
 struct Samples {
     time: Option<Vec<f64>>,
     joints: Vec<Series>,
-    /// What the file holds of joints at other times than the samples', with positions alone.
+    /// Positions of joints at other times than those of the samples.
     aside: Vec<Series>,
-    /// How samples are joined that have accelerations, if these do it; see [`Interpolation`].
+    /// Rule that joins samples with accelerations, if accelerations are used; see [`Interpolation`].
     joined: Option<Interpolation>,
     /// Samples after which nothing is joined: the arm stands until the next.
     rests: Vec<usize>,
     has_torques: bool,
-    /// How the file calls sample `k`: this, with `k` in brackets.
+    /// The file's word for a sample, followed by its number in brackets.
     what: Cow<'static, str>,
-    /// Where in the text each sample is, if the reader knows.
+    /// Position of each sample in the text, if the reader knows it.
     places: Vec<Range<usize>>,
     notes: Vec<String>,
 }
@@ -83,16 +83,17 @@ struct Samples {
 /// - YAML: `trajectory_msgs/msg/JointTrajectory`, also as a member `joint_trajectory` or `trajectory`.
 ///
 /// # Errors
-/// Files that cannot be read, are no such format, have steps that are none, lack a joint, move a held joint otherwise than along the plane's normal or about it, or whose samples
-/// are no motion; with the place in the file and what to do about it.
+/// # Errors
+/// Files that cannot be read or have another format, invalid steps, a missing joint, a held joint that moves other than
+/// along the plane's normal or about it, and samples that are not a motion; with the place in the file and a hint.
 pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     load(path, None, scene)
 }
 
-/// Reads what was recorded on one topic of an MCAP file.
+/// Reads the recording on one topic of an MCAP file.
 ///
 /// # Errors
-/// As for [`load_recording`], and for files of other formats, which have no topics.
+/// Same as [`load_recording`], and files of other formats, which have no topics.
 pub fn load_topic(path: &Path, topic: &str, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     load(path, Some(topic), scene)
 }
@@ -115,10 +116,10 @@ fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedR
     read_recording(&Source::read_recording(path)?, scene)
 }
 
-/// The same from a text: its name's extension tells the format, JSON where it is none of the others.
+/// Does the same with a text. Its name's extension gives the format, JSON by default.
 ///
 /// # Errors
-/// As for [`load_recording`].
+/// Same as [`load_recording`].
 pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let names = Names::of(scene);
     let extension = source.path().extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
@@ -134,7 +135,7 @@ pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedReco
     Ok(LoadedRecording { steps, claims, ..names.recording(source, samples)? })
 }
 
-/// A recording of topics.
+/// Reads a recording of topics.
 #[cfg(feature = "mcap")]
 fn recorded(path: &Path, topic: Option<&str>, names: &Names) -> Result<LoadedRecording, InputError> {
     let bytes = cplan_robot::read_recorded(path)?;
@@ -142,7 +143,7 @@ fn recorded(path: &Path, topic: Option<&str>, names: &Names) -> Result<LoadedRec
     Ok(names.recording(&source, mcap::read(&source, &bytes, topic, names)?)?)
 }
 
-/// A recording of topics.
+/// Reads a recording of topics.
 #[cfg(not(feature = "mcap"))]
 fn recorded(path: &Path, _: Option<&str>, _: &Names) -> Result<LoadedRecording, InputError> {
     let diagnostic = Diagnostic::new(path.display().to_string(), "this program was built without MCAP");
@@ -152,12 +153,12 @@ fn recorded(path: &Path, _: Option<&str>, _: &Names) -> Result<LoadedRecording, 
 /// The joints that a file can speak of.
 struct Names<'a> {
     arm: [&'a str; 2],
-    /// Whether each of the arm's joints turns, or slides.
+    /// True for each of the arm's joints that is revolute.
     turns: [bool; 2],
     held: &'a [HeldJoint],
     /// Why no motion of the held joints can be judged, if so.
     rigid: Option<&'static str>,
-    /// Whether the world has steps, in which a wrist turns and a quill goes up and down.
+    /// True if the world has steps, in which a wrist turns and a quill moves up and down.
     has_steps: bool,
 }
 
@@ -176,7 +177,7 @@ impl<'a> Names<'a> {
         self.arm.iter().copied().chain(self.held.iter().map(|joint| joint.name.as_str()))
     }
 
-    /// The arm's two joints of what was read.
+    /// Extracts the arm's two joints.
     fn recording(&self, source: &Source, mut samples: Samples) -> Result<LoadedRecording, Diagnostic> {
         let mut notes = std::mem::take(&mut samples.notes);
         let mut chosen = Vec::new();
@@ -223,7 +224,7 @@ impl<'a> Names<'a> {
 }
 
 impl Samples {
-    /// A diagnostic of one sample.
+    /// Creates a diagnostic about one sample.
     fn diagnostic(&self, source: &Source, sample: usize, message: &str) -> Diagnostic {
         match self.places.get(sample) {
             Some(place) => source.diagnostic_at(place.clone(), message),
@@ -252,7 +253,7 @@ fn misplaced(source: &Source, samples: &Samples, diagnostic: &RecordingError) ->
     }
 }
 
-/// How the samples are joined, in words.
+/// Describes the rule that joins the samples.
 fn rule(recording: &Recording) -> &'static str {
     match (recording.interpolation(), recording.times()) {
         (Interpolation::Cubic, _) => "between samples: the cubic that positions and velocities imply",

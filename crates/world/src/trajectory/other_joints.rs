@@ -1,15 +1,15 @@
-//! What a recording says of joints beside the arm's two.
+//! Recorded joints other than the arm's two.
 
 use super::{Names, Samples, Series, misplaced};
 use cplan_core::model::{HeldEffect, HeldJoint, HeldMotion, OutlineSource, Scene};
 use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
 use cplan_robot::{Diagnostic, Source};
 
-/// By how much a held joint's recorded value may differ from the value that it is held at, radians or metres: more than
-/// a controller's jitter or six printed digits, less than what could matter to a collision.
+/// Largest deviation of a held joint's recorded value from its held value, radians or metres. It exceeds a controller's
+/// jitter and the rounding to six digits, and is too small to cause a collision.
 const STILL: f64 = 1e-4;
 
-/// Why no motion of a held joint can be judged in a scene, if so.
+/// Returns the reason why motions of held joints cannot be judged in a scene, or `None`.
 pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
     if scene.payload().is_some() {
         return Some("something is carried, which would move with it");
@@ -19,10 +19,10 @@ pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
 }
 
 impl Names<'_> {
-    /// The motions of joints that the world holds still; and notes about all that are none of the arm's two.
+    /// Returns the motions of joints that the world holds still, and notes about all other joints.
     ///
     /// # Errors
-    /// Joints that move so that it cannot be judged.
+    /// Joints whose motion cannot be judged.
     pub(super) fn moved(
         &self,
         source: &Source,
@@ -69,7 +69,7 @@ impl Names<'_> {
         Ok(moved)
     }
 
-    /// Why a motion of a joint cannot be judged, as a clause about it.
+    /// Returns the reason why the motion of a joint cannot be judged, as a clause about it.
     fn why_not(&self, joint: &HeldJoint, at_samples: bool, moved: &[HeldMotion]) -> Option<String> {
         let turns = |joint: &HeldJoint| matches!(joint.effect, HeldEffect::Turns { .. });
         let also_turns = |other: &&HeldMotion| {
@@ -88,7 +88,7 @@ impl Names<'_> {
     }
 }
 
-/// What to say of a joint that moves.
+/// Describes a moving joint.
 fn described(joint: &HeldJoint, series: &Series) -> String {
     let least = series.position.iter().copied().fold(f64::INFINITY, f64::min);
     let most = series.position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -105,7 +105,7 @@ fn described(joint: &HeldJoint, series: &Series) -> String {
     }
 }
 
-/// A joint's values at the samples of a recording, joined as those.
+/// Returns a joint's values at the samples of a recording, joined in the same way.
 fn values(series: &Series, recording: &Recording, samples: &Samples) -> Result<Recording, RecordingError> {
     let single = |values: &Vec<f64>| values.iter().map(|value| Configuration::new(*value, 0.0)).collect::<Vec<_>>();
     let velocity = series.velocity.as_ref().filter(|_| recording.velocities().is_some());

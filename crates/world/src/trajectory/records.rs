@@ -10,8 +10,8 @@ pub(super) struct Field<'a> {
     pub range: Range<usize>,
 }
 
-/// The records of a text, one after the other, blank lines left out. A quote that is never closed takes all that
-/// follows, which is no number and is refused as such.
+/// Iterates over the records of a text without blank lines. A quote that is never closed takes the rest of the text,
+/// which is then refused because it is not a number.
 pub(super) struct Records<'a> {
     text: &'a str,
     at: usize,
@@ -19,12 +19,12 @@ pub(super) struct Records<'a> {
 }
 
 impl<'a> Records<'a> {
-    /// Of values that are separated by this character.
+    /// Creates the iterator for values separated by this character.
     pub fn new(text: &'a str, separator: char) -> Self {
         Self { text, at: 0, separator }
     }
 
-    /// The next field, and whether it ends its record.
+    /// Returns the next field, and whether it ends its record.
     fn field(&mut self) -> (Field<'a>, bool) {
         let start = self.at;
         let rest = &self.text[start..];
@@ -45,7 +45,7 @@ impl<'a> Records<'a> {
     }
 }
 
-/// Just behind the quote that closes the one at the beginning; the end if there is none.
+/// Returns the position after the quote that closes the first one, or the end of the text.
 fn closing_quote(text: &str) -> usize {
     let mut from = 1;
     while let Some(i) = text[from..].find('"') {

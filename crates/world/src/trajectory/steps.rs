@@ -6,10 +6,10 @@ use cplan_core::model::{RecordedStep, RecordedTurn};
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 
-/// Angles and seconds beyond this are a mistake, as they are in recordings; doubles near it still resolve a nanoradian.
+/// Largest valid angle (radians) or time (seconds), as in recordings. Doubles near it still resolve a nanoradian.
 const LARGEST: f64 = 1e6;
 
-/// The members that are looked at; others may be there.
+/// The members that are read; others may exist.
 #[derive(Deserialize)]
 struct Document {
     steps: Option<Vec<StepMember>>,
@@ -32,10 +32,10 @@ struct TurnMember {
     seconds: f64,
 }
 
-/// Reads the steps that a JSON file has beside its samples, if it has any.
+/// Reads the steps of a JSON file, if it has any.
 ///
 /// # Errors
-/// Steps that are none: members that are missing or no numbers, samples that the file does not have, and steps beside
+/// Invalid steps: missing members, values that are not numbers, samples that the file does not have, and steps beside
 /// samples without times and velocities.
 pub(super) fn json(source: &Source, samples: &Samples) -> Result<Option<Vec<RecordedStep>>, InputError> {
     let document: Document = serde_json::from_str(source.text()).map_err(|error| {

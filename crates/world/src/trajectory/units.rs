@@ -2,7 +2,7 @@
 
 use super::columns::{Meaning, Quantity};
 
-/// What a unit measures.
+/// The dimension of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Dimension {
     Angle,
@@ -18,7 +18,7 @@ pub(super) struct Unit {
     divisor: f64,
 }
 
-/// Names of units, what they measure, and the quotient.
+/// Names of units, their dimension, and the factor as a quotient.
 const UNITS: [(&[&str], Dimension, f64, f64); 8] = [
     (&["rad", "radian", "radians"], Dimension::Angle, 1.0, 1.0),
     (&["deg", "degree", "degrees", "\u{b0}"], Dimension::Angle, std::f64::consts::PI, 180.0),
@@ -30,10 +30,10 @@ const UNITS: [(&[&str], Dimension, f64, f64); 8] = [
     (&["ns"], Dimension::Time, 1.0, 1e9),
 ];
 
-/// What a message lists as units that are known.
+/// The list of known units for messages.
 pub(super) const KNOWN: &str = "rad, deg, m, cm, mm, s, ms or ns, with /s for velocities and /s^2 for accelerations";
 
-/// A column's name without its unit, and the unit in brackets behind it.
+/// Splits a column's name from the unit in brackets after it.
 pub(super) fn split(column: &str) -> Option<(&str, &str)> {
     let closed = [('[', ']'), ('(', ')')];
     closed.into_iter().find_map(|(open, close)| {
@@ -44,7 +44,7 @@ pub(super) fn split(column: &str) -> Option<(&str, &str)> {
     })
 }
 
-/// The unit of this name for values of this meaning: of a velocity `deg/s`, of an acceleration `deg/s^2`.
+/// Returns the unit with this name for a quantity: for a velocity `deg/s`, for an acceleration `deg/s^2`.
 pub(super) fn unit(name: &str, meaning: Meaning) -> Option<Unit> {
     let suffixes: &[&str] = match meaning {
         Meaning::Of(_, Quantity::Velocity) => &["/s"],
@@ -59,7 +59,7 @@ pub(super) fn unit(name: &str, meaning: Meaning) -> Option<Unit> {
 }
 
 impl Unit {
-    /// Whether it is none of radians, metres and seconds.
+    /// Returns true unless it is radians, metres or seconds.
     pub fn is_converted(&self) -> bool {
         (self.multiple, self.divisor) != (1.0, 1.0)
     }

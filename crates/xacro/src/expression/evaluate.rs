@@ -11,7 +11,7 @@ pub(super) struct Evaluator<'n> {
 }
 
 impl Evaluator<'_> {
-    /// The value of an expression, one level down.
+    /// Evaluates an expression, one level deeper.
     pub fn value(&mut self, expression: &Expression) -> Result<Value, Fault> {
         self.names.budget().enter()?;
         let value = self.inner(expression)?;
@@ -75,7 +75,7 @@ impl Evaluator<'_> {
         items.iter().map(|item| self.value(item)).collect()
     }
 
-    /// A chain of operators of one precedence, from left to right without a level for each.
+    /// Evaluates a chain of operators of one precedence from left to right, without recursion.
     fn chain(&mut self, expression: &Expression) -> Result<Value, Fault> {
         let (mut others, mut first) = (Vec::new(), expression);
         while let Expression::Binary(sign, left, right) = first {
@@ -131,7 +131,7 @@ impl Evaluator<'_> {
         })
     }
 
-    /// `a.b`: of a namespace, a dict, or Python's `math`.
+    /// Evaluates `a.b`: a member of a namespace, a dict, or Python's `math`.
     fn member(&mut self, of: &Expression, name: &str) -> Result<Value, Fault> {
         if let Some(path) = path(of) {
             if let Some(value) = self.names.property(&format!("{path}.{name}"))? {
@@ -174,7 +174,7 @@ impl Evaluator<'_> {
     }
 }
 
-/// A name with its members, as it is written.
+/// Returns a dotted name as written.
 fn path(expression: &Expression) -> Option<String> {
     match expression {
         Expression::Name(name) => Some(name.clone()),
@@ -207,7 +207,7 @@ fn too_large(sign: &str) -> Fault {
     format!("the result of \"{sign}\" is too large").into()
 }
 
-/// A value for messages.
+/// Formats a value for messages.
 fn short(value: &Value) -> String {
     value.printed().chars().take(40).collect()
 }
@@ -302,7 +302,7 @@ fn holds(a: &Value, sign: &str, b: &Value) -> Result<bool, Fault> {
     })
 }
 
-/// Position in something of a length; negative ones count from its end.
+/// Converts an index to a position in a sequence. Negative indices count from the end.
 fn position(index: i64, length: usize) -> Option<usize> {
     let length = i64::try_from(length).ok()?;
     let at = if index < 0 { index.checked_add(length)? } else { index };

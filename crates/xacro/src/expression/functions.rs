@@ -54,7 +54,7 @@ const MORE: [&str; 19] = [
     "round", "sorted", "str", "sum", "trunc",
 ];
 
-/// The constants of Python's `math`.
+/// Returns a constant of Python's `math`.
 pub(super) fn constant(name: &str) -> Option<Value> {
     let value = match name {
         "pi" => consts::PI,
@@ -116,7 +116,7 @@ fn of_one(name: &str, x: Number) -> Option<Result<Value, Fault>> {
     })
 }
 
-/// A float without a fraction as an integer.
+/// Converts a float without a fraction to an integer.
 fn whole(name: &str, x: f64) -> Result<Value, Fault> {
     /// The least power of two that is too large.
     const BEYOND: f64 = 9_223_372_036_854_775_808.0;

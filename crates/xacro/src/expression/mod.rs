@@ -38,22 +38,22 @@ pub(crate) enum Expression {
     Call(Box<Expression>, Vec<Expression>, Vec<(String, Expression)>),
 }
 
-/// What an expression may ask for.
+/// The environment of an expression.
 pub(crate) trait Names {
-    /// The value of a property; none if there is none.
+    /// Returns the value of a property, or `None` if it does not exist.
     fn property(&mut self, name: &str) -> Result<Option<Value>, Fault>;
-    /// The value of an argument (`xacro.arg`).
+    /// Returns the value of an argument (`xacro.arg`).
     fn argument(&mut self, name: &str) -> Result<Value, Fault>;
-    /// The content of a YAML file (`xacro.load_yaml`).
+    /// Returns the content of a YAML file (`xacro.load_yaml`).
     fn yaml(&mut self, name: &str) -> Result<Value, Fault>;
-    /// Counts what is computed.
+    /// Returns the budget that counts computations.
     fn budget(&mut self) -> &mut Budget;
 }
 
-/// Computes an expression.
+/// Evaluates an expression.
 ///
 /// # Errors
-/// What is no expression, or none that is known; names that nothing has; types that do not go together; what is too large.
+/// If the syntax is wrong or unknown, a name is not defined, types do not match, or a result is too large.
 pub(crate) fn evaluate(text: &str, names: &mut dyn Names) -> Result<Value, Fault> {
     let tokens = tokens::tokens(text)?;
     let expression = parser::parse(&tokens)?;

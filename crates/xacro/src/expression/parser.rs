@@ -14,7 +14,7 @@ const LEVELS: [&[&str]; 2] = [&["+", "-"], &["*", "/", "//", "%"]];
 
 const COMPARISONS: [&str; 6] = ["==", "!=", "<=", ">=", "<", ">"];
 
-/// Words of Python that begin what is not known here.
+/// Words that start Python expressions which are not supported.
 const UNKNOWN_WORDS: [&str; 4] = ["lambda", "for", "is", "yield"];
 
 pub(super) fn parse(tokens: &[Token]) -> Result<Expression, Fault> {
@@ -86,7 +86,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// One level down, by the weakest operator.
+    /// Parses an expression, one level deeper, starting with the weakest operator.
     fn choice(&mut self) -> Result<Expression, Fault> {
         self.depth += 1;
         if self.depth > DEEPEST_EXPRESSION {
@@ -213,7 +213,7 @@ impl<'t> Parser<'t> {
         Ok(value)
     }
 
-    /// What follows `[`.
+    /// Parses the index after `[`.
     fn index(&mut self, of: Expression) -> Result<Expression, Fault> {
         let is_open = |parser: &Self| matches!(parser.peek(), Some(Token::Sign(":" | "]")));
         let from = if is_open(self) { None } else { Some(boxed(self.choice()?)) };
@@ -226,7 +226,7 @@ impl<'t> Parser<'t> {
         Ok(Expression::Index(boxed(of), from.ok_or("an index is missing between [ and ]")?))
     }
 
-    /// What follows `(` in a call.
+    /// Parses the arguments after `(` in a call.
     #[allow(clippy::type_complexity)]
     fn arguments(&mut self) -> Result<(Vec<Expression>, Vec<(String, Expression)>), Fault> {
         let (mut values, mut named) = (Vec::new(), Vec::new());

@@ -4,7 +4,7 @@ use cplan_xacro::{Error, Expansion, Settings, expand};
 use std::path::Path;
 use tempfile::TempDir;
 
-/// A folder with files, the first of which is the robot.
+/// A folder with files. The first is the robot.
 pub struct Files {
     pub folder: TempDir,
     main: String,
@@ -27,12 +27,12 @@ impl Files {
     }
 }
 
-/// A robot with this content.
+/// Returns a robot with this content.
 pub fn robot(content: &str) -> String {
     format!("<robot name=\"r\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n{content}\n</robot>")
 }
 
-/// What the content of a robot becomes, without blanks between elements.
+/// Returns the expanded content of a robot, without blanks between elements.
 pub fn content(text: &str) -> String {
     let whole: String = text.lines().map(str::trim).collect();
     let begin = whole.find("<robot").map_or(0, |at| at + whole[at..].find('>').unwrap() + 1);

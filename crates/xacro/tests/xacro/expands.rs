@@ -1,5 +1,6 @@
-//! What xacro means. Each expected text is what ROS's own xacro (2.1.1) makes of the same file, but for blanks
-//! (and but for `abs`, `max`, `min`, `round`, `int`, `sum` and `list`, which some of its versions only have as `python.abs` and so on).
+//! Tests of expansion. Each expected text is the output of ROS's own xacro (2.1.1) for the same file, except for
+//! blanks, and except for `abs`, `max`, `min`, `round`, `int`, `sum` and `list`, which some of its versions only have
+//! as `python.abs` and so on.
 
 use crate::common::{Files, content, robot};
 
@@ -13,7 +14,7 @@ fn becomes(text: &str, expected: &str) {
     assert_eq!(expanded(text), expected, "{text}");
 }
 
-/// The value of an expression, among some properties.
+/// Evaluates an expression with some properties.
 fn value(expression: &str) -> String {
     let text = format!(
         "<xacro:property name=\"a\" value=\"2\"/><xacro:property name=\"b\" value=\"0.5\"/><xacro:property name=\"s\" value=\"left\"/>\
@@ -151,7 +152,7 @@ fn numbers_come_from_yaml() {
     assert_eq!(content(&files.expand(&[]).unwrap().text), "<v v=\"0.25 True left\"/>");
 }
 
-/// Other namespaces, text and signs that XML escapes are what they were.
+/// Other namespaces, text and escaped characters stay unchanged.
 #[test]
 fn what_is_no_xacro_stays() {
     let text = "<robot name=\"r\" xmlns:xacro=\"http://wiki.ros.org/xacro\" xmlns:s=\"http://x/s\"><!-- gone -->\

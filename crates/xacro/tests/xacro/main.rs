@@ -1,4 +1,4 @@
-//! Expansions as a whole: what they make of files, and what they refuse.
+//! Tests of complete expansions: results and refused files.
 
 mod common;
 mod expands;

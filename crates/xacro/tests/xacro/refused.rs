@@ -1,9 +1,9 @@
-//! What is refused: with file, line and a hint, and soon.
+//! Tests of refused files: with file, line and a hint, and quickly.
 
 use crate::common::{Files, robot};
 use std::time::{Duration, Instant};
 
-/// The message, which has all parts, and comes soon on a stack of a usual size.
+/// Returns the error message, which must contain all parts, and come quickly on a stack of ordinary size.
 fn refused(files: &[(&str, &str)], arguments: &[(&str, &str)], parts: &[&str]) {
     let begun = Instant::now();
     let message = std::thread::scope(|scope| {

@@ -1,19 +1,19 @@
-//! Whether a motion follows a path.
+//! The check whether a motion follows a path.
 
 use cplan_core::space::{Configuration, Path, Recording};
 
-/// How far a motion may be off what it follows, in each joint, radians or metres: a thousand times what rounding makes of
-/// either, and the hair by which blends may be missed.
+/// Largest deviation of a motion from its path, in each joint, radians or metres: a thousand times the rounding of
+/// either, and the tolerance of blends.
 pub(super) const NEAR: f64 = 1e-6;
 
-/// Places at which each piece of the motion is looked at.
+/// Number of samples per piece of the motion.
 const LOOKS: u8 = 4;
 
-/// Whether a motion goes along a path from its beginning to its end, no farther off it than cut corners are: half of the
-/// greatest `radius` stated, none without a statement. Looked at in places all over the motion.
+/// Checks that a motion follows a path from beginning to end. Its deviation may be that of cut corners: half of the
+/// greatest stated `radius`, or none without a statement. Samples the whole motion.
 ///
 /// # Errors
-/// In words.
+/// The deviation.
 pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -> Result<(), String> {
     let q = path.waypoints();
     let longest = path.segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
@@ -55,7 +55,7 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
     Ok(())
 }
 
-/// Distance of a configuration from a straight piece.
+/// Returns the distance of a configuration from a straight piece.
 fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
     let (along, off) = (to - from, at - from);
     let length2 = along.norm_squared();
@@ -73,7 +73,7 @@ mod tests {
         follows(&Path::new(all(path)), &motion, radius).is_ok()
     }
 
-    /// A slide of 100 m turns back while the other joint goes on by less than corners may be cut by.
+    /// One joint moves 100 m and turns back, while the other moves by less than the tolerance of cut corners.
     #[test]
     fn legs_that_turn_back_are_followed_to_the_end() {
         let path = [[0.0, 0.0], [1.0, 100.0], [1.6, 60.0], [5.0, 60.0]];

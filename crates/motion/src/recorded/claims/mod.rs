@@ -1,4 +1,4 @@
-//! Whether what a result says of its motion is true.
+//! The check whether the claims of a result about its motion are true.
 //!
 //! The samples are the motion; everything else is a claim about it, which others may rely on.
 
@@ -15,10 +15,11 @@ use follow::follows;
 use std::fmt::Display;
 use thiserror::Error;
 
-/// Share by which a number may differ from the same number computed anew: a sum of as many terms as there are waypoints.
+/// Relative difference allowed between a stated and a recomputed number: a sum with as many terms as waypoints.
 const AGAIN: f64 = 1e-9;
 
-/// What computing a time anew may make of it, seconds: far above the rounding of clocks, far below what matters to a gripper.
+/// Difference allowed between a stated and a recomputed time, seconds: far above the rounding of clocks, far below the
+/// precision of grippers.
 const TIME: f64 = 1e-6;
 
 /// A claim that is false.
@@ -31,11 +32,11 @@ pub struct FalseClaim {
     pub why: String,
 }
 
-/// Collects what is false.
+/// Collects false claims.
 #[derive(Default)]
 struct Ledger {
     found: Vec<FalseClaim>,
-    /// What stands before the names of members.
+    /// Prefix of the members' names.
     within: String,
 }
 
@@ -44,21 +45,21 @@ impl Ledger {
         self.found.push(FalseClaim { claim: format!("{}{claim}", self.within), why });
     }
 
-    /// A claim that is to be a certain value.
+    /// Checks a claim that must equal a value.
     fn same<T: PartialEq + Display>(&mut self, claim: &str, stated: &T, is: &T) {
         if stated != is {
             self.note(claim, format!("stated as {stated}, but it is {is}"));
         }
     }
 
-    /// A number that is to be another, up to `within`.
+    /// Checks a number that must equal another up to `within`.
     fn number(&mut self, claim: &str, stated: Option<f64>, is: f64, within: f64) {
         if let Some(stated) = stated.filter(|stated| (stated - is).abs() > within) {
             self.note(claim, format!("stated as {stated}, but it is {is}"));
         }
     }
 
-    /// A share by which a length or a time exceeds a bound, and that the bound is none above it.
+    /// Checks that a bound is not above a length or a time, and that the stated gap is their ratio minus 1.
     fn gap(&mut self, at: &str, length: f64, lower_bound: Option<f64>, gap: Option<f64>) {
         let Some(bound) = lower_bound else { return };
         if bound.is_nan() || bound > length * (1.0 + AGAIN) {
@@ -70,7 +71,7 @@ impl Ledger {
         }
     }
 
-    /// A path, its length, and the corners that are cut, beside the motion.
+    /// Checks a path, its length, and its cut corners against the motion.
     fn path(
         &mut self,
         scene: &Scene,
@@ -116,12 +117,12 @@ impl Ledger {
                 let name = &scene.arm().joints[joint].name;
                 self.note("path", format!("waypoint {waypoint} is beyond the limits of joint \"{name}\""));
             }
-            // Nearer to the clearance than can be told apart; or free.
+            // Equal to the clearance within the resolution, or free.
             Err(Rejection::Undecided(_)) | Ok(_) => {}
         }
     }
 
-    /// A distance that is said to be kept in a scene, by what was found of the motion with the clearance asked for.
+    /// Checks a stated clearance in a scene, by the check of the motion with the required clearance.
     fn clearance(&mut self, stated: Option<Option<f64>>, scene: &Scene, recording: &Recording, found: &CollisionCheck) {
         let Some(stated) = stated else { return };
         let nearest = match found {
@@ -146,7 +147,7 @@ impl Ledger {
     }
 }
 
-/// A distance below the one stated that the motion has somewhere, and whose it is.
+/// Returns a distance below the stated one somewhere on the motion, with its pair.
 fn nearer(
     scene: &Scene,
     recording: &Recording,
@@ -154,7 +155,7 @@ fn nearer(
     seen: f64,
     pair: cplan_core::model::Pair,
 ) -> Option<(f64, cplan_core::model::Pair)> {
-    // As much as two ways of computing a distance may differ by.
+    // The difference that two methods of computing a distance may have.
     let stated = stated - AGAIN * stated.abs() - AGAIN * f64::EPSILON.sqrt();
     if seen < stated {
         return Some((seen, pair));
@@ -165,10 +166,11 @@ fn nearer(
     }
 }
 
-/// Which claims of a result are false, beside a motion through which `found` was found with the scene's clearance. What can
-/// be judged is: that there is a motion (`status`, `certified`), `units`, `duration`, that the motion follows the `path`, that the path
-/// itself is free and as long as stated, that no obstacle is nearer than the `clearance` stated, and that bounds and gaps go with
-/// lengths. That bounds are bounds is not.
+/// Returns the false claims of a result, given the collision check `found` of its motion with the scene's clearance.
+///
+/// It checks that there is a motion (`status`, `certified`), `units`, `duration`, that the motion follows the `path`,
+/// that the path itself is free and as long as stated, that no obstacle is nearer than the stated `clearance`, and that
+/// bounds and gaps agree with lengths. It does not check that lower bounds are valid.
 #[must_use]
 pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found: &CollisionCheck) -> Vec<FalseClaim> {
     let mut ledger = Ledger::default();
@@ -185,7 +187,7 @@ pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found:
 }
 
 impl Ledger {
-    /// What is said of any motion.
+    /// Checks the claims about any motion.
     fn general(&mut self, arm: &Arm, recording: &Recording, claims: &Claims) {
         // An exploration's motion is one, too, however it ended; what ends otherwise without a motion has none to judge.
         let of_exploration = ["reached", "explored", "unreachable", "unknown"];

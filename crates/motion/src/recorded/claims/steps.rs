@@ -1,4 +1,4 @@
-//! What a result says of the steps of a task.
+//! The check of a result's claims about the steps of a task.
 
 use super::{FalseClaim, Ledger, TIME};
 use crate::recorded::replay::{AT, angle_between};
@@ -8,7 +8,7 @@ use cplan_core::model::{Action, Claims, EventClaim, RecordedStep, Task};
 use cplan_core::space::{Configuration, Recording};
 use cplan_geometry::Point;
 
-/// Which claims of a result are false that are about one of its steps, the one of this `index`, beside what became of it.
+/// Returns the false claims of a result about the step with this `index`, given its replay.
 #[must_use]
 pub fn step_claims_kept(
     task: &Task,
@@ -52,8 +52,8 @@ pub fn step_claims_kept(
     ledger.found
 }
 
-/// Which claims of a result are false that are about the whole task: what the gripper does when and where, the steps of the
-/// samples, and what holds of any motion. `happened` is what it did.
+/// Returns the false claims of a result about the whole task: times and places of gripper events, the steps of the
+/// samples, and general claims. `happened` lists the actual events.
 #[must_use]
 pub fn task_claims_kept(
     task: &Task,
@@ -97,7 +97,7 @@ pub fn task_claims_kept(
 }
 
 impl Ledger {
-    /// A distance that is said to be kept while the wrist turns. What is proven of it is a bound, and known to a resolution.
+    /// Checks a stated clearance of a turn of the wrist. The proven distance is a bound with a known resolution.
     fn turn(&mut self, task: &Task, replayed: &ReplayedStep, stated: Option<Option<f64>>, claim: &str) {
         let (Some(stated), Some(Ok(free))) = (stated, replayed.turn.map(|turn| turn.verdict)) else { return };
         let most = free.clearance + turn_resolution(&task.arm, task.workspace.clearance);

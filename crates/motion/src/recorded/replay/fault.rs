@@ -1,9 +1,9 @@
-//! In what a recorded task is not the one asked for.
+//! Differences between a recorded task and the requested one.
 
 use cplan_core::space::Configuration;
 use thiserror::Error;
 
-/// In what a step is not what was asked for.
+/// A difference between a step and the requested one.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Fault {
     /// The first motion does not begin at the task's start.
@@ -12,18 +12,18 @@ pub enum Fault {
     /// A move of the joints ends elsewhere.
     #[error("it ends at ({}, {}), not at ({}, {})", is[0], is[1], target[0], target[1])]
     Joints {
-        /// Where it ends.
+        /// The recorded end.
         is: Configuration,
-        /// Where it was to end.
+        /// The required end.
         target: Configuration,
     },
     /// The tip is not where it was to go.
     #[error("the tip ends {off:.6} m from its target")]
     Tip {
-        /// How far it is from there, metres.
+        /// Distance of the tip from there, metres.
         off: f64,
     },
-    /// What moves is picked at a time at which it may not be.
+    /// A moving object is picked at a time outside its window.
     #[error("the object is picked at {time:.6} s, outside the times that are asked for")]
     When {
         /// When it is, seconds.
@@ -32,46 +32,46 @@ pub enum Fault {
     /// The object that is placed is not where it was to go.
     #[error("the object's origin ends {off:.6} m from its target")]
     Origin {
-        /// How far it is from there, metres.
+        /// Distance of the object from there, metres.
         off: f64,
     },
     /// The object that is placed is not turned as it was to be.
     #[error("the object is let go of {off:.6} rad from the angle asked for")]
     Angle {
-        /// By how much, radians.
+        /// The difference, radians.
         off: f64,
     },
     /// The arm does not stand still for long enough.
     #[error("the arm stands still for {stood:.6} s, not for {asked:.6} s")]
     Rest {
-        /// How long it does, seconds.
+        /// The recorded rest, seconds.
         stood: f64,
-        /// How long it was to: for the step's dwell, the turn of the wrist and the stroke of the tool.
+        /// The required rest: for the step's dwell, the turn of the wrist and the stroke of the tool.
         asked: f64,
     },
     /// The wrist turns from an orientation that the object does not have.
     #[error("the wrist turns from an angle that is {off:.6} rad from the object's")]
     Turn {
-        /// How far it is from that, radians.
+        /// Difference from that orientation, radians.
         off: f64,
     },
     /// The wrist turns faster than it can.
     #[error("the wrist turns in {seconds:.6} s, but needs {least:.6} s")]
     TooFast {
-        /// What was recorded.
+        /// The recorded duration.
         seconds: f64,
-        /// What it takes at the least.
+        /// The least possible duration.
         least: f64,
     },
     /// The world has no wrist that could turn.
     #[error("the wrist turns, but the world has none")]
     NoWrist,
-    /// Nothing is held that a wrist could turn.
+    /// There is no carried object that a wrist could turn.
     #[error("the wrist turns, but holds nothing level")]
     Nothing,
 }
 
-/// Where a record departs from the sequence of its task.
+/// The point at which a record departs from the sequence of its task.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Departure {
     /// Something else was to be done.
@@ -83,15 +83,15 @@ pub enum Departure {
         number: usize,
         /// The repetition that the record says it belongs to.
         cycle: usize,
-        /// What was to be done, in words.
+        /// Description of the expected step.
         expected: String,
     },
     /// The record ends before the task does.
     #[error("after {count} steps the world asks for {expected}, but there are no more")]
     Missing {
-        /// How many steps there are.
+        /// The number of steps.
         count: usize,
-        /// What was to be done, in words.
+        /// Description of the expected step.
         expected: String,
     },
     /// A step begins before the one before it ends.
@@ -115,7 +115,7 @@ pub enum Departure {
 }
 
 impl Departure {
-    /// The number of recorded steps before it.
+    /// Returns the number of recorded steps before it.
     #[must_use]
     pub fn index(&self) -> usize {
         match *self {

@@ -1,8 +1,8 @@
-//! Does a recorded task again and judges it: whether it is the task that the world asks for, and whether every motion and
-//! every turn of it is free.
+//! Replays and judges a recorded task: whether it is the task of the world, and whether every motion and every turn is
+//! free.
 //!
-//! Shares nothing with the search for tasks but their types: what lies where, what is carried and how, and what may be
-//! touched follows from the world's steps and from where the recorded arm is.
+//! It shares only data types with the search for tasks. The places of objects, the load, its pose and the permitted
+//! contacts follow from the world's steps and from the recorded configurations.
 
 mod fault;
 mod order;
@@ -17,12 +17,12 @@ use cplan_geometry::{Interval, Point, Pose};
 use order::{Matched, matched};
 use state::{State, stroke_seconds};
 
-/// Where something is and where it is asked to be may differ by this, metres or radians: a thousand times what inverse
-/// kinematics leaves, and less than any arm repeats.
+/// Largest difference between an actual and a required place, metres or radians: a thousand times the error of inverse
+/// kinematics, and below the repeatability of any arm.
 pub(super) const AT: f64 = 1e-6;
 
-/// Times may fall short of what is asked for by this, seconds: far above the rounding of clocks, and of rests that are
-/// too short to be sampled; far below what a gripper needs.
+/// Largest amount by which times may be too short, seconds: far above the rounding of clocks and rests too short to be
+/// sampled, far below the precision of grippers.
 const SHORT: f64 = 1e-6;
 
 /// A turn of the wrist that was judged.
@@ -34,33 +34,33 @@ pub struct ReplayedTurn {
     pub verdict: Result<WristTurn, TurnContact>,
 }
 
-/// What the gripper does in a step.
+/// A gripper event in a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Happening {
     /// The step's number in the world file, from 1.
     pub step: usize,
-    /// Which repetition of it, from 1.
+    /// Number of its repetition, from 1.
     pub cycle: usize,
-    /// The object that it takes or lets go of.
+    /// The object that it takes or releases.
     pub object: usize,
-    /// Seconds from the beginning of the record: the end of the motion, of the turn before an object is let go of,
-    /// and of the way down of the tool.
+    /// Seconds from the beginning of the record: the end of the motion, of the turn before a release, and of the tool's
+    /// way down.
     pub time: f64,
-    /// Where the tip is.
+    /// Position of the tip.
     pub tip: Point,
-    /// Where the object lies from then on, if it is let go of.
+    /// Pose of the object from then on, if it is released.
     pub pose: Option<Pose>,
 }
 
 /// A step that was judged.
 #[derive(Debug, Clone)]
 pub struct ReplayedStep<'a> {
-    /// What was to be done.
+    /// The required step.
     pub step: &'a Step,
-    /// What was recorded of it.
+    /// The recorded step.
     pub recorded: &'a RecordedStep,
-    /// The world during the motion, on a clock that begins with it, and what is carried. Of a last step whose motion is free, but not how it leaves the arm, the
-    /// world then.
+    /// The world during the motion, on a clock that starts with it, with the load. For a last step whose motion is free
+    /// but which leaves the arm in contact, the world at that time.
     pub scene: Scene,
     /// The object that is picked or placed.
     pub object: Option<usize>,
@@ -70,7 +70,7 @@ pub struct ReplayedStep<'a> {
     pub seconds: f64,
     /// Seconds from the beginning of the record to that of the motion, to its end, and to the next motion or the end.
     pub times: [f64; 3],
-    /// What the gripper does, if anything.
+    /// The gripper event, if there is one.
     pub event: Option<Happening>,
     /// The motion among the obstacles of the scene; moments are the whole recording's.
     pub collision_check: CollisionCheck,
@@ -78,7 +78,7 @@ pub struct ReplayedStep<'a> {
     pub broken: Vec<Excess>,
     /// The turn of the wrist after it. None too for one that was recorded with nothing in the hand to turn, which is a fault.
     pub turn: Option<ReplayedTurn>,
-    /// In what the step is not what was asked for.
+    /// Differences from the required step.
     pub faults: Vec<Fault>,
 }
 
@@ -94,20 +94,21 @@ pub struct Replay<'a> {
     state: State,
 }
 
-/// Puts the steps of a record beside those of the task: fixed steps in order, pairs of a free group in any order, and between
-/// them the arm stands still. Iterating then judges, up to where the record departs from the task:
+/// Matches the steps of a record with those of the task: fixed steps in order, pairs of a free group in any order;
+/// between them the arm stands still. Iteration then judges each step, up to the point where the record departs from
+/// the task:
 ///
-/// - each motion from rest to rest, by [`check_collision`] with the workspace's clearance, in the scene of its moment: objects where
-///   the steps before have left them; what is carried, held as the arm was when it took it; link 2 free to meet the object
-///   that it goes to and the one that it has just let go of; payloads free to rest on their supports. The last step's end is judged after it, too. And by [`limits_kept`];
-/// - among what moves where that is then, on the clock of the record, from its first sample on; objects that move are picked at times at which
-///   they may be, and the arm is met by nothing where it stands between motions;
-/// - at its end, that the tip is at the grasp, the object or the arm where it was to go, within a micrometre; that turns
-///   begin at the object's orientation, take as long as the wrist needs, and are free all the way ([`super::given_turn`]);
-///   that the arm stands still for as long as was asked for, the turn, and the stroke of the tool, which is free, too, at all
-///   the heights that it takes.
+/// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance in the scene of its moment,
+///   and by [`limits_kept`]. Objects are where previous steps have left them, and the load is held as it
+///   was taken. Link 2 may touch the object that it takes and the one that it has just released; payloads may rest on
+///   their supports. The state after the last step is judged, too.
+/// - Moving obstacles, at their places on the clock of the record, from its first sample. Moving objects must be picked
+///   within their windows, and the arm must stay free where it stands between motions.
+/// - The end of each step: the tip is at the grasp, and the object or the arm at its target, within a micrometre. Turns
+///   start at the object's orientation, take as long as the wrist needs, and are free ([`super::given_turn`]). The arm
+///   stands still for the dwell, the turn, and the stroke of the tool, which must be free at all its heights.
 ///
-/// `O(n)` for `n` samples but for the motions.
+/// `O(n)` for `n` samples, plus the checks of motions.
 #[must_use]
 pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
     let (matched, departure) = matched(task, recording, recorded);
@@ -122,13 +123,13 @@ impl Replay<'_> {
         [since(*recorded.samples.start()), since(*recorded.samples.end()), since(self.next_begins(index))]
     }
 
-    /// The sample with which the step after this one begins, or the last.
+    /// Returns the first sample of the next step, or the last sample.
     fn next_begins(&self, index: usize) -> usize {
         let last = self.recording.positions().len() - 1;
         self.recorded.get(index + 1).map_or(last, |next| *next.samples.start())
     }
 
-    /// Where the record departs from the sequence of the task; none if it is the whole task.
+    /// Returns the point where the record departs from the sequence of the task, or `None` if it is the whole task.
     #[must_use]
     pub fn departure(&self) -> Option<&Departure> {
         self.departure.as_ref()
@@ -171,7 +172,7 @@ impl<'a> Iterator for Replay<'a> {
                 if self.state.stop(task, *picked, times[1]) && !(when.is_empty() || when.iter().any(is_in_time)) {
                     faults.push(Fault::When { time: times[1] });
                 }
-                // What the place that follows rests it on is declared there.
+                // The following place step declares the supports.
                 let following = self.matched[index + 1..].iter().find_map(|next| match &next.step.action {
                     Action::Place { supports, .. } => Some(supports.as_slice()),
                     _ => None,
@@ -196,7 +197,7 @@ impl<'a> Iterator for Replay<'a> {
             + recorded.turn.map_or(0.0, |turn| turn.seconds)
             + object.map_or(0.0, |object| stroke_seconds(task, object));
         let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
-        // Where the arm stands among what moves it may be met.
+        // A moving obstacle may hit the arm where it stands.
         if task.has_movers()
             && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = self.recording.part(*recorded.samples.end()..=self.next_begins(index))
@@ -219,8 +220,8 @@ impl<'a> Iterator for Replay<'a> {
                 _ => {}
             }
         }
-        // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by. So does one after which objects are renewed,
-        // but what it has let go of before is still there.
+        // The next step begins in the state after this one. The last step's state remains, with the contacts of its
+        // motion. So does the state before objects are renewed, in which released objects are still present.
         let next = self.matched.get(self.next);
         let (is_last, is_renewed) = (next.is_none(), next.is_some_and(|next| !next.renewed.is_empty()));
         if (is_last || is_renewed)
@@ -266,12 +267,12 @@ impl<'a> Iterator for Replay<'a> {
     }
 }
 
-/// Whether two configurations are the same, up to whole turns of joints on a circle.
+/// Returns true if two configurations are equal up to whole turns of joints on a circle.
 fn same(task: &Task, a: Configuration, b: Configuration) -> bool {
     task.arm.topology().displacement(a, b).amax() <= AT
 }
 
-/// By how much a motion misses the goal of a move.
+/// Returns the distance of a motion's end from the goal of a move.
 fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
     match goal {
         Goal::Joints(target) => (!same(task, q, *target)).then_some(Fault::Joints { is: q, target: *target }),
@@ -283,12 +284,12 @@ fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
     }
 }
 
-/// The difference between two orientations, from none to half a turn.
+/// Returns the difference between two orientations, from zero to half a turn.
 pub(super) fn angle_between(a: f64, b: f64) -> f64 {
     JointRange::Circle.displacement(b, a).abs()
 }
 
-/// What was found, with the samples counted from the beginning of the whole recording.
+/// Returns the check with samples counted from the beginning of the whole recording.
 fn shifted(mut collision_check: CollisionCheck, by: usize) -> CollisionCheck {
     match &mut collision_check {
         CollisionCheck::Free { nearest, .. } => nearest.iter_mut().for_each(|nearest| nearest.moment.sample += by),

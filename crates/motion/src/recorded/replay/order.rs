@@ -1,4 +1,4 @@
-//! Whether recorded steps are the task's, one after the other.
+//! The match of recorded steps with those of the task.
 
 use super::Departure;
 use cplan_core::model::{Item, RecordedStep, Step, Task};
@@ -10,11 +10,11 @@ pub(super) struct Matched<'a> {
     pub step: &'a Step,
     /// Objects that are supplied before it.
     pub renewed: Vec<usize>,
-    /// Seconds that the arm stands still after its motion; none where the record departs from the task after it.
+    /// Seconds of rest after its motion; `None` if the record departs from the task after it.
     pub rest: Option<f64>,
 }
 
-/// The steps of the task in the order of the record, up to where that departs from it.
+/// Returns the steps of the task in the order of the record, up to the point where it departs from the task.
 pub(super) fn matched<'a>(
     task: &'a Task,
     recording: &Recording,
@@ -52,10 +52,11 @@ pub(super) fn matched<'a>(
     (all, None)
 }
 
-/// Seconds that the arm stands still from one sample to another.
+/// Returns the seconds of rest from one sample to another.
 ///
 /// # Errors
-/// The sample at or after which it moves. Nothing is allowed for rounding: what stands has one position, and velocity 0.
+/// The sample at or after which it moves. There is no tolerance for rounding: at rest all positions are equal and
+/// velocities 0.
 fn stands(recording: &Recording, first: usize, last: usize) -> Result<f64, usize> {
     let (positions, zero) = (recording.positions(), Configuration::zeros());
     for sample in first..last {
@@ -67,11 +68,11 @@ fn stands(recording: &Recording, first: usize, last: usize) -> Result<f64, usize
     Ok(recording.times().map_or(0.0, |times| times[last] - times[first]))
 }
 
-/// What is next in a task.
+/// The next items of a task.
 struct Order<'a> {
     items: &'a [Item],
     item: usize,
-    /// Of a free group that has begun, the pairs that are not done.
+    /// For a free group that has begun, the remaining pairs.
     open: Vec<&'a [Step; 2]>,
     /// The pair whose object is carried.
     half: Option<&'a [Step; 2]>,
@@ -79,7 +80,7 @@ struct Order<'a> {
 }
 
 impl<'a> Order<'a> {
-    /// Goes on to the next item that asks for a step.
+    /// Advances to the next item with a step.
     fn settle(&mut self) {
         while self.open.is_empty() && self.half.is_none() {
             match self.items.get(self.item) {
@@ -91,7 +92,7 @@ impl<'a> Order<'a> {
         }
     }
 
-    /// The steps that can be next; none at the end.
+    /// Returns the steps that may come next; empty at the end.
     fn candidates(&mut self) -> Vec<&'a Step> {
         self.settle();
         match (self.half, self.items.get(self.item)) {
@@ -102,10 +103,10 @@ impl<'a> Order<'a> {
         }
     }
 
-    /// The step that a record names.
+    /// Returns the step that a record names.
     ///
     /// # Errors
-    /// What would have to be next, in words.
+    /// A description of the expected steps.
     fn take(&mut self, record: &RecordedStep) -> Result<&'a Step, String> {
         let is_it = |step: &&&Step| step.number == record.number && step.cycle == record.cycle;
         let Some(&step) = self.candidates().iter().find(is_it) else {
@@ -121,7 +122,7 @@ impl<'a> Order<'a> {
         Ok(step)
     }
 
-    /// What is next, in words; none at the end.
+    /// Describes the next step, or returns `None` at the end.
     fn expected(&mut self) -> Option<String> {
         let candidates = self.candidates();
         let first = candidates.first()?;

@@ -1,4 +1,4 @@
-//! Where everything is between the steps of a record.
+//! The places of all objects between the steps of a record.
 
 use super::super::given_turn;
 use super::{AT, Fault, ReplayedTurn, SHORT, angle_between};
@@ -6,15 +6,15 @@ use cplan_core::model::{Action, Grip, Holding, Object, Payload, RecordedTurn, Sc
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose};
 
-/// Where the objects are, and what the arm carries.
+/// The places of the objects, and the load.
 #[derive(Debug, Clone)]
 pub(super) struct State {
-    /// Of each object, where it lies; none while it is carried.
+    /// Pose of each object; `None` while it is carried.
     poses: Vec<Option<Pose>>,
-    /// Those that move as yet, and lie nowhere.
+    /// Objects that are still moving and have no fixed pose.
     moving: Vec<usize>,
     held: Option<(usize, Payload)>,
-    /// The object just let go of.
+    /// The object just released.
     released: Option<usize>,
 }
 
@@ -40,7 +40,7 @@ impl State {
         moved.is_some()
     }
 
-    /// Where an object lies; none while it is carried.
+    /// Returns the pose of an object, or `None` while it is carried.
     pub fn pose(&self, object: usize) -> Option<Pose> {
         self.poses[object]
     }
@@ -49,12 +49,12 @@ impl State {
         self.held.as_ref().map(|(object, _)| *object)
     }
 
-    /// The object just let go of.
+    /// Returns the object just released.
     pub fn released(&self) -> Option<usize> {
         self.released
     }
 
-    /// The scene as it is, on the clock of the task. Link 2 is free to meet the object just let go of, and another one.
+    /// Returns the current scene, on the clock of the task. Link 2 may touch the object just released, and another one.
     pub fn scene(&self, task: &Task, allowed_contacts: Option<usize>) -> Scene {
         let allowed_contacts: Vec<usize> =
             self.released.into_iter().chain(allowed_contacts).map(|o| task.number_among(&self.moving, o)).collect();
@@ -63,8 +63,8 @@ impl State {
         Scene::handling_trusted(task.arm.clone(), workspace, payload, &allowed_contacts)
     }
 
-    /// Takes the object that a step picks with the arm at `q`, held as it lies to the arm then; `then` is what it will rest
-    /// on. What is not as asked for.
+    /// Takes the object that a step picks with the arm at `q`, in the current relative pose. `then` lists its next
+    /// supports. Returns the difference from the required grasp.
     pub fn grasp(&mut self, task: &Task, q: Configuration, step: &Step, grasp: Point, then: &[usize]) -> Option<Fault> {
         let Action::Pick { object, supports, .. } = &step.action else { return None };
         let (object, arm) = (*object, &task.arm);
@@ -83,7 +83,7 @@ impl State {
         (off > AT).then_some(Fault::Tip { off })
     }
 
-    /// Lets go of what is carried with the arm at `q`. What is not as asked for.
+    /// Releases the load with the arm at `q`. Returns the differences from the required place.
     pub fn release(&mut self, task: &Task, q: Configuration, at: Point, angle: Option<f64>) -> Vec<Fault> {
         // Places of a task follow picks.
         let Some((object, payload)) = self.held.take() else { return Vec::new() };
@@ -101,7 +101,7 @@ impl State {
         faults
     }
 
-    /// The scene with the tool, and what it holds, while it is lowered: see [`Task::lowered`].
+    /// Returns the scene with the lowered tool and its load: see [`Task::lowered`].
     pub fn lowered(&self, task: &Task, is_placed: bool) -> Option<Scene> {
         let (object, payload) = self.held.as_ref()?;
         let (arm, heights) = task.lowered(*object, is_placed)?;
@@ -110,12 +110,13 @@ impl State {
         Some(Scene::handling_trusted(arm, task.obstacles(&self.poses), Some(payload), &allowed_contacts))
     }
 
-    /// Goes on after a motion without an event.
+    /// Continues after a motion without an event.
     pub fn moved(&mut self) {
         self.released = None;
     }
 
-    /// Judges and makes a turn of the wrist with the arm at `q`; none if nothing can turn. Adds what is not as it should be.
+    /// Judges and performs a turn of the wrist with the arm at `q`. Returns `None` if nothing can turn. Adds its
+    /// faults.
     pub fn turn(
         &mut self,
         task: &Task,
@@ -152,7 +153,7 @@ impl State {
     }
 }
 
-/// Least seconds in which the tool goes down to an object and up again.
+/// Returns the least seconds in which the tool moves down to an object and up again.
 pub(super) fn stroke_seconds(task: &Task, object: usize) -> f64 {
     task.stroke.as_ref().map_or(0.0, |stroke| {
         let depth = stroke.depth(&task.objects[object]).abs();
@@ -160,8 +161,8 @@ pub(super) fn stroke_seconds(task: &Task, object: usize) -> f64 {
     })
 }
 
-/// Least seconds for a way from rest to rest: up to the top speed, along at it, and down; or, where there is no room
-/// for that, up and down.
+/// Returns the least seconds for a distance from rest to rest: up to the top speed, at top speed, and down; or, if the
+/// distance is too short, up and down.
 fn least_seconds(way: f64, velocity: f64, acceleration: f64) -> f64 {
     let ramps = velocity * velocity / acceleration;
     if way > ramps {

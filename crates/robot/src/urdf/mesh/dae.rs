@@ -1,6 +1,6 @@
-//! Collada: geometries, and the scene of nodes in which they lie, in the unit of the file.
+//! Collada: geometries, and the scene of nodes that place them, in the unit of the file.
 //!
-//! As RViz and MoveIt have it, coordinates are the file's own, whatever axis it calls up.
+//! As in RViz and MoveIt, coordinates are the file's own, whichever axis it declares as up.
 
 use nalgebra::{Matrix4, Point3, Rotation3, Unit, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -49,7 +49,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     Ok(scene.points)
 }
 
-/// The text from its XML declaration on, if only comments stand before that: XML forbids them there, and some programs write them.
+/// Returns the text from its XML declaration on, if only comments precede it. XML forbids them there, but some programs
+/// write them.
 fn from_declaration(text: &str) -> &str {
     let text = text.trim_start_matches('\u{feff}');
     let mut rest = text.trim_start();
@@ -59,12 +60,12 @@ fn from_declaration(text: &str) -> &str {
     if rest.starts_with("<?xml") { rest } else { text }
 }
 
-/// The first child of that name.
+/// Returns the first child with a name.
 fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
     node.children().find(|child| child.tag_name().name() == name)
 }
 
-/// All elements of that name below.
+/// Iterates over all descendants with a name.
 fn named<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterator<Item = Node<'a, 'i>> {
     node.descendants().filter(move |node| node.tag_name().name() == name)
 }
@@ -76,7 +77,7 @@ struct Scene<'a, 'i> {
 }
 
 impl<'a, 'i> Scene<'a, 'i> {
-    /// What an element refers to by `url` or `source`.
+    /// Returns the element to which an element refers by `url` or `source`.
     fn target(&self, node: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
         let id = node.attribute("url").or(node.attribute("source"))?.strip_prefix('#')?;
         self.ids.get(id).copied()
@@ -108,7 +109,7 @@ impl<'a, 'i> Scene<'a, 'i> {
         Ok(())
     }
 
-    /// The positions that the mesh of a geometry has.
+    /// Returns the positions in the mesh of a geometry.
     fn geometry(&mut self, geometry: Node<'a, 'i>, pose: &Matrix4<f64>) -> Result<(), String> {
         for vertices in named(geometry, "vertices") {
             let mut inputs = vertices.children().filter(|input| input.attribute("semantic") == Some("POSITION"));
@@ -129,13 +130,13 @@ impl<'a, 'i> Scene<'a, 'i> {
     }
 }
 
-/// The numbers of an element's text.
+/// Returns the numbers in an element's text.
 fn numbers(node: Node) -> Result<Vec<f64>, String> {
     let words = node.text().unwrap_or_default().split_whitespace();
     words.map(|word| word.parse().map_err(|_| format!("\"{word}\" is no number"))).collect()
 }
 
-/// From a node's coordinates to those of the one around it: its transformations, the first of them outermost.
+/// Returns the map from a node's coordinates to its parent's: its transformations, the first of them outermost.
 fn transform(node: Node) -> Result<Matrix4<f64>, String> {
     let mut all = Matrix4::identity();
     for part in node.children() {

@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct Mesh {
     /// Vertices of its faces.
     pub points: Vec<Point3<f64>>,
-    /// Ends of the edges of its faces, into `points`, an edge once or more often; none if the reader does not know the faces.
+    /// Edges of its faces, as pairs of indices into `points`, possibly repeated; empty if the reader does not know the
+    /// faces.
     pub edges: Vec<[u32; 2]>,
 }
 
@@ -43,13 +44,14 @@ impl From<String> for Unread {
     }
 }
 
-/// A mesh, scaled, in the geometry's frame.
+/// Reads a mesh, scaled, in the geometry's frame.
 ///
-/// `filename` is as in the URDF: `package://name/rest` (`name` as the `package.xml` has it), `file://path`, absolute, or relative to the
-/// URDF's folder.
+/// `filename` is as in the URDF: `package://name/rest` (with the `name` in `package.xml`), `file://path`, absolute, or
+/// relative to the URDF's folder.
 ///
 /// # Errors
-/// With the places that were searched: the file is missing, the URDF is no file, of a format that is not read, broken, or too large.
+/// With the searched places: the file is missing, the URDF is not a file, or the mesh has an unknown format, is
+/// damaged, or is too large.
 pub(super) fn read(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Mesh, Unread> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !["stl", "dae", "obj"].contains(&extension.as_str()) {
@@ -73,7 +75,7 @@ pub(super) fn read(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Mes
     }
 }
 
-/// A vertex that scaled is nowhere, or where no arm can be.
+/// Returns the error about a vertex that is not finite after scaling, or too far for any arm.
 fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> Unread {
     let [x, y, z] = vertex.coords.into();
     let [a, b, c] = scale;
@@ -87,10 +89,10 @@ fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> Unread {
     Unread { message, cure }
 }
 
-/// The file of a mesh.
+/// Returns the file of a mesh.
 ///
 /// # Errors
-/// With the places that were searched.
+/// With the searched places.
 pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
     if let Some(path) = candidates(filename, urdf).find(|path| path.is_file()) {
         return Ok(path);
@@ -103,7 +105,7 @@ pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
     })
 }
 
-/// Where a mesh may be, likeliest first.
+/// Iterates over the possible places of a mesh, likeliest first.
 fn candidates<'f>(filename: &'f str, urdf: &Path) -> Box<dyn Iterator<Item = PathBuf> + 'f> {
     let folder = urdf.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if let Some(path) = filename.strip_prefix("file://") {

@@ -3,7 +3,7 @@
 use super::Mesh;
 use nalgebra::Point3;
 
-/// The faces.
+/// Reads the faces.
 pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
     let (mut vertices, mut mesh) = (Vec::new(), Mesh::default());
     let mut lines = bytes.split(|&byte| byte == b'\n').zip(1..);
@@ -16,7 +16,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
             piece = lines.next().map_or(&[], |(next, _)| next);
         }
         line.extend_from_slice(piece);
-        // Names may be in any encoding; what is of interest is ASCII.
+        // Names may be in any encoding; the relevant parts are ASCII.
         let line = String::from_utf8_lossy(&line);
         let mut words = line.split_whitespace();
         match words.next() {
@@ -47,7 +47,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-/// What a line says that goes on in the next, by a backslash at its end. Comments end with their line: they may name folders.
+/// Returns the content of a line that continues on the next by a final backslash. Comments end with their line, because
+/// they may contain folder names.
 fn continued(line: &[u8]) -> Option<&[u8]> {
     line.trim_ascii_end().strip_suffix(b"\\").filter(|begun| !begun.trim_ascii_start().starts_with(b"#"))
 }

@@ -8,7 +8,7 @@ use std::io::Cursor;
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
-/// The triangles.
+/// Reads the triangles.
 pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     let count = bytes.get(80..HEADER).and_then(|c| c.try_into().ok()).map(u32::from_le_bytes);
     let binary = count.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + TRIANGLE as u64 * u64::from(n));
@@ -28,9 +28,10 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     if mesh.points.is_empty() { Err("the mesh has no triangle".into()) } else { Ok(mesh) }
 }
 
-/// The triangles of an STL in words: solids one after the other, each from `solid` to `endsolid`. (`stl_io` reads the first one alone.)
+/// Reads the triangles of a text STL: consecutive solids, each from `solid` to `endsolid`. (`stl_io` reads only the
+/// first one.)
 fn text(text: &str) -> Result<Mesh, String> {
-    /// What a facet has, line by line.
+    /// The lines of a facet.
     const FACET: [&str; 7] = ["facet normal", "outer loop", "vertex", "vertex", "vertex", "endloop", "endfacet"];
     let mut mesh = Mesh::default();
     // The line of a facet that is next; none outside of solids.

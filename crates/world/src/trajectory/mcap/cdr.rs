@@ -1,15 +1,15 @@
 //! Messages in the bytes that ROS 2 sends: plain CDR, little endian (OMG DDSI-RTPS 2.5, section 10).
 
-/// Reads values one after the other: each lies at a multiple of its own size, counted from the end of the header of four
-/// bytes. None where the bytes end before the value does.
+/// Reads values in sequence. Each is aligned to its own size, counted from the end of the four-byte header. Returns
+/// `None` if the bytes end before the value.
 pub(super) struct Cdr<'a> {
-    /// What follows the header.
+    /// The bytes after the header.
     content: &'a [u8],
     at: usize,
 }
 
 impl<'a> Cdr<'a> {
-    /// A message; none if its header says that it is encoded otherwise.
+    /// Reads a message, or returns `None` if its header announces another encoding.
     pub fn new(bytes: &'a [u8]) -> Option<Self> {
         let content = bytes.strip_prefix(&[0, 1])?.get(2..)?;
         Some(Self { content, at: 0 })
@@ -34,7 +34,7 @@ impl<'a> Cdr<'a> {
         self.take().map(f64::from_le_bytes)
     }
 
-    /// A `string`, whose length counts the zero at its end.
+    /// Reads a `string`, whose length includes the final zero.
     pub fn string(&mut self) -> Option<String> {
         let length = self.u32()? as usize;
         let bytes = self.content.get(self.at..self.at.checked_add(length)?)?;
@@ -50,7 +50,8 @@ impl<'a> Cdr<'a> {
         self.sequence(8, Self::f64)
     }
 
-    /// A sequence of elements, each of so many bytes at the least: a length that the rest cannot hold is none.
+    /// Reads a sequence of elements of at least this many bytes each. Returns `None` for a length that exceeds the
+    /// remaining bytes.
     pub fn sequence<T>(&mut self, least: usize, mut element: impl FnMut(&mut Self) -> Option<T>) -> Option<Vec<T>> {
         let length = self.u32()? as usize;
         if length.checked_mul(least)? > self.content.len() {
@@ -59,12 +60,12 @@ impl<'a> Cdr<'a> {
         (0..length).map(|_| element(self)).collect()
     }
 
-    /// A `Time` or `Duration`: seconds and nanoseconds.
+    /// Reads a `Time` or `Duration`: seconds and nanoseconds.
     pub fn nanoseconds(&mut self) -> Option<i64> {
         Some(i64::from(self.i32()?) * 1_000_000_000 + i64::from(self.u32()?))
     }
 
-    /// A `Header`: its stamp, nanoseconds.
+    /// Reads the stamp of a `Header`, nanoseconds.
     pub fn header(&mut self) -> Option<i64> {
         let stamp = self.nanoseconds()?;
         self.string()?;

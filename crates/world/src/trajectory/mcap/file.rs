@@ -47,7 +47,7 @@ pub(super) fn each_message(bytes: &[u8], mut visit: impl FnMut(&Channel, u64, &[
     Ok(())
 }
 
-/// A chunk's records as they are without compression, and a header that says so.
+/// Returns a chunk's records decompressed, with a matching header.
 fn decompressed(header: ChunkHeader, data: &[u8]) -> McapResult<(ChunkHeader, Cow<'_, [u8]>)> {
     let wrong = |why: String| McapError::DecompressionError(why);
     let size = header.uncompressed_size;

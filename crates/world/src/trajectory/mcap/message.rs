@@ -3,7 +3,7 @@
 use super::cdr::Cdr;
 use std::rc::Rc;
 
-/// What a topic publishes, as far as it is read.
+/// The kinds of messages that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Kind {
     /// Motions for a controller.
@@ -13,7 +13,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// The kind of a message type; none of types that are not read.
+    /// Returns the kind of a message type, or `None` for types that are not read.
     pub fn of(schema: &str) -> Option<Self> {
         match schema {
             "trajectory_msgs/msg/JointTrajectory" => Some(Self::Trajectory),
@@ -40,7 +40,7 @@ pub(super) struct Message {
 }
 
 impl Message {
-    /// Reads a message in CDR; none if it is not of the kind.
+    /// Reads a message in CDR, or returns `None` if it is not of the kind.
     pub fn read(kind: Kind, bytes: &[u8], logged: i64) -> Option<Self> {
         let mut cdr = Cdr::new(bytes)?;
         let stamp = cdr.header()?;
@@ -56,7 +56,7 @@ impl Message {
         Some(Self { stamp, logged, joints, rows })
     }
 
-    /// Whether it has positions of this joint.
+    /// Returns true if it has positions of this joint.
     pub fn names(&self, joint: &str) -> bool {
         self.joints.iter().any(|name| name == joint)
     }

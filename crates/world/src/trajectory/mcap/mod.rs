@@ -11,12 +11,12 @@ use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use message::{Kind, Message, Row};
 use topics::Topic;
 
-/// Reads a recording: the motions of a topic, one after the other, between which the arm stands still, or states. The topic
-/// is the one that is `asked` for, or see [`topics::choose`].
+/// Reads a recording: the motions on a topic in sequence, between which the arm stands still, or states. The topic is
+/// the `asked` one, or see [`topics::choose`].
 ///
 /// # Errors
-/// Files that are no MCAP, topics of which none or several have the arm's joints, messages that are none, and motions that do not
-/// fit together.
+/// Files that are not MCAP, no topic or several with the arm's joints, invalid messages, and motions that do not fit
+/// together.
 pub(super) fn read(source: &Source, bytes: &[u8], asked: Option<&str>, names: &Names) -> Result<Samples, InputError> {
     let topics = topics::all(bytes).map_err(|error| topics::unreadable(source, &error))?;
     let (topic, notes) = topics::choose(source, topics, asked, names.arm)?;
@@ -28,9 +28,9 @@ pub(super) fn read(source: &Source, bytes: &[u8], asked: Option<&str>, names: &N
     Ok(samples)
 }
 
-/// The messages that have both of the arm's joints with their times, in the order of these; and the others.
+/// Returns the messages with both of the arm's joints and their times, sorted by time; and the other messages.
 ///
-/// The time of a message is its stamp, or when it was logged if some have no stamp.
+/// The time of a message is its stamp, or its log time if some messages have no stamp.
 fn in_time(topic: &mut Topic, arm: [&str; 2]) -> (Vec<(i64, Message)>, Vec<Message>) {
     let (messages, others): (Vec<Message>, Vec<Message>) = std::mem::take(&mut topic.messages)
         .into_iter()
@@ -126,12 +126,12 @@ struct Table<'a> {
     others: Vec<String>,
     /// Values in the order of `joints`.
     rows: Vec<Row>,
-    /// What `others` were at any time.
+    /// Values of the other joints at any time.
     aside: Vec<(String, Vec<f64>)>,
 }
 
 impl<'a> Table<'a> {
-    /// A table without rows for these messages.
+    /// Creates a table without rows for these messages.
     fn new(source: &'a Source, topic: &'a str, messages: &[(i64, Message)]) -> Self {
         let (mut joints, mut others): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         if let Some((_, first)) = messages.first() {
@@ -179,7 +179,7 @@ impl<'a> Table<'a> {
         Ok(())
     }
 
-    /// All rows as one series a joint. The clock begins with the first.
+    /// Returns all rows as one series per joint. Times are relative to the first row.
     ///
     /// # Errors
     /// If only some rows have velocities or accelerations.
@@ -216,7 +216,7 @@ impl<'a> Table<'a> {
         }
         let begin = rows.first().map_or(0, |row| row.nanoseconds);
         let column = |k: usize, joint: usize| rows.iter().map(|row| row.values[k][joint]).collect::<Vec<f64>>();
-        // Broadcasters publish what a joint does not measure as NaN.
+        // Broadcasters publish unmeasured quantities of a joint as NaN.
         let measured = |k: usize, joint: usize| {
             given[k - 1].then(|| column(k, joint)).filter(|values| !values.iter().all(|value| value.is_nan()))
         };
@@ -241,7 +241,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Adds what a joint was at some time.
+/// Adds the value of a joint at some time.
 fn aside(all: &mut Vec<(String, Vec<f64>)>, name: &str, value: f64) {
     match all.iter_mut().find(|(known, _)| known == name) {
         Some((_, values)) => values.push(value),

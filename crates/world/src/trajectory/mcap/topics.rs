@@ -11,26 +11,26 @@ use std::rc::Rc;
 const SHOWN: [&str; 3] =
     ["tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray", "sensor_msgs/msg/PointCloud2"];
 
-/// What was published on one topic with one type.
+/// The messages of one type on one topic.
 #[derive(Default)]
 pub(super) struct Topic {
     pub name: String,
     /// The type's name; empty if the file gives none.
     schema: String,
     pub kind: Option<Kind>,
-    /// Of a topic whose kind is known, in the order of the file. Without those that hold no positions.
+    /// Messages of a known kind, in the order of the file, except those without positions.
     pub messages: Vec<Message>,
     /// When the first message was logged that is not of the type, nanoseconds.
     broken: Option<u64>,
 }
 
 impl Topic {
-    /// Whether some message has positions of both of the arm's joints.
+    /// Returns true if a message has positions of both of the arm's joints.
     fn fits(&self, arm: [&str; 2]) -> bool {
         self.messages.iter().any(|message| arm.iter().all(|joint| message.names(joint)))
     }
 
-    /// Name, type and joints, for lists.
+    /// Formats name, type and joints for lists.
     fn described(&self) -> String {
         let schema = if self.schema.is_empty() { "no type" } else { &self.schema };
         let mut joints: Vec<&String> = Vec::new();
@@ -44,10 +44,10 @@ impl Topic {
     }
 }
 
-/// All topics of a file, by name and type.
+/// Returns all topics of a file, by name and type.
 ///
 /// # Errors
-/// Files that are no MCAP, or are damaged.
+/// Files that are damaged or not MCAP.
 pub(super) fn all(bytes: &[u8]) -> McapResult<Vec<Topic>> {
     let mut topics: BTreeMap<(String, String), Topic> = BTreeMap::new();
     each_message(bytes, |channel, logged, content| {
@@ -74,11 +74,11 @@ pub(super) fn all(bytes: &[u8]) -> McapResult<Vec<Topic>> {
     Ok(topics.into_values().collect())
 }
 
-/// Takes the topic that is judged, and returns notes about the others: the one that is asked for; else of the motions, and only
-/// without any of the states, the one that has both of the arm's joints.
+/// Chooses the topic to judge, and returns notes about the others. It is the requested topic. Otherwise it is the
+/// motion topic that has both of the arm's joints, or if there are no motions, the state topic that has them.
 ///
 /// # Errors
-/// If none has them or several have, or a message of the topic is broken: with all topics and their types.
+/// If no topic or several topics qualify, or a message of the topic is damaged; with all topics and their types.
 pub(super) fn choose(
     source: &Source,
     mut topics: Vec<Topic>,
@@ -131,7 +131,7 @@ pub(super) fn choose(
     Ok((topic, notes))
 }
 
-/// What to say of a topic with joint values that is not the one that is judged.
+/// Returns the note about a topic with joint values that is not judged.
 fn not_judged(other: &Topic, judged: &Topic) -> String {
     let why = match (judged.kind, other.kind) {
         (Some(Kind::Trajectory), Some(Kind::State)) => "is what a controller plays",
@@ -149,7 +149,7 @@ fn broken(source: &Source, topic: &Topic) -> Diagnostic {
     source.diagnostic(message).help("the recording is damaged, or of another type")
 }
 
-/// What to say of a file that is no recording.
+/// Returns the diagnostic of a file that is not a recording.
 pub(super) fn unreadable(source: &Source, error: &McapError) -> Diagnostic {
     let help = match error {
         McapError::UnsupportedCompression(_) => {
