@@ -19,7 +19,7 @@ impl<T> Polynomial<T>
 where
     T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
 {
-    /// That with these coefficients: one to six.
+    /// Creates the polynomial with these coefficients: one to six.
     pub fn new<const N: usize>(given: [T; N]) -> Self {
         let mut coefficients = [given[N - 1]; 6];
         coefficients[..N].copy_from_slice(&given);
@@ -34,12 +34,12 @@ where
         self.count - 1
     }
 
-    /// Value at `u`, by repeated interpolation (de Casteljau); exact at both ends.
+    /// Evaluates it at `u` by repeated interpolation (de Casteljau); exact at both ends.
     pub fn at(&self, u: f64) -> T {
         self.polar(|_| u)
     }
 
-    /// The polar form: as [`Polynomial::at`], with a share of its own for each step.
+    /// Evaluates the polar form: like [`Polynomial::at`], with a separate share for each step.
     fn polar(&self, share: impl Fn(usize) -> f64) -> T {
         let mut rest = self.coefficients;
         for step in 0..self.degree() {
@@ -52,7 +52,7 @@ where
         rest[0]
     }
 
-    /// The derivative of that order by `u`, but for the factor `n (n - 1) ...`; none beyond the degree.
+    /// Returns the derivative of this order by `u`, without the factor `n (n - 1) ...`; `None` beyond the degree.
     pub fn differences(&self, order: usize) -> Option<Self> {
         let mut next = *self;
         for _ in 0..order {
@@ -64,14 +64,14 @@ where
         Some(next)
     }
 
-    /// One component of each coefficient.
+    /// Returns the polynomial of one component of each coefficient.
     pub fn map(&self, component: impl Fn(T) -> f64) -> Polynomial<f64> {
         Polynomial { coefficients: self.coefficients.map(component), count: self.count }
     }
 }
 
 impl Polynomial<f64> {
-    /// The same polynomial over the shares from `from` to `to` alone.
+    /// Returns the same polynomial over the shares from `from` to `to`.
     pub fn restricted(&self, from: f64, to: f64) -> Self {
         let mut part = *self;
         for ends in 0..self.count {
@@ -100,7 +100,7 @@ impl Polynomial<f64> {
         }
     }
 
-    /// Where the sign changes between two shares, by bisection.
+    /// Returns where the sign changes between two shares, by bisection.
     fn sign_change(&self, mut from: f64, mut to: f64) -> Option<f64> {
         let first = self.at(from) > 0.0;
         if first == (self.at(to) > 0.0) {
@@ -114,7 +114,7 @@ impl Polynomial<f64> {
     }
 }
 
-/// Real roots of `a u^2 + b u + c` without cancellation, ascending; NaN or infinite where there is none.
+/// Returns the real roots of `a u^2 + b u + c` without cancellation, ascending; NaN or infinite for missing ones.
 fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {
@@ -137,7 +137,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Every change of sign among 2000 samples is a zero, and every zero is one, up to rounding.
+        /// Every change of sign among 2000 samples is near a zero, and every zero is near a change of sign, up to
+        /// rounding.
         #[test]
         fn zeros_are_where_the_sign_changes(count in 1..=6_usize, c in prop::array::uniform6(-3.0..3.0_f64)) {
             let polynomial = of(count, c);

@@ -13,44 +13,45 @@ const DRAWN: u8 = 12;
 /// curve with the corner for its middle control point. Both ends are equally far from the corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blend {
-    /// Where it leaves the first leg.
+    /// The point where it leaves the first leg.
     pub from: Configuration,
-    /// Where the legs meet; not on the curve.
+    /// The point where the legs meet; not on the curve.
     pub corner: Configuration,
-    /// Where it joins the second leg.
+    /// The point where it joins the second leg.
     pub to: Configuration,
 }
 
 impl Blend {
-    /// The corner of the legs `before`-`corner` and `corner`-`after`, cut from `radius` before it to `radius` behind it.
-    /// The radius is positive and no longer than either leg.
+    /// Cuts the corner of the legs `before`-`corner` and `corner`-`after`, from `radius` before it to `radius` after
+    /// it. The radius is positive and no longer than either leg.
     #[must_use]
     pub fn new([before, corner, after]: [Configuration; 3], radius: f64) -> Self {
         let toward = |end: Configuration| corner + (end - corner) * (radius / (end - corner).norm());
         Self { from: toward(before), corner, to: toward(after) }
     }
 
-    /// Euclidean distance from the corner to either end, in joint space.
+    /// Returns the Euclidean distance from the corner to either end, in joint space.
     #[must_use]
     pub fn radius(&self) -> f64 {
         (self.corner - self.from).norm()
     }
 
-    /// The point at a share of the curve; exact at the ends.
+    /// Returns the point at a share of the curve; exact at the ends.
     #[must_use]
     pub fn at(&self, u: f64) -> Configuration {
         let mix = |a: Configuration, b: Configuration| a * (1.0 - u) + b * u;
         mix(mix(self.from, self.corner), mix(self.corner, self.to))
     }
 
-    /// The same curve in cubic form.
+    /// Returns the same curve in cubic form.
     #[must_use]
     pub fn piece(&self) -> Piece {
         Piece::quadratic(0.0, 1.0, [self.from, self.corner, self.to])
     }
 }
 
-/// What a motion along a path with blends consists of. Two straight pieces in a row meet in a corner where it stops.
+/// A part of a motion along a path with blends. Two consecutive straight pieces meet in a corner where the motion
+/// stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stretch {
     /// A straight piece between two corners or their blends.
@@ -73,26 +74,26 @@ pub struct BlendedPath {
 }
 
 impl From<Path> for BlendedPath {
-    /// The path as it is: without blends.
+    /// Converts the path without blends.
     fn from(path: Path) -> Self {
         Self { radii: vec![0.0; path.waypoints().len()], path }
     }
 }
 
 impl BlendedPath {
-    /// The straight path.
+    /// Returns the straight path.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The radius of each waypoint's blend, in joint units (radians and metres as they come); 0 without one.
+    /// Returns the radius of each waypoint's blend, in joint units (mixing radians and metres); 0 without one.
     #[must_use]
     pub fn radii(&self) -> &[f64] {
         &self.radii
     }
 
-    /// The blend at a waypoint, if there is one.
+    /// Returns the blend at a waypoint, if there is one.
     #[must_use]
     pub fn blend(&self, waypoint: usize) -> Option<Blend> {
         let q = self.path.waypoints();
@@ -100,11 +101,10 @@ impl BlendedPath {
         (radius > 0.0).then(|| Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius))
     }
 
-    /// The same path with another radius at an inner waypoint; 0 takes the blend away.
+    /// Sets the radius at an inner waypoint; 0 removes the blend.
     ///
     /// # Panics
-    /// If the waypoint is an end of the path, or if the radii of the two ends of a leg together are not less than its
-    /// length.
+    /// If the waypoint is an end of the path, or if the radii at both ends of a leg add up to at least its length.
     #[must_use]
     pub fn with(mut self, waypoint: usize, radius: f64) -> Self {
         let q = self.path.waypoints();
@@ -117,7 +117,7 @@ impl BlendedPath {
         self
     }
 
-    /// Followed by another one that begins where this ends, with a corner between them.
+    /// Appends another path that starts at its end, with a corner between them.
     #[must_use]
     pub fn then(self, next: &BlendedPath) -> Self {
         let waypoints = self.path.waypoints().iter().chain(next.path.waypoints()).copied().collect();
@@ -126,7 +126,7 @@ impl BlendedPath {
         Self { path: Path::new(waypoints), radii }
     }
 
-    /// Straight pieces and blends from start to goal.
+    /// Returns the straight pieces and blends from start to goal.
     #[must_use]
     pub fn stretches(&self) -> Vec<Stretch> {
         let q = self.path.waypoints();
@@ -141,7 +141,7 @@ impl BlendedPath {
         stretches
     }
 
-    /// A polyline for pictures: blends by points on them.
+    /// Returns a polyline for pictures, with points on the blends.
     #[must_use]
     pub fn outline(&self) -> Path {
         let mut points = vec![self.path.start()];
@@ -196,8 +196,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// A parabola tangent to both legs: its ends lie on them, its middle halfway between the corner and the middle of
-        /// the ends, and its cubic form is the same curve.
+        /// A parabola is tangent to both legs: its ends lie on them, its middle is halfway between the corner and the
+        /// middle of the ends, and its cubic form is the same curve.
         #[test]
         fn blends_are_parabolas(legs in prop::array::uniform4(-2.0..2.0_f64), radius in 0.01..0.2_f64, u in 0.0..1.0_f64) {
             let (corner, before, after) = (q(0.3, -0.2), q(legs[0], legs[1]), q(legs[2], legs[3]));

@@ -4,14 +4,15 @@ use super::{Configuration, JointRange, Segment, Topology};
 use std::f64::consts::TAU;
 
 impl Segment {
-    /// The same so many whole turns of each joint on.
+    /// Returns the copy that is moved by whole turns of each joint.
     #[must_use]
     pub fn turned(&self, turns: [f64; 2]) -> Self {
         let [from, to] = self.ends().map(|q| Configuration::from_fn(|k, _| JointRange::Circle.turned(q[k], turns[k])));
         Self::new(from, to)
     }
 
-    /// Its copies that lie in the fundamental domain; of one across a seam as many as cover it there, each as a whole.
+    /// Returns its copies in the fundamental domain. For a segment across a seam these are several whole copies that
+    /// cover it there.
     pub fn wrapped(&self, topology: &Topology) -> impl Iterator<Item = Self> + use<> {
         let [from, to] = self.ends();
         let [first, second] = [0, 1].map(|k| into_domain(topology.ranges[k], [from[k], to[k]]));
@@ -21,8 +22,8 @@ impl Segment {
         })
     }
 
-    /// All of it as copies within the fundamental domain: across a seam it is cut in two. Exact but for the ends at a cut; one
-    /// that lies within the domain is itself.
+    /// Returns it as copies within the fundamental domain, cut in two at a seam. Exact except for the ends at a cut. A
+    /// segment within the domain is returned unchanged.
     pub fn within_domain(&self, topology: &Topology) -> impl Iterator<Item = Self> + use<> {
         // On an interval there are no copies, and no goal is lost that lies beyond a limit.
         let bounds = topology
@@ -32,7 +33,7 @@ impl Segment {
         self.wrapped(topology).filter_map(move |copy| copy.within(lower, upper))
     }
 
-    /// Its copies that may be nearest to `q`: on a circle those at most a turn from its middle.
+    /// Returns the copies that may be nearest to `q`: on a circle those at most a turn from its middle.
     pub fn copies_near(&self, topology: &Topology, q: Configuration) -> impl Iterator<Item = Self> + use<> {
         let middle = self.at(0.5);
         let turns = [0, 1].map(|k| {
@@ -46,7 +47,7 @@ impl Segment {
     }
 }
 
-/// The copies of a stretch of values that are in the domain of an axis, or any of their length.
+/// Returns the copies of a range of values that lie in the domain of an axis.
 fn into_domain(axis: JointRange, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let (lower, upper) = axis.domain();
     match axis {
@@ -91,7 +92,7 @@ mod tests {
         let length: f64 = parts.iter().map(Segment::length).sum();
         assert_eq!(parts.len(), 3, "{parts:?}");
         assert!((length - 0.5_f64.hypot(0.5)).abs() < 1e-12, "{length}");
-        // A whole circle and more stays as long as it is.
+        // A segment of a whole circle or more keeps its length.
         let parts = cut(at(-4.0, 1.0), at(4.0, 1.0));
         assert!((parts.iter().map(Segment::length).sum::<f64>() - 8.0).abs() < 1e-12, "{parts:?}");
         // On an interval nothing is cut off.

@@ -3,7 +3,7 @@
 use super::Configuration;
 use super::bernstein::Polynomial;
 
-/// What of a motion is looked at: its value or a derivative by time.
+/// A quantity of a motion: its value or a derivative by time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Derivative {
     /// The joint values themselves.
@@ -24,12 +24,12 @@ pub enum Derivative {
 pub struct Piece {
     /// Time at which it begins, seconds; without a clock, the number of its first waypoint.
     pub from: f64,
-    /// Where it ends, in the same unit.
+    /// End of the piece, in the same unit.
     pub to: f64,
     curve: Polynomial<Configuration>,
 }
 
-/// What is given at an end of a piece: position, velocity, acceleration.
+/// The data at an end of a piece: position, velocity, acceleration.
 pub type State = [Configuration; 3];
 
 impl Piece {
@@ -37,28 +37,28 @@ impl Piece {
         Self { from, to, curve: Polynomial::new(points) }
     }
 
-    /// From `a` to `b` at constant velocity.
+    /// Creates the line from `a` to `b` at constant velocity.
     #[must_use]
     pub fn line(from: f64, to: f64, a: Configuration, b: Configuration) -> Self {
         Self::new(from, to, [a, a + (b - a) / 3.0, b - (b - a) / 3.0, b])
     }
 
-    /// The cubic with these values and velocities at its ends (Hermite).
+    /// Creates the cubic with these values and velocities at its ends (Hermite).
     #[must_use]
     pub fn hermite(from: f64, to: f64, [a, va]: [Configuration; 2], [b, vb]: [Configuration; 2]) -> Self {
         let third = (to - from) / 3.0;
         Self::new(from, to, [a, a + va * third, b - vb * third, b])
     }
 
-    /// The polynomial of the fourth degree with this position, velocity and acceleration at its beginning, and position and
-    /// velocity at its end.
+    /// Creates the polynomial of degree four with this position, velocity and acceleration at its start, and position
+    /// and velocity at its end.
     #[must_use]
     pub fn quartic(from: f64, to: f64, [a, va, aa]: State, [b, vb]: [Configuration; 2]) -> Self {
         let h = to - from;
         Self::new(from, to, [a, a + va * (h / 4.0), a + va * (h / 2.0) + aa * (h * h / 12.0), b - vb * (h / 4.0), b])
     }
 
-    /// The polynomial of the fifth degree with these positions, velocities and accelerations at its ends.
+    /// Creates the polynomial of degree five with these positions, velocities and accelerations at its ends.
     #[must_use]
     pub fn quintic(from: f64, to: f64, [a, va, aa]: State, [b, vb, ab]: State) -> Self {
         let h = to - from;
@@ -66,37 +66,37 @@ impl Piece {
         Self::new(from, to, [a, a + va * one, a + va * two + aa * bend, b - vb * two + ab * bend, b - vb * one, b])
     }
 
-    /// The quadratic curve with these control points, raised to a cubic.
+    /// Creates the quadratic curve with these control points, raised to a cubic.
     #[must_use]
     pub fn quadratic(from: f64, to: f64, [a, b, c]: [Configuration; 3]) -> Self {
         Self::new(from, to, [a, (a + b * 2.0) / 3.0, (b * 2.0 + c) / 3.0, c])
     }
 
-    /// Its control points, the ends first and last: one more than its degree.
+    /// Returns its control points, including the ends: one more than its degree.
     #[must_use]
     pub fn control(&self) -> &[Configuration] {
         self.curve.coefficients()
     }
 
-    /// The degree of its polynomials: 3, 4 or 5. Those of straight pieces are raised.
+    /// Returns the degree of its polynomials: 3, 4 or 5. Straight pieces are raised.
     #[must_use]
     pub fn degree(&self) -> usize {
         self.curve.degree()
     }
 
-    /// Time at a share of the piece.
+    /// Returns the time at a share of the piece.
     #[must_use]
     pub fn time(&self, u: f64) -> f64 {
         if u == 1.0 { self.to } else { self.from + u * (self.to - self.from) }
     }
 
-    /// Configuration at a share of the piece; exact at the ends.
+    /// Returns the configuration at a share of the piece; exact at the ends.
     #[must_use]
     pub fn at(&self, u: f64) -> Configuration {
         self.curve.at(u)
     }
 
-    /// Value of a derivative by time at a share of the piece. A piece without duration stands still.
+    /// Returns a derivative by time at a share of the piece; zero for a piece without duration.
     #[must_use]
     pub fn derivative(&self, of: Derivative, u: f64) -> Configuration {
         let duration = self.to - self.from;
@@ -119,7 +119,7 @@ impl Piece {
         [0.0, 1.0].into_iter().chain(slope.map_or(Vec::new(), |slope| slope.zeros()))
     }
 
-    /// A bound on the magnitude of each joint's second derivative by `u` between two shares; of cubics the greatest there is.
+    /// Returns a bound on the magnitude of each joint's second derivative by `u` between two shares; exact for cubics.
     #[must_use]
     pub fn bend(&self, from: f64, to: f64) -> [f64; 2] {
         let factor = (self.degree() * (self.degree() - 1)) as f64;
@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(piece.bend(0.0, 1.0), [0.0; 2]);
     }
 
-    /// A piece of each degree through the same states.
+    /// Returns a piece of each degree through the same states.
     fn pieces(duration: f64, [a, va, aa, b, vb, ab]: [f64; 6]) -> [Piece; 3] {
         let (first, last) = ([q(a, b), q(va, vb), q(aa, ab)], [q(b, a), q(vb, va), q(ab, aa)]);
         let two = |[p, v, _]: State| [p, v];
@@ -182,7 +182,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// What was asked for at the ends, by differences of the motion itself; and the jerk by those of the acceleration.
+        /// Checks the states at the ends by differences of the motion, and the jerk by differences of the acceleration.
         #[test]
         fn a_piece_has_the_states_of_its_ends(
             values in prop::array::uniform6(-3.0..3.0_f64), duration in 0.1..5.0_f64, u in 0.001..0.999_f64,
@@ -212,7 +212,7 @@ mod tests {
             }
         }
 
-        /// Extremes against 2000 samples; what is bounded against what was seen, and never far from it.
+        /// Compares extremes with 2000 samples: bounds hold and are tight.
         #[test]
         fn extremes_bound_the_samples(
             values in prop::array::uniform6(prop_oneof![Just(0.0), -3.0..3.0_f64]), duration in 0.01..5.0_f64,

@@ -4,19 +4,19 @@ use super::{Configuration, Topology};
 
 /// A sequence of random numbers, the same on every machine for the same seed.
 ///
-/// Sebastiano Vigna's SplitMix64: 64 bits of state. Written out here so that no release of a library can change what a seed
-/// stands for.
+/// Sebastiano Vigna's SplitMix64: 64 bits of state. Implemented here so that no library release can change the numbers
+/// of a seed.
 #[derive(Debug, Clone)]
 pub struct Draws(u64);
 
 impl Draws {
-    /// The sequence of a seed.
+    /// Starts the sequence of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// The `number`-th of many sequences of a seed.
+    /// Starts the `number`-th of many sequences of a seed.
     #[must_use]
     pub fn nth(seed: u64, number: u64) -> Self {
         // The numbers of a sequence are as good as random, and so are those that begin with them.
@@ -24,7 +24,7 @@ impl Draws {
         Self(seeds.bits())
     }
 
-    /// The next 64 bits.
+    /// Returns the next 64 bits.
     fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -33,12 +33,12 @@ impl Draws {
         z ^ (z >> 31)
     }
 
-    /// Uniform in `[0, 1)`, a multiple of 2^-53.
+    /// Returns a uniform number in `[0, 1)`, a multiple of 2^-53.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// The next configuration, uniform within the limits, on circles within a turn; joint 1 is drawn first.
+    /// Returns the next configuration, uniform within the limits, and within a turn on circles; joint 1 is drawn first.
     pub fn configuration(&mut self, topology: &Topology) -> Configuration {
         let [q1, q2] = topology.ranges.map(|axis| {
             let (lower, upper) = axis.domain();

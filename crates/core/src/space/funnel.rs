@@ -1,4 +1,4 @@
-//! Shortest way through a sequence of portals.
+//! The shortest path through a sequence of portals.
 
 use super::{Measure, Metric, Segment};
 use cplan_geometry::{Orientation, Point, orientation};
@@ -13,11 +13,11 @@ pub struct Portal {
     pub right: Point,
 }
 
-/// The shortest polyline from `start` to `goal` that crosses all portals in order: the path that the funnel algorithm pulls taut.
+/// Returns the shortest polyline from `start` to `goal` that crosses all portals in order: the taut path.
 ///
-/// Consecutive portals must lie on the border of a common convex cell; start and goal in the first and the last one.
-/// The *funnel* algorithm (Lee, Preparata 1984), linear. Turns are decided exactly, so every piece passes its portals in exact
-/// arithmetic.
+/// Consecutive portals must lie on the border of a common convex cell, start and goal in the first and the last one.
+/// The *funnel* algorithm (Lee, Preparata 1984), linear. Turns are decided exactly, so in exact arithmetic every piece
+/// crosses its portals.
 #[must_use]
 pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> {
     let turns = turns(start, goal, portals).into_iter().map(|turn| turn.at);
@@ -26,10 +26,11 @@ pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> 
     path
 }
 
-/// The place on a segment to which the funnel path through the portals is shortest.
+/// Returns the place on a segment with the shortest funnel path through the portals.
 ///
-/// That length is a convex function of the place, whose least value a search by golden section closes in on; as the string is
-/// straight after its last turn, the place nearest to that turn is the very least if it is as good. Some dozens of strings.
+/// The length is a convex function of the place, which golden-section search minimises. The path is straight after its
+/// last turn, so the place nearest to that turn is the exact minimum if it is at least as good. Takes some dozens of
+/// funnel paths.
 #[must_use]
 pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
     let euclid = Measure::from(Metric::Euclidean);
@@ -62,7 +63,7 @@ const SECTIONS: usize = 30;
 /// Share by which a length may be greater for rounding.
 const SETTLED: f64 = 1e-12;
 
-/// Where the funnel path turns, in order, start and goal left out.
+/// Returns the turns of the funnel path, in order, without start and goal.
 pub fn turns(start: Point, goal: Point, portals: &[Portal]) -> Vec<Turn> {
     let mut funnel = Funnel { apex: start, chains: Default::default(), path: Vec::new() };
     for (portal, ends) in portals.iter().enumerate() {
@@ -79,20 +80,20 @@ pub fn turns(start: Point, goal: Point, portals: &[Portal]) -> Vec<Turn> {
 /// An end of a portal that bounds the funnel, and at which the string may turn.
 #[derive(Debug, Clone, Copy)]
 pub struct Turn {
-    /// Where it lies.
+    /// Position of the turn.
     pub at: Point,
-    /// Which portal.
+    /// Index of the portal.
     pub portal: usize,
 }
 
 const RIGHT: usize = 0;
 const LEFT: usize = 1;
 
-/// The shortest ways from the apex to both ends of a portal: chains that turn outwards.
+/// The shortest paths from the apex to both ends of a portal: chains that turn outwards.
 struct Funnel {
     apex: Point,
     chains: [VecDeque<Turn>; 2],
-    /// Where the string turns until the apex, and there.
+    /// The turns of the path up to the apex, included.
     path: Vec<Turn>,
 }
 
@@ -196,8 +197,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(2000))]
 
-        /// Against the shortest of all ways from end to end of portals that pass those between. On a coarse lattice many ends are
-        /// in line.
+        /// Compares with the shortest of all paths between ends of portals that cross the portals between. On a coarse
+        /// lattice many ends are collinear.
         #[test]
         fn no_way_from_end_to_end_is_shorter(
             ends in prop::collection::vec((-4..4i32, 0..4i32), 0..12), start in -4..4i32, goal in -4..4i32,

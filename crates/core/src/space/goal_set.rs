@@ -1,4 +1,4 @@
-//! Where a motion may end.
+//! The set of configurations in which a motion may end.
 
 use super::{Configuration, Measure, Metric, Segment, Topology};
 use serde::{Deserialize, Serialize};
@@ -15,29 +15,29 @@ pub struct GoalSet {
 }
 
 impl GoalSet {
-    /// Its pieces: points are segments without length.
+    /// Returns its pieces; points are segments of length 0.
     #[must_use]
     pub fn pieces(&self) -> &[Segment] {
         &self.pieces
     }
 
-    /// The single configurations among them.
+    /// Iterates over its single configurations.
     pub fn points(&self) -> impl Iterator<Item = Configuration> {
         self.pieces.iter().filter(|piece| piece.is_point()).map(|piece| piece.ends()[0])
     }
 
-    /// Whether there is nothing to reach.
+    /// Returns true if it is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.pieces.is_empty()
     }
 
-    /// Its pieces as copies that lie in the fundamental domain; of a piece across a seam as many as cover it there.
+    /// Iterates over the copies of its pieces in the fundamental domain; several cover a piece across a seam.
     pub fn wrapped(&self, topology: &Topology) -> impl Iterator<Item = Segment> {
         self.pieces.iter().flat_map(|piece| piece.wrapped(topology))
     }
 
-    /// The configuration of the set that is nearest to `q`, as the copy nearest to it; the first of several.
+    /// Returns the configuration of the set nearest to `q`, as the copy nearest to it; the first of several.
     #[must_use]
     pub fn nearest(&self, topology: &Topology, metric: Metric, q: Configuration) -> Option<Configuration> {
         let measure = Measure::from(metric);
@@ -46,13 +46,13 @@ impl GoalSet {
         places.reduce(|best, next| if metric.norm(next - q) < metric.norm(best - q) { next } else { best })
     }
 
-    /// Length of the shortest displacement from `q` to any of it; infinite if it is empty.
+    /// Returns the length of the shortest displacement from `q` to the set; infinite if it is empty.
     #[must_use]
     pub fn distance(&self, topology: &Topology, metric: Metric, q: Configuration) -> f64 {
         self.nearest(topology, metric, q).map_or(f64::INFINITY, |goal| metric.norm(goal - q))
     }
 
-    /// Whether `q`, or a copy of it, is in the set up to a Euclidean distance.
+    /// Returns true if `q`, or a copy of it, is in the set up to a Euclidean distance.
     #[must_use]
     pub fn contains(&self, topology: &Topology, q: Configuration, tolerance: f64) -> bool {
         self.distance(topology, Metric::Euclidean, q) <= tolerance

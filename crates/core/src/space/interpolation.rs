@@ -1,16 +1,18 @@
-//! What a motion is between its samples.
+//! Interpolation of a motion between its samples.
 
-/// How samples are joined: by what consumers of their format make of them.
+/// How the consumer of a format joins samples.
 ///
-/// | format | who reads it how | between samples |
+/// | format | consumer | between samples |
 /// |---|---|---|
-/// | ROS 2 `JointTrajectory` (YAML, JSON, MCAP) | `joint_trajectory_controller`, interpolation method `splines` | with velocities and accelerations quintic, with velocities cubic, else linear |
-/// | ROS 2 `JointState` (MCAP) | what was measured; nobody drives by it | with velocities cubic, else linear |
-/// | cplan's JSON | as its member `interpolation` says: [`INTERPOLATION`], or [`SMOOTH_INTERPOLATION`] | quartic, or cubic; without accelerations cubic, without velocities linear |
-/// | CSV | there is no convention; the usual one for positions with velocities | with velocities cubic, else linear |
+/// | ROS 2 `JointTrajectory` (YAML, JSON, MCAP) | `joint_trajectory_controller`, interpolation method `splines` | with
+/// velocities and accelerations quintic, with velocities cubic, else linear |
+/// | ROS 2 `JointState` (MCAP) | measured values; no controller follows them | with velocities cubic, else linear |
+/// | cplan's JSON | as its member `interpolation` states: [`INTERPOLATION`], or [`SMOOTH_INTERPOLATION`] | quartic, or
+/// cubic; without accelerations cubic, without velocities linear |
+/// | CSV | no convention; the usual one for positions with velocities | with velocities cubic, else linear |
 /// | a path without times | straight segments between waypoints | linear |
 ///
-/// What a file states besides (the accelerations of a CSV) does not change the motion, but is held to the limits, too.
+/// Other stated values (such as accelerations in a CSV) do not change the motion, but must also keep the limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
     /// Straight in joint space, at constant velocity.
@@ -37,9 +39,9 @@ macro_rules! interpolation {
     };
 }
 
-/// How to read a trajectory in cplan's JSON between its samples: [`Interpolation::Quartic`].
+/// Description of the interpolation of cplan's JSON: [`Interpolation::Quartic`].
 pub const INTERPOLATION: &str =
     interpolation!("c = d = 0 on straight pieces of the path, where the acceleration is constant");
 
-/// The same where the jerk has a limit: [`Interpolation::Cubic`], whose accelerations are those given.
+/// The same if the jerk is limited: [`Interpolation::Cubic`], with the given accelerations.
 pub const SMOOTH_INTERPOLATION: &str = interpolation!("d = 0, because the jerk is constant");

@@ -28,7 +28,7 @@ impl From<Metric> for Measure {
 }
 
 impl Measure {
-    /// Length of a displacement.
+    /// Returns the length of a displacement.
     #[must_use]
     pub fn norm(self, d: Vector) -> f64 {
         match self {
@@ -39,23 +39,24 @@ impl Measure {
         }
     }
 
-    /// By what each coordinate is multiplied.
+    /// Returns the factor of each coordinate.
     #[must_use]
     pub fn weights(self) -> [f64; 2] {
         let (Self::Ellipse(weights) | Self::Rectangle(weights)) = self;
         weights
     }
 
-    /// Whether balls are ellipses.
+    /// Returns true if balls are ellipses.
     #[must_use]
     pub fn is_ellipse(self) -> bool {
         matches!(self, Self::Ellipse(_))
     }
 
-    /// A lower bound on the length of the ways from `root` to the nearest of the `goals` through a segment, from `right` to
-    /// `left` as seen from the root; it is the length of the shortest, but for [`Measure::Rectangle`] and goals on the
-    /// root's side. The line of the segment is given by two points farther apart, in the same direction: the segment may be
-    /// a point.
+    /// Returns a lower bound on the length of paths from `root` to the nearest of the `goals` through a segment, from
+    /// `right` to `left` as seen from the root.
+    ///
+    /// It is the length of the shortest such path, except for [`Measure::Rectangle`] and goals on the root's side. Two
+    /// points farther apart give the line of the segment in the same direction, because the segment may be a point.
     #[must_use]
     pub fn through(self, root: Point, ends: [Point; 2], line: [Point; 2], goals: &Segment) -> f64 {
         let along = line[1] - line[0];
@@ -76,10 +77,11 @@ impl Measure {
         beyond.min(self.across(root, ends, &Segment::new(a, b)))
     }
 
-    /// The same where all goals lie beyond the segment.
+    /// Does the same if all goals lie beyond the segment.
     ///
-    /// The way over a point of the segment's line is a convex function of that point, and least where the straight way to
-    /// the nearest goal crosses the line. Where that is not in the segment, it is least at the end nearer to it.
+    /// The length of a path over a point of the segment's line is a convex function of that point, and least where the
+    /// straight line to the nearest goal crosses the segment's line. If that point is outside of the segment, the
+    /// nearest end is optimal.
     fn across(self, root: Point, [right, left]: [Point; 2], goals: &Segment) -> f64 {
         let goal = goals.nearest(self, root.coords) - root.coords;
         let via = |end: Point| self.norm(end - root) + goals.distance(self, end.coords);
@@ -101,7 +103,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Against the least over the points of the segment, a convex function: thirds that do not hold it are left out.
+        /// Compares with the minimum over the points of the segment, found by ternary search on a convex function.
         #[test]
         fn bounds_are_the_least_way_through(
             root in (-3.0..3.0, 0.1..2.0f64), goal in (-3.0..3.0, -2.0..2.0f64), ends in (-2.0..1.9f64, 0.05..2.0f64),

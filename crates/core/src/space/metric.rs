@@ -1,13 +1,13 @@
-//! How long a motion is.
+//! Metrics on motions in joint space.
 
 use super::{Configuration, Path};
 
-/// A norm on displacements in joint space. All shortest paths among polygons, whatever the norm, turn at convex corners
-/// only: replacing a piece of a path by the straight segment never makes it longer, so the funnel path is as short as
-/// any path in its homotopy class.
+/// A norm on displacements in joint space. For every norm, shortest paths among polygons turn at convex corners only:
+/// replacing a piece of a path by the straight segment never makes it longer. So the funnel path is as short as any
+/// path in its homotopy class.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Metric {
-    /// `sqrt(d1^2 + d2^2)`, radians and metres as they come.
+    /// `sqrt(d1^2 + d2^2)`, mixing radians and metres.
     #[default]
     Euclidean,
     /// `sqrt((w1 d1)^2 + (w2 d2)^2)`.
@@ -24,7 +24,7 @@ pub enum Metric {
 }
 
 impl Metric {
-    /// Length of a straight displacement.
+    /// Returns the length of a straight displacement.
     #[must_use]
     pub fn norm(self, d: Configuration) -> f64 {
         match self {
@@ -34,7 +34,7 @@ impl Metric {
         }
     }
 
-    /// Length of a path.
+    /// Returns the length of a path.
     #[must_use]
     pub fn length(self, path: &Path) -> f64 {
         // Not `sum`: of nothing it is -0.

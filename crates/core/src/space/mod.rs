@@ -1,8 +1,8 @@
-//! Configurations, motions, and the topology of the space they live in.
+//! Configurations, motions, and the topology of their space.
 //!
-//! Goals are a set ([`GoalSet`]): configurations, and segments where a tip goal leaves a joint free. Roadmaps end where
-//! their last leg meets a segment at right angles or at an end of what is free of it, fields begin in all its free cells,
-//! boxes that meet it are goals for certificates and proofs, and bounds are to the nearest of it.
+//! Goals are a set ([`GoalSet`]): configurations, and segments if a tip goal leaves a joint free. Roadmaps end where
+//! their last leg meets a segment perpendicularly, or at an end of its free part. Fields start in all its free cells.
+//! Boxes that meet it are goals for certificates and proofs, and bounds refer to its nearest point.
 //!
 //! ```
 //! use cplan_core::space::{Configuration, JointRange, Topology};

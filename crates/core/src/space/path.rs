@@ -10,10 +10,10 @@ pub struct Path {
 }
 
 impl Path {
-    /// A path through `waypoints`, without consecutive repetitions.
+    /// Creates a path through `waypoints`, without consecutive repetitions.
     ///
     /// # Panics
-    /// If there is no waypoint.
+    /// If there are no waypoints.
     #[must_use]
     pub fn new(mut waypoints: Vec<Configuration>) -> Self {
         assert!(!waypoints.is_empty(), "a path has at least one waypoint");
@@ -21,30 +21,31 @@ impl Path {
         Self { waypoints }
     }
 
-    /// The corners, start and goal included.
+    /// Returns the waypoints, including start and goal.
     #[must_use]
     pub fn waypoints(&self) -> &[Configuration] {
         &self.waypoints
     }
 
-    /// The first waypoint.
+    /// Returns the first waypoint.
     #[must_use]
     pub fn start(&self) -> Configuration {
         self.waypoints[0]
     }
 
-    /// The last waypoint.
+    /// Returns the last waypoint.
     #[must_use]
     pub fn goal(&self) -> Configuration {
         self.waypoints[self.waypoints.len() - 1]
     }
 
-    /// The straight pieces. A path that stays where it is has none.
+    /// Iterates over the straight pieces. A path without motion has none.
     pub fn segments(&self) -> impl Iterator<Item = (Configuration, Configuration)> + '_ {
         self.waypoints.windows(2).map(|w| (w[0], w[1]))
     }
 
-    /// The part between two distances along it, joint space; backwards if the first is the greater. Distances beyond its ends are those ends.
+    /// Returns the part between two distances along it, in joint space; reversed if the first is greater. Distances are
+    /// clamped to its ends.
     #[must_use]
     pub fn part(&self, from: f64, to: f64) -> Self {
         if from > to {
@@ -74,7 +75,7 @@ impl Path {
         if waypoints.is_empty() { Self::new(vec![self.goal()]) } else { Self::new(waypoints) }
     }
 
-    /// Euclidean length in joint space (rad and m as they come).
+    /// Returns the Euclidean length in joint space (mixing rad and m).
     #[must_use]
     pub fn length(&self) -> f64 {
         // Not `sum`: of nothing it is -0.

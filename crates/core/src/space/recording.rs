@@ -10,8 +10,8 @@ const LARGEST_VALUE: f64 = 1e6;
 /// Times and velocities beyond this are a mistake; seconds since 1970 are far below.
 const LARGEST_RATE: f64 = 1e12;
 
-/// A motion of both joints, given by samples, and with it what happens between them: see [`Interpolation`]. Radians or
-/// metres, and seconds; values are taken as they are, not wrapped.
+/// A motion of both joints, given by samples and their [`Interpolation`]. Radians or metres, and seconds; values are
+/// not wrapped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     position: Vec<Configuration>,
@@ -26,17 +26,17 @@ pub struct Recording {
 /// Why samples are no motion. Samples count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum RecordingError {
-    /// There are none.
+    /// There are no samples.
     #[error("there is no sample")]
     Empty,
     /// Positions, times, velocities and accelerations are not equally many.
     #[error("there are {positions} positions, but {others} {what}")]
     Count {
-        /// How many positions.
+        /// Number of positions.
         positions: usize,
         /// `times`, `velocities` or `accelerations`.
         what: &'static str,
-        /// How many of those.
+        /// Number of the other values.
         others: usize,
     },
     /// Velocities are of no use without times.
@@ -68,7 +68,7 @@ pub enum RecordingError {
 }
 
 impl RecordingError {
-    /// The sample at fault, if it is one.
+    /// Returns the sample at fault, if there is one.
     #[must_use]
     pub fn sample(&self) -> Option<usize> {
         match *self {
@@ -121,10 +121,11 @@ impl Recording {
         Ok(Self { position, time, velocity, acceleration: None, interpolation, rests: Vec::new() })
     }
 
-    /// The same with the accelerations that are stated, and what they make of the motion.
+    /// Adds stated accelerations, which may affect the interpolation.
     ///
     /// # Errors
-    /// [`RecordingError`]: accelerations of another number, too large, or, where they are to join samples, without velocities.
+    /// [`RecordingError`]: a wrong number of accelerations, too large ones, or accelerations for interpolation without
+    /// velocities.
     pub fn accelerated(
         self,
         acceleration: Vec<Configuration>,
@@ -146,8 +147,8 @@ impl Recording {
         Ok(Self { acceleration: Some(acceleration), interpolation, ..self })
     }
 
-    /// The same, straight from each of these samples to the next whatever joins the others: where one motion ends and another
-    /// begins, and the arm stands between them.
+    /// Makes the motion straight from each of these samples to the next, independent of the interpolation: where one
+    /// motion ends and another starts, and the arm stands still between them.
     #[must_use]
     pub fn resting_after(self, samples: &[usize]) -> Self {
         let mut rests = samples.to_vec();
@@ -155,7 +156,7 @@ impl Recording {
         Self { rests, ..self }
     }
 
-    /// Joint values of the samples; at least one.
+    /// Returns the joint values of the samples; at least one.
     #[must_use]
     pub fn positions(&self) -> &[Configuration] {
         &self.position
@@ -167,32 +168,32 @@ impl Recording {
         self.time.as_deref()
     }
 
-    /// Joint velocities at the samples.
+    /// Returns the joint velocities at the samples.
     #[must_use]
     pub fn velocities(&self) -> Option<&[Configuration]> {
         self.velocity.as_deref()
     }
 
-    /// Joint accelerations that are stated at the samples.
+    /// Returns the stated joint accelerations at the samples.
     #[must_use]
     pub fn accelerations(&self) -> Option<&[Configuration]> {
         self.acceleration.as_deref()
     }
 
-    /// What the motion is between the samples.
+    /// Returns the interpolation between samples.
     #[must_use]
     pub fn interpolation(&self) -> Interpolation {
         self.interpolation
     }
 
-    /// From the first to the last sample, seconds.
+    /// Returns the duration from the first to the last sample, seconds.
     #[must_use]
     pub fn duration(&self) -> Option<f64> {
         self.time.as_ref().map(|t| t[t.len() - 1] - t[0])
     }
 
-    /// The samples of a range alone, on the same clock; those that there are, if it reaches beyond the last. None if there
-    /// are none.
+    /// Returns the samples of a range, on the same clock, as far as they exist. Returns `None` if the range has no
+    /// samples.
     #[must_use]
     pub fn part(&self, samples: RangeInclusive<usize>) -> Option<Self> {
         let last = (*samples.end()).min(self.position.len() - 1);
@@ -211,8 +212,8 @@ impl Recording {
         })
     }
 
-    /// The motion between the samples, piece `k` from sample `k` to `k + 1`; a single sample is one piece that stands
-    /// still. Without times, sample `k` is at `k`.
+    /// Returns the motion between the samples: piece `k` from sample `k` to `k + 1`. A single sample is one piece
+    /// without motion. Without times, sample `k` is at time `k`.
     #[must_use]
     pub fn pieces(&self) -> Vec<Piece> {
         let at = |k: usize| self.time.as_ref().map_or(k as f64, |t| t[k]);
@@ -247,7 +248,7 @@ impl Recording {
         steps.flat_map(|(i, w)| (0..2).filter(move |&k| is_turn(w, k)).map(move |k| (i, k))).collect()
     }
 
-    /// The same motion with every joint on a circle going the short way from sample to sample.
+    /// Unwraps joints on circles, so that they take the short direction between samples.
     #[must_use]
     pub fn unwrapped(mut self, topology: &Topology) -> Self {
         for k in 1..self.position.len() {
@@ -256,7 +257,7 @@ impl Recording {
         self
     }
 
-    /// A polyline for pictures: the samples, and on curved pieces points between them.
+    /// Returns a polyline for pictures: the samples, and points between them on curved pieces.
     #[must_use]
     pub fn outline(&self) -> Path {
         let steps: u8 = if self.interpolation == Interpolation::Linear { 1 } else { 4 };
@@ -267,7 +268,7 @@ impl Recording {
     }
 }
 
-/// Whether a number is none, or too large to be meant.
+/// Returns true if a number is NaN or too large to be meant.
 fn outside(value: f64, limit: f64) -> bool {
     value.is_nan() || value.abs() > limit
 }

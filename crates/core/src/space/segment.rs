@@ -4,7 +4,7 @@ use super::{Configuration, Measure};
 use cplan_geometry::{Orientation, Point, cross, orientation};
 use serde::{Deserialize, Serialize};
 
-/// All configurations on a straight line from one to another; a single one where both ends are the same.
+/// All configurations on a straight line between two; a single one if both ends are equal.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "[Configuration; 2]", into = "[Configuration; 2]")]
 pub struct Segment {
@@ -13,43 +13,43 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// From one configuration to another, both included.
+    /// Creates the segment between two configurations, both included.
     #[must_use]
     pub fn new(from: Configuration, to: Configuration) -> Self {
         Self { from, to }
     }
 
-    /// A single configuration.
+    /// Creates a single configuration.
     #[must_use]
     pub fn point(q: Configuration) -> Self {
         Self { from: q, to: q }
     }
 
-    /// Its two ends.
+    /// Returns its two ends.
     #[must_use]
     pub fn ends(&self) -> [Configuration; 2] {
         [self.from, self.to]
     }
 
-    /// Its ends as points of the plane.
+    /// Returns its ends as points of the plane.
     #[must_use]
     pub fn corners(&self) -> [Point; 2] {
         self.ends().map(Point::from)
     }
 
-    /// Whether it is a single configuration.
+    /// Returns true if it is a single configuration.
     #[must_use]
     pub fn is_point(&self) -> bool {
         self.from == self.to
     }
 
-    /// The distance of its ends in joint space.
+    /// Returns the distance of its ends in joint space.
     #[must_use]
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()
     }
 
-    /// At a share of the way from end to end. A coordinate that both ends have in common keeps all its bits.
+    /// Returns the configuration at a share from end to end. A coordinate that both ends share keeps all its bits.
     #[must_use]
     pub fn at(&self, share: f64) -> Configuration {
         match share {
@@ -59,13 +59,13 @@ impl Segment {
         }
     }
 
-    /// The same elsewhere.
+    /// Returns a shifted copy.
     #[must_use]
     pub fn shifted(&self, by: Configuration) -> Self {
         Self { from: self.from + by, to: self.to + by }
     }
 
-    /// The part on which an affine function is not negative, given its values at both ends.
+    /// Returns the part on which an affine function is not negative, given its values at both ends.
     #[must_use]
     pub fn where_positive(&self, at_from: f64, at_to: f64) -> Option<Self> {
         let share = at_from / (at_from - at_to);
@@ -77,21 +77,21 @@ impl Segment {
         }
     }
 
-    /// The part to the left of the directed line from `a` to `b`, and on it.
+    /// Returns the part on or to the left of the directed line from `a` to `b`.
     #[must_use]
     pub fn left_of(&self, a: Point, b: Point) -> Option<Self> {
         let [from, to] = self.corners().map(|p| cross(b - a, p - a));
         self.where_positive(from, to)
     }
 
-    /// The part in a convex polygon, counter-clockwise.
+    /// Returns the part in a convex polygon, counter-clockwise.
     #[must_use]
     pub fn within_polygon(&self, corners: &[Point]) -> Option<Self> {
         let n = corners.len();
         (0..n).try_fold(*self, |part, k| part.left_of(corners[k], corners[(k + 1) % n]))
     }
 
-    /// The part in a box, which may have infinite sides.
+    /// Returns the part in a box, which may have infinite sides.
     #[must_use]
     pub fn within(&self, lower: [f64; 2], upper: [f64; 2]) -> Option<Self> {
         (0..2).try_fold(*self, |part, k| {
@@ -100,7 +100,7 @@ impl Segment {
         })
     }
 
-    /// Whether any of it lies in a box, its sides included. Exact.
+    /// Returns true if any of it lies in a box, its sides included. Exact.
     #[must_use]
     pub fn meets(&self, lower: [f64; 2], upper: [f64; 2]) -> bool {
         let overlaps = |k: usize| {
@@ -120,7 +120,7 @@ impl Segment {
         [Orientation::Clockwise, Orientation::CounterClockwise].iter().all(|side| sides.iter().any(|s| s != side))
     }
 
-    /// Its place that is nearest to `p`, the first of several; exact up to rounding.
+    /// Returns its place nearest to `p`, the first of several; exact up to rounding.
     #[must_use]
     pub fn nearest(&self, measure: Measure, p: Configuration) -> Configuration {
         if self.is_point() {
@@ -151,7 +151,7 @@ impl Segment {
         shares.into_iter().map(|share| self.at(share)).reduce(better).unwrap_or(self.from)
     }
 
-    /// Length of the shortest way from `p` to it.
+    /// Returns the length of the shortest displacement from `p` to it.
     #[must_use]
     pub fn distance(&self, measure: Measure, p: Configuration) -> f64 {
         measure.norm(self.nearest(measure, p) - p)

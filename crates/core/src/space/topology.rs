@@ -4,11 +4,12 @@ use super::Configuration;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// What the double [`TAU`] lacks of a whole turn, to double precision: after 80 000 turns (half a million radians) it
-/// amounts to 2e-11 rad, far more than the margins of certificates.
+/// Difference between a whole turn and the double [`TAU`], to double precision. After 80 000 turns (half a million
+/// radians) it adds up to 2e-11 rad, far more than the margins of certificates.
 const BEYOND_TAU: f64 = 2.449_293_598_294_706_4e-16;
 
-/// `turns` whole turns, as a sum of two doubles; exact to far below a rounding of the second. `turns` is a whole number.
+/// Returns `turns` whole turns as a sum of two doubles, exact to far below a rounding of the second. `turns` is an
+/// integer.
 fn whole_turns(turns: f64) -> [f64; 2] {
     let high = turns * TAU;
     // What rounding left out of the product, exactly.
@@ -16,14 +17,14 @@ fn whole_turns(turns: f64) -> [f64; 2] {
     [high, left_out + turns * BEYOND_TAU]
 }
 
-/// A sum as one double and what rounding left out of it, exactly (Knuth 1969).
+/// Returns a sum as a double and its rounding error, exactly (Knuth 1969).
 fn two_sum(a: f64, b: f64) -> [f64; 2] {
     let sum = a + b;
     let of_b = sum - a;
     [sum, (a - (sum - of_b)) + (b - of_b)]
 }
 
-/// `value` and so many whole turns, correct to two roundings of the result, also where the two cancel.
+/// Returns `value` plus whole turns, correct to two roundings of the result, even if the two cancel.
 fn turned(value: f64, turns: f64) -> f64 {
     if turns == 0.0 {
         return value;
@@ -37,8 +38,8 @@ fn turned(value: f64, turns: f64) -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointRange {
-    /// From `lower` to `upper`, both included. For a revolute joint it may be longer than a full turn: then poses
-    /// repeat within it, but configurations do not.
+    /// From `lower` to `upper`, both included. The range of a revolute joint may exceed a full turn: then poses repeat
+    /// within it, but configurations do not.
     Interval {
         /// The least value of the joint.
         lower: f64,
@@ -50,13 +51,13 @@ pub enum JointRange {
 }
 
 impl JointRange {
-    /// Whether this is a circle.
+    /// Returns true for a circle.
     #[must_use]
     pub fn is_circle(self) -> bool {
         matches!(self, JointRange::Circle)
     }
 
-    /// The interval that represents every value once: the limits, or `[-pi, pi]`.
+    /// Returns the interval that represents every value once: the limits, or `[-pi, pi]`.
     #[must_use]
     pub fn domain(self) -> (f64, f64) {
         match self {
@@ -65,14 +66,14 @@ impl JointRange {
         }
     }
 
-    /// Length of [`JointRange::domain`].
+    /// Returns the length of [`JointRange::domain`].
     #[must_use]
     pub fn extent(self) -> f64 {
         let (lower, upper) = self.domain();
         upper - lower
     }
 
-    /// Whether `value` is allowed. Circles allow all.
+    /// Returns true if `value` is allowed. Circles allow all values.
     #[must_use]
     pub fn contains(self, value: f64) -> bool {
         match self {
@@ -81,9 +82,9 @@ impl JointRange {
         }
     }
 
-    /// The representative of `value` in the domain: itself on an interval, in `[-pi, pi)` on a circle. Within 1e-15 of what
-    /// it is in truth, for magnitudes up to 1e15: turns are taken off with more digits of pi than a double has. (Beyond, a
-    /// double does not tell one angle from the next.)
+    /// Returns the representative of `value` in the domain: unchanged on an interval, in `[-pi, pi)` on a circle. The
+    /// error is at most 1e-15 for magnitudes up to 1e15, because turns are subtracted with more digits of pi than a
+    /// double has. (Beyond that, a double does not distinguish neighbouring angles.)
     #[must_use]
     pub fn wrap(self, value: f64) -> f64 {
         if self != JointRange::Circle || (-PI..PI).contains(&value) {
@@ -98,7 +99,8 @@ impl JointRange {
         }
     }
 
-    /// The shortest signed way from `from` to `to`; on a circle in `[-pi, pi)`, as exact as [`JointRange::wrap`].
+    /// Returns the shortest signed displacement from `from` to `to`; on a circle in `[-pi, pi)`, as exact as
+    /// [`JointRange::wrap`].
     #[must_use]
     pub fn displacement(self, from: f64, to: f64) -> f64 {
         match self {
@@ -110,8 +112,8 @@ impl JointRange {
         }
     }
 
-    /// The copy of `value` nearest to `near`; exactly `value` on an interval, and on a circle where no turn is added. Else
-    /// correct to two roundings: half a million radians from zero doubles lie 6e-11 rad apart.
+    /// Returns the copy of `value` nearest to `near`: exactly `value` on an interval, and on a circle if no turn is
+    /// added. Otherwise correct to two roundings: half a million radians from zero, doubles are 6e-11 rad apart.
     #[must_use]
     pub fn lift(self, value: f64, near: f64) -> f64 {
         match self {
@@ -120,14 +122,14 @@ impl JointRange {
         }
     }
 
-    /// `value` and so many whole turns, a whole number of them, correct to two roundings of the result.
+    /// Returns `value` plus an integer number of whole turns, correct to two roundings of the result.
     #[must_use]
     pub fn turned(self, value: f64, turns: f64) -> f64 {
         turned(value, turns)
     }
 
-    /// The copies of `value` from `lower` to `upper`, ascending: on an interval only the value itself, wherever it lies.
-    /// The bounds must be finite.
+    /// Iterates over the copies of `value` from `lower` to `upper`, ascending; on an interval only over the value
+    /// itself, wherever it lies. The bounds must be finite.
     pub fn copies_within(self, value: f64, (lower, upper): (f64, f64)) -> impl Iterator<Item = f64> {
         let turns = match self {
             JointRange::Interval { .. } => 0..=0,
@@ -145,31 +147,31 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// Whether both values are allowed.
+    /// Returns true if both values are allowed.
     #[must_use]
     pub fn contains(&self, q: Configuration) -> bool {
         self.ranges[0].contains(q[0]) && self.ranges[1].contains(q[1])
     }
 
-    /// The representative of `q` in the fundamental domain.
+    /// Returns the representative of `q` in the fundamental domain.
     #[must_use]
     pub fn wrap(&self, q: Configuration) -> Configuration {
         Configuration::new(self.ranges[0].wrap(q[0]), self.ranges[1].wrap(q[1]))
     }
 
-    /// The shortest displacement from `from` to `to`.
+    /// Returns the shortest displacement from `from` to `to`.
     #[must_use]
     pub fn displacement(&self, from: Configuration, to: Configuration) -> Configuration {
         Configuration::new(self.ranges[0].displacement(from[0], to[0]), self.ranges[1].displacement(from[1], to[1]))
     }
 
-    /// Euclidean length of the shortest displacement.
+    /// Returns the Euclidean length of the shortest displacement.
     #[must_use]
     pub fn distance(&self, from: Configuration, to: Configuration) -> f64 {
         self.displacement(from, to).norm()
     }
 
-    /// The copy of `q` nearest to `near`, axis by axis as [`JointRange::lift`].
+    /// Returns the copy of `q` nearest to `near`, axis by axis as [`JointRange::lift`].
     #[must_use]
     pub fn lift(&self, q: Configuration, near: Configuration) -> Configuration {
         Configuration::new(self.ranges[0].lift(q[0], near[0]), self.ranges[1].lift(q[1], near[1]))
@@ -209,7 +211,7 @@ mod tests {
         BigRational::from_float(value).expect("a finite number")
     }
 
-    /// 2 pi to more than forty decimals, by Machin's formula: `pi / 4 = 4 atan(1/5) - atan(1/239)`.
+    /// Computes 2 pi to more than forty decimals by Machin's formula: `pi / 4 = 4 atan(1/5) - atan(1/239)`.
     fn whole_turn() -> BigRational {
         let atan = |inverse: f64, terms: u8| {
             let (x, square) = (exact(1.0) / exact(inverse), exact(inverse * inverse));
@@ -220,7 +222,7 @@ mod tests {
         (atan(5.0, 32) * exact(4.0) - atan(239.0, 10)) * exact(8.0)
     }
 
-    /// Whether a difference is a number of whole turns, up to `by`.
+    /// Returns true if a difference is an integer number of turns, up to `by`.
     fn is_whole(difference: BigRational, by: f64) -> bool {
         let turn = whole_turn();
         let rest = &difference - (&difference / &turn).round() * turn;
@@ -230,7 +232,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Against exact arithmetic, for angles of any size that a world may state.
+        /// Compares with exact arithmetic, for angles of any size allowed in worlds.
         #[test]
         fn turns_are_taken_off_exactly(
             mantissa in -10.0..10.0_f64, decade in 0..6_i32, other in -10.0..10.0_f64, far in -1e6..1e6_f64,

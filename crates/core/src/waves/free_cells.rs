@@ -3,20 +3,20 @@
 use crate::cspace::Grid;
 use serde::{Deserialize, Serialize};
 
-/// Which cells a move leads to.
+/// The cells that are neighbours of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Neighborhood {
     /// The cells that share a side.
     #[default]
     Four,
-    /// Those that share a corner too. A diagonal move needs both cells beside it free: it leads through the corner that
-    /// all four share, and touching is contact.
+    /// Also those that share a corner. A diagonal move needs both adjacent cells free, because it passes through the
+    /// corner that all four share, and touching is contact.
     Eight,
 }
 
 impl Neighborhood {
-    /// How many cells surround one.
+    /// Returns the number of neighbours.
     #[must_use]
     pub fn count(self) -> u8 {
         match self {
@@ -26,17 +26,17 @@ impl Neighborhood {
     }
 }
 
-/// One move from cell to cell.
+/// A move between neighbouring cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Move {
     /// Index of the cell that it leads to.
     pub to: usize,
-    /// Whether through a corner.
+    /// True for a move through a corner.
     pub is_diagonal: bool,
 }
 
-/// Which cells of a grid are free: a bit each, so that those of 4096 x 4096 cells take 2 MiB and stay in the cache.
-/// Cells have their index in the grid, `i * cells[1] + j`.
+/// The free cells of a grid: one bit each, so that 4096 x 4096 cells take 2 MiB and stay in the cache. Cells have their
+/// index in the grid, `i * cells[1] + j`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FreeCells {
     cells: [usize; 2],
@@ -48,7 +48,7 @@ pub struct FreeCells {
 }
 
 impl FreeCells {
-    /// Linear in the number of cells.
+    /// Builds the bits. Linear in the number of cells.
     ///
     /// # Panics
     /// If there are `2^32 - 1` cells or more.
@@ -66,32 +66,32 @@ impl FreeCells {
         }
     }
 
-    /// Shape of the grid.
+    /// Returns the number of rows and columns.
     #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
     }
 
-    /// Whether the last row (column) borders on the first.
+    /// Returns true for each axis whose last row (column) borders on the first.
     #[must_use]
     pub fn circles(&self) -> [bool; 2] {
         self.circles
     }
 
-    /// Number of free cells.
+    /// Returns the number of free cells.
     #[must_use]
     pub fn count(&self) -> usize {
         self.bits.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// Whether cell `index` is free.
+    /// Returns true if cell `index` is free.
     #[must_use]
     pub fn is_free(&self, index: usize) -> bool {
         self.has(index / self.cells[1], index % self.cells[1])
     }
 
-    /// The moves from cell `from`, across the seams of circles too: first to cells that share a side, in the order
-    /// `-q1, +q1, -q2, +q2`, then diagonal ones in the same order.
+    /// Iterates over the moves from cell `from`, also across the seams of circles: first to cells that share a side, in
+    /// the order `-q1, +q1, -q2, +q2`, then diagonal ones in the same order.
     pub fn moves(&self, from: usize, neighborhood: Neighborhood) -> impl Iterator<Item = Move> + use<> {
         let columns = self.cells[1];
         let (i, j) = (from / columns, from % columns);
@@ -113,7 +113,7 @@ impl FreeCells {
         moves(straight, false).chain(moves(diagonals, true))
     }
 
-    /// The rows (columns) before and after one; nothing beyond a limit.
+    /// Returns the rows (columns) before and after one; `None` beyond a limit.
     pub(super) fn beside(&self, axis: usize, at: usize) -> [Option<usize>; 2] {
         let (last, is_circle) = (self.cells[axis] - 1, self.circles[axis]);
         let before = if at > 0 { Some(at - 1) } else { is_circle.then_some(last) };
@@ -126,7 +126,7 @@ impl FreeCells {
         self.words
     }
 
-    /// All rows, one after the other.
+    /// Returns the bits of all rows.
     pub(super) fn bits(&self) -> &[u64] {
         &self.bits
     }
@@ -139,7 +139,7 @@ impl FreeCells {
         &self.bits[i * self.words..(i + 1) * self.words]
     }
 
-    /// Number of runs: free cells of a row between two that are not.
+    /// Returns the number of runs: maximal stretches of free cells in a row.
     pub(super) fn runs(&self) -> usize {
         let mut runs = 0;
         for line in self.bits.chunks_exact(self.words.max(1)) {
@@ -152,7 +152,7 @@ impl FreeCells {
         runs
     }
 
-    /// The first column from `from` on, and before `to`, that is free, or not free; else `to`.
+    /// Returns the first column in `from..to` that is free, or not free; `to` if there is none.
     pub(super) fn next(&self, i: usize, from: usize, to: usize, free: bool) -> usize {
         if from >= to {
             return to;
@@ -170,7 +170,8 @@ impl FreeCells {
         to
     }
 
-    /// The first column of the free cells that end before column `end`: `end` itself if the one before is not free.
+    /// Returns the first column of the free run that ends before column `end`, or `end` if the previous cell is not
+    /// free.
     pub(super) fn run_start(&self, i: usize, end: usize) -> usize {
         let line = self.row(i);
         let mut start = end;

@@ -9,22 +9,23 @@ use std::ops::Range;
 /// first and have to be written again.
 const BUCKET: usize = 16;
 
-/// Work of handling a stretch, in cells: what its look-ups cost beside copying one more cell (measured; some 100 ns).
+/// Cost of handling a stretch beyond copying its cells, in cells (measured; about 100 ns).
 const STRETCH: usize = 64;
 
 /// The wave is given up when the work exceeds this many times the number of cells: by then a queue had done it.
 const MOST_WORK: usize = 5;
 
-/// Labels of every cell that a wave from `sources` (free cells) reaches over the cells that share a side, and
-/// [`UNREACHED`] for all others; nothing if it turned out not to be worth it.
+/// Labels every cell that a wave from `sources` (free cells) reaches over shared sides, and all others with
+/// [`UNREACHED`]. Returns `None` if the method turns out to be slow.
 ///
-/// In each row the labels of free cells beside one another differ by one at most. So if a stretch of a row is copied to
-/// the row beside it, plus one and where that is less, that row keeps this property but at the ends of what was copied; and
-/// from there the labels rise by one from cell to cell until they meet lesser ones, or a wall. Both are
-/// loops without a branch over plain arrays. What has changed in a row, one stretch, is passed on to the next rows, least labels
-/// first; a stretch reaches ahead of its least label, so that some labels are corrected later by another one that
-/// comes the shorter way. When no stretch waits, no label is greater than a neighbour's plus one: these are the
-/// distances, whatever the order was.
+/// In each row, labels of neighbouring free cells differ by at most one. Suppose a stretch of a row is copied to the
+/// next row, plus one and only where that is less. Then that row keeps this property except at the ends of the copy.
+/// From there the labels increase by one per cell until they meet smaller ones, or a wall. Both are loops without
+/// branches over plain arrays.
+///
+/// The changed stretch of a row is passed on to the next rows, least labels first. A stretch may reach beyond its least
+/// label, so some labels are corrected later by a shorter path. When no stretch waits, no label exceeds a neighbour's
+/// by more than one: these are the distances, independent of the order.
 pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
@@ -53,7 +54,7 @@ pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> 
     Some(labels)
 }
 
-/// To which of the neighbouring rows.
+/// The neighbouring rows to which a change is passed on.
 #[derive(Debug, Clone, Copy)]
 struct Ways {
     before: bool,
@@ -76,7 +77,7 @@ struct Stretch {
     ways: Ways,
 }
 
-/// In which direction of a row.
+/// A direction along a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Side {
     Before,
@@ -87,12 +88,12 @@ struct RunWave<'a> {
     free: &'a FreeCells,
     labels: &'a mut [u32],
     queue: Queue,
-    /// In cells, see [`STRETCH`].
+    /// Work so far, in cells; see [`STRETCH`].
     work: usize,
 }
 
 impl RunWave<'_> {
-    /// Improves row `to`, beside that of the stretch, and enters what has changed there.
+    /// Improves row `to`, next to that of the stretch, and queues the changes there.
     fn pass_on(&mut self, stretch: &Stretch, to: usize, ways: Ways) {
         let (from, columns) = (stretch.row, self.free.cells()[1]);
         self.work += STRETCH;
@@ -112,8 +113,7 @@ impl RunWave<'_> {
             let Some((improved, least)) = improve(source, target) else { continue };
             let (first, last) = (start + improved.start, start + improved.end);
             let mut changed = first..last;
-            // What goes on along the row lies below cells that are not free, and can come out behind them: it is passed
-            // back as well.
+            // Changes along the row lie beside blocked cells, and can get behind them, so they are also passed back.
             if first == start {
                 let value = self.labels[to * columns + first] + 1;
                 changed.start = self.spread(to, first, Side::Before, value, ways.opposite());
@@ -126,8 +126,8 @@ impl RunWave<'_> {
         }
     }
 
-    /// Improves a row from `edge` on to one side with `value`, `value + 1`, ..., and enters what has changed, to be
-    /// passed on to `ways`; beyond a seam to both. The new edge on this side of the seam.
+    /// Improves a row from `edge` to one side with `value`, `value + 1`, ..., and queues the changes for `ways`; beyond
+    /// a seam for both rows. Returns the new edge on this side of the seam.
     fn spread(&mut self, row: usize, edge: usize, side: Side, value: u32, ways: Ways) -> usize {
         let columns = self.free.cells()[1];
         let limit = if side == Side::Before { 0 } else { columns };
@@ -138,7 +138,7 @@ impl RunWave<'_> {
         here
     }
 
-    /// The same up to a limit or the seam; the new edge and the value that comes next.
+    /// Does the same up to a limit or the seam. Returns the new edge and the next value.
     fn rise(&mut self, row: usize, edge: usize, side: Side, value: u32, ways: Ways) -> (usize, u32) {
         let columns = self.free.cells()[1];
         let run = match side {
@@ -168,7 +168,7 @@ impl RunWave<'_> {
     }
 }
 
-/// The same columns of two different lines, which begin at `at`: the first to read, the second to write.
+/// Returns the same columns, starting at `at`, of two different rows: the first for reading, the second for writing.
 fn two_lines<'a>(labels: &'a mut [u32], at: [usize; 2], columns: &Range<usize>) -> (&'a [u32], &'a mut [u32]) {
     let (low, high) = labels.split_at_mut(at[0].max(at[1]));
     let low_line = |at: usize| at + columns.start..at + columns.end;
@@ -193,7 +193,8 @@ fn improve(source: &[u32], target: &mut [u32]) -> Option<(Range<usize>, u32)> {
     Some((first..last + 1, least))
 }
 
-/// How many of the first `length` numbers satisfy a condition that fails for all after the first for which it fails.
+/// Returns how many of the first `length` numbers satisfy a condition. If the condition fails for a number, it must
+/// fail for all later ones.
 fn prefix(length: usize, condition: impl Fn(usize) -> bool) -> usize {
     if length == 0 || condition(length - 1) {
         return length;
@@ -210,12 +211,14 @@ struct Queue {
 }
 
 impl Queue {
-    /// A stretch is no longer than a row, and its labels rise by one from cell to cell at most: so far ahead can they be.
+    /// Creates the queue. A stretch is at most as long as a row, and its labels increase by at most one per cell, which
+    /// bounds how far ahead labels can be.
     fn new(columns: usize) -> Self {
         Self { buckets: vec![Vec::new(); columns / BUCKET + 3], current: 0, waiting: 0 }
     }
 
-    /// Out of order where the label is below those that are dealt with, or too far ahead: that costs time only.
+    /// Queues a stretch. It is out of order if its label is below the current ones, or too far ahead, which costs only
+    /// time.
     fn push(&mut self, label: u32, stretch: Stretch) {
         let ring = self.buckets.len();
         let bucket = (label as usize / BUCKET).clamp(self.current, self.current + ring - 1);

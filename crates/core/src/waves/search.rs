@@ -1,7 +1,7 @@
-//! Textbook searches over the cells of a grid, which look no farther than they must.
+//! Textbook searches over the cells of a grid, which expand no more cells than necessary.
 //!
-//! Own ones, not petgraph's: numbers of cells expanded, ties and exact costs are what they are there to show, and cells are
-//! places in arrays where petgraph keeps a hash table. The tests compare their costs with petgraph's.
+//! They are not petgraph's, because they must report the number of expanded cells, tie-breaking and exact costs, and
+//! because array indices are faster than petgraph's hash tables. The tests compare their costs with petgraph's.
 
 use super::deepening::deepen;
 use super::{FreeCells, Neighborhood, UNREACHED};
@@ -12,7 +12,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, VecDeque};
 use std::f64::consts::SQRT_2;
 
-/// In which order cells are expanded. All are one algorithm with a different list of cells that wait.
+/// The order in which cells are expanded. All searches are one algorithm with different open lists.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {
     /// First in, first out: fewest moves.
@@ -31,7 +31,7 @@ pub enum Order {
     IterativeDeepening,
 }
 
-/// Which of several cells with the same estimate is expanded.
+/// The rule for choosing among cells with the same estimate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ties {
@@ -43,13 +43,13 @@ pub enum Ties {
 }
 
 impl Ties {
-    /// Whether it is the default.
+    /// Returns true for the default.
     #[must_use]
     pub fn is_usual(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Name on the command line.
+    /// Returns its name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -59,24 +59,25 @@ impl Ties {
     }
 }
 
-/// What a way from cell to cell costs: 1 for a straight move and the square root of 2 for a diagonal one, in cells,
-/// whatever their size in the configuration space. Exact, since it is kept as two integers.
+/// Cost of a path from cell to cell: 1 for a straight move and the square root of 2 for a diagonal one, in cells,
+/// whatever their size in joint space. Exact, because it is stored as two integers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
-    /// How many moves are straight.
+    /// Number of straight moves.
     pub straight: u32,
-    /// How many moves are diagonal.
+    /// Number of diagonal moves.
     pub diagonal: u32,
 }
 
 impl Cost {
-    /// The cost as a number. Different costs below some 10^7 moves are different numbers, in the right order.
+    /// Returns the cost as a number. Below about 10^7 moves, different costs give different numbers, in the right
+    /// order.
     #[must_use]
     pub fn value(self) -> f64 {
         f64::from(self.straight) + SQRT_2 * f64::from(self.diagonal)
     }
 
-    /// Number of moves.
+    /// Returns the number of moves.
     #[must_use]
     pub fn moves(self) -> u32 {
         self.straight + self.diagonal
@@ -87,7 +88,7 @@ impl Cost {
     }
 }
 
-/// What a search found out, cell by cell of the grid.
+/// The result of a search, for each cell of the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Search {
     pub(super) costs: Vec<Cost>,
@@ -101,11 +102,11 @@ pub struct Search {
     pub met: Option<usize>,
     /// Number of rounds: 1, except for iterative deepening.
     pub rounds: usize,
-    /// How many times a cell was expanded in all rounds together.
+    /// Number of expansions in all rounds together; a cell may count several times.
     pub expansions: usize,
 }
 
-/// So many cells are expanded in less than a millisecond.
+/// Expanding this many cells takes less than a millisecond.
 pub(super) const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl Search {
@@ -119,8 +120,8 @@ impl Search {
         Self::to_any(free, neighborhood, order, sources, &[target])
     }
 
-    /// The same until one of several targets is expanded. An estimate is that of the nearest target, and takes time in
-    /// proportion to their number.
+    /// Does the same until one of several targets is expanded. The estimate is that of the nearest target, and takes
+    /// time proportional to their number.
     #[must_use]
     pub fn to_any(
         free: &FreeCells,
@@ -175,7 +176,7 @@ impl Search {
         search
     }
 
-    /// A search that has labelled its sources, and these: the free ones, each once.
+    /// Starts a search: labels its sources, and returns the free ones, each once.
     fn begun(free: &FreeCells, sources: &[usize]) -> (Self, Vec<usize>) {
         let [rows, columns] = free.cells();
         let size = rows * columns;
@@ -191,21 +192,21 @@ impl Search {
         (Self { costs, parents, expanded: Vec::new(), labelled, met: None, rounds: 1, expansions: 0 }, begins)
     }
 
-    /// Cost of the way by which `cell` was reached, if it was: that of a shortest one for cells that Dijkstra or A\* have
-    /// expanded, of one with fewest moves after a breadth-first search.
+    /// Returns the cost of the path by which `cell` was reached. It is a shortest path for cells that Dijkstra or A\*
+    /// has expanded, and one with fewest moves after a breadth-first search.
     #[must_use]
     pub fn cost(&self, cell: usize) -> Option<Cost> {
         (self.parents[cell] != UNREACHED).then(|| self.costs[cell])
     }
 
-    /// Number of moves on the way by which each cell was reached, [`UNREACHED`] where there is none.
+    /// Returns the number of moves on the path by which each cell was reached, or [`UNREACHED`].
     #[must_use]
     pub fn labels(&self) -> Vec<u32> {
         let label = |(cost, &parent): (&Cost, &u32)| if parent == UNREACHED { UNREACHED } else { cost.moves() };
         self.costs.iter().zip(&self.parents).map(label).collect()
     }
 
-    /// The cells from `cell` back to the source, if it was reached.
+    /// Returns the cells from `cell` back to the source, if it was reached.
     #[must_use]
     pub fn way_back(&self, cell: usize) -> Option<Vec<usize>> {
         if self.parents[cell] == UNREACHED {
@@ -221,7 +222,7 @@ impl Search {
     }
 }
 
-/// Cost of the way between two cells if nothing were in it, the shorter way round on circles.
+/// Returns the cost of the unobstructed path between two cells, by the shorter direction on circles.
 fn straight_cost(free: &FreeCells, neighborhood: Neighborhood, from: usize, to: usize) -> Cost {
     let cells = free.cells();
     let apart = |axis: usize| {
@@ -261,7 +262,7 @@ impl Open {
         }
     }
 
-    /// Whether cells can be labelled anew.
+    /// Returns true if cells can get a smaller label later.
     fn relaxes(&self) -> bool {
         matches!(self, Self::Least(..))
     }

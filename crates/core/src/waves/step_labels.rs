@@ -5,7 +5,8 @@ use super::run_wave::run_wave;
 use super::tile_wave::tile_wave;
 use super::{FreeCells, Neighborhood, UNREACHED};
 
-/// Where free cells come in runs of this many on the average, the wave goes run by run; in narrower mazes and in noise
+/// Mean length of runs of free cells above which the wave works run by run. In narrower mazes and in noise, tile by
+/// tile is faster.
 /// tile by tile is faster.
 const RUN: usize = 40;
 
@@ -34,33 +35,33 @@ impl StepLabels {
         Self { neighborhood, labels }
     }
 
-    /// One a cell of the grid, in its order; [`UNREACHED`] for cells that are not free or not connected.
+    /// Returns the label of each cell of the grid; [`UNREACHED`] for cells that are not free or not connected.
     #[must_use]
     pub fn labels(&self) -> &[u32] {
         &self.labels
     }
 
-    /// The same, to keep.
+    /// Returns the labels as a vector.
     #[must_use]
     pub fn into_labels(self) -> Vec<u32> {
         self.labels
     }
 
-    /// Number of cells with a label. Linear.
+    /// Returns the number of labelled cells. Linear.
     #[must_use]
     pub fn reached(&self) -> usize {
         self.labels.iter().filter(|&&label| label != UNREACHED).count()
     }
 
-    /// How many different labels there are. Linear.
+    /// Returns the number of distinct labels. Linear.
     #[must_use]
     pub fn levels(&self) -> usize {
         let labels = self.labels.iter().filter(|&&label| label != UNREACHED);
         labels.max().map_or(0, |&label| label as usize + 1)
     }
 
-    /// The cells from `index` down to a source, always to the smallest neighbour (the first of equals, so straight before
-    /// diagonal): a path of fewest moves. Nothing if the wave did not come to `index`.
+    /// Returns the cells from `index` to a source, always to the smallest neighbour (the first of equals, so straight
+    /// before diagonal): a path of fewest moves. Returns `None` if the wave did not reach `index`.
     #[must_use]
     pub fn descend(&self, free: &FreeCells, index: usize) -> Option<Vec<usize>> {
         let mut label = self.labels[index];

@@ -12,11 +12,11 @@ const ROW: u64 = 0xff;
 /// The first column of a tile.
 const COLUMN: u64 = 0x0101_0101_0101_0101;
 
-/// Labels of every cell that a wave from `sources` (free cells) reaches over the cells that share a side, and
-/// [`UNREACHED`] for all others.
+/// Labels every cell that a wave from `sources` (free cells) reaches over shared sides, and all others with
+/// [`UNREACHED`].
 ///
-/// Where the wave can go on is kept in one bit a cell, and what it does in a tile in one step is a few shifts of words:
-/// the labels, many times as large, are written once each and never read.
+/// The open cells are stored as one bit per cell, and one step within a tile is a few shifts of words. The labels,
+/// which are many times larger, are written once each and never read.
 pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
@@ -57,7 +57,7 @@ struct TileWave {
     across: usize,
     /// Tiles with a front, and its level: never more than two levels at a time, in order.
     queue: VecDeque<[u32; 2]>,
-    /// Whether the last row (column) borders on the first.
+    /// True for each axis whose last row (column) borders on the first.
     circles: [bool; 2],
     /// Place of the last row (column) of the grid in its tile.
     last: [usize; 2],
@@ -82,7 +82,7 @@ impl TileWave {
         Self { tiles, across, queue: VecDeque::new(), circles: free.circles(), last }
     }
 
-    /// Those of the cells that wait become part of the tile's front.
+    /// Adds the waiting cells to the tile's front.
     #[inline(always)]
     fn enter(&mut self, level: u32, tile: usize, cells: u64) {
         let at = &mut self.tiles[tile];
@@ -148,7 +148,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Against a textbook search, on sizes that do and do not fill the tiles, some of a single row or column.
+        /// Compares with a textbook search, on sizes that do and do not fill the tiles, including single rows and
+        /// columns.
         #[test]
         fn labels_are_those_of_a_search(
             rows in 1..28_usize, columns in 1..28_usize, circles in any::<[bool; 2]>(), seed in any::<u64>(), density in 0..45_u64,
