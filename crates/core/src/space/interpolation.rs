@@ -4,11 +4,9 @@
 ///
 /// | format | consumer | between samples |
 /// |---|---|---|
-/// | ROS 2 `JointTrajectory` (YAML, JSON, MCAP) | `joint_trajectory_controller`, interpolation method `splines` | with
-/// velocities and accelerations quintic, with velocities cubic, else linear |
+/// | ROS 2 `JointTrajectory` (YAML, JSON, MCAP) | `joint_trajectory_controller`, interpolation method `splines` | with velocities and accelerations quintic, with velocities cubic, else linear |
 /// | ROS 2 `JointState` (MCAP) | measured values; no controller follows them | with velocities cubic, else linear |
-/// | cplan's JSON | as its member `interpolation` states: [`INTERPOLATION`], or [`SMOOTH_INTERPOLATION`] | quartic, or
-/// cubic; without accelerations cubic, without velocities linear |
+/// | cplan's JSON | as its member `interpolation` states: [`INTERPOLATION`], or [`SMOOTH_INTERPOLATION`] | quartic, or cubic; without accelerations cubic, without velocities linear |
 /// | CSV | no convention; the usual one for positions with velocities | with velocities cubic, else linear |
 /// | a path without times | straight segments between waypoints | linear |
 ///
@@ -43,5 +41,5 @@ macro_rules! interpolation {
 pub const INTERPOLATION: &str =
     interpolation!("c = d = 0 on straight pieces of the path, where the acceleration is constant");
 
-/// The same if the jerk is limited: [`Interpolation::Cubic`], with the given accelerations.
+/// Description for limited jerk: [`Interpolation::Cubic`], with the given accelerations.
 pub const SMOOTH_INTERPOLATION: &str = interpolation!("d = 0, because the jerk is constant");

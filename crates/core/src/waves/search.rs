@@ -60,7 +60,7 @@ impl Ties {
 }
 
 /// Cost of a path from cell to cell: 1 for a straight move and the square root of 2 for a diagonal one, in cells,
-/// whatever their size in joint space. Exact, because it is stored as two integers.
+/// independent of their size in joint space. Exact, because it is stored as two integers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
     /// Number of straight moves.
