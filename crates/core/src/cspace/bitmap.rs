@@ -4,13 +4,14 @@ use crate::model::{Contacts, Scene, on_axis};
 use crate::space::JointRange;
 use std::ops::Range;
 
-/// Cells as in [`super::Grid`], one bit each: set where the cell's *centre* comes within the clearance of an obstacle.
+/// Cells as in [`super::Grid`], one bit each: set if the cell's *centre* comes within the clearance of an obstacle.
 ///
-/// What it proves: the centres, exactly up to [`cplan_geometry::ROUNDING`]; nothing between them ([`super::Proves::Sampled`]).
+/// Proof: about the centres, exactly up to [`cplan_geometry::ROUNDING`]; nothing between them
+/// ([`super::Proves::Sampled`]).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bitmap {
     cells: [usize; 2],
-    /// Of a row.
+    /// Words per row.
     words: usize,
     bits: Vec<u64>,
 }
@@ -19,40 +20,40 @@ pub struct Bitmap {
 const WORD: usize = u64::BITS as usize;
 
 impl Bitmap {
-    /// Number of cells along each axis.
+    /// Returns the number of cells along each axis.
     #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
     }
 
-    /// Whether the centre of cell `(i, j)` is blocked.
+    /// Returns true if the centre of cell `(i, j)` is blocked.
     ///
     /// # Panics
-    /// If there is no such cell.
+    /// If the cell does not exist.
     #[must_use]
     pub fn blocked(&self, i: usize, j: usize) -> bool {
         assert!(i < self.cells[0] && j < self.cells[1], "a cell of the bitmap");
         self.bits[i * self.words + j / WORD] >> (j % WORD) & 1 == 1
     }
 
-    /// Number of blocked cells.
+    /// Returns the number of blocked cells.
     #[must_use]
     pub fn count(&self) -> usize {
         self.bits.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// The words of row `i`, cell 0 in the lowest bit of the first; bits beyond the last cell are 0.
+    /// Returns the words of row `i`, with cell 0 in the lowest bit of the first; bits beyond the last cell are 0.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// If the row does not exist.
     #[must_use]
     pub fn row(&self, i: usize) -> &[u64] {
         &self.bits[i * self.words..(i + 1) * self.words]
     }
 }
 
-/// The bitmap of a scene: [`super::grid_from_slices`] in an eighth of the memory. Pair by pair, only in the rows where link
-/// 2 reaches the piece at all. `O(reached slices * contacts + cells / 64)`.
+/// Computes the bitmap of a scene: [`super::grid_from_slices`] in an eighth of the memory. Works pair by pair, only in
+/// the rows where link 2 reaches the piece. `O(reached slices * contacts + cells / 64)`.
 #[must_use]
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     let slices = Contacts::new(scene);
@@ -110,7 +111,7 @@ impl Centers {
         self.lower + (i as f64 + 0.5) * self.step
     }
 
-    /// The cells whose centre lies in the closed interval.
+    /// Returns the cells whose centre lies in the closed interval.
     fn within(&self, [start, end]: [f64; 2]) -> Range<usize> {
         // Conversions truncate and saturate, which is cheaper than rounding up or down without SSE 4.1.
         let at = |value: f64| (value - self.lower) * self.per_cell - 0.5;
@@ -122,7 +123,7 @@ impl Centers {
     }
 }
 
-/// The members of a range that are in none of the others, which ascend.
+/// Iterates over the members of a range that lie outside all the other, ascending ranges.
 fn without<'a>(range: Range<usize>, others: &'a [Range<usize>]) -> impl Iterator<Item = usize> + 'a {
     let ends = others.iter().map(|o| o.start).chain([usize::MAX]);
     let starts = [0].into_iter().chain(others.iter().map(|o| o.end));

@@ -15,7 +15,7 @@ pub(super) struct Contact {
 }
 
 impl Contact {
-    /// The same with joint 2, a turning one, some whole turns further.
+    /// Returns the contact with joint 2, which must be revolute, turned by whole turns.
     pub fn turned(&self, turns: f64) -> Self {
         Self { q: Configuration::new(self.q[0], self.q[1] + turns * TAU), ..*self }
     }
@@ -50,17 +50,17 @@ pub(super) struct PairMotion<'a> {
 }
 
 impl<'a> PairMotion<'a> {
-    /// The pair; `part` in link 2's frame.
+    /// Creates the pair; `part` is in link 2's frame.
     pub fn new(arm: &'a Arm, part: &'a Convex, piece: &'a Convex) -> Self {
         let part_reach = part.core().iter().map(|a| a.coords.norm()).fold(0.0, f64::max);
         let piece_reach = piece.core().iter().map(|b| (b - arm.base).norm()).fold(0.0, f64::max);
         Self { arm, part, piece, part_reach, piece_reach }
     }
 
-    /// Bound on the change of the pair's distance per unit of `q1` at fixed `q2`.
+    /// Returns a bound on the change of the pair's distance per unit of `q1` at fixed `q2`.
     ///
-    /// For a turning joint 1 as seen from link 1: the piece turns about the base. When joint 2 turns too, link 2 does so
-    /// within a fixed distance from the base, and the lesser of both counts.
+    /// Seen from link 1, a revolute joint 1 turns the piece about the base. If joint 2 is revolute too, link 2 stays
+    /// within a fixed distance of the base; the smaller of both bounds counts.
     pub fn speed(&self) -> f64 {
         match (self.arm.joints[0].joint_type, self.arm.joints[1].joint_type) {
             (JointType::Prismatic { .. }, _) => 1.0,
@@ -71,19 +71,19 @@ impl<'a> PairMotion<'a> {
         }
     }
 
-    /// Signed distance of the pair at `q`.
+    /// Returns the signed distance of the pair at `q`.
     pub fn separation(&self, q: Configuration) -> Separation {
         separation(&self.part.at(&self.arm.pose(1, q)), self.piece)
     }
 
-    /// The configuration `q` as an end of a motion.
+    /// Returns the configuration `q` as an end of a motion.
     pub fn contact(&self, q: Configuration) -> Contact {
         let pose = self.arm.pose(1, q);
         Contact { q, pose, direction: separation(&self.part.at(&pose), self.piece).direction }
     }
 
-    /// A lower bound on the signed distance of the pair all along the straight motion from `from` to `to`; minus
-    /// infinity when the argument gives none.
+    /// Returns a lower bound on the signed distance of the pair on the straight motion from `from` to `to`, or minus
+    /// infinity if the argument gives none.
     pub fn least_distance(&self, from: &Contact, to: &Contact) -> f64 {
         let ends = [self.gap(&from.pose, from.direction), self.gap(&to.pose, to.direction)];
         let least = ends[0].min(ends[1]);
@@ -102,7 +102,7 @@ impl<'a> PairMotion<'a> {
         seen_from_world.max(seen_from_link) - radii
     }
 
-    /// Gap between the cores along the unit direction `n` (from part to piece) with the link at `pose`.
+    /// Returns the gap between the cores along the unit direction `n` (from part to piece) with the link at `pose`.
     fn gap(&self, pose: &Pose, n: Vector) -> f64 {
         let in_link = pose.rotation.inverse() * n;
         let part = self.part.core().iter().map(|a| in_link.dot(&a.coords)).fold(f64::NEG_INFINITY, f64::max);
@@ -136,7 +136,8 @@ impl<'a> PairMotion<'a> {
     }
 }
 
-/// The bound of [`PairMotion`]; `least` is its `G`, `across` the gaps at start and end along each other's direction.
+/// Computes the bound of [`PairMotion`]. `least` is its `G`, `across` the gaps at start and end along each other's
+/// direction.
 fn bound(least: f64, across: [f64; 2], cosine: f64, curvature: f64) -> f64 {
     // The directions at the ends are the best ones there, so this is negative only by rounding.
     let defect = (2.0 * least - across[0] - across[1]).max(0.0);

@@ -5,7 +5,7 @@ use crate::model::{Obstacle, Scene, Shape};
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector, cross, farthest, perpendicular};
 use std::borrow::Cow;
 
-/// Shapes with no more corners stay as they are.
+/// Shapes with at most this many corners stay unchanged.
 const PLAIN: usize = 16;
 
 /// An obstacle of more pieces, however its outline is simplified, is covered by polygons made of small cells, if these are fewer.
@@ -20,11 +20,11 @@ const ROUNDED: f64 = 0.25;
 /// Outlines are moved out by this share of the coordinates, more than what rounding takes off them.
 const ROUNDING: f64 = 1e-13;
 
-/// A scene whose shapes hold those of the given one and reach no farther than `within` metres beyond them, all in all; parts
-/// and pieces that have few corners are the same. Of obstacles with many pieces those may be left out that the arm keeps
-/// farther than `near` from in all configurations. `O(n log n)`.
+/// Returns a scene whose shapes contain those of the given one and extend at most `within` metres beyond them in total.
+/// Parts and pieces with few corners are unchanged. For obstacles with many pieces, pieces may be omitted that the arm
+/// keeps farther than `near` away in all configurations. `O(n log n)`.
 ///
-/// What is free among coarse shapes is free among the true ones.
+/// Configurations that are free among coarse shapes are free among the true ones.
 pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     let fine = |shape: &Convex| shape.core().len() > PLAIN;
     let many = |obstacle: &Obstacle| {
@@ -35,7 +35,7 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     if within <= 0.0 || !parts.clone().any(|part| fine(&part.shape)) && !scene.workspace().obstacles.iter().any(many) {
         return Cow::Borrowed(scene);
     }
-    // Where parts of the arm become coarser, too, they and obstacles share what is allowed.
+    // If parts of the arm become coarser as well, they share the allowance with the obstacles.
     let each = if parts.clone().any(|part| fine(&part.shape)) { within / 2.0 } else { within };
     let reach = reach(scene).map(|reach| reach + near);
     let can_meet = |piece: &Convex| reach.is_none_or(|reach| distance_of_bounds(piece, scene.arm().base) <= reach);
@@ -64,13 +64,13 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     Cow::Owned(scene.reshaped(|part| part.shape = around(&part.shape, each), pieces))
 }
 
-/// How far from the base anything of the arm gets, where that is plain: both joints turn and nothing is carried level.
+/// Returns the greatest distance of the arm from the base, in simple cases: two revolute joints and no level payload.
 fn reach(scene: &Scene) -> Option<f64> {
     let turns = scene.arm().joints.iter().all(|joint| joint.joint_type.is_revolute());
     (turns && scene.payload().is_none()).then(|| scene.arm().reach() * (1.0 + ROUNDING))
 }
 
-/// Distance of a shape's bounds from a point, no more than that of the shape.
+/// Returns the distance of a shape's bounds from a point, which is at most that of the shape.
 fn distance_of_bounds(shape: &Convex, from: Point) -> f64 {
     let [lower, upper] = shape.bounds();
     (0..2).map(|k| (lower[k] - from[k]).max(from[k] - upper[k]).max(0.0)).fold(0.0, f64::hypot)
@@ -83,8 +83,8 @@ fn covered(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
     covering.map(|covering| covering.iter().map(|piece| around(piece, within * ROUNDED)).collect())
 }
 
-/// A convex shape with few corners that holds a given one and reaches no farther than `within` beyond it: some of its sides,
-/// drawn out until they meet. `O(n)`.
+/// Returns a convex shape with few corners that contains a given one and extends at most `within` beyond it: some of
+/// its sides, extended until they meet. `O(n)`.
 fn around(shape: &Convex, within: f64) -> Convex {
     let core = shape.core();
     if core.len() <= PLAIN {
@@ -93,7 +93,7 @@ fn around(shape: &Convex, within: f64) -> Convex {
     Convex::trusted(around_convex(core, within).unwrap_or_else(|| core.to_vec()), shape.radius())
 }
 
-/// The sides of a strictly convex polygon that are kept, drawn out; none if too few would be left.
+/// Returns the extended sides of a strictly convex polygon, or `None` if too few sides are left.
 fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
     let n = core.len();
     let corner = |i: usize| core[i % n];
@@ -121,8 +121,8 @@ fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
     (outline.len() > 2).then_some(outline)
 }
 
-/// Where the line of one side, beyond its end, meets that of a later side before its start; none where they turn by more than
-/// a right angle.
+/// Returns where the line of one side, beyond its end, meets that of a later side before its start, or `None` if they
+/// turn by more than a right angle.
 fn where_lines_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
     let (u, v) = (b - a, d - c);
     let turn = cross(u, v);
@@ -138,11 +138,12 @@ fn distance_from_line(p: Point, a: Point, b: Point) -> f64 {
     cross(along, p - a).abs() / along.norm()
 }
 
-/// Convex pieces around a simple polygon, none farther than `within` from it: its outline in straight runs, a rectangle
-/// around each, and the polygon that the runs' ends make.
+/// Returns convex pieces around a simple polygon, none farther than `within` from it: its outline is cut into straight
+/// runs; the pieces are a rectangle around each run, and the polygon of the runs' ends.
 ///
-/// A point in no rectangle is wound round as often by the runs as by the outline, because one becomes the other within the
-/// rectangles. So what the outline holds is in a rectangle or in the polygon of the runs. None if that crosses itself.
+/// The runs can be deformed into the outline within the rectangles, so both have the same winding number around a point
+/// outside of all rectangles. So each point of the polygon is in a rectangle or in the polygon of the runs. Returns
+/// `None` if that polygon crosses itself.
 fn around_polygon(corners: &[Point], within: f64) -> Option<Vec<Convex>> {
     let polygon = SimplePolygon::new(corners.to_vec()).ok()?;
     if polygon.is_convex() {
@@ -163,16 +164,16 @@ fn strictly_convex(corners: &[Point]) -> Vec<Point> {
     cplan_geometry::hull(corners)
 }
 
-/// Convex pieces around a polyline, none farther than `within` from it.
+/// Returns convex pieces around a polyline, none farther than `within` from it.
 fn around_polyline(points: &[Point], within: f64) -> Vec<Convex> {
     let piece =
         |run: &[Point]| if run.len() > 2 { rectangle(run) } else { Convex::between(run[0], run[run.len() - 1]) };
     straight_runs(points, within).into_iter().map(piece).collect()
 }
 
-/// A polyline cut into runs that share their ends, each within a band of half the width `within` about the line through its
-/// ends and hardly longer than they are apart: so no point of the rectangle around it is farther than `within` from it.
-/// Runs are lengthened by doubling and halving: `O(n log n)`.
+/// Cuts a polyline into runs that share their ends. Each lies within a band of half the width `within` around the line
+/// through its ends, and hardly extends beyond them. So no point of the rectangle around it is farther than `within`
+/// from it. Runs are found by galloping search: `O(n log n)`.
 fn straight_runs(points: &[Point], within: f64) -> Vec<&[Point]> {
     let straight = |from: usize, to: usize| {
         let (a, b) = (points[from], points[to]);
@@ -194,7 +195,7 @@ fn straight_runs(points: &[Point], within: f64) -> Vec<&[Point]> {
     runs
 }
 
-/// The rectangle around a run with two sides along the line through its ends.
+/// Returns the rectangle around a run with two sides parallel to the line through its ends.
 fn rectangle(run: &[Point]) -> Convex {
     let (a, b) = (run[0], run[run.len() - 1]);
     let along = (b - a).normalize();

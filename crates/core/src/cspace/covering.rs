@@ -3,7 +3,7 @@
 use cplan_geometry::{Convex, Point, farthest, hull};
 use cplan_interrupt::checkpoint;
 
-/// Pieces are taken to be larger than they are by this share of the coordinates: more than rounding takes off cells.
+/// Relative enlargement of pieces, which exceeds the rounding of cells.
 const ROUNDING: f64 = 1e-13;
 
 /// Rows of cells that all pieces cross together, at most; more would take more time than they save.
@@ -12,13 +12,13 @@ const MOST_CROSSINGS: f64 = 4e7;
 /// Cells of a row, from the first to the last.
 type Run = [i64; 2];
 
-/// Convex polygons whose union holds all of `pieces`, none of which may be rounded, and reaches no farther than `within`
-/// beyond them. None where it would take too much time.
+/// Returns convex polygons whose union contains all `pieces`, which must not be rounded, and extends at most `within`
+/// beyond them. Returns `None` if it would take too much time.
 ///
-/// Half of `within` is the diagonal of a cell: what is in a cell that a piece meets is that near to it. Runs of such cells in
-/// rows above each other make a stack; a stack is cut into convex polygons that reach no farther than the other half beyond
-/// its cells. However many pieces there are, no more polygons come of them than there are runs, which is as many as cells
-/// along the outline. `O(n log n)` for `n` crossings of pieces with rows.
+/// Half of `within` is the diagonal of a cell, so every point of a cell that a piece meets is that close to it. Runs of
+/// such cells in consecutive rows form a stack. A stack is cut into convex polygons that extend at most the other half
+/// beyond its cells. There are at most as many polygons as runs, that is, as cells along the outline, for any number of
+/// pieces. `O(n log n)` for `n` crossings of pieces with rows.
 pub(super) fn covering(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
     debug_assert!(pieces.iter().all(|piece| piece.radius() == 0.0), "pieces with corners");
     let lattice = Lattice::new(pieces, within / 2.0)?;
@@ -36,12 +36,12 @@ struct Lattice {
     /// Side of a cell, metres.
     side: f64,
     rows: usize,
-    /// By how much pieces are taken to be larger, metres.
+    /// Enlargement of pieces, metres.
     pad: f64,
 }
 
 impl Lattice {
-    /// Of cells with this diagonal, over all pieces.
+    /// Creates a raster of cells with this diagonal over all pieces.
     fn new(pieces: &[Convex], diagonal: f64) -> Option<Self> {
         let first = pieces.first()?.bounds();
         let [lower, upper] = pieces.iter().map(Convex::bounds).fold(first, |[l, u], b| [l.inf(&b[0]), u.sup(&b[1])]);
@@ -50,7 +50,7 @@ impl Lattice {
         let height = |[lower, upper]: [Point; 2]| (upper.y - lower.y) / side + 2.0;
         let crossings: f64 = pieces.iter().map(|piece| height(piece.bounds())).sum();
         let few = crossings <= MOST_CROSSINGS && (upper.x - lower.x) / side <= MOST_CROSSINGS;
-        // Cells that are not far larger than the rounding would not hold what they should.
+        // Cells must be much larger than the rounding, or they would not contain the pieces.
         (few && pad < side / 1024.0).then(|| {
             let pads = cplan_geometry::Vector::repeat(pad);
             let rows = height([lower, upper]) as usize + 1;
@@ -70,7 +70,7 @@ impl Lattice {
         Point::new(self.origin.x + column as f64 * self.side, self.origin.y + row as f64 * self.side)
     }
 
-    /// Of each row the runs of cells that pieces meet: disjoint, not adjacent, ascending.
+    /// Returns for each row the runs of cells that pieces meet: disjoint, not adjacent, ascending.
     fn runs(&self, pieces: &[Convex]) -> Vec<Vec<Run>> {
         let mut rows = vec![Vec::new(); self.rows];
         // When a row has so many runs they are merged, so that they never take much more memory than they are worth.
@@ -117,7 +117,8 @@ impl Lattice {
     }
 }
 
-/// The least and the greatest abscissa of a convex polygon, segment or point within a strip; none if it does not meet it.
+/// Returns the least and the greatest abscissa of a convex polygon, segment or point within a strip, or `None` if it
+/// does not meet the strip.
 fn extent(core: &[Point], bottom: f64, top: f64) -> Option<[f64; 2]> {
     let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
     let mut add = |x: f64| extent = [extent[0].min(x), extent[1].max(x)];
@@ -136,7 +137,7 @@ fn extent(core: &[Point], bottom: f64, top: f64) -> Option<[f64; 2]> {
     (extent[0] <= extent[1]).then_some(extent)
 }
 
-/// The same cells as runs that are disjoint, not adjacent, ascending.
+/// Merges runs into disjoint, non-adjacent, ascending ones that cover the same cells.
 fn merge(runs: &mut Vec<Run>) {
     runs.sort_unstable();
     runs.dedup_by(|next, kept| {
@@ -148,14 +149,14 @@ fn merge(runs: &mut Vec<Run>) {
     });
 }
 
-/// Runs in rows above each other, each of which meets the next one and no other.
+/// Runs in consecutive rows. Each meets only the next one.
 struct Stack {
     /// Row of the first run.
     bottom: usize,
     runs: Vec<Run>,
 }
 
-/// All runs, in stacks.
+/// Groups all runs into stacks.
 fn stacks(rows: Vec<Vec<Run>>) -> Vec<Stack> {
     let (mut done, mut open): (Vec<Stack>, Vec<Stack>) = (Vec::new(), Vec::new());
     for (row, runs) in rows.into_iter().enumerate() {
@@ -189,10 +190,11 @@ fn stacks(rows: Vec<Vec<Run>>) -> Vec<Stack> {
     done
 }
 
-/// How far the convex hull of a stack reaches beyond its left side, in cells, given by the columns at which rows begin.
+/// Returns how far the convex hull of a stack extends beyond its left side, in cells, given the columns at which rows
+/// start.
 ///
-/// Between two corners of the hull the side runs within a band along the chord between them, as wide as its corner farthest
-/// from the chord is off it; what lies between chord and side is no farther from the side than that.
+/// Between two corners of the hull, the side lies within a band along their chord, as wide as the distance of its
+/// farthest corner from the chord. Points between chord and side are at most that far from the side.
 fn bulge(columns: impl Iterator<Item = i64>) -> f64 {
     // Corners of the side from bottom to top.
     let side: Vec<[i64; 2]> = columns.enumerate().flat_map(|(row, x)| [0, 1].map(|at| [x, row as i64 + at])).collect();
@@ -238,7 +240,8 @@ mod tests {
         (0..3 * core.len()).flat_map(between).collect()
     }
 
-    /// Whether polygons cover pieces, and no more than is `within` of them; the distances of sampled points are the oracle.
+    /// Returns true if polygons cover pieces, and extend at most `within` beyond them; distances of sampled points are
+    /// the oracle.
     fn covers(pieces: &[Convex], polygons: &[Convex], within: f64, shares: &[f64]) {
         for p in pieces.iter().flat_map(|piece| points_of(piece, shares)) {
             // Means of corners are off a segment, or a side, by their rounding.
@@ -280,7 +283,7 @@ mod tests {
             covers(&pieces, &polygons, within, &shares);
         }
 
-        /// A side as a row sees it, against the hull of its corners and the distance from it.
+        /// Compares with the hull of a side's corners and the distance from it, row by row.
         #[test]
         fn a_bulge_is_the_depth_of_the_deepest_pocket(columns in prop::collection::vec(-6..6i64, 1..12)) {
             // Far to the right the stack ends, so that its hull has no other side near.
@@ -314,7 +317,8 @@ mod tests {
         covers(&slices, &polygons, 0.02, &[0.2, 0.7, 1.0]);
     }
 
-    /// A hundred thousand short segments in a square: as many polygons as the square has cells along its sides.
+    /// A hundred thousand short segments in a square need about as many polygons as the square has cells along its
+    /// sides.
     #[test]
     fn what_fills_a_square_is_about_the_square() {
         let step = |k: u64| (k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64 / (1_u64 << 24) as f64;

@@ -34,7 +34,8 @@ pub(super) struct Curves<'a> {
 }
 
 impl<'a> Curves<'a> {
-    /// Pair `index` of the scene, to be covered where it is within `level`; see [`super::c_obstacles`].
+    /// Prepares pair `index` of the scene, which must be covered where it is within `level`; see
+    /// [`super::c_obstacles`].
     pub fn new(slices: &'a Contacts<'a>, index: usize, level: f64, tolerance: f64) -> Self {
         let scene = slices.scene();
         let pair = scene.pairs()[index];
@@ -92,7 +93,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first slices.
+/// Returns where to cut the circle of joint 1 open: at an uncovered value, if the first slices have one.
 fn seam(slices: &Contacts, index: usize, level: f64) -> f64 {
     let mut intervals = Vec::new();
     (0..FIRST_SLICES)

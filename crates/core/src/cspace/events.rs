@@ -1,4 +1,4 @@
-//! Where the slices of a C-obstacle can change their structure: closed form.
+//! The values of joint 1 at which slices of a C-obstacle can change their structure, in closed form.
 
 use crate::model::{Arm, JointType};
 use crate::space::Configuration;
@@ -26,7 +26,7 @@ pub(super) fn events(arm: &Arm, part: &Convex, piece: &Convex, level: f64) -> Ve
     }
 }
 
-/// Joint 2 slides: the piece passes the part sideways by exactly `radius`.
+/// Returns the events of a prismatic joint 2: the piece passes the part sideways at exactly `radius`.
 fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: f64) -> Vec<f64> {
     // Parallel slides keep the distance across them; others need no slices.
     let JointType::Revolute { sign } = arm.joints[0].joint_type else { return Vec::new() };
@@ -64,7 +64,7 @@ struct Radial {
     distance: f64,
     /// Unit direction from the joint, in the link's frame; none for a corner on the joint itself.
     heading: Option<Vector>,
-    /// Whether the outward normal points away from the joint.
+    /// True if the outward normal points away from the joint.
     outward: bool,
 }
 
@@ -143,7 +143,7 @@ impl Turning<'_> {
         self.found.push(q1);
     }
 
-    /// Where the elbow crosses the line `normal . x = offset`.
+    /// Returns the values at which the elbow crosses the line `normal . x = offset`.
     fn elbow_on_line(&self, normal: Vector, offset: f64) -> Vec<f64> {
         let arm = self.arm;
         match arm.joints[0].joint_type {
@@ -161,7 +161,7 @@ impl Turning<'_> {
         .collect()
     }
 
-    /// Where the elbow is `distance` from `p`.
+    /// Returns the values at which the elbow is at `distance` from `p`.
     fn elbow_on_circle(&self, p: Point, distance: f64) -> Vec<f64> {
         let arm = self.arm;
         match arm.joints[0].joint_type {
@@ -183,7 +183,8 @@ impl Turning<'_> {
     }
 }
 
-/// The two angles by which `v` must be turned so that its product with `w` is `dot`; NaN when there are none.
+/// Returns the two angles by which `v` must be turned so that its dot product with `w` is `dot`; NaN if they do not
+/// exist.
 fn turns_to(v: Vector, w: Vector, dot: f64) -> [f64; 2] {
     let middle = w.y.atan2(w.x) - v.y.atan2(v.x);
     let half = (dot / (v.norm() * w.norm())).acos();
@@ -221,7 +222,7 @@ fn radial_features(core: &[Point]) -> Vec<Radial> {
     features
 }
 
-/// The sides of a core; of a segment both of its sides.
+/// Iterates over the sides of a core; a segment has both of its sides.
 fn sides(core: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
     let n = if core.len() > 1 { core.len() } else { 0 };
     (0..n).map(move |i| (core[i], core[(i + 1) % n]))
@@ -243,7 +244,7 @@ mod tests {
         })
     }
 
-    /// An arm without outlines.
+    /// Returns an arm without outlines.
     fn arm(joints: [Joint; 2], offset: Vector) -> Arm {
         let link = Link { name: "link".into(), parts: Vec::new(), source: OutlineSource::None };
         let plane = Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() };
@@ -269,7 +270,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(48))]
 
-        /// Between two near slices without an event, no interval appears away from all others.
+        /// Between two close slices without an event, no interval appears away from all others.
         #[test]
         fn no_interval_appears_without_an_event(
             motions in [motion(), motion()],

@@ -8,24 +8,24 @@ use crate::space::{Configuration, Topology};
 /// borders on the first. Stored row by row: index `i * cells[1] + j`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
-    /// Of the configuration space.
+    /// Topology of the configuration space.
     pub topology: Topology,
-    /// What a free (blocked) cell proves about all of its configurations.
+    /// Kind of proof that a free (blocked) cell gives for its configurations.
     pub proves: Proves,
     /// Number of cells along each axis.
     pub cells: [usize; 2],
-    /// One flag a cell.
+    /// One flag per cell.
     pub blocked: Vec<bool>,
 }
 
 impl Grid {
-    /// Side lengths of a cell.
+    /// Returns the side lengths of a cell.
     #[must_use]
     pub fn step(&self) -> [f64; 2] {
         [0, 1].map(|k| self.topology.ranges[k].extent() / self.cells[k] as f64)
     }
 
-    /// The middle of cell `index`, in the fundamental domain.
+    /// Returns the centre of cell `index`, in the fundamental domain.
     #[must_use]
     pub fn center(&self, index: usize) -> Configuration {
         let step = self.step();
@@ -36,7 +36,7 @@ impl Grid {
         )
     }
 
-    /// The cell that holds `q` (any copy of it); on a shared side the one that begins there.
+    /// Returns the cell that contains `q` (any copy of it); on a shared side the cell that starts there.
     #[must_use]
     pub fn locate(&self, q: Configuration) -> usize {
         let step = self.step();
@@ -48,8 +48,8 @@ impl Grid {
         at(0) * self.cells[1] + at(1)
     }
 
-    /// The up to four cells that share a side with `index`, across the seam of a circle too, in the order
-    /// `-q1, +q1, -q2, +q2`.
+    /// Iterates over the up to four cells that share a side with `index`, also across the seam of a circle, in the
+    /// order `-q1, +q1, -q2, +q2`.
     pub fn neighbors(&self, index: usize) -> impl Iterator<Item = usize> {
         let at = self.place(index);
         [(0, false), (0, true), (1, false), (1, true)]
@@ -57,13 +57,14 @@ impl Grid {
             .filter_map(move |(k, up)| self.beside_place(at, k, up))
     }
 
-    /// The cell that shares a side with `index`, up or down axis `k`, across the seam of a circle too; none beyond a limit.
+    /// Returns the neighbour of `index` up or down axis `k`, also across the seam of a circle, or `None` beyond a
+    /// limit.
     #[must_use]
     pub fn beside(&self, index: usize, k: usize, up: bool) -> Option<usize> {
         self.beside_place(self.place(index), k, up)
     }
 
-    /// Row and column of a cell.
+    /// Returns row and column of a cell.
     fn place(&self, index: usize) -> [usize; 2] {
         [index / self.cells[1], index % self.cells[1]]
     }

@@ -1,12 +1,15 @@
-//! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with what it proves.
+//! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with its kind of proof.
 //!
-//! [`Contacts::slice`](crate::model::Contacts::slice) gives the forbidden values of `q2` at one `q1`, exactly, from contact angles. Grids stack the slices of slabs;
-//! polygons follow the contact curves between the slices where they change their course (`events`). Outlines with many
-//! corners are traced coarser, within the margin (`coarse`); what is ragged is covered by cells of that size
-//! (`covering`), and contours are united with their neighbours first, so that time grows with the outline (`union`).
+//! [`Contacts::slice`](crate::model::Contacts::slice) computes the forbidden values of `q2` at one `q1`, exactly, from
+//! contact angles. Grids stack the slices of slabs. Polygons follow the contact curves between the slices at which
+//! these change their structure (`events`).
 //!
-//! On circle axes polygons cover a window of some turns, in which obstacles and goals repeat: planners need no special
-//! case.
+//! Outlines with many corners are traced coarser, within the margin (`coarse`). Ragged outlines are covered by cells of
+//! that size (`covering`). Contours are first united with their neighbours, so that time grows with the outline
+//! (`union`).
+//!
+//! On circle axes polygons cover a window of some turns, in which obstacles and goals repeat, so planners need no
+//! special case.
 //!
 //! ```
 //! use cplan_core::cspace::{Slice, c_obstacles};
@@ -60,7 +63,7 @@ pub use slices::{Forbidden, Slice};
 pub use stretches::free_stretches;
 pub use zones::{Zone, ZonedGrid};
 
-/// What a representation of free space proves about the real one.
+/// The kind of proof that a representation of free space gives about the true one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Proves {

@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 pub struct NearestFree {
     /// Within the limits; on a circle the copy nearest to the configuration asked about.
     pub configuration: Configuration,
-    /// Euclidean distance in joint space, radians and metres as they come.
+    /// Euclidean distance in joint space, mixing radians and metres.
     pub distance: f64,
     /// Least distance to an obstacle there, metres: positive, and not below the workspace's clearance. Infinite if
     /// nothing can be hit.
@@ -29,14 +29,15 @@ const FINEST: f64 = 1e-10;
 /// Slices on either side of the best one, in each step of the refinement.
 const FAN: i32 = 8;
 
-/// The free configuration nearest to `q` in joint space (Euclidean, round a circle the short way).
+/// Returns the free configuration nearest to `q` in joint space (Euclidean, by the short direction on circles), or
+/// `None` if no slice has a free configuration. `O(slices * pairs)`.
 ///
-/// Joint 1 runs through slices, [`NearestFree::spacing`] apart and out from `q`, with the ends of what link 1 forbids among
-/// them; in each the nearest free value of joint 2 is exact. The slices about the best local minima are then refined to
-/// 1e-10. The result is free by the scene's own measure, and no free configuration on any slice is nearer: one that is
-/// lies between two slices, less than a spacing from either.
+/// Slices are [`NearestFree::spacing`] apart in joint 1, starting at `q`, and include the ends of the values that link
+/// 1 forbids. In each slice the nearest free value of joint 2 is exact. The slices around the best local minima are
+/// then refined to 1e-10.
 ///
-/// None if no slice has a free configuration. `O(slices * pairs)`.
+/// The result is free by the scene's own measure, and no free configuration on any slice is nearer. A nearer one would
+/// lie between two slices, less than a spacing from both.
 #[must_use]
 pub fn nearest_free(scene: &Scene, q: Configuration) -> Option<NearestFree> {
     Search::new(scene, q).run()
@@ -49,7 +50,7 @@ struct Search<'a> {
     bands: Slice,
     slice: Slice,
     from: Configuration,
-    /// Growth of the obstacles: what is left out of a slice is then free for certain.
+    /// Growth of the obstacles, which makes the free part of a slice certainly free.
     grow: f64,
     best: Option<NearestFree>,
     spacing: f64,
@@ -115,7 +116,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Distance of the nearest free configuration with this value of joint 1, if it is allowed and there is one.
+    /// Returns the distance of the nearest free configuration with this value of joint 1, if the value is allowed and
+    /// one exists.
     fn look(&mut self, q1: f64) -> Option<f64> {
         let [first, second] = self.scene.arm().topology().ranges;
         let inside = |band: &[f64; 2], value: f64| band[0] < value && value < band[1];
@@ -149,7 +151,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The samples that are no farther than their neighbours, best first.
+/// Returns the samples that are at most as far as their neighbours, best first.
 fn minima(mut samples: Vec<(f64, f64)>) -> Vec<f64> {
     samples.sort_by(|a, b| a.0.total_cmp(&b.0));
     let distance = |i: Option<usize>| i.and_then(|i| samples.get(i)).map_or(f64::INFINITY, |s| s.1);

@@ -4,7 +4,7 @@ use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
 use std::f64::consts::{PI, TAU};
 
-/// All of `q2` where that turns.
+/// The whole range of a revolute `q2`.
 const TURN: [f64; 2] = [-PI, PI];
 
 /// A C-obstacle, slice by slice, and a judge of its chords.
@@ -12,30 +12,30 @@ pub(super) trait Source {
     /// A point of the boundary.
     type End: Copy;
 
-    /// Appends the blocked intervals of `q2` at `q1` in ascending order: disjoint and closed, on a circle as arcs
-    /// `[lower, upper]` no longer than a turn, one of a whole turn when all is blocked.
+    /// Appends the blocked intervals of `q2` at `q1`, ascending, disjoint and closed. On a circle they are arcs
+    /// `[lower, upper]` of at most one turn, with a single whole turn if everything is blocked.
     fn intervals(&mut self, q1: f64, out: &mut Vec<[f64; 2]>);
 
-    /// The boundary point `(q1, q2)`.
+    /// Returns the boundary point `(q1, q2)`.
     fn end(&self, q1: f64, q2: f64) -> Self::End;
 
-    /// The coordinates of a boundary point.
+    /// Returns the coordinates of a boundary point.
     fn point(&self, end: &Self::End) -> Point;
 
-    /// The same point on another turn of joint 2.
+    /// Returns the same point on another turn of joint 2.
     fn shifted(&self, end: &Self::End, turns: f64) -> Self::End;
 
-    /// Whether the intervals with these ends in two slices can be linked by straight lines.
+    /// Returns true if the intervals with these ends in two slices can be linked by straight lines.
     fn links(&self, from: &[Self::End; 2], to: &[Self::End; 2]) -> bool;
 
-    /// Whether the straight line between two boundary points can stand for the lines by way of the slices between.
+    /// Returns true if the straight line between two boundary points can replace the lines through the slices between.
     fn shortens(&self, from: &Self::End, to: &Self::End) -> bool;
 }
 
-/// How to flatten.
+/// Settings for flattening.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flattening {
-    /// Whether `q2` lives on turns (arcs that differ by whole turns are one).
+    /// True if `q2` is an angle, so that arcs that differ by whole turns are the same.
     pub turning: bool,
     /// Strips no wider than this may be covered by rectangles over the intervals of both their slices.
     pub min_width: f64,
@@ -48,7 +48,8 @@ pub(super) struct Flattening {
 pub(super) struct Break {
     /// The value of joint 1 there.
     pub q1: f64,
-    /// Whether contours keep a vertex here: an end or a split of the C-obstacle may hide between other slices.
+    /// True if contours keep a vertex here, because an end or a split of the C-obstacle may be hidden between other
+    /// slices.
     pub keep: bool,
 }
 
@@ -75,7 +76,7 @@ pub(super) fn contours<S: Source>(source: &mut S, breaks: &[Break], how: Flatten
 struct Slice<E> {
     at: Break,
     intervals: Vec<[E; 2]>,
-    /// All of `q2`, a whole turn, is blocked: `intervals` is then empty.
+    /// True if the whole turn of `q2` is blocked; `intervals` is then empty.
     full: bool,
 }
 
@@ -89,7 +90,7 @@ struct Chain<E> {
 struct Tracer<'r, S: Source> {
     source: &'r mut S,
     how: Flattening,
-    /// One for each interval of the current slice.
+    /// One chain for each interval of the current slice.
     open: Vec<Chain<S::End>>,
     done: Vec<Vec<Point>>,
     scratch: Vec<[f64; 2]>,
@@ -128,7 +129,7 @@ impl<S: Source> Tracer<'_, S> {
         }
     }
 
-    /// For every interval of `u` its partner in `v` and the turns to add to that, if chords may link them.
+    /// Returns for every interval of `u` its partner in `v` and the turns to add to it, if chords may link them.
     fn matching(&self, u: &Slice<S::End>, v: &Slice<S::End>) -> Option<Vec<(usize, f64)>> {
         let n = u.intervals.len();
         if u.full || v.full || n != v.intervals.len() {
@@ -148,7 +149,7 @@ impl<S: Source> Tracer<'_, S> {
         })
     }
 
-    /// The whole turns that bring the middle of `to` nearest to that of `from`.
+    /// Returns the whole turns that bring the middle of `to` nearest to that of `from`.
     fn turns_between(&self, from: &[S::End; 2], to: &[S::End; 2]) -> f64 {
         if !self.how.turning {
             return 0.0;
@@ -191,7 +192,7 @@ impl<S: Source> Tracer<'_, S> {
         self.start_chains(v);
     }
 
-    /// A rectangle over the strip and `span`.
+    /// Adds a rectangle over the strip and `span`.
     fn rectangle(&mut self, u: f64, v: f64, [lower, upper]: [f64; 2]) {
         let pad = self.how.overlap;
         let (u, v, lower, upper) = (u - pad, v + pad, lower - pad, upper + pad);
@@ -216,7 +217,7 @@ impl<S: Source> Tracer<'_, S> {
         }
     }
 
-    /// One side of a chain with as few corners as accepted chords allow.
+    /// Returns one side of a chain with as few corners as accepted chords allow.
     fn simplified(&self, chain: &Chain<S::End>, side: usize) -> Vec<Point> {
         let slices = &chain.slices;
         let mut corners = vec![self.source.point(&slices[0].0[side])];
@@ -247,7 +248,7 @@ impl<S: Source> Tracer<'_, S> {
     }
 }
 
-/// Whether the first polyline, a function of `x`, is nowhere above the second over the same range.
+/// Returns true if the first polyline, a function of `x`, is nowhere above the second over the same range.
 fn ordered(sides: &[Vec<Point>; 2]) -> bool {
     let below = |points: &[Point], other: &[Point], sign: f64| {
         let mut segment = 0;
@@ -263,7 +264,7 @@ fn ordered(sides: &[Vec<Point>; 2]) -> bool {
     below(&sides[0], &sides[1], 1.0) && below(&sides[1], &sides[0], -1.0)
 }
 
-/// The contour between a lower and an upper polyline, lengthened by `pad` at both ends.
+/// Returns the contour between a lower and an upper polyline, extended by `pad` at both ends.
 fn outline(sides: &[Vec<Point>; 2], pad: f64) -> Vec<Point> {
     let [lower, upper] = sides;
     let mut contour = Vec::with_capacity(lower.len() + upper.len() + 4);
@@ -289,7 +290,7 @@ fn outline(sides: &[Vec<Point>; 2], pad: f64) -> Vec<Point> {
     contour
 }
 
-/// The union of intervals, on a circle as arcs; an arc that closes the turn is left as long as it is.
+/// Returns the union of intervals, on a circle as arcs; an arc that closes the turn keeps its length.
 fn united(mut spans: Vec<[f64; 2]>, turning: bool) -> Vec<[f64; 2]> {
     let mut out: Vec<[f64; 2]> = Vec::new();
     while let Some(mut span) = spans.pop() {

@@ -11,8 +11,8 @@ use cplan_interrupt::checkpoint;
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
-/// Share of the margin that is left of it, as proven distance, on the contours of [`regions`] after flattening. The rest
-/// is what chords may cut off; the more, the fewer corners.
+/// Share of the margin that remains as proven distance on the contours of [`regions`] after flattening. Chords may cut
+/// off the rest, which allows fewer corners.
 const KEPT: f64 = 0.25;
 
 /// Shapes with many corners may be coarser than they are by so many times the margin that contours keep of it.
@@ -36,13 +36,13 @@ pub struct Polygon {
 }
 
 impl Polygon {
-    /// Area without the holes.
+    /// Returns the area without the holes.
     #[must_use]
     pub fn area(&self) -> f64 {
         signed_area(&self.outer) + self.holes.iter().map(|hole| signed_area(hole)).sum::<f64>()
     }
 
-    /// Whether `p` is inside, by the parity of crossings; points on a contour may come out either way. Linear.
+    /// Returns true if `p` is inside, by the parity of crossings; points on a contour may give either result. Linear.
     #[must_use]
     pub fn contains(&self, p: Point) -> bool {
         let contours = std::iter::once(&self.outer).chain(&self.holes);
@@ -55,7 +55,7 @@ fn signed_area(contour: &[Point]) -> f64 {
     (0..n).map(|i| cross(contour[i] - contour[0], contour[(i + 1) % n] - contour[0])).sum::<f64>() / 2.0
 }
 
-/// How many sides the ray from `p` along the first axis crosses.
+/// Returns how many sides the ray from `p` along the first axis crosses.
 fn crossings(contour: &[Point], p: Point) -> usize {
     let n = contour.len();
     (0..n)
@@ -70,9 +70,9 @@ fn crossings(contour: &[Point], p: Point) -> usize {
 /// axis its copies shifted by whole turns belong to it. For pictures and as input of the union.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CObstacle {
-    /// As in [`Pair::obstacle`].
+    /// Index of the obstacle, as in [`Pair::obstacle`].
     pub obstacle: usize,
-    /// Which link would hit it.
+    /// The link that would touch it.
     pub link: usize,
     /// Counter-clockwise, coordinates `(q1, q2)`.
     pub contour: Vec<Point>,
@@ -83,9 +83,9 @@ pub struct CObstacle {
 /// are all copies of the goal within the window.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Regions {
-    /// Of the configuration space.
+    /// Topology of the configuration space.
     pub topology: Topology,
-    /// What free and blocked prove.
+    /// What free and blocked regions prove.
     pub proves: Proves,
     /// Lower and upper value of each axis.
     pub window: [(f64, f64); 2],
@@ -96,25 +96,25 @@ pub struct Regions {
 }
 
 impl Regions {
-    /// The contours of free space, which lies to the left of them.
+    /// Returns the contours of free space, which lies to the left of them.
     #[must_use]
     pub fn contours(&self) -> Vec<&[Point]> {
         self.free.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes)).map(Vec::as_slice).collect()
     }
 
-    /// The component of free space that holds `q`, given within the window. Linear in the number of corners.
+    /// Returns the component of free space that contains `q`, given within the window. Linear in the number of corners.
     #[must_use]
     pub fn component(&self, q: Configuration) -> Option<usize> {
         self.free.iter().position(|polygon| polygon.contains(Point::from(q)))
     }
 }
 
-/// Free space of a scene with obstacles grown by its clearance and at most `margin` metres more, over the limits of
-/// interval axes and `periods` turns to either side of `center` on circles.
+/// Computes free space with obstacles grown by the scene's clearance and at most `margin` metres more, over the limits
+/// of interval axes and `periods` turns to either side of `center` on circles.
 ///
-/// All along the boundary of the free space, and so within it, arm and obstacles are at least the clearance plus a
-/// quarter of `margin` apart (see [`c_obstacles`] for the argument); configurations with more than the clearance and
-/// three times `margin` are free here. Vertices grow like `1 / sqrt(margin)`.
+/// On the whole boundary of the free space, and so within it, arm and obstacles are at least the clearance plus a
+/// quarter of `margin` apart (see [`c_obstacles`] for the argument). Configurations with more than the clearance plus
+/// three times `margin` are free here. The number of vertices grows like `1 / sqrt(margin)`.
 ///
 /// # Panics
 /// If `margin` is not positive.
@@ -125,18 +125,18 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
     within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
 }
 
-/// Whether the C-obstacles of a scene are polygons, so that [`exact_c_obstacles`] has them: both joints slide, in directions that
-/// are not parallel.
+/// Returns true if the C-obstacles of a scene are polygons, so that [`exact_c_obstacles`] has them: both joints are
+/// prismatic, with directions that are not parallel.
 #[must_use]
 pub fn has_exact_polygons(scene: &Scene) -> bool {
     translation::joint_map(scene.arm()).is_some()
 }
 
-/// The C-obstacles of a gantry as they are, by the sweep over the normals of both polygons (`B - A`), and what they prove: nothing
-/// is grown and no corner is added. None for arms that turn.
+/// Computes the exact C-obstacles of a gantry by the sweep over the normals of both polygons (`B - A`), with their kind
+/// of proof: nothing is grown and no corner is added. Returns `None` for arms with revolute joints.
 ///
-/// Corners are differences of given corners, rounded once, in joint values. Circles, capsules and a clearance round the corners of a
-/// C-obstacle; only these arcs are replaced by tangents, which lie outside of them.
+/// Corners are differences of given corners, rounded once, in joint values. Circles, capsules and a clearance round the
+/// corners of a C-obstacle; only these arcs are replaced by tangents, which lie outside of them.
 #[must_use]
 pub fn exact_c_obstacles(scene: &Scene) -> Option<(Vec<CObstacle>, Proves)> {
     let (level, tolerance) = (scene.workspace().clearance, ARC_TOLERANCE * scene.arm().reach());
@@ -148,7 +148,8 @@ pub fn exact_c_obstacles(scene: &Scene) -> Option<(Vec<CObstacle>, Proves)> {
     })
 }
 
-/// Free space of a gantry among [`exact_c_obstacles`], over the limits of its slides. None for arms that turn.
+/// Computes the free space of a gantry among [`exact_c_obstacles`], over the limits of its joints. Returns `None` for
+/// arms with revolute joints.
 ///
 /// Configurations on its boundary touch an obstacle.
 #[must_use]
@@ -157,11 +158,12 @@ pub fn exact_regions(scene: &Scene) -> Option<Regions> {
     Some(within_window(scene, proves, window(scene, Configuration::zeros(), 0), obstacles))
 }
 
-/// Free space of a gantry, over the limits of its slides, with obstacles shrunk by at most `margin` metres: all that keeps the
-/// scene's clearance is within, and what is nearer by more than `margin` is not.
+/// Computes the free space of a gantry, over the limits of its joints, with obstacles shrunk by at most `margin`
+/// metres. It contains every configuration that keeps the scene's clearance, but no configuration that violates it by more than
+/// `margin`.
 ///
-/// None for other arms, where link 1 can meet something, and where shapes are too thin to be shrunk: walls without thickness
-/// whose tool is a point. Vertices grow like `1 / sqrt(margin)`.
+/// Returns `None` for other arms, if link 1 can touch an obstacle, and for shapes too thin to be shrunk: walls without
+/// thickness with a tool that is a point. The number of vertices grows like `1 / sqrt(margin)`.
 #[must_use]
 pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
     let map = translation::joint_map(scene.arm())?;
@@ -179,7 +181,7 @@ pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
     Some(within_window(scene, Proves::Inner { margin }, window(scene, Configuration::zeros(), 0), obstacles?))
 }
 
-/// The limits of interval axes, and `periods` turns to either side of `center` on circles.
+/// Returns the limits of interval axes, and `periods` turns to either side of `center` on circles.
 fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 2] {
     let topology = scene.arm().topology();
     let turns = TAU * periods as f64;
@@ -194,13 +196,14 @@ fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacl
     Regions { topology: scene.arm().topology(), proves, window, obstacles, free }
 }
 
-/// After which joint values poses repeat.
+/// Returns the period of each joint after which poses repeat.
 fn periods(scene: &Scene) -> [Option<f64>; 2] {
     scene.arm().joints.each_ref().map(|joint| joint.joint_type.is_revolute().then_some(TAU))
 }
 
-/// What each obstacle of the workspace, then each of the arm's self obstacles, blocks within the limits, on a circle within `[-pi, pi]`, given the contours of the
-/// [`c_obstacles`]: disjoint polygons an obstacle, cut at the seams of circles.
+/// Returns the regions that each obstacle of the workspace, then each of the arm's self obstacles, blocks within the
+/// limits, on a circle within `[-pi, pi]`, given the contours of the [`c_obstacles`]: disjoint polygons per obstacle,
+/// cut at the seams of circles.
 #[must_use]
 pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<Polygon>> {
     let window = scene.arm().topology().ranges.map(JointRange::domain);
@@ -209,17 +212,20 @@ pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<Polygon>> {
     obstacles.map(|number| blocked_space(window, periods(scene), of(number))).collect()
 }
 
-/// Contours that cover every configuration in which a pair of the scene is at most its clearance and `margin` apart, and
-/// hardly any in which it is more than twice `tolerance` farther; metres, `tolerance` positive. Each obstacle appears
-/// once for every pair, strip or band it takes; contours of one obstacle may overlap. Around shapes with many corners,
-/// unless the margin is 0, contours may be another two margins away: details that small are not traced.
+/// Returns contours that cover every configuration in which a pair of the scene is at most its clearance plus `margin`
+/// apart, and almost none in which it is more than twice `tolerance` farther; metres, with `tolerance` positive.
+///
+/// Each obstacle appears once for every pair, strip or band; contours of one obstacle may overlap. Around shapes with
+/// many corners, unless the margin is 0, contours may be another two margins away, because smaller details are not
+/// traced.
 ///
 /// Link 1 gives bands of `q1`, in closed form. Gantries give Minkowski differences, exact up to arcs: with margin,
-/// clearance and radii zero they are the exact C-obstacles. For the rest curves are flattened between exact slices, and
-/// that they cover what they should is proven, not sampled: no point of the set `S` to be covered lies on the boundary of
-/// the union, since chords keep their distance (as the module `chord` proves) and slices are exact; so every
-/// connected part of `S` is all inside or all outside. And each has a point inside: it either reaches the end of the
-/// range of `q1`, where there is a slice, or has a point of least `q1`, where there is one too (module `events`).
+/// clearance and radii zero they are the exact C-obstacles. Otherwise curves are flattened between exact slices.
+///
+/// The coverage is proven, not sampled. Let `S` be the set to cover. No point of `S` lies on the boundary of the union,
+/// since chords keep their distance (proven in the module `chord`) and slices are exact. So every connected part of `S`
+/// is either inside or outside as a whole. Each part has a point inside: it either reaches the end of the range of
+/// `q1`, where there is a slice, or has a point of least `q1`, where there is one too (module `events`).
 ///
 /// # Panics
 /// If `tolerance` is not positive.
@@ -229,7 +235,7 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
     traced(&coarsened(scene, margin, tolerance), scene.workspace().clearance + margin, tolerance)
 }
 
-/// What each pair of shapes blocks that come within `level` of each other, flattened with this tolerance.
+/// Returns the regions in which each pair of shapes is within `level`, flattened with this tolerance.
 fn traced(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
     let slices = Contacts::new(scene);
     let map = translation::joint_map(scene.arm());
@@ -250,19 +256,21 @@ fn traced(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
     obstacles
 }
 
-/// The scene that contours are traced of.
+/// Returns the scene whose contours are traced.
 fn coarsened(scene: &Scene, margin: f64, tolerance: f64) -> Cow<'_, Scene> {
     coarse(scene, COARSENESS * margin, scene.workspace().clearance + margin + 4.0 * tolerance)
 }
 
-/// How many pairs of shapes [`regions`] traces with that `margin`: shapes with many corners are coarser the greater it is.
+/// Returns how many pairs of shapes [`regions`] traces with that `margin`: a greater margin makes shapes with many
+/// corners coarser.
 #[must_use]
 pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
     coarsened(scene, KEPT * margin, (1.0 - KEPT) * margin).pairs().len()
 }
 
-/// The values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end: the overlap
-/// closes the seam between the copies of a whole turn. Of a pair of link 2 and link 1 the values of `q2`, for all `q1`.
+/// Returns the values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end:
+/// the overlap closes the seam between copies a whole turn apart. For a pair of link 2 and link 1, returns the values
+/// of `q2`, for all `q1`.
 fn bands(slices: &Contacts, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
     let domain = |joint: &Joint| if joint.joint_type.is_revolute() { (-PI, PI) } else { joint.range.domain() };
     let folds = slices.scene().pairs()[index].link == 2;

@@ -10,9 +10,10 @@ use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;
 use parry2d_f64::shape::{Ball, Capsule, ConvexPolygon, RoundShape, Segment, Shape};
 
-/// The grid whose cells are blocked where parry2d finds the shapes, grown by `clearance`, to meet at the cell's centre.
+/// Computes the grid whose cells are blocked where parry2d finds that the shapes, grown by `clearance`, meet at the
+/// cell's centre.
 ///
-/// One check a cell and pair, after a test of the discs around the shapes; the first hit settles the cell.
+/// One check per cell and pair, after a test of the discs around the shapes; the first contact settles the cell.
 #[must_use]
 pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let pairs: Vec<(usize, Solid, Solid)> = scene
@@ -70,7 +71,7 @@ impl Solid {
         Self { shape, local, center, extent }
     }
 
-    /// Whether this, moved by `pose`, meets a fixed one.
+    /// Returns true if this solid, moved by `pose`, meets a fixed one.
     fn meets(&self, pose: &Pose, fixed: &Solid) -> bool {
         let reach = self.extent + fixed.extent;
         if pose.transform_point(self.center).distance_squared(fixed.center) > reach * reach {
@@ -82,7 +83,7 @@ impl Solid {
     }
 }
 
-/// Our poses are nalgebra's, parry2d's are glam's.
+/// Converts a nalgebra pose to parry2d's glam pose.
 fn pose(pose: &cplan_geometry::Pose) -> Pose {
     let (translation, rotation) = (pose.translation.vector, pose.rotation);
     Pose::from_parts(Vector::new(translation.x, translation.y), Rotation { re: rotation.re, im: rotation.im })

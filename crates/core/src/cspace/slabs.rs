@@ -12,12 +12,11 @@ use std::f64::consts::TAU;
 /// some 1e-13 of a cell.
 const WIDENING: f64 = 1e-9;
 
-/// Share of what the joints' motion over a cell adds to the margin by which shapes with many corners may be coarser than they
-/// are.
+/// Largest coarsening of shapes with many corners, as a share of the margin that the joints' motion over a cell adds.
 const COARSENESS: f64 = 1.0 / 16.0;
 
-/// The grid whose cells are blocked where their *centre* comes within `clearance` of an obstacle. What a sampled grid
-/// shows, up to centres within [`ROUNDING`] of contact, in `O(slices * contacts + cells)`.
+/// Computes the grid whose cells are blocked where their *centre* comes within `clearance` of an obstacle. The result
+/// equals that of a sampled grid, except for centres within [`ROUNDING`] of contact. `O(slices * contacts + cells)`.
 #[must_use]
 pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let slices = Contacts::new(scene);
@@ -42,15 +41,15 @@ pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Gri
     grid
 }
 
-/// A grid whose free cells are *wholly* free: each of their configurations keeps at least `clearance` (and more than 0)
-/// from every obstacle.
+/// Computes a grid whose free cells are *entirely* free: each of their configurations keeps at least `clearance` (and
+/// more than 0) from every obstacle.
 ///
-/// A slice stands for its slab `q1 +- h1 / 2`: every obstacle is grown by the farthest that a point of link 2 which
-/// touches it can move while joint 1 does so (a chord about the base), and a cell is blocked when its closed range of
-/// `q2` meets a forbidden interval. Each configuration of a blocked cell comes within `clearance + margin` of an
-/// obstacle, `margin` being that of the grid's [`Proves::Outer`].
+/// A slice represents its slab `q1 +- h1 / 2`. Every obstacle is grown by the greatest motion of a touching point of
+/// link 2 while joint 1 crosses the slab (a chord about the base), and a cell is blocked when its closed range of `q2`
+/// meets a forbidden interval. Each configuration of a blocked cell comes within `clearance + margin` of an obstacle,
+/// with the `margin` of the grid's [`Proves::Outer`].
 ///
-/// Obstacle by obstacle, only in the rows where link 2 reaches it at all: `O(reached slices * contacts + cells)`.
+/// Works obstacle by obstacle, only in the rows where link 2 reaches it: `O(reached slices * contacts + cells)`.
 #[must_use]
 pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
@@ -108,7 +107,7 @@ fn free(cells: [usize; 2]) -> Vec<bool> {
     vec![false; cells[0] * cells[1]]
 }
 
-/// What the two joints' motion over a cell adds to `clearance` at most.
+/// Returns the greatest distance that the two joints' motion over a cell adds to `clearance`.
 fn margin(slices: &Contacts<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance: f64) -> f64 {
     let first = (0..slices.second_link_pairs().start).map(|index| slices.motion(index, h1, clearance));
     let second = slices.second_link_pairs().zip(motions).map(|(index, motion)| 2.0 * motion + slices.lever(index) * h2);
@@ -142,7 +141,7 @@ impl Columns {
     }
 
     fn block(&self, row: &mut [bool], first: f64, last: f64) {
-        // Conversions saturate: what lies before the row becomes 0, and `last + 1` beyond it the count.
+        // Conversions saturate: places before the row become 0, and `last + 1` beyond it becomes the count.
         let (from, to) = (first.max(0.0) as usize, (last + 1.0).max(0.0) as usize);
         let to = to.min(self.count);
         if from < to {

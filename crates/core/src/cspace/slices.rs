@@ -5,8 +5,8 @@ use cplan_geometry::merge_in_place;
 use cplan_interrupt::checkpoint;
 
 impl Contacts<'_> {
-    /// All forbidden values of joint 2 at `q1`, over the axis's domain, with obstacles grown by `grow`: those of link 2
-    /// only. Reuses `slice`'s memory. `O(m log m)` in the contacts.
+    /// Computes all forbidden values of joint 2 at `q1`, over the axis's domain, with obstacles grown by `grow`, by
+    /// link 2 only. Reuses `slice`'s memory. `O(m log m)` in the contacts.
     pub fn slice(&self, q1: f64, grow: f64, slice: &mut Slice) {
         checkpoint();
         slice.clear();
@@ -27,7 +27,8 @@ impl Contacts<'_> {
         slice.merge();
     }
 
-    /// All forbidden values of joint 1, over the axis's domain, with obstacles grown by `grow`: those of link 1 only.
+    /// Computes all forbidden values of joint 1, over the axis's domain, with obstacles grown by `grow`, by link 1
+    /// only.
     pub fn bands(&self, grow: f64) -> Slice {
         let mut slice = Slice::default();
         for index in 0..self.second_link_pairs().start {
@@ -54,7 +55,7 @@ pub struct Forbidden {
 /// The forbidden intervals of one slice (or, for link 1, of joint 1). On a circle an interval over the seam is in two.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Slice {
-    /// By pair, in the pairs' order.
+    /// Forbidden values by pair, in the pairs' order.
     pub forbidden: Vec<Forbidden>,
     /// Their union: disjoint, ascending.
     pub merged: Vec<[f64; 2]>,
@@ -63,7 +64,7 @@ pub struct Slice {
 }
 
 impl Slice {
-    /// Whether the joint value is forbidden. `O(log n)`.
+    /// Returns true if the joint value is forbidden. `O(log n)`.
     #[must_use]
     pub fn forbids(&self, value: f64) -> bool {
         let after = self.merged.partition_point(|i| i[0] <= value);

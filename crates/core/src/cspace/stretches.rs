@@ -1,15 +1,16 @@
-//! Which stretches of a segment along one joint are free, exactly.
+//! The free stretches of a segment along one joint, exactly.
 
 use super::slices::Slice;
 use crate::model::{Carried, Contacts, Scene, on_axis};
 use crate::space::{Configuration, Segment};
 use cplan_geometry::{Features, Vector, merge_in_place, separation};
 
-/// The stretches of a segment in the domain that keep more than `grow` from contact, from its lesser end on. Exact up to
-/// [`cplan_geometry::ROUNDING`] where only one joint moves along it; a slanted segment is returned as it is.
+/// Returns the stretches of a segment in the domain that keep more than `grow` from contact, starting at its lesser
+/// end. Exact up to [`cplan_geometry::ROUNDING`] if only one joint moves along it; a slanted segment is returned
+/// unchanged.
 ///
-/// With joint 1 at rest that is what a slice leaves. With joint 2 at rest link 2 is a part of link 1, and the contact angles
-/// of joint 1 tell. `O(m log m)` in the contacts.
+/// With joint 1 at rest the result is the free part of a slice. With joint 2 at rest link 2 is part of link 1, and the
+/// contact angles of joint 1 decide. `O(m log m)` in the contacts.
 #[must_use]
 pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segment> {
     let [from, to] = segment.ends();
@@ -36,7 +37,7 @@ pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segmen
     free
 }
 
-/// The forbidden values of joint 2 at a value of joint 1: all of them if link 1 is in contact.
+/// Returns the forbidden values of joint 2 at a value of joint 1: all of them if link 1 is in contact.
 fn along_second(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
     let slices = Contacts::new(scene);
     if slices.bands(grow).forbids(q1) {
@@ -47,7 +48,7 @@ fn along_second(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
     slice.merged
 }
 
-/// The forbidden values of joint 1 at a value of joint 2.
+/// Returns the forbidden values of joint 1 at a value of joint 2.
 fn along_first(scene: &Scene, q2: f64, grow: f64) -> Vec<[f64; 2]> {
     let arm = scene.arm();
     let joint = &arm.joints[0];

@@ -1,4 +1,4 @@
-//! C-obstacles of an arm that only translates link 2: Minkowski differences, exact but for rounded corners.
+//! C-obstacles of an arm that only translates link 2: Minkowski differences, exact except for rounded corners.
 
 use crate::model::{Arm, JointType};
 use cplan_geometry::{Convex, Point, Vector, cross, inset, minkowski_difference, perpendicular};
@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// magnify rounding by its inverse.
 const PARALLEL: f64 = 1e-9;
 
-/// The map from displacements in the plane to joint values, for a gantry whose slides are not parallel.
+/// Returns the map from displacements in the plane to joint values, for a gantry whose axes are not parallel.
 pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
     let [JointType::Prismatic { direction: first }, JointType::Prismatic { direction: second }] =
         [arm.joints[0].joint_type, arm.joints[1].joint_type]
@@ -20,9 +20,9 @@ pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
     if directions.determinant().abs() < PARALLEL { None } else { directions.try_inverse() }
 }
 
-/// The joint values at which `part` of link 2 comes within `level` of `piece`, as a convex polygon that also holds some
-/// at which they are up to `level + tolerance` apart: arcs are replaced by tangents, flat sides are exact. `map` is
-/// [`joint_map`]'s. `O(n + m)` and as many corners, plus those on arcs.
+/// Returns the joint values at which `part` of link 2 comes within `level` of `piece`, as a convex polygon. It also
+/// contains some values with distances up to `level + tolerance`: arcs are replaced by tangents, while flat sides are
+/// exact. `map` is that of [`joint_map`]. `O(n + m)` time and corners, plus those on arcs.
 pub(super) fn contour(
     arm: &Arm,
     map: &Matrix2<f64>,
@@ -36,9 +36,9 @@ pub(super) fn contour(
     in_joint_values(arm, map, &tangent_polygon(&core, radius, radius + tolerance))
 }
 
-/// The joint values at which `part` of link 2 comes within `level` less `margin` of `piece`, and some at which it is nearer than
-/// `level` only, as a convex polygon: arcs are replaced by chords. None where nothing with area is left. Otherwise as
-/// [`contour`].
+/// Returns the joint values at which `part` of link 2 comes within `level - margin` of `piece`, as a convex polygon. It
+/// also contains some values with distances below `level`: arcs are replaced by chords. Returns `None` if no area is
+/// left. Otherwise like [`contour`].
 pub(super) fn inner_contour(
     arm: &Arm,
     map: &Matrix2<f64>,
@@ -54,7 +54,8 @@ pub(super) fn inner_contour(
     (polygon.len() > 2).then(|| in_joint_values(arm, map, &polygon))
 }
 
-/// A polygon of points within `radius` of a convex polygon that has all points within `radius - sag` of it.
+/// Returns a polygon of points within `radius` of a convex polygon that contains all points within `radius - sag` of
+/// it.
 fn chord_polygon(core: &[Point], radius: f64, sag: f64) -> Vec<Point> {
     let n = core.len();
     let widest = 2.0 * (1.0 - sag / radius).max(0.0).acos();
@@ -72,7 +73,7 @@ fn chord_polygon(core: &[Point], radius: f64, sag: f64) -> Vec<Point> {
     polygon
 }
 
-/// A polygon of places of link 2's origin as one of joint values.
+/// Converts a polygon of positions of link 2's origin to joint values.
 fn in_joint_values(arm: &Arm, map: &Matrix2<f64>, polygon: &[Point]) -> Vec<Point> {
     let origin = arm.base + arm.offset;
     let mut contour: Vec<Point> = polygon.iter().map(|p| Point::from(map * (p - origin))).collect();
@@ -82,7 +83,7 @@ fn in_joint_values(arm: &Arm, map: &Matrix2<f64>, polygon: &[Point]) -> Vec<Poin
     contour
 }
 
-/// A polygon around all points within `radius` of a convex polygon, none of its corners farther than `reach` from it.
+/// Returns a polygon around all points within `radius` of a convex polygon, with corners at most `reach` from it.
 fn tangent_polygon(core: &[Point], radius: f64, reach: f64) -> Vec<Point> {
     if radius <= 0.0 {
         return core.to_vec();
@@ -104,7 +105,7 @@ fn tangent_polygon(core: &[Point], radius: f64, reach: f64) -> Vec<Point> {
     polygon
 }
 
-/// The outward normal before a corner, and the angle in `[0, pi]` by which it turns there.
+/// Returns the outward normal before a corner, and the angle in `[0, pi]` by which it turns there.
 fn corner(before: Point, at: Point, after: Point) -> (Vector, f64) {
     let (into, out) = (at - before, after - at);
     // The sign can only be lost to rounding: a convex outline never turns clockwise.

@@ -8,14 +8,16 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 
-/// Free parts of less area than this (products of rad and m) are left out: they are debris of rounding where contours
-/// nearly touch, and too small for an arm to make use of.
+/// Least area of free parts (product of rad and m). Smaller ones are artefacts of rounding where contours almost touch,
+/// and too small for an arm.
 const SLIVER_AREA: f64 = 1e-10;
 
-/// The free parts of `window`: one polygon a connected component, outer contour counter-clockwise, holes clockwise.
+/// Returns the free parts of `window`: one polygon per connected component, outer contour counter-clockwise, holes
+/// clockwise.
 ///
 /// Every contour is counter-clockwise and repeats by `periods` along each axis that has one. Corners are rounded to a
-/// grid of some 1e-17 of the coordinates' range and snapped to each other ([`SNAPPING`]), which contours that carry a margin absorb.
+/// grid of about 1e-17 of the coordinates' range and snapped to each other ([`SNAPPING`]), which the margin of contours
+/// absorbs.
 pub(super) fn free_space<'a>(
     window: Window,
     periods: [Option<f64>; 2],
@@ -26,7 +28,7 @@ pub(super) fn free_space<'a>(
     free
 }
 
-/// The same of the parts of `window` that contours cover, all of them.
+/// Returns the parts of `window` that contours cover.
 pub(super) fn blocked_space<'a>(
     window: Window,
     periods: [Option<f64>; 2],
@@ -67,7 +69,7 @@ fn parts<'a>(
     overlay.overlay(rule, FillRule::NonZero).into_iter().filter_map(polygon).collect()
 }
 
-/// With more contours than this, neighbours are united before all of them are.
+/// Number of contours above which neighbours are united first.
 const MANY: usize = 128;
 
 /// Contours that are united first.
@@ -76,7 +78,7 @@ const GROUP: usize = 8;
 /// Neighbouring groups whose outlines are united next, and so on.
 const GROUPS: usize = 4;
 
-/// Outlines of which more than this share of the corners was left by a union hardly overlap: the last union does as well.
+/// If a union keeps more than this share of the corners, the outlines hardly overlap, and the last union suffices.
 const WORTH: f64 = 0.75;
 
 /// Corners are snapped to others within 256 steps of the grid, some 3e-15 of the coordinates' range, and four times as far in each round that has to
@@ -109,7 +111,7 @@ fn united_by_neighbors(contours: Contours) -> Contours {
 /// The middle of a contour's extent, and the contour.
 type Placed = ([f64; 2], Vec<[f64; 2]>);
 
-/// The outlines of a part, and whether it was worth it.
+/// Returns the outlines of a part, and whether uniting them was worthwhile.
 fn united_part(part: &mut [Placed]) -> (Contours, bool) {
     checkpoint();
     if part.len() <= GROUP {
@@ -129,7 +131,7 @@ fn united_part(part: &mut [Placed]) -> (Contours, bool) {
     if worth { united_if_worth(outlines) } else { (outlines, false) }
 }
 
-/// The outlines of a union, and whether they have clearly fewer corners than the contours.
+/// Returns the outlines of a union, and whether they have clearly fewer corners than the contours.
 fn united_if_worth(contours: Contours) -> (Contours, bool) {
     let corners = |contours: &Contours| contours.iter().map(Vec::len).sum::<usize>() as f64;
     let before = corners(&contours);
@@ -139,7 +141,7 @@ fn united_if_worth(contours: Contours) -> (Contours, bool) {
     (outlines, worth)
 }
 
-/// Halved across the longer side of what the middles cover.
+/// Halves a part across the longer side of the bounding box of its middles.
 fn halved(part: &mut [Placed]) -> [&mut [Placed]; 2] {
     let extent = |k: usize| {
         let values = || part.iter().map(|(at, _)| at[k]);
@@ -151,7 +153,7 @@ fn halved(part: &mut [Placed]) -> [&mut [Placed]; 2] {
     part.split_at_mut(half).into()
 }
 
-/// The shifts by whole periods that bring an extent into touch with a range.
+/// Returns the shifts by whole periods after which an extent touches a range.
 fn copies(values: impl Iterator<Item = f64>, range: (f64, f64), period: Option<f64>) -> Vec<f64> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
     match period {
@@ -198,7 +200,7 @@ mod tests {
         assert_eq!(free.len(), 2);
     }
 
-    /// Unit squares among integer coordinates, of which every free one can be counted.
+    /// Unit squares on integer coordinates, whose free squares can be counted.
     #[test]
     fn many_squares_leave_what_none_of_them_covers() {
         let n = 40_usize;

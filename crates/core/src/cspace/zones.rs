@@ -3,7 +3,7 @@
 use super::Grid;
 use crate::model::Scene;
 
-/// What a preference says.
+/// The effect of a preference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zone {
     /// The user's name for it.
@@ -19,13 +19,13 @@ pub struct Zone {
 pub struct ZonedGrid {
     /// The cells, free and blocked.
     pub grid: Grid,
-    /// In the order of the world file.
+    /// Zones, in the order of the world file.
     pub zones: Vec<Zone>,
     of_cell: Vec<Option<u32>>,
 }
 
 impl ZonedGrid {
-    /// With the preferences of the scene's workspace; of several that hold the last counts.
+    /// Creates the zones of the preferences of the scene's workspace. If several apply, the last one counts.
     /// `O(cells * corners of all regions)`.
     #[must_use]
     pub fn new(grid: Grid, scene: &Scene) -> Self {
@@ -45,10 +45,10 @@ impl ZonedGrid {
         Self { zones: zones.collect(), of_cell, grid }
     }
 
-    /// The zone of a cell.
+    /// Returns the zone of a cell.
     ///
     /// # Panics
-    /// If there is no such cell.
+    /// If the cell does not exist.
     #[must_use]
     pub fn zone(&self, cell: usize) -> Option<&Zone> {
         self.of_cell[cell].map(|index| &self.zones[index as usize])
