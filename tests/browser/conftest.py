@@ -57,7 +57,7 @@ def browser():
     path = shutil.which(name)
     assert path, f"there is no {name}: install Debian's chromium, or set CPLAN_BROWSER"
     with sync_playwright() as playwright:
-        # Containers run as root, where Chromium's sandbox does not work.
+        # Containers run as root, and Chromium's sandbox does not work there.
         launched = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
         yield launched
         launched.close()
