@@ -1,4 +1,4 @@
-"""The live page with the program within it: no server but one of files, below a path, or none at all."""
+"""The live page with the program inside: from a file server, below a path, or without any server."""
 
 import itertools
 import json
@@ -91,7 +91,7 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 
 
 def told(seen, requests):
-    """All messages in order, without times, what is drawn, and the planner's own counts."""
+    """Returns all messages in order, without times, drawings, and the planner's own counts."""
     world, answers = seen.do(TALK, requests)
     for message in [world, *itertools.chain(*answers)]:
         if message.startswith("{"):

@@ -1,4 +1,4 @@
-"""Pages and pictures say the same in the same signs."""
+"""Pages and pictures state the same facts with the same signs."""
 
 import re
 import xml.etree.ElementTree as ElementTree
@@ -21,7 +21,7 @@ STILL_ALONE = {"open to link 2 (picked or placed)"}
 
 
 def picture(program, robot, world, *words, code=0):
-    """The texts of the picture."""
+    """Returns the texts of the picture."""
     program.run(ROOT / f"robots/{robot}.urdf", ROOT / f"workspaces/{world}.toml", *words, "--quiet", "--picture", "picture.svg", code=code)
     tree = ElementTree.parse(program.folder / "picture.svg")
     return [text.text.strip() for text in tree.iter("{http://www.w3.org/2000/svg}text")]

@@ -1,4 +1,4 @@
-"""Lessons in geometry: what the page computes is what the program says."""
+"""Lessons in geometry: the page computes the same values as the program."""
 
 import json
 import math
@@ -21,7 +21,9 @@ def rows_of(seen):
 
 
 def slice_at(seen, part):
-    """The slice at this part of joint 1's domain: its value, what is barred whatever joint 2 is, and intervals by obstacle."""
+    """Returns the slice at this part of joint 1's domain: its value, the obstacles that block all of it, and intervals
+    by obstacle.
+    """
     seen.do("(part) => cplan.seek(part * cplan.duration)", part)
     return seen.do(
         """() => { const { q1, bands, rows } = cplan.learn.slice; const name = (k) => cplan.world.obstacles[k].name;

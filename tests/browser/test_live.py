@@ -189,7 +189,7 @@ joints = [1.55, -0.35]
 
 
 def test_the_configuration_space_follows_ten_obstacles(serve, tmp_path):
-    """Drags one of ten obstacles for three seconds, and says how many answers a second came and were drawn."""
+    """Drags one of ten obstacles for three seconds, and prints the answers per second that were received and drawn."""
     world = tmp_path / "ten.toml"
     world.write_text(TEN)
     seen = serve(ROOT / "robots/planar_2r.urdf", world)
@@ -228,7 +228,7 @@ def test_the_configuration_space_follows_ten_obstacles(serve, tmp_path):
 
 
 def test_three_hundred_obstacles_are_followed_ten_times_a_second(serve, tmp_path):
-    """Drags one of three hundred obstacles, and takes the times at which answers were drawn."""
+    """Drags one of three hundred obstacles, and measures the times at which answers were drawn."""
     inside = lambda x, y: 0.25 < math.hypot(x, y) < 1.95 and not (abs(math.atan2(y, x) + 0.75) < 0.35 or abs(math.atan2(y, x) - 1.5) < 0.25)
     places = [(0.14 * i, 0.14 * k) for i in range(-14, 15) for k in range(-14, 15)]
     places = sorted((place for place in places if inside(*place)), key=lambda place: -math.hypot(*place))[:300]

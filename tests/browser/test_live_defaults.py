@@ -1,4 +1,4 @@
-"""What the live page plans with where nobody has chosen anything: what the command line plans with."""
+"""The defaults of the live page are those of the command line."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Edits of the live page outlive a reload of the page and the end of the server."""
+"""Edits of the live page survive a reload of the page and the end of the server."""
 
 from conftest import ROOT
 from live import PLANAR, badge, drag, path, settled

@@ -1,4 +1,4 @@
-"""The live page says certified of what is certified, and what is wrong where it is."""
+"""The live page shows "certified" only for certified answers, and errors at their places."""
 
 import re
 
@@ -10,7 +10,7 @@ ON_THE_ARM = [[1.3, 0.24], [0.85, -0.95]]
 
 
 def reds(seen, panel):
-    """How many pixels of a panel are as red as what is barred."""
+    """Returns the number of pixels of a panel that are as red as blocked parts."""
     return seen.do(
         """(panel) => { const { canvas } = cplan.view.panels[panel];
              const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -142,7 +142,9 @@ WATCH = """() => {
 
 
 def test_the_badge_never_says_certified_of_what_is_not(serve):
-    """Holds the badge against the page's world and the last answer, with every change of the page and every picture."""
+    """Compares the badge with the page's world and the last answer, after every change of the page and for every
+    picture.
+    """
     seen = serve(*PLANAR)
     seen.do(WATCH)
     drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75], steps=30)

@@ -21,7 +21,7 @@ CASES = [
 
 
 def pixels(seen, panel):
-    """The pixels of a panel, to see whether something changes."""
+    """Returns the pixels of a panel, to detect changes."""
     return seen.do("(panel) => cplan.panels[panel].canvas.toDataURL()", panel)
 
 

@@ -1,4 +1,4 @@
-"""How the planner came to its answer, played on the page."""
+"""The planner's replay on the page."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Narrow passages are less than a pixel wide: both spaces can be magnified."""
+"""Narrow passages are less than a pixel wide, so both panels can be magnified."""
 
 import pytest
 from live import PLANAR, settled
@@ -6,7 +6,7 @@ from test_page import pixels
 
 
 def place(seen, panel, value, view="cplan"):
-    """Where a value of a panel is on the screen."""
+    """Returns the place on the screen for a value in a panel."""
     box = seen.page.locator("canvas[aria-label='%s']" % {"workspace": "Workspace", "cspace": "Configuration space"}[panel]).bounding_box()
     x, y = seen.do(f"([panel, value]) => {view}.panels[panel].at(value)", [panel, value])
     return box["x"] + x, box["y"] + y
