@@ -7,7 +7,7 @@ use cplan::{Options, Outcome, plan};
 /// Number of checked moments between two samples.
 const BETWEEN: usize = 3;
 
-/// Step of the waiting times that are tried at the start, in seconds.
+/// Step of the waiting times at the start, in seconds.
 const STEP: f64 = 0.02;
 
 /// Distance that brute force keeps from moving obstacles: nearly the largest movement in a step.

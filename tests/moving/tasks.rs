@@ -110,8 +110,8 @@ fn a_pick_is_hardly_later_than_brute_force_finds() {
     assert!(!usual() || compared > 8, "{compared} compared");
 }
 
-/// Returns the earliest pick by a straight motion that begins after some time and waits for the object; `None` if there
-/// is none within ten seconds.
+/// Returns the earliest pick by a straight motion that begins after some time and waits for the object; `None` if no
+/// such pick exists within ten seconds.
 fn soonest(task: &Task) -> Option<f64> {
     (1..500).map(|k| f64::from(k) * STEP).find(|&moment| {
         let place = on_course(&task.objects[0], moment).1;

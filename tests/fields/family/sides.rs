@@ -81,7 +81,8 @@ fn fields_on_cells_that_are_not_square_are_the_direct_solutions() {
     }
 }
 
-/// Compares two grids of a room whose length is twice its width: square cells, and the same number of cells along both sides.
+/// Compares two grids of a room whose length is twice its width: one with square cells, and one with the same number of
+/// cells along both sides.
 #[test]
 fn cells_of_any_sides_give_the_field_of_the_room() {
     let room = |cells: [usize; 2], beta: f64| {
