@@ -1,13 +1,13 @@
-//! Which reading of a source explains most of its sweep counts: a search through what the text of Tables 17 to 19 (L. E. Deicu
-//! 2012) leaves open, by a plain relaxation of its own.
+//! Searches for the reading of a source that explains most of its sweep counts. The text of Tables 17 to 19 (L. E.
+//! Deicu 2012) leaves choices open; this program tries them with its own plain relaxation.
 //!
 //! ```text
 //! cargo run --release --example published_counts [-- 100]
 //! ```
 //!
-//! The search is done on 100 x 100 cells, for the harmonic stage; then the choice that explains most is put to all counts, on 100 x
-//! 100 and, without the argument, on 250 x 250 cells. The maps are those of `published_tables`. The exit code is 1 if another
-//! choice explains more than the one that the documentation names.
+//! It searches on 100 x 100 cells, for the harmonic stage. Then it compares the best choice with all counts, on 100 x
+//! 100 and, without the argument, on 250 x 250 cells. The maps are those of `published_tables`. The exit code is 1 if
+//! another choice explains more than the one that the documentation names.
 
 #[path = "published_tables/deicu.rs"]
 #[allow(dead_code, reason = "what the library measures is for published_tables")]

@@ -1,5 +1,5 @@
-//! Published figures of convergence, done again: figures 39 to 47 of L. E. Deicu (2012) and 6.1 to 6.4 of M. Oliveira da Silva (2011),
-//! whose curves are pictures; what their text says of them stands beside ours.
+//! Published figures of convergence, computed again: figures 39 to 47 of L. E. Deicu (2012) and 6.1 to 6.4 of M. Oliveira
+//! da Silva (2011). Their curves are published only as pictures, so the statements of their text are printed beside ours.
 //!
 //! ```text
 //! cargo run --release --example published_figures

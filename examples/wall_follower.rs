@@ -1,4 +1,4 @@
-//! A wall follower of the literature goes round two rooms and maps them.
+//! A wall follower of the literature drives round two rooms and maps them.
 //!
 //! ```text
 //! cargo run --example wall_follower [-- FOLDER]

@@ -21,7 +21,7 @@ pub const START: [f64; 2] = [-19.0, -8.0];
 pub const TARGETS: [(&str, [f64; 2]); 4] =
     [("object 1", [2.0, 4.0]), ("bin", [-19.0, 2.0]), ("object 2", [9.0, -7.0]), ("bin", [-19.0, 2.0])];
 
-/// Returns the targets that are obstacles on the way to the target of this number: later targets, and the bin.
+/// Returns the targets that are obstacles during the leg to the target of this number: later targets, and the bin.
 pub fn in_the_way(leg: usize) -> Vec<(&'static str, Point)> {
     let (bin, second) = (TARGETS[1], TARGETS[2]);
     let marked: &[_] = match leg {

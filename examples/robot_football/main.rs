@@ -1,5 +1,6 @@
-//! Robots of a team, fields that they share or have of their own, and what it costs to find them anew each frame: section 3.4 and
-//! chapters 5 and 6 of M. Oliveira da Silva, *Campos potenciais modificados aplicados ao controle de múltiplos robôs* (ICMC-USP 2011).
+//! Robots of a team, their shared or own fields, and the cost of computing these again for each frame: section 3.4 and
+//! chapters 5 and 6 of M. Oliveira da Silva, *Campos potenciais modificados aplicados ao controle de múltiplos robôs*
+//! (ICMC-USP 2011).
 //!
 //! ```text
 //! cargo run --release --example robot_football [-- --frames 600] [--seed 1] [--page match.html]

@@ -1,9 +1,9 @@
 //! Three robots against three and a ball, which fields lead: a match of our own in the league of the source (IEEE Very Small Size:
 //! 150 cm x 130 cm, goals 10 cm deep, 85 x 65 cells of 2 cm, robots of 7.5 cm).
 //!
-//! Places are rows (along the field) and columns of cells. Robots roll without slip where they are told to; each frame they take
-//! turns. Blue ones have an oriented field each, with a goal of their own; red ones share a locally oriented one, whose goal is
-//! the ball.
+//! Places are rows (along the field) and columns of cells. Robots roll without slip in the commanded direction, one
+//! after the other in each frame. Each blue robot has its own oriented field with its own goal. The red robots share a
+//! locally oriented field, whose goal is the ball.
 
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Disc, Factor, Influence, Moment, MovingField, Order, RelaxError, Relaxation,

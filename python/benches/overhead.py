@@ -1,9 +1,9 @@
-"""What a call of `cplan.plan` takes beyond the same plan in Rust.
+"""Measures the overhead of a call of `cplan.plan` compared with the same plan in Rust.
 
     python python/benches/overhead.py
 
-The same problem is planned in one process by turns: by `cplan.plan`, with its options by name, and by the function that it calls, in a loop
-of its own. Of each the least time of many rounds counts, which other processes disturb least.
+It plans the same problem in one process in turns: by `cplan.plan`, with its options by name, and by the function that it
+calls, in a separate loop. The least time of many rounds counts, which other processes disturb least.
 """
 
 import timeit
@@ -22,7 +22,7 @@ asked = options(planner="first")
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """Of a call, on the average of some."""
+    """Returns the average time of a call in seconds."""
     return timeit.timeit(work, number=CALLS) / CALLS
 
 

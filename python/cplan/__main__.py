@@ -8,7 +8,7 @@ from cplan._cplan import run
 
 def main() -> int:
     """Runs the program with the arguments of the process; returns its exit code."""
-    # Python's own handler would wait for the program to end.
+    # Python's own handler would wait until the program ends.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     return run(["cplan", *sys.argv[1:]])
 

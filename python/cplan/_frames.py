@@ -1,4 +1,4 @@
-"""Columns by name, for tables of pandas, polars and their like."""
+"""Columns by name, for tables of pandas, polars and similar libraries."""
 
 import importlib
 from typing import Any
@@ -10,7 +10,7 @@ from cplan._cplan import Trajectory
 
 
 def of_trajectory(trajectory: Trajectory) -> dict[str, NDArray[np.float64]]:
-    """Time, then positions, velocities and accelerations joint by joint, each with its unit."""
+    """Returns the time, then positions, velocities and accelerations joint by joint, each with its unit."""
     columns = {"time [s]": trajectory.time}
     for what, per, rows in [
         ("", "", trajectory.position),
@@ -23,13 +23,13 @@ def of_trajectory(trajectory: Trajectory) -> dict[str, NDArray[np.float64]]:
 
 
 def parts(trajectory: Trajectory) -> tuple[object, ...]:
-    """What a trajectory is pickled as."""
+    """Returns the pickled parts of a trajectory."""
     rows = [trajectory.position, trajectory.velocity, trajectory.acceleration]
     return trajectory.time, rows, trajectory.joints, trajectory.units, trajectory.interpolation
 
 
 def pandas(columns: dict[str, Any]) -> Any:
-    """Columns as a DataFrame."""
+    """Returns columns as a DataFrame."""
     try:
         frames = importlib.import_module("pandas")
     except ImportError as error:

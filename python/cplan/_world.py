@@ -1,4 +1,4 @@
-"""The keys of a world file from what Python has: mappings, arrays, and whatever has a `__geo_interface__`."""
+"""Converts Python objects to keys of a world file: mappings, arrays, and objects with a `__geo_interface__`."""
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -9,7 +9,7 @@ _PLACES = ("start", "goal")
 
 
 def document(obstacles: Sequence[Any], keys: Mapping[str, Any] | None) -> str:
-    """The world as JSON; obstacles as they come, then the other keys."""
+    """Returns the world as JSON: obstacles in their order, then the other keys."""
     world = dict(keys or {})
     for place in _PLACES:
         if place in world and not isinstance(world[place], Mapping):
@@ -21,7 +21,7 @@ def document(obstacles: Sequence[Any], keys: Mapping[str, Any] | None) -> str:
 
 
 def _obstacles(given: Any) -> Iterator[dict[str, Any]]:
-    """An obstacle of the world file, a geometry, or an array of corners."""
+    """Converts an obstacle of a world file, a geometry, or an array of corners."""
     if hasattr(given, "__geo_interface__"):
         given = given.__geo_interface__
     if isinstance(given, Mapping):
@@ -31,7 +31,7 @@ def _obstacles(given: Any) -> Iterator[dict[str, Any]]:
 
 
 def _geometry(given: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-    """What a GeoJSON object has. Of a feature's properties those are taken that obstacles have."""
+    """Converts a GeoJSON object. Of a feature's properties, it takes those that obstacles have."""
     match given["type"]:
         case "Feature":
             properties = given.get("properties") or {}
@@ -59,13 +59,13 @@ def _geometry(given: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _open(ring: Iterable[Sequence[float]]) -> list[tuple[float, ...]]:
-    """Corners in the plane, without the first one again at the end."""
+    """Returns corners in the plane, without the repeated first one at the end."""
     corners = [tuple(point[:2]) for point in ring]
     return corners[:-1] if len(corners) > 1 and corners[0] == corners[-1] else corners
 
 
 def _plain(value: Any) -> Any:
-    """The same of lists, dictionaries and Python's numbers."""
+    """Converts a value to lists, dictionaries and Python numbers."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, Mapping):

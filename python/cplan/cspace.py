@@ -1,7 +1,7 @@
-"""The configuration space of a plan as arrays: C-obstacles, and what its planner built to find the way.
+"""The configuration space of a plan as arrays: C-obstacles, and the data of its planner.
 
-Members are those of `cspace.json`, what a planner does not make is None or empty. Joint values are base to tip, radians or metres; arrays
-are read-only.
+Members have the names of `cspace.json`. Data that a planner does not make is None or empty. Joint values are base to
+tip, in radians or metres. Arrays are read-only.
 """
 
 import json
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Axis:
-    """What one joint can take: `lower` to `upper` in `unit`; a circle has a period."""
+    """The values of one joint: `lower` to `upper` in `unit`; a circle has a period."""
 
     joint: str
     unit: str
@@ -28,8 +28,9 @@ class Axis:
 
 @dataclass(frozen=True)
 class Proves:
-    """What free and blocked prove: `exact`; `outer`, obstacles are grown by `margin` metres at the most, so free is free; `inner`, they are
-    shrunk, so blocked is blocked; `sampled`, neither."""
+    """The guarantee of free and blocked. `exact`: both are exact. `outer`: obstacles are grown by at most `margin`
+    metres, so free is free. `inner`: they are shrunk, so blocked is blocked. `sampled`: neither is proven.
+    """
 
     kind: str
     margin: float | None
@@ -37,7 +38,9 @@ class Proves:
 
 @dataclass(frozen=True, eq=False)
 class Polygon:
-    """Its outer ring, counter-clockwise, and its holes: corners of shape (n, 2), the first again at the end."""
+    """A polygon: its outer ring, counter-clockwise, and its holes. Corners have shape (n, 2); the first one is repeated
+    at the end.
+    """
 
     outer: Array
     holes: tuple[Array, ...]
@@ -45,7 +48,7 @@ class Polygon:
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """What an obstacle blocks, cut where circles are."""
+    """The C-obstacle of an obstacle, cut at the seams of circles."""
 
     obstacle: str
     polygons: tuple[Polygon, ...]
@@ -53,7 +56,9 @@ class Region:
 
 @dataclass(frozen=True, eq=False)
 class Free:
-    """Free space as a planner on polygons sees it, in a window (least and greatest values, shape (2, 2)): on circles some turns."""
+    """Free space of a planner on polygons, in a window (least and greatest values, shape (2, 2)); on circles it spans
+    some turns.
+    """
 
     proves: Proves
     window: Array
@@ -62,7 +67,7 @@ class Free:
 
 @dataclass(frozen=True, eq=False)
 class Way:
-    """A path: waypoints, shape (n, 2), and the same with rounded corners in short segments, shape (m, 2)."""
+    """A path: its waypoints, shape (n, 2), and the path with rounded corners as short segments, shape (m, 2)."""
 
     name: str
     waypoints: Array
@@ -71,10 +76,11 @@ class Way:
 
 @dataclass(frozen=True, eq=False)
 class Roadmap:
-    """Straight motions: vertices, shape (n, 2), and numbers of the two of each edge, shape (m, 2).
+    """A graph of straight motions: vertices, shape (n, 2), and the indices of the two ends of each edge, shape (m, 2).
 
-    `vertices[edges]` are their ends, shape (m, 2, 2), as matplotlib's `LineCollection` takes them. `whole` tells whether it is all of the
-    graph, or what of it was looked at. `visibility` is `"reduced"` or `"full"` for visibility graphs.
+    `vertices[edges]` are the ends, shape (m, 2, 2), in the form of matplotlib's `LineCollection`. `whole` is False if
+    only the part of the graph that the search examined is here. `visibility` is `"reduced"` or `"full"` for visibility
+    graphs.
     """
 
     vertices: Array
@@ -85,9 +91,10 @@ class Roadmap:
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Trapezoids or triangles of free space, corners of shape (n, 2), and the numbers of those that the path passes.
+    """Trapezoids or triangles of free space, corners of shape (n, 2), and the indices of those that the path passes.
 
-    Of trapezoids: `centers` of area of the channel's cells, and `middles` of the doors between them, one less, shape (n, 2).
+    Only for trapezoids: `centers` of area of the channel's cells, and `middles` of the portals between them, one fewer,
+    shape (n, 2).
     """
 
     corners: tuple[Array, ...]
@@ -98,7 +105,7 @@ class Cells:
 
 @dataclass(frozen=True, eq=False)
 class Boxes:
-    """Boxes of a subdivision, least and greatest values, shape (n, 2, 2): proven free, proven to collide, neither."""
+    """Boxes of a subdivision, least and greatest values, shape (n, 2, 2): proven free, proven colliding, undecided."""
 
     free: Array
     stuck: Array
@@ -107,10 +114,11 @@ class Boxes:
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Cells of a field: those of `[i, j]` begin at `lower + (i, j) * size`.
+    """Cells of a field. Cell `[i, j]` begins at `lower + (i, j) * size`.
 
-    `blocked` and `values` have shape (n, m). `quantity` tells what values are: `steps` to the goal, `ln_potential` (0 at the goal, the lower
-    the farther), `height`; NaN where there is none, None without a field.
+    `blocked` and `values` have shape (n, m). `quantity` is the meaning of the values: `steps` to the goal,
+    `ln_potential` (0 at the goal, lower with distance), or `height`. Cells without a value have NaN; without a field,
+    `values` is None.
     """
 
     lower: Array
@@ -122,18 +130,19 @@ class Grid:
 
     @property
     def extent(self) -> tuple[float, float, float, float]:
-        """For matplotlib: `imshow(grid.values.T, origin="lower", extent=grid.extent)`."""
+        """The extent for matplotlib: `imshow(grid.values.T, origin="lower", extent=grid.extent)`."""
         (left, bottom), (right, top) = self.lower, self.lower + self.size * self.blocked.shape
         return float(left), float(right), float(bottom), float(top)
 
 
 @dataclass(frozen=True, eq=False)
 class CSpace:
-    """A configuration space, and what takes place in it.
+    """A configuration space and its content.
 
-    `goals` are segments, both ends of each, shape (n, 2, 2); `expanded` where a search came, in that order, shape (n, 2); `rows` free stretches
-    at fixed values of joint 1 that the path passes, and `proof` boxes of collisions that separate start and goals, both of shape (n, 2, 2).
-    `payload` is what is carried, of a task.
+    `goals` are segments, both ends of each, shape (n, 2, 2). `expanded` are the places that a search expanded, in
+    order, shape (n, 2). `rows` are free stretches at fixed values of joint 1 that the path passes; `proof` has
+    collision boxes that separate start and goals. Both have shape (n, 2, 2). `payload` is the name of the carried
+    object, in a task.
     """
 
     axes: tuple[Axis, Axis]
@@ -154,7 +163,7 @@ class CSpace:
 
 
 def read(text: str) -> list[CSpace]:
-    """The spaces of `cspace.json`."""
+    """Returns the spaces of `cspace.json`."""
     whole = json.loads(text)
     first, second = (Axis(**axis) for axis in whole["axes"])
     return [_space((first, second), space) for space in whole["spaces"]]
@@ -205,7 +214,7 @@ def _polygons(data: list[Any]) -> tuple[Polygon, ...]:
 
 
 def _array(data: list[Any], *inner: int) -> Array:
-    """Of pairs shape (n, 2), and so on. Null is NaN."""
+    """Returns a read-only array, for pairs of shape (n, 2). Null becomes NaN."""
     return _fixed(np.array(data, float).reshape(-1, *inner))
 
 

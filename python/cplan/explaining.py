@@ -1,4 +1,6 @@
-"""Why there is no motion and what opens a way; of one that there is, what shapes it: `explain`."""
+"""Explanations: why there is no motion and which changes would open a path, or which obstacles shape the motion:
+`explain`.
+"""
 
 import html
 import json
@@ -14,10 +16,12 @@ from cplan.planning import _options, words
 
 @dataclass(frozen=True)
 class Change:
-    """A change of one thing that opens a way: by `opens` a path is certified, by `closed` it is proven that there is none; metres or radians.
+    """A change of one thing that opens a path. With `opens` a path is certified, with `closed` it is proven that there
+    is none; in metres or radians.
 
-    An obstacle is "moved" in a `direction`, "eroded" on all sides or "scaled" `to` a part of its size; a limit is "widened", the clearance
-    "lowered". It opens a way `among` all things of the "world", or among its "set" alone, where another set closes the world, too.
+    An obstacle is "moved" in a `direction`, "eroded" on all sides, or "scaled" `to` a fraction of its size. A limit is
+    "widened", the clearance "lowered". `among` is "world" if the change opens a path in the whole world. It is "set" if
+    it does so only among the members of its set, while another set still blocks the world.
     """
 
     change: str
@@ -30,9 +34,11 @@ class Change:
 
 @dataclass(frozen=True)
 class Blocker:
-    """A member of a set that blocks: an "obstacle" by `name` and `number`, from 1; a "limit" of a `joint` at a `side`; or the "clearance".
+    """A member of a blocking set: an "obstacle" by `name` and `number`, from 1; a "limit" of a `joint` at a `side`; or
+    the "clearance".
 
-    `without` it, among the others of its set, a path is "found" and certified, or it is "unknown" whether there is one.
+    `without` is "found" if a path is certified among the other members of the set, and "unknown" if nobody knows
+    whether there is one.
     """
 
     kind: str
@@ -46,7 +52,9 @@ class Blocker:
 
 @dataclass(frozen=True)
 class ProofBox:
-    """A box of configurations, from `lower` to `upper`, in all of which a piece of a link hits a part of an obstacle; counted from 0."""
+    """A box of configurations, from `lower` to `upper`, in all of which a piece of a link hits a part of an obstacle;
+    counted from 0.
+    """
 
     lower: Pair
     upper: Pair
@@ -58,7 +66,9 @@ class ProofBox:
 
 @dataclass(frozen=True)
 class BlockingSet:
-    """A set with all of which there is no motion, which the boxes prove (none where start or goal is not free); `irreducible` if without any one there is."""
+    """A set of members that together exclude any motion. The boxes prove it; there are no boxes if start or goal is not
+    free. It is `irreducible` if removing any one member opens a motion.
+    """
 
     blockers: tuple[Blocker, ...]
     proof: tuple[ProofBox, ...]
@@ -67,7 +77,7 @@ class BlockingSet:
 
 @dataclass(frozen=True)
 class Hit:
-    """Two shapes that are nearer than they may be, by so many metres."""
+    """Two shapes that are too close, and the missing distance in metres."""
 
     between: str
     lacking: float
@@ -75,7 +85,7 @@ class Hit:
 
 @dataclass(frozen=True)
 class GivesWay:
-    """When everything gives way by `opens` there is a path, by `closed` not yet; metres."""
+    """The distance by which everything must give way: with `opens` there is a path, with `closed` not yet; metres."""
 
     opens: float
     closed: float
@@ -83,7 +93,7 @@ class GivesWay:
 
 @dataclass(frozen=True)
 class Bottleneck:
-    """Where the motion gets stuck: a configuration, a place in the plane, by how much it is too narrow; metres."""
+    """The place where the motion gets stuck: a configuration, a place in the plane, and the missing width; metres."""
 
     joints: Pair
     point: Pair
@@ -94,7 +104,7 @@ class Bottleneck:
 
 @dataclass(frozen=True)
 class NearbyFree:
-    """The nearest free configuration: its distance in joint space, and how far the tip moves to it, metres."""
+    """The nearest free configuration: its distance in joint space, and the distance that the tip moves, in metres."""
 
     joints: Pair
     distance: float
@@ -103,7 +113,7 @@ class NearbyFree:
 
 @dataclass(frozen=True)
 class BlockedEnd:
-    """A start or goal that is not free: how far each joint is beyond its limits, and what it hits."""
+    """A start or goal that is not free: the excess of each joint over its limits, and the obstacles that it hits."""
 
     end: str
     joints: Pair
@@ -114,7 +124,7 @@ class BlockedEnd:
 
 @dataclass(frozen=True)
 class OutOfReach:
-    """A place for the tip that no configuration within the limits reaches, and the nearest that one does; metres."""
+    """A place for the tip that no configuration within the limits reaches, and the nearest reachable place; metres."""
 
     tip: Pair
     nearest: Pair
@@ -124,7 +134,7 @@ class OutOfReach:
 
 @dataclass(frozen=True)
 class Shorter:
-    """By how much a path would be shorter: proven lower and upper bound."""
+    """The amount by which a path would be shorter: proven lower and upper bound."""
 
     at_least: float
     at_most: float
@@ -132,7 +142,7 @@ class Shorter:
 
 @dataclass(frozen=True)
 class Saving:
-    """What makes the shortest path longer, and how long that would be without it."""
+    """An obstacle, limit or clearance that makes the shortest path longer, and the length without it."""
 
     kind: str
     name: str | None
@@ -145,7 +155,7 @@ class Saving:
 
 @dataclass(frozen=True)
 class Tightest:
-    """Where a path comes nearest to an obstacle; metres."""
+    """The place where a path comes nearest to an obstacle; metres."""
 
     joints: Pair
     clearance: float
@@ -154,11 +164,12 @@ class Tightest:
 
 @dataclass(frozen=True)
 class Explanation(_Findings):
-    """Why there is no motion and what opens a way; of one that there is, what shapes it.
+    """The reasons why there is no motion and the changes that open a path, or the obstacles that shape the motion.
 
-    `status` is "found", "infeasible" or "unknown", then with a `reason`. Infeasible: `blocking` names the obstacles of the first of the `sets`.
-    Found: `path`, its `length` and the `lower_bound` of any, and `shaped_by`. Of steps that can all be done there is the status alone.
-    `stopped_after` is there if the time was up (seconds): then sets may not be irreducible, and changes and savings may be missing.
+    `status` is "found", "infeasible" or "unknown", the last one with a `reason`. If infeasible, `blocking` names the
+    obstacles of the first of the `sets`. If found, there are `path`, its `length`, the `lower_bound` of all paths, and
+    `shaped_by`. For a task that succeeds, there is only the status. `stopped_after` (seconds) is set if the time was
+    up. Then sets may not be irreducible, and changes and savings may be missing.
     """
 
     status: str
@@ -181,19 +192,21 @@ class Explanation(_Findings):
     _asked: tuple[Arm, World, tuple[str, ...], float] = field(repr=False)
 
     def summary(self) -> str:
-        """As the program prints it: the verdict first."""
+        """Returns the text that the program prints: the verdict first."""
         return self._text
 
     def svg(self) -> str:
-        """Workspace and configuration space side by side, with what is in the way and where the motion gets stuck."""
+        """Returns workspace and configuration space side by side, with the blocking obstacles and the place where the
+        motion gets stuck.
+        """
         return self._drawn(page=False)
 
     def html(self) -> str:
-        """The same as a page."""
+        """Returns the explanation as a page."""
         return self._drawn(page=True)
 
     def _drawn(self, page: bool) -> str:
-        # Explained anew: a page is larger than all else, and few are looked at.
+        # Explained again: a page is larger than all other data, and users look at only a few.
         arm, world, asked, time = self._asked
         return _explain_drawn(arm, world, _options(asked), page, time)
 
@@ -211,10 +224,12 @@ def explain(
     clearance: float | None = None,
     time: float = 5.0,
 ) -> Explanation:
-    """Why there is no motion and what opens a way; of one that there is, what shapes it. A world with steps: of the step that fails.
+    """Explains why there is no motion and which changes would open a path, or which obstacles shape the motion. In a
+    world with steps, it explains the step that fails.
 
-    `start`, `goal`, `goal_tip` and `clearance` stand in place of the world's. A start or goal that is not free is explained, too. Once it is known
-    whether there is a motion, the explanation takes no more than `time` seconds; `stopped_after` says whether it would have taken longer.
+    `start`, `goal`, `goal_tip` and `clearance` replace those of the world. A start or goal that is not free is also
+    explained. Once it is known whether there is a motion, the explanation takes at most `time` seconds; `stopped_after`
+    is set if it would have taken longer.
 
     >>> arm = Arm.rr([1.0, 0.8], width=0.06, limits=[(-1.5, 1.5), (-2.5, 2.5)])
     >>> world = World({"circle": {"center": [0.6, 0.0], "radius": 0.1}, "name": "post"}, start=[1.0, 0.2], goal=[-1.0, -0.2])

@@ -1,6 +1,7 @@
-"""What others chose, judged: `check` and `verify`; and planners side by side: `compare`.
+"""Checks of configurations and motions: `check` and `verify`. Comparisons of planners: `compare`.
 
-What is found has the members of the program's JSON as attributes, None where it has none; `to_dict` and `to_json` give that JSON itself.
+Results have the members of the program's JSON as attributes; missing ones are None. `to_dict` and `to_json` return the
+JSON itself.
 """
 
 import csv
@@ -33,11 +34,11 @@ class _Findings:
     _json: str = field(repr=False)
 
     def to_json(self) -> str:
-        """What the program prints with `--json`, byte for byte but for times that were taken."""
+        """Returns the output of the program with `--json`, byte for byte except for measured times."""
         return self._json
 
     def to_dict(self) -> dict[str, Any]:
-        """The same as dictionaries and lists."""
+        """Returns the JSON as dictionaries and lists."""
         found: dict[str, Any] = json.loads(self._json)
         return found
 
@@ -53,7 +54,7 @@ class Basis:
 
 @dataclass(frozen=True)
 class Corner:
-    """A corner in the other shape: plane coordinates, and how far from the nearest side; metres."""
+    """A corner in the other shape: plane coordinates, and the distance to the nearest side; metres."""
 
     at: Pair
     depth: float
@@ -63,8 +64,8 @@ class Corner:
 class Contact:
     """A link and an obstacle that touch, or are nearer than the distance to keep; lengths in metres.
 
-    `depth` is the penetration depth, negative a distance. Of polygons there are the corners of each in the other, and the sides that cross,
-    the link's and the obstacle's.
+    `depth` is the penetration depth; a negative value is a distance. For polygons, there are the corners of each in the
+    other, and the sides that cross: the link's and the obstacle's.
     """
 
     link: str
@@ -79,9 +80,9 @@ class Contact:
 
 @dataclass(frozen=True)
 class NearestFree:
-    """The nearest free configuration: how far it is in joint space, and the clearance there, metres.
+    """The nearest free configuration: its distance in joint space, and its clearance in metres.
 
-    `resolution` is the spacing of the values of joint 1 that were looked at; joint 2 is exact for each.
+    `resolution` is the spacing of the tested values of joint 1; joint 2 is exact for each.
     """
 
     configuration: Pair
@@ -92,9 +93,10 @@ class NearestFree:
 
 @dataclass(frozen=True)
 class Check(_Findings):
-    """Why a configuration is, or is not, free.
+    """The reasons why a configuration is free or not.
 
-    `clearance` is the least signed distance to an obstacle, `required` the distance to keep, `tip` the tip's place: metres.
+    `clearance` is the least signed distance to an obstacle, `required` the distance to keep, `tip` the tip's place:
+    metres.
     """
 
     free: bool
@@ -112,8 +114,9 @@ class Check(_Findings):
 class Encounter:
     """A link and an obstacle at a moment of a motion.
 
-    `depth` is the penetration depth, metres, negative a distance. The moment is a `time`, seconds; of a path without times a `waypoint`,
-    counted from 0, with the share of the way to the next. `sample` is the one at or before it.
+    `depth` is the penetration depth in metres; a negative value is a distance. The moment is a `time` in seconds. For a
+    path without times it is a `waypoint`, counted from 0, with the fraction of the segment to the next one. `sample` is
+    the last one at or before the moment.
     """
 
     link: str
@@ -128,7 +131,9 @@ class Encounter:
 
 @dataclass(frozen=True)
 class BrokenLimit:
-    """A limit that a motion breaks: what is reached and what is allowed, rad or m and seconds; and when, as of an `Encounter`."""
+    """A limit that a motion breaks: the reached and the allowed value, in rad or m and seconds, and the moment, as in
+    `Encounter`.
+    """
 
     joint: str
     limit: str
@@ -142,7 +147,7 @@ class BrokenLimit:
 
 @dataclass(frozen=True)
 class TurnContact:
-    """Where an object that is turned hits something: its orientation, radians."""
+    """The orientation at which an object that is turned hits an obstacle, in radians."""
 
     angle: float
     obstacle: str
@@ -150,7 +155,7 @@ class TurnContact:
 
 @dataclass(frozen=True)
 class Turn:
-    """A turn of the wrist while the arm stands still: orientations of the object, radians; `clearance` in metres."""
+    """A turn of the wrist while the arm does not move: orientations of the object in radians; `clearance` in metres."""
 
     from_: float
     to: float
@@ -161,7 +166,9 @@ class Turn:
 
 @dataclass(frozen=True)
 class Step:
-    """What is found of a step of a task. Numbers of steps and cycles count from 1; `seconds` are those of its motion."""
+    """The result for a step of a task. Numbers of steps and cycles count from 1; `seconds` is the duration of its
+    motion.
+    """
 
     step: int
     cycle: int
@@ -185,10 +192,11 @@ class Step:
 
 @dataclass(frozen=True)
 class Verification(_Findings):
-    """What there is to say about a motion, all of it, also between its samples.
+    """The result of verifying a whole motion, also between its samples.
 
-    `verdict` is one of free, undecided, claims (the file says of it what is false), ends (it does not lead from start to goal), limits, task
-    (it is not the task that the world asks for), collision. `clearance` is a proven lower bound on the distance to every obstacle, metres.
+    `verdict` is one of free, undecided, claims (values stated in the file are wrong), ends (the motion does not lead
+    from start to goal), limits, task (it is not the task of the world), collision. `clearance` is a proven lower bound
+    on the distance to every obstacle, in metres.
     """
 
     verdict: str
@@ -211,7 +219,7 @@ class Verification(_Findings):
 
     @property
     def free(self) -> bool:
-        """Whether it is proven free, within all limits, and what was asked for."""
+        """True if the motion is proven free, within all limits, and solves the problem."""
         return self.verdict == "free"
 
 
@@ -230,8 +238,9 @@ class StageTimes:
 class Run:
     """A planner's run on a problem.
 
-    `length` is the path's in joint space, `ratio` that over the shortest path of all planners, `over_optimum` that over the proven lower
-    bound. `clearance` in metres, `duration` of the motion in seconds, `size` of what the planner built by name.
+    `length` is the length of the path in joint space, `ratio` its ratio to the shortest path of all planners,
+    `over_optimum` its ratio to the proven lower bound. `clearance` is in metres, `duration` of the motion in seconds.
+    `size` has the sizes of the planner's data by name.
     """
 
     planner: str
@@ -265,16 +274,18 @@ class _Compared(_Findings):
         return self._markdown
 
     def to_csv(self) -> str:
-        """What the program prints with `--csv`: a line a run."""
+        """Returns the output of the program with `--csv`: one line per run."""
         return self._csv
 
     def to_columns(self) -> dict[str, list[Any]]:
-        """A row a run, columns as in `to_csv`: what `pandas.DataFrame` and `polars.DataFrame` take; None where there is nothing."""
+        """Returns one row per run with the columns of `to_csv`, as `pandas.DataFrame` and `polars.DataFrame` accept
+        them; None if there is no value.
+        """
         rows = list(csv.DictReader(io.StringIO(self._csv)))
         return {name: [_entry(name, row[name]) for row in rows] for name in rows[0]}
 
     def to_pandas(self) -> Any:
-        """The same as a pandas DataFrame; pandas has to be installed."""
+        """Returns the table as a pandas DataFrame; needs pandas."""
         return _frames.pandas(self.to_columns())
 
 
@@ -290,9 +301,10 @@ def _entry(column: str, text: str) -> Any:
 
 @dataclass(frozen=True)
 class ProblemRuns:
-    """The planners' runs on a problem; lengths in `length_unit`, no path is shorter than `lower_bound`: proven.
+    """The planners' runs on a problem; lengths are in `length_unit`. `lower_bound` is a proven lower bound on the
+    length of all paths.
 
-    `start` and `goal` where they were drawn at random.
+    `start` and `goal` are set if they were drawn at random.
     """
 
     problem: str
@@ -306,12 +318,12 @@ class ProblemRuns:
 
 @dataclass(frozen=True)
 class Comparison(ProblemRuns, _Compared):
-    """Planners side by side on one problem."""
+    """A comparison of planners on one problem."""
 
 
 @dataclass(frozen=True)
 class Tally:
-    """How many of a planner's runs ended in each way, and how their figures are distributed."""
+    """The number of a planner's runs for each outcome, and the distributions of their figures."""
 
     planner: str
     found: int
@@ -323,7 +335,7 @@ class Tally:
 
 @dataclass(frozen=True)
 class Comparisons(_Compared):
-    """Planners side by side on random problems in one world; `summary` is in words."""
+    """A comparison of planners on random problems in one world; `summary` is in words."""
 
     title: str
     queries: int
@@ -338,9 +350,9 @@ _Made = TypeVar("_Made")
 
 
 def _made(kind: type[_Made], data: Any, **given: Any) -> _Made:
-    """An object of what JSON has; what it leaves out is empty or None."""
+    """Returns an object from JSON; missing members are empty or None."""
     types = get_type_hints(kind)
-    # A trailing underscore is of names that Python keeps for itself.
+    # Names that Python reserves have a trailing underscore.
     members = {each.name: data.get(each.name.rstrip("_")) for each in fields(kind) if each.init and each.name[0] != "_"}  # type: ignore[arg-type]
     return kind(**{name: _value(types[name], value) for name, value in members.items()}, **given)
 
@@ -356,9 +368,10 @@ def _value(kind: Any, value: Any) -> Any:
 
 
 def check(arm: Arm, world: World, at: Sequence[float] | str, *, clearance: float | None = None) -> Check:
-    """Why a configuration is, or is not, free: contacts, their depth, limits, and the nearest free configuration.
+    """Checks whether a configuration is free: contacts, their depth, limits, and the nearest free configuration.
 
-    `at` are joint values, base to tip, radians or metres, or a text such as "20deg,-60deg". `clearance` (metres) stands in place of the world's.
+    `at` are joint values, base to tip, radians or metres, or a text such as "20deg,-60deg". `clearance` (metres)
+    replaces that of the world.
 
     >>> arm = Arm.rr([1.0, 0.8], width=0.06)
     >>> found = check(arm, World({"circle": {"center": [1.6, 0.0], "radius": 0.1}, "name": "post"}), at=[0.0, 0.0])
@@ -382,14 +395,16 @@ def verify(
     anywhere: bool = False,
     unwrap: bool = False,
 ) -> Verification:
-    """Judges anyone's motion: whether all of it, also between samples, is free of collision, within the limits, and leads from start to goal.
+    """Verifies any motion, also between samples: it must be collision-free, within the limits, and lead from start to
+    goal.
 
-    `motion` is a file (.json of cplan, .csv, .yaml or .mcap of ROS 2), a plan with a motion, a `Trajectory`; an array of waypoints, shape
-    `(n, 2)`, straight segments between them; or a tuple of arrays `(time, position)`, shapes `(n,)` and `(n, 2)`, with velocities and
-    accelerations if there are any. Joint values are radians or metres, base to tip; seconds.
+    `motion` is a file (.json of cplan, .csv, .yaml or .mcap of ROS 2), a plan with a motion, or a `Trajectory`. It can
+    also be an array of waypoints, shape `(n, 2)`, with straight segments between them, or a tuple of arrays `(time,
+    position)`, shapes `(n,)` and `(n, 2)`, optionally with velocities and accelerations. Joint values are in radians or
+    metres, base to tip; times in seconds.
 
-    `start`, `goal`, `goal_tip` and `clearance` stand in place of the world's; `anywhere` it may begin and end where it does; `unwrap` lets
-    joints without limits go the short way from sample to sample.
+    `start`, `goal`, `goal_tip` and `clearance` replace those of the world. With `anywhere`, the motion may begin and
+    end anywhere. With `unwrap`, joints without limits take the shorter direction from sample to sample.
 
     >>> arm = Arm.rr([1.0, 0.8], width=0.06)
     >>> world = World({"circle": {"center": [1.6, 0.0], "radius": 0.1}}, start=[1.0, 0.0], goal=[-1.0, 0.0])
@@ -406,7 +421,7 @@ def verify(
 
 
 def _motion(arm: Arm, world: World, motion: Any) -> str:
-    """A motion that is no file as the JSON of one."""
+    """Returns a motion that is not a file as the text of a JSON file."""
     if isinstance(motion, Plan):
         return motion.to_json()
     if isinstance(motion, Trajectory):
@@ -441,11 +456,12 @@ def compare(
     queries: int | None = None,
     **more: Any,
 ) -> Comparison | Comparisons:
-    """Planners side by side: outcome, length over the proven optimum, clearance, duration, and where the time went.
+    """Compares planners: outcome, length relative to the proven optimum, clearance, duration, and the times of the
+    stages.
 
-    `planners` are names, all if none are given; `variants` planners with options of their own, such as "trapezoid --path own". With
-    `queries`, so many random start-goal pairs in place of the world's own. All other options are those of `cplan compare`, by name, such as
-    the `seed` of the pairs. Ctrl-C ends it, but for `jobs=2` and more.
+    `planners` are names; by default all. `variants` are planners with their own options, such as "trapezoid --path
+    own". `queries` is a number of random start-goal pairs, which replace those of the world. All other options are
+    those of `cplan compare`, by name, such as the `seed` of the pairs. Ctrl-C ends it, except with `jobs=2` and more.
 
     >>> arm = Arm.rr([1.0, 0.8], width=0.06)
     >>> world = World({"circle": {"center": [1.6, 0.0], "radius": 0.1}}, start=[1.0, 0.2], goal=[-1.0, -0.2])

@@ -1,4 +1,4 @@
-"""From an arm and a world to an answer."""
+"""Planning: from an arm and a world to an answer."""
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
@@ -9,9 +9,10 @@ from cplan._cplan import plan as _plan
 
 
 def options(**given: Any) -> Options | None:
-    """Options of the program's command line by their names: `cells=80`, `tip_speed=0.5`, `goal=(0.3, -1.0)`, `backward=True`.
+    """Converts options of the program's command line by their names: `cells=80`, `tip_speed=0.5`, `goal=(0.3, -1.0)`,
+    `backward=True`.
 
-    `cplan help planners` tells of each. None where nothing is given.
+    `cplan help planners` describes each. Returns None if no option is given.
 
     >>> options(planner="wavefront", cells=(80, 40), start=(0.5, -0.25))
     <cplan.Options: --planner=wavefront --cells=80x40 --start=0.5,-0.25>
@@ -20,12 +21,12 @@ def options(**given: Any) -> Options | None:
     return _options(tuple(asked)) if asked else None
 
 
-# Reading words takes longer than a small plan.
+# Parsing words takes longer than a small plan.
 _options = lru_cache(maxsize=64)(Options)
 
 
 def words(**given: Any) -> list[str]:
-    """The same as words of a command line."""
+    """Converts options to words of a command line."""
     return [word for name, value in given.items() for word in _words(name, value)]
 
 
@@ -55,15 +56,15 @@ def plan(
     progress: Callable[[str], object] | None = None,
     **more: Any,
 ) -> Found | Infeasible | Unknown:
-    """Plans: a certified motion, a proof that there is none, or neither within the effort.
+    """Plans: returns a certified motion, a proof that there is none, or neither within the effort.
 
-    An arm in a world, or a `Problem` of both. `start`, `goal` (joint values), `goal_tip` (a place for the tip, metres) and `clearance`
-    (metres) stand in place of the world's. All other options are those of the program, by name: see `options`. `progress` hears of
-    long work, in lines of text.
+    The input is an arm and a world, or a `Problem` of both. `start`, `goal` (joint values), `goal_tip` (a place for the
+    tip, metres) and `clearance` (metres) replace those of the world. All other options are those of the program, by
+    name: see `options`. `progress` is called with lines of text during long work.
 
-    Other threads run meanwhile; Ctrl-C ends it.
+    Other Python threads run meanwhile; Ctrl-C ends it.
 
-    Raises `InputError` for everything that is wrong with arm, world, start and goal, `ValueError` for options that make no sense.
+    Raises `InputError` with all defects of arm, world, start and goal, and `ValueError` for invalid options.
     """
     overrides = {"start": start, "goal": goal, "goal_tip": goal_tip, "clearance": clearance}
     named = {} if planner == "shortest" else {"planner": planner}

@@ -1,4 +1,4 @@
-"""Studies of many layouts: on this machine, or on a cluster of Ray."""
+"""Studies of many layouts, on this machine or on a Ray cluster."""
 
 import importlib
 import json
@@ -18,9 +18,9 @@ from cplan._cplan import Study as _Study
 from cplan._cplan import plan
 from cplan.planning import words
 
-# Layouts of a task for Ray: it takes longer than what a cluster costs.
+# Number of layouts per Ray task, large enough that the work takes longer than the overhead of the cluster.
 BATCH = 1000
-# Layouts after which there is progress, and Ctrl-C is seen at the latest.
+# Number of layouts between reports of progress and checks for Ctrl-C.
 _STEP = 256
 
 Progress = Callable[[int, int], object]
@@ -29,12 +29,12 @@ Progress = Callable[[int, int], object]
 class Study(_Study):
     """One task in many layouts: a study file (TOML), with the robot and the world that it names.
 
-    `len(study)` is the number of layouts. Rows follow from a layout's number and the files alone.
+    `len(study)` is the number of layouts. Rows depend only on the number of the layout and the files.
     """
 
     @classmethod
     def from_text(cls, text: str, arm: Arm, world: World) -> "Study":
-        """The study of a text (TOML, which need not name robot and world) for a robot in URDF and a world."""
+        """Creates a study from a text (TOML, which need not name robot and world), a robot in URDF and a world."""
         return cls("", cls.sources(text, arm, world))
 
     def run(
@@ -47,13 +47,14 @@ class Study(_Study):
         batch: int = BATCH,
         progress: Progress | None = None,
     ) -> "Results":
-        """Plans in all layouts, then searches on if the study says so.
+        """Plans in all layouts, then runs the search if the study has one.
 
-        On this machine with so many threads as `jobs` (by default one for each core), or with `engine="ray"` on the cluster that Ray is
-        connected to, in tasks of `batch` layouts; the search, whose layouts follow from each other, runs here. The same rows either way.
+        It runs on this machine with `jobs` threads (by default one for each core), or with `engine="ray"` on the
+        cluster that Ray is connected to, in tasks of `batch` layouts. The search, in which each layout depends on the
+        previous ones, always runs here. The rows are the same.
 
-        Rows are kept in `journal`, a file: a run that was stopped goes on there, and the file is removed at the end. `fresh` begins anew.
-        `progress` hears how many layouts are done, and of how many.
+        The file `journal` keeps the rows. A later run continues an interrupted one, and removes the file at the end.
+        `fresh` starts again. `progress` receives the number of finished layouts and the number of all.
         """
         jobs = jobs or os.cpu_count() or 1
         kept, known = _Journal.open(Path(journal), self, fresh) if journal is not None else (None, Rows())
@@ -88,7 +89,7 @@ def _locally(study: Study, first: int, jobs: int) -> Iterator[Rows]:
 
 
 def _by_ray(study: Study, first: int, batch: int) -> Iterator[Rows]:
-    """Tasks in the order of their layouts. A worker that dies has its task done by another one."""
+    """Runs tasks in the order of their layouts. If a worker dies, another one does its task."""
     try:
         ray = importlib.import_module("ray")
     except ImportError as error:
@@ -97,11 +98,11 @@ def _by_ray(study: Study, first: int, batch: int) -> Iterator[Rows]:
         raise ValueError("a batch has one layout or more")
     if not ray.is_initialized():
         ray.init()
-    # Tried again as often as it takes: what fails are machines, since a layout that cannot be planned in is a row.
+    # Retried without limit: only machines fail, because a layout in which planning fails is a row.
     task = ray.remote(num_cpus=1, max_retries=-1)(_batch)
     shared = ray.put(study)
     starts = iter(range(first, len(study), batch))
-    # As many tasks wait as keep all cores busy; more would only hold memory.
+    # Enough waiting tasks to keep all cores busy; more would only take memory.
     most = 4 * max(1, int(ray.cluster_resources().get("CPU", 1)))
     waiting: list[Any] = []
     for start in starts:
@@ -117,11 +118,11 @@ def _batch(study: Study, first: int, last: int) -> Rows:
 
 
 def _replaced(options: list[str], others: list[str]) -> list[str]:
-    """Words of a command line with others in place of those that say the same."""
+    """Returns words of a command line, in which `others` replace the words for the same options."""
     names = {other.partition("=")[0] for other in others}
     kept, keeps = [], True
     for word in options:
-        # A value may be a word of its own.
+        # A value may be a separate word.
         if word.startswith("--"):
             keeps = word.partition("=")[0] not in names
         if keeps:
@@ -148,39 +149,39 @@ class Results:
         return f"<cplan.Results of {self.study!r}: {len(self)} rows>"
 
     def summary(self) -> str:
-        """What the rows show, in some lines for people."""
+        """Returns a summary of the rows in some lines for people."""
         return self.study.summary(self.rows)
 
     @cached_property
     def figures(self) -> dict[str, Any]:
-        """The same as the program's `--json` has it: outcomes, reasons, the best and the worst layout."""
+        """Returns the members of the program's `--json`: outcomes, reasons, the best and the worst layout."""
         figures: dict[str, Any] = json.loads(self.study.summary_json(self.rows))
         return figures
 
     @property
     def best(self) -> dict[str, Any] | None:
-        """The best layout: its number, its parameters, what was measured. None where none fits."""
+        """The best layout: its number, its parameters, its measures. None if no layout fits."""
         best: dict[str, Any] | None = self.figures["best"]
         return best
 
     def to_columns(self) -> dict[str, NDArray[Any] | list[str | None]]:
-        """Columns by name, as pandas and polars take them; what there is none of is NaN or None."""
+        """Returns columns by name, as pandas and polars accept them; missing values are NaN or None."""
         return self.study.columns(self.rows)
 
     def to_pandas(self) -> Any:
-        """A DataFrame, where pandas is installed."""
+        """Returns the table as a DataFrame; needs pandas."""
         return _frames.pandas(self.to_columns())
 
     def column(self, name: str) -> NDArray[np.float64]:
-        """A column of numbers."""
+        """Returns a column of numbers."""
         return np.asarray(self.to_columns()[name], dtype=np.float64)
 
     def layout(self, row: int) -> tuple[Arm, World]:
-        """Robot and world of a row."""
+        """Returns robot and world of a row."""
         return self.study.layout(self.rows.values(row))
 
     def plan(self, row: int, *, progress: Callable[[str], object] | None = None, **options: Any) -> Found | Infeasible | Unknown:
-        """Plans in the layout of a row as the study did: with its options, but for those that are given here as to `plan`."""
+        """Plans in the layout of a row as the study did. Options given here, as in `plan`, replace those of the study."""
         arm, world = self.layout(row)
         asked = Options(_replaced(self.study.options, words(**options)))
         return plan(Problem(arm, world, asked), asked, progress)
@@ -199,13 +200,13 @@ class Results:
                 content = (json.dumps(self.figures, indent=2) + "\n").encode()
             case other:
                 raise ValueError(f"{path}: results are saved as .csv, .parquet, .html or .json, not {other or 'without an ending'}")
-        # Whole or not at all.
+        # The file is written completely or not at all.
         part = path.with_name(path.name + ".new")
         try:
             part.write_bytes(content)
             part.replace(path)
         except OSError as error:
-            # The file that was asked for, not the one beside it.
+            # Report the requested file, not the temporary one.
             raise OSError(error.errno, error.strerror, str(path)) from error
 
     def _repr_html_(self) -> str:

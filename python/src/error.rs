@@ -1,4 +1,4 @@
-//! What is wrong with input, as an exception.
+//! Errors in input as Python exceptions.
 
 use cplan::input;
 use pyo3::create_exception;
@@ -13,7 +13,7 @@ create_exception!(
      dictionaries with `file`, `line`, `column`, `message` and `help` (line and column None where they are not known)."
 );
 
-/// As Python raises it.
+/// Returns an input error as a Python exception.
 pub fn raised(py: Python<'_>, error: &input::InputError) -> PyErr {
     let raised = InputError::new_err(error.to_string());
     let diagnostics = error.diagnostics().iter().map(|diagnostic| {
@@ -31,7 +31,7 @@ pub fn raised(py: Python<'_>, error: &input::InputError) -> PyErr {
     }
 }
 
-/// A value that makes no sense.
+/// Returns a `ValueError` with this reason.
 pub fn refused(why: impl ToString) -> PyErr {
     PyValueError::new_err(why.to_string())
 }

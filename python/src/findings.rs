@@ -1,5 +1,5 @@
-//! What others chose, judged: configurations and motions; what is in the way of a motion; and planners side by side. As the program's JSON, which
-//! `cplan/findings.py` makes objects of.
+//! Checks of configurations and motions, explanations of infeasible problems, and comparisons of planners. They return
+//! the program's JSON, from which `cplan/findings.py` makes objects.
 
 use crate::error::{raised, refused};
 use crate::geometry::array;
@@ -17,7 +17,7 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Why a configuration (`0.3,-1`) is, or is not, free.
+/// Checks whether a configuration (`0.3,-1`) is free, and returns the reasons.
 #[pyfunction]
 #[pyo3(signature = (arm, world, at, clearance = None))]
 pub fn check(py: Python<'_>, arm: &Arm, world: &World, at: &str, clearance: Option<f64>) -> PyResult<String> {
@@ -29,8 +29,9 @@ pub fn check(py: Python<'_>, arm: &Arm, world: &World, at: &str, clearance: Opti
     printed(&found.map_err(|error: InputError| raised(py, &error))?)
 }
 
-/// Where link 2 or link 1 hits something, or is nearer than the clearance to keep, at values of joint 1 (radians or metres): of each the closed
-/// intervals of joint 2, shape (n, 2), ascending. Exact, from contact angles; on a circle an interval over its seam is in two.
+/// Returns the blocked intervals of joint 2 at values of joint 1 (radians or metres): there a link touches something,
+/// or is nearer than the clearance. Each array has closed, ascending intervals, shape (n, 2). The result is exact, from
+/// contact angles. On a circle, an interval across the seam is split in two.
 #[pyfunction]
 pub fn slices(py: Python<'_>, arm: &Arm, world: &World, q1: Vec<f64>) -> PyResult<Vec<Py<PyArray2<f64>>>> {
     if let Some(odd) = q1.iter().find(|value| !value.is_finite()) {
@@ -54,7 +55,7 @@ pub fn slices(py: Python<'_>, arm: &Arm, world: &World, q1: Vec<f64>) -> PyResul
     found.into_iter().map(|intervals| array(py, intervals)).collect()
 }
 
-/// Judges a motion: a file, or a text as JSON files have it.
+/// Verifies a motion: a file, or a text in the format of JSON files.
 #[pyfunction]
 #[pyo3(signature = (arm, world, file = None, text = None, options = None, anywhere = false, unwrap = false))]
 #[allow(clippy::too_many_arguments)]
@@ -89,7 +90,7 @@ pub fn verify(
     }
 }
 
-/// Planners side by side, told by words of the program's `compare`: JSON, text, Markdown and CSV.
+/// Compares planners, with the words of the program's `compare`. Returns JSON, text, Markdown and CSV.
 #[pyfunction]
 pub fn compare(py: Python<'_>, arm: &Arm, world: &World, words: Vec<String>) -> PyResult<[String; 4]> {
     let compared = interruptible(py, |_| compare_in(arm.among(world)?, &words))?;
@@ -100,10 +101,11 @@ pub fn compare(py: Python<'_>, arm: &Arm, world: &World, words: Vec<String>) -> 
     }
 }
 
-/// Stubs show defaults as they are written in signatures, so that they repeat the limit.
+/// Stubs copy defaults from signatures, so the signatures repeat the limit as a number.
 const _: () = assert!(TIME_LIMIT.as_secs() == 5);
 
-/// Why there is no motion and what opens a way, or what shapes the one that there is: JSON and text.
+/// Explains why there is no motion and which changes would open a path, or which obstacles shape the motion: JSON and
+/// text.
 #[pyfunction]
 #[pyo3(signature = (arm, world, options = None, time = 5.0))]
 pub fn explain(
@@ -117,7 +119,7 @@ pub fn explain(
         .and_then(|(json, summary)| Ok([printed(&json)?, summary]))
 }
 
-/// The same as a picture, or as a page.
+/// Draws an explanation as a picture or as a page.
 #[pyfunction]
 #[pyo3(signature = (arm, world, options = None, page = false, time = 5.0))]
 pub fn explain_drawn(
@@ -147,7 +149,7 @@ fn explained<T: Send>(
     found.map_err(|failure| failed(py, failure))
 }
 
-/// What the program could not do, as an exception.
+/// Returns a failure of the program as an exception.
 fn failed(py: Python<'_>, failure: Failure) -> PyErr {
     match failure {
         Failure::Input(error) => raised(py, &error),
@@ -155,7 +157,7 @@ fn failed(py: Python<'_>, failure: Failure) -> PyErr {
     }
 }
 
-/// As the program prints it.
+/// Formats a value as the program prints it.
 fn printed(found: &impl Serialize) -> PyResult<String> {
     serde_json::to_string_pretty(found).map(|json| json + "\n").map_err(refused)
 }

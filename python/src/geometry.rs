@@ -5,10 +5,10 @@ use cplan::geometry::{self, Convex, Point};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-/// The largest coordinate, metres: that of arms and worlds.
+/// Largest coordinate in metres, the same as for arms and worlds.
 const LARGEST: f64 = 1e15;
 
-/// A convex polygon of corners, shape (n, 2), counter-clockwise; a point or a segment has one or two.
+/// Creates a convex polygon from corners, shape (n, 2), counter-clockwise; one corner is a point, two are a segment.
 fn polygon(name: &str, corners: &PyReadonlyArray2<'_, f64>) -> PyResult<Convex> {
     let corners = corners.as_array();
     if corners.ncols() != 2 {
@@ -22,7 +22,7 @@ fn polygon(name: &str, corners: &PyReadonlyArray2<'_, f64>) -> PyResult<Convex> 
     Convex::new(points, 0.0).map_err(|error| refused(format!("{name}: {error}")))
 }
 
-/// Points as an array of shape (n, 2), which nobody changes.
+/// Returns points as a read-only array of shape (n, 2).
 pub fn array(py: Python<'_>, rows: Vec<[f64; 2]>) -> PyResult<Py<PyArray2<f64>>> {
     let count = rows.len();
     let array = PyArray1::from_vec(py, rows.into_flattened()).reshape([count, 2])?;
@@ -30,8 +30,8 @@ pub fn array(py: Python<'_>, rows: Vec<[f64; 2]>) -> PyResult<Py<PyArray2<f64>>>
     Ok(array.unbind())
 }
 
-/// Penetration depth of two convex polygons, metres: by how much one has to be moved so that they only touch; negative
-/// is the distance between them.
+/// Returns the penetration depth of two convex polygons in metres: the shortest translation after which they only
+/// touch. A negative value is the distance between them.
 ///
 /// Corners are arrays of shape (n, 2), counter-clockwise.
 #[pyfunction]
@@ -39,11 +39,11 @@ pub fn penetration_depth(a: PyReadonlyArray2<'_, f64>, b: PyReadonlyArray2<'_, f
     Ok(geometry::penetration_depth(&polygon("a", &a)?, &polygon("b", &b)?))
 }
 
-/// What the polygon penetration test finds.
+/// The result of the polygon penetration test.
 #[pyclass(frozen, get_all, eq, module = "cplan")]
 #[derive(PartialEq)]
 pub struct PolygonTest {
-    /// Whether the polygons have a point in common: exact, touching counts.
+    /// True if the polygons have a point in common: exact, touching counts.
     meet: bool,
     /// Numbers of the corners of a in b.
     a_inside: Vec<usize>,
@@ -63,7 +63,7 @@ impl PolygonTest {
         )
     }
 
-    /// What was found, from what it was pickled as.
+    /// Restores a pickled result.
     #[staticmethod]
     fn restored(meet: bool, a_inside: Vec<usize>, b_inside: Vec<usize>, crossings: Vec<(usize, usize)>) -> Self {
         Self { meet, a_inside, b_inside, crossings }
@@ -76,10 +76,10 @@ impl PolygonTest {
     }
 }
 
-/// What a [`PolygonTest`] consists of.
+/// The parts of a [`PolygonTest`].
 type Parts = (bool, Vec<usize>, Vec<usize>, Vec<(usize, usize)>);
 
-/// Corners of each convex polygon in the other, and sides that cross. Exact.
+/// Finds the corners of each convex polygon in the other, and sides that cross. Exact.
 ///
 /// Corners are arrays of shape (n, 2), counter-clockwise.
 #[pyfunction]
@@ -94,7 +94,8 @@ pub fn polygon_test(a: PyReadonlyArray2<'_, f64>, b: PyReadonlyArray2<'_, f64>) 
     })
 }
 
-/// Minkowski difference: the translations of `b` that make it meet `a`, its C-obstacle, as corners of shape (n, 2), counter-clockwise.
+/// Returns the Minkowski difference: the translations of `b` with which it meets `a`, which is its C-obstacle. The
+/// result has corners of shape (n, 2), counter-clockwise.
 ///
 /// Both are convex, counter-clockwise, of shape (n, 2).
 #[pyfunction]

@@ -1,7 +1,7 @@
-//! The extension module of the Python package `cplan`: what is asked and what came of it, as Python has it.
+//! The extension module of the Python package `cplan`: problems and results as Python objects.
 //!
-//! Nothing is decided here. Arms and worlds are texts that [`cplan::input`] reads, options are words of the program's command
-//! line, plans are those of [`cplan::plan`]; arrays are numpy's.
+//! This crate decides nothing. [`cplan::input`] reads the texts of arms and worlds, options are words of the program's
+//! command line, and plans come from [`cplan::plan`]. Arrays are those of numpy.
 
 mod error;
 mod findings;
@@ -14,7 +14,7 @@ mod study;
 use pyo3::prelude::*;
 use std::ffi::OsString;
 
-/// What `cplan/__init__.py` hands on.
+/// Registers the names that `cplan/__init__.py` exports.
 #[pymodule]
 fn _cplan(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<problem::Arm>()?;
@@ -48,7 +48,7 @@ fn _cplan(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))
 }
 
-/// The program `cplan` with these arguments, its name first; its exit code.
+/// Runs the program `cplan` with these arguments, its name first; returns its exit code.
 #[pyfunction]
 fn run(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| cplan::cli::run_with(arguments, None))

@@ -13,17 +13,17 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// An answer with all that the program prints, writes and draws of it: Found, Infeasible or Unknown. Frozen; pickled it is problem, options
-/// and result, and unpickling plans again and compares.
+/// An answer to a problem, with everything that the program prints, writes and draws: Found, Infeasible or Unknown.
+/// Frozen. A pickled plan contains problem, options and result; unpickling plans again, and compares the results.
 #[pyclass(frozen, subclass, module = "cplan")]
 pub struct Plan {
     plan: cplan::Plan,
-    /// Made when first asked for, which takes as long as the rest of a call.
+    /// Computed at the first use, which takes as long as the rest of a call.
     trajectory: PyOnceLock<Option<Py<Trajectory>>>,
     path: PyOnceLock<Option<Py<PyArray2<f64>>>>,
 }
 
-/// A motion that is certified free of collision, all of it.
+/// A motion that is certified collision-free along its whole length.
 #[pyclass(frozen, extends = Plan, module = "cplan")]
 pub struct Found;
 
@@ -31,7 +31,7 @@ pub struct Found;
 #[pyclass(frozen, extends = Plan, module = "cplan")]
 pub struct Infeasible;
 
-/// Neither is known at the resolution that was tried.
+/// The answer is unknown at the resolution that was tried.
 #[pyclass(frozen, extends = Plan, module = "cplan")]
 pub struct Unknown;
 
@@ -50,7 +50,7 @@ pub struct Trajectory {
     joints: [String; 2],
     /// Units of the joints' values: rad or m.
     units: [String; 2],
-    /// What happens between samples, in words.
+    /// Description of the motion between samples.
     interpolation: Option<String>,
 }
 
@@ -79,18 +79,18 @@ impl Trajectory {
         format!("<cplan.Trajectory: {} samples of {}>", self.__len__(py), self.joints.join(", "))
     }
 
-    /// Columns by name with joint and unit, such as "time [s]" and "elbow velocity [rad/s]": what `pandas.DataFrame` and
-    /// `polars.DataFrame` take.
+    /// Returns the columns by name with joint and unit, such as "time [s]" and "elbow velocity [rad/s]", as
+    /// `pandas.DataFrame` and `polars.DataFrame` accept them.
     fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("cplan._frames")?.call_method1("of_trajectory", (slf,))
     }
 
-    /// The same as a pandas DataFrame; pandas has to be installed.
+    /// Returns the trajectory as a pandas DataFrame; needs pandas.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("cplan._frames")?.call_method1("pandas", (Self::to_dict(slf)?,))
     }
 
-    /// A trajectory from what it was pickled as.
+    /// Restores a pickled trajectory.
     #[staticmethod]
     fn restored(
         py: Python<'_>,
@@ -114,14 +114,14 @@ impl Trajectory {
     }
 }
 
-/// Numbers as an array, which nobody changes.
+/// Returns numbers as a read-only array.
 fn series(py: Python<'_>, numbers: Vec<f64>) -> Py<PyArray1<f64>> {
     let array = PyArray1::from_vec(py, numbers);
     array.readwrite().make_nonwriteable();
     array.unbind()
 }
 
-/// A plan as the class of its outcome.
+/// Returns a plan as an object of the class of its outcome.
 fn outcome(py: Python<'_>, plan: cplan::Plan) -> PyResult<Py<PyAny>> {
     let status = plan.status();
     let base = PyClassInitializer::from(Plan { plan, trajectory: PyOnceLock::new(), path: PyOnceLock::new() });
@@ -132,7 +132,7 @@ fn outcome(py: Python<'_>, plan: cplan::Plan) -> PyResult<Py<PyAny>> {
     })
 }
 
-/// Plans. `progress` hears of long work, in lines of text.
+/// Plans. `progress` is called with a line of text from time to time during long work.
 #[pyfunction]
 #[pyo3(signature = (problem, options = None, progress = None))]
 pub fn plan(
@@ -155,7 +155,7 @@ pub fn plan(
     outcome(py, made.map_err(refused)?)
 }
 
-/// Seconds that a plan takes on the average of so many, without Python: what the overhead of `plan` is measured against.
+/// Returns the average time of `count` plans in seconds, without Python. The overhead of `plan` is measured against it.
 #[pyfunction]
 #[pyo3(signature = (problem, options = None, count = 1))]
 pub fn seconds_in_rust(py: Python<'_>, problem: &Problem, options: Option<&Options>, count: u32) -> PyResult<f64> {
@@ -169,7 +169,7 @@ pub fn seconds_in_rust(py: Python<'_>, problem: &Problem, options: Option<&Optio
     })
 }
 
-/// A plan from what it was pickled as: it is planned again, and refused if the result differs.
+/// Restores a pickled plan: it plans again, and raises if the result differs.
 #[pyfunction]
 pub fn restored(py: Python<'_>, data: &[u8]) -> PyResult<Py<PyAny>> {
     let plan = interruptible(py, |_| serde_json::from_slice::<cplan::Plan>(data))?;
@@ -178,7 +178,7 @@ pub fn restored(py: Python<'_>, data: &[u8]) -> PyResult<Py<PyAny>> {
 
 #[pymethods]
 impl Plan {
-    /// Which of the three answers it is: found, infeasible or unknown.
+    /// The status of the answer: found, infeasible or unknown.
     #[getter]
     fn status(&self) -> &'static str {
         self.plan.status().name()
@@ -190,51 +190,52 @@ impl Plan {
         &self.plan.report().planner
     }
 
-    /// Why there is no motion, or why none is known.
+    /// The reason why there is no motion, or why the answer is unknown.
     #[getter]
     fn reason(&self) -> Option<&str> {
         self.plan.report().reason.as_deref()
     }
 
-    /// What the user should know of the problem, line by line.
+    /// Notes on the problem for the user, line by line.
     #[getter]
     fn notes(&self) -> Vec<String> {
         noted(self.plan.problem())
     }
 
-    /// In some ten lines, for people.
+    /// Returns a summary of some ten lines for people.
     fn summary(&self) -> String {
         self.plan.summary()
     }
 
-    /// The result as a JSON object.
+    /// Returns the result as a JSON object.
     fn to_json(&self) -> String {
         self.plan.to_json()
     }
 
-    /// Workspace and configuration space side by side.
+    /// Returns workspace and configuration space side by side, as SVG.
     fn svg(&self, py: Python<'_>) -> String {
         py.detach(|| self.plan.svg())
     }
 
-    /// A page in which the arm can be moved.
+    /// Returns a page in which the arm can be moved.
     fn html(&self, py: Python<'_>) -> String {
         py.detach(|| self.plan.html())
     }
 
-    /// The configuration space and what the planner built in it, as arrays (see `cplan.cspace`): one of a motion, of a task one for each
-    /// world that the arm moves in.
+    /// Returns the configuration spaces and the planner's data in them, as arrays (see `cplan.cspace`): one space for a
+    /// motion, and for a task one for each world that the arm moves in.
     fn cspaces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let spaces = py.detach(|| self.plan.cspaces().json());
         py.import("cplan.cspace")?.call_method1("read", (spaces,))
     }
 
-    /// Writes the plan as the file's name says: .json, .csv, .yaml, .mcap, .svg, .png, .gif, .html; cspace.json and .geojson.
+    /// Writes the plan into a file, in the format of its name: .json, .csv, .yaml, .mcap, .svg, .png, .gif, .html;
+    /// cspace.json and .geojson.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         py.detach(|| self.plan.save(path)).map_err(|error| pyo3::exceptions::PyOSError::new_err(error.to_string()))
     }
 
-    /// As a notebook shows it.
+    /// Returns the plan as HTML for a notebook.
     fn _repr_html_(&self, py: Python<'_>) -> String {
         let page = self.html(py).replace('&', "&amp;").replace('"', "&quot;");
         format!("<iframe srcdoc=\"{page}\" style=\"width: 100%; height: 640px; border: 0\"></iframe>")
@@ -247,12 +248,12 @@ impl Plan {
         Ok(format!("<cplan.{name}: {}>", result.trim_start()))
     }
 
-    /// Itself: it never changes.
+    /// Returns the object itself, because it never changes.
     fn __copy__(slf: Py<Self>) -> Py<Self> {
         slf
     }
 
-    /// Itself: it never changes.
+    /// Returns the object itself, because it never changes.
     fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
         slf
     }
@@ -271,7 +272,7 @@ impl Found {
         ("path", "trajectory")
     }
 
-    /// Waypoints, shape (n, 2), straight segments between them; read-only.
+    /// The waypoints, shape (n, 2), with straight segments between them; read-only.
     #[getter]
     fn path(slf: PyRef<'_, Self>) -> PyResult<Option<Py<PyArray2<f64>>>> {
         let py = slf.py();
@@ -291,31 +292,32 @@ impl Found {
         Ok(made.as_ref().map(|trajectory| trajectory.clone_ref(py)))
     }
 
-    /// Euclidean length of the path in joint space; of a task that of all its motions.
+    /// Euclidean length of the path in joint space; for a task, the sum for all its motions.
     #[getter]
     fn length(slf: PyRef<'_, Self>) -> Option<f64> {
         slf.as_super().plan.report().length
     }
 
-    /// Of the whole motion, seconds.
+    /// Duration of the whole motion in seconds.
     #[getter]
     fn duration(slf: PyRef<'_, Self>) -> Option<f64> {
         slf.as_super().plan.report().duration
     }
 
-    /// Proven lower bound on the distance between arm and obstacles all the time, metres; None where nothing can be hit.
+    /// Proven lower bound on the distance between arm and obstacles during the whole motion, in metres; None if no
+    /// obstacle is within reach.
     #[getter]
     fn clearance(slf: PyRef<'_, Self>) -> Option<f64> {
         slf.as_super().plan.report().clearance
     }
 
-    /// No path is shorter than this: proven. None of planners that do not tell.
+    /// Proven lower bound on the length of all paths; None for planners that do not compute one.
     #[getter]
     fn lower_bound(slf: PyRef<'_, Self>) -> Option<f64> {
         slf.as_super().plan.report().optimum.as_ref().map(|optimum| optimum.lower_bound)
     }
 
-    /// By which share the path may be longer than the shortest, at most.
+    /// Largest possible excess of the path over the shortest one, as a fraction.
     #[getter]
     fn gap(slf: PyRef<'_, Self>) -> Option<f64> {
         slf.as_super().plan.report().optimum.as_ref().and_then(|optimum| optimum.gap)

@@ -1,4 +1,4 @@
-//! What is asked: an arm, a world, a problem, options.
+//! Problems: an arm, a world, options.
 
 use crate::error::{raised, refused};
 use cplan::Joint;
@@ -12,7 +12,8 @@ use std::path::PathBuf;
 
 /// A planar two-joint arm: a robot in URDF, or one that is made in code.
 ///
-/// Lengths are metres, angles radians. A URDF is checked where it stands in a world, which says what it leaves open.
+/// Lengths are metres, angles radians. A URDF is checked together with a world, which contains the data that a URDF
+/// leaves open.
 #[pyclass(frozen, module = "cplan", eq)]
 #[derive(Clone, PartialEq)]
 pub struct Arm(What);
@@ -24,12 +25,12 @@ enum What {
 }
 
 impl Arm {
-    /// The robot of a URDF.
+    /// Creates an arm from a URDF.
     pub fn of(urdf: Source) -> Self {
         Self(What::Urdf(urdf))
     }
 
-    /// The URDF; none of an arm that is made in code.
+    /// Returns the URDF; `None` for an arm that is made in code.
     pub fn source(&self) -> Option<&Source> {
         if let What::Urdf(source) = &self.0 { Some(source) } else { None }
     }
@@ -37,7 +38,7 @@ impl Arm {
 
 #[pymethods]
 impl Arm {
-    /// Reads a URDF file, or one in xacro, with `xacro_args` in place of its arguments' defaults.
+    /// Reads a URDF or xacro file; `xacro_args` replace the defaults of its arguments.
     #[staticmethod]
     #[pyo3(signature = (path, *, xacro_args = None))]
     fn from_urdf(py: Python<'_>, path: PathBuf, xacro_args: Option<BTreeMap<String, String>>) -> PyResult<Self> {
@@ -48,15 +49,16 @@ impl Arm {
             .map_err(|error| raised(py, &error))
     }
 
-    /// Takes a URDF text. `name` is for messages.
+    /// Reads a URDF text. `name` appears in messages.
     #[staticmethod]
     #[pyo3(signature = (text, name = "arm.urdf"))]
     fn from_text(text: String, name: &str) -> Self {
         Self(What::Urdf(Source::in_memory(name, text)))
     }
 
-    /// Two bars of these lengths and this width with round ends, metres, on joints "joint 1" and "joint 2" that turn without end, or within
-    /// `limits` ((lower, upper) of each, radians); at 1 rad/s, or `velocity`, which they reach in 0.25 s, or with `acceleration`.
+    /// Creates an arm of two bars with round ends, of these lengths and this width in metres. The joints "joint 1" and
+    /// "joint 2" are continuous, or have `limits` ((lower, upper) of each, radians). They move at 1 rad/s, or at
+    /// `velocity`. They reach that in 0.25 s, or with `acceleration`.
     #[staticmethod]
     #[pyo3(signature = (lengths, width, *, limits = None, velocity = None, acceleration = None))]
     fn rr(
@@ -78,13 +80,13 @@ impl Arm {
         Ok(Self(What::Made(Box::new(arm))))
     }
 
-    /// The text of the URDF; None of an arm that is made in code.
+    /// The text of the URDF; None for an arm that is made in code.
     #[getter]
     fn urdf(&self) -> Option<&str> {
         if let What::Urdf(source) = &self.0 { Some(source.text()) } else { None }
     }
 
-    /// Names of the two joints that are planned in a world, base to tip.
+    /// Returns the names of the two joints that are planned in a world, base to tip.
     fn joints(&self, py: Python<'_>, world: &World) -> PyResult<[String; 2]> {
         let loaded = py.detach(|| self.among(world)).map_err(|error| raised(py, &error))?;
         Ok(loaded.scene.arm().joints.each_ref().map(|joint| joint.name.clone()))
@@ -97,7 +99,7 @@ impl Arm {
         }
     }
 
-    /// An arm from what it was pickled as.
+    /// Restores a pickled arm.
     #[staticmethod]
     fn restored(data: &str) -> PyResult<Self> {
         serde_json::from_str(data).map(Self).map_err(refused)
@@ -109,7 +111,7 @@ impl Arm {
 }
 
 impl Arm {
-    /// In its world.
+    /// Reads the arm together with its world.
     pub fn among(&self, world: &World) -> Result<LoadedScene, InputError> {
         let world = world.source.clone();
         match &self.0 {
@@ -127,12 +129,12 @@ pub struct World {
 }
 
 impl World {
-    /// The world of a file.
+    /// Creates a world from a world file.
     pub fn of(source: Source) -> Self {
         Self { source }
     }
 
-    /// The world file.
+    /// Returns the world file.
     pub fn source(&self) -> &Source {
         &self.source
     }
@@ -146,14 +148,14 @@ impl World {
         Source::read(&absolute(path)?).map(|source| Self { source }).map_err(|error| raised(py, &error))
     }
 
-    /// Takes the text of a world file. `name` is for messages.
+    /// Reads the text of a world file. `name` appears in messages.
     #[staticmethod]
     #[pyo3(signature = (text, name = "world.toml"))]
     fn from_text(text: String, name: &str) -> Self {
         Self { source: Source::in_memory(name, text) }
     }
 
-    /// Obstacles, one after the other, and the other keys of a world file by name.
+    /// Creates a world from obstacles, given one after the other, and the other keys of a world file by name.
     #[new]
     #[pyo3(signature = (*obstacles, **keys))]
     fn new(py: Python<'_>, obstacles: &Bound<'_, PyTuple>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
@@ -173,7 +175,7 @@ impl World {
         format!("<cplan.World: TOML of {} lines>", self.source.text().lines().count())
     }
 
-    /// A world from what it was pickled as.
+    /// Restores a pickled world.
     #[staticmethod]
     fn restored(data: &str) -> PyResult<Self> {
         serde_json::from_str(data).map(|source| Self { source }).map_err(refused)
@@ -184,18 +186,21 @@ impl World {
     }
 }
 
-/// Where a file is for a process elsewhere, too: what lies beside it is found after unpickling, and wherever the process goes.
+/// Returns an absolute path. After unpickling in another process, or in another working directory, the files beside it
+/// are still found.
 fn absolute(path: PathBuf) -> PyResult<PathBuf> {
     Ok(std::path::absolute(path)?)
 }
 
-/// How to make a thing again that has a static method `restored`. A text stays as it was read; files that it names are read when a problem is made.
+/// Returns the pickled form of an object that has a static method `restored`. It contains texts as they were read;
+/// files that they name are read when a problem is made.
 fn pickled<'py, T: PyClass>(thing: &Bound<'py, T>, data: &impl Serialize) -> PyResult<(Bound<'py, PyAny>, (String,))> {
     let data = serde_json::to_string(data).map_err(refused)?;
     Ok((thing.as_any().get_type().getattr("restored")?, (data,)))
 }
 
-/// How to plan, and what stands in place of the world's start, goal and clearance: words of the program's command line.
+/// Options of a plan, which can also replace the world's start, goal and clearance: words of the program's command
+/// line.
 #[pyclass(frozen, module = "cplan", eq)]
 #[derive(PartialEq)]
 pub struct Options {
@@ -206,7 +211,7 @@ pub struct Options {
 
 #[pymethods]
 impl Options {
-    /// Reads words such as `--planner=harmonic`.
+    /// Parses words such as `--planner=harmonic`.
     #[new]
     fn new(words: Vec<String>) -> PyResult<Self> {
         if words.is_empty() {
@@ -225,7 +230,7 @@ impl Options {
     }
 }
 
-/// An arm in its world, read and checked, with what it is to do.
+/// An arm in its world with a task, read and checked.
 #[pyclass(frozen, module = "cplan")]
 pub struct Problem {
     pub problem: cplan::Problem,
@@ -233,7 +238,7 @@ pub struct Problem {
 
 #[pymethods]
 impl Problem {
-    /// Raises InputError for everything that is wrong with arm, world, start and goal.
+    /// Creates a problem. Raises InputError with all defects of arm, world, start and goal.
     #[new]
     #[pyo3(signature = (arm, world, options = None))]
     fn new(py: Python<'_>, arm: &Arm, world: &World, options: Option<&Options>) -> PyResult<Self> {
@@ -242,7 +247,7 @@ impl Problem {
         problem.map(|problem| Self { problem }).map_err(|error| raised(py, &error))
     }
 
-    /// What the user should know of how the files were read, line by line.
+    /// Notes on the files for the user, line by line.
     #[getter]
     fn notes(&self) -> Vec<String> {
         noted(&self.problem)
@@ -260,17 +265,17 @@ impl Problem {
         self.problem.scene().arm().kind()
     }
 
-    /// Itself: it never changes.
+    /// Returns the object itself, because it never changes.
     fn __copy__(slf: Py<Self>) -> Py<Self> {
         slf
     }
 
-    /// Itself: it never changes.
+    /// Returns the object itself, because it never changes.
     fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
         slf
     }
 
-    /// A problem from what it was pickled as.
+    /// Restores a pickled problem.
     #[staticmethod]
     fn restored(data: &str) -> PyResult<Self> {
         serde_json::from_str(data).map(|problem| Self { problem }).map_err(refused)
@@ -281,7 +286,7 @@ impl Problem {
     }
 }
 
-/// What the user should know of how a problem was read, line by line.
+/// Returns the notes of a problem for the user, line by line.
 pub fn noted(problem: &cplan::Problem) -> Vec<String> {
     let robot = problem.robot();
     let assumptions = robot.assumptions(problem.scene().arm());

@@ -1,4 +1,4 @@
-//! Ctrl-C, while Python waits for work.
+//! Ctrl-C during long work.
 
 use cplan::interrupt::Interrupt;
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -6,14 +6,15 @@ use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How often work asks whether there was a signal.
+/// Interval at which work checks for signals.
 const EVERY: Duration = Duration::from_millis(20);
 
-/// Does `work` while other threads of Python run. What a signal's handler raises, [`KeyboardInterrupt`] as a rule, ends it.
+/// Does `work` while other Python threads run. An exception of a signal handler, usually [`KeyboardInterrupt`], ends
+/// it.
 ///
-/// Handlers run in Python's main thread, so work in another one is not ended by Ctrl-C.
+/// Handlers run in Python's main thread, so Ctrl-C does not end work in another thread.
 ///
-/// What `work` leaves in `raised` ends it, too, at the next checkpoint, and is raised.
+/// An exception that `work` puts into `raised` also ends it, at the next checkpoint, and is raised.
 pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Raised) -> T + Send) -> PyResult<T> {
     let raised = Raised::default();
     let here = raised.clone();
@@ -30,7 +31,7 @@ pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Raised) -> T + 
     }
 }
 
-/// The first exception that came up.
+/// The first exception that occurred.
 #[derive(Clone, Default)]
 pub struct Raised(Arc<Mutex<Option<PyErr>>>);
 
@@ -40,7 +41,7 @@ impl Raised {
         self.slot().get_or_insert(error);
     }
 
-    /// Whether there is one.
+    /// Returns true if there is an exception.
     pub fn is_any(&self) -> bool {
         self.slot().is_some()
     }

@@ -12,7 +12,7 @@ use pyo3::types::{PyBytes, PyDict};
 use std::path::PathBuf;
 use std::sync::Mutex;
 
-/// One task in many layouts: a robot, a world, numbers of both that differ, and what is measured.
+/// One task in many layouts: a robot, a world, varied numbers in both, and measures.
 #[pyclass(frozen, subclass, module = "cplan")]
 pub struct Study {
     study: study::Study,
@@ -24,13 +24,14 @@ fn words(words: &[String]) -> Result<(cplan::Options, cplan::input::Overrides), 
 
 #[pymethods]
 impl Study {
-    /// Reads a study file (TOML), and robot and world that it names. `sources` are the texts of a study that was pickled, in place of files.
+    /// Reads a study file (TOML), and the robot and world that it names. `sources` are the texts of a pickled study,
+    /// which replace the files.
     #[new]
     #[pyo3(signature = (path, sources = None))]
     fn new(py: Python<'_>, path: PathBuf, sources: Option<&str>) -> PyResult<Self> {
         let study = match sources {
             Some(sources) => study::Study::from_sources(serde_json::from_str(sources).map_err(refused)?, &words),
-            // Absolute, so that a study that is pickled finds maps and meshes elsewhere.
+            // Absolute, so that a pickled study finds maps and meshes elsewhere.
             None => {
                 let path = std::path::absolute(&path)?;
                 py.detach(|| study::Study::load(path, &words))
@@ -39,7 +40,7 @@ impl Study {
         study.map(|study| Self { study }).map_err(|error| raised(py, &error))
     }
 
-    /// What `sources` is for a study of this text, with a robot that was read from a URDF and a world.
+    /// Returns `sources` for a study with this text, a robot that was read from a URDF, and a world.
     #[staticmethod]
     fn sources(text: String, arm: &Arm, world: &World) -> PyResult<String> {
         let urdf = arm
@@ -48,7 +49,7 @@ impl Study {
         serde_json::to_string(&(Source::in_memory("study.toml", text), urdf, world.source())).map_err(refused)
     }
 
-    /// The title.
+    /// The title of the study.
     #[getter]
     fn name(&self) -> &str {
         &self.study.name
@@ -60,24 +61,24 @@ impl Study {
         self.study.parameters.iter().map(|parameter| parameter.name.clone()).collect()
     }
 
-    /// Layouts that the search may try beyond those that are listed and drawn.
+    /// Number of layouts that the search may try, in addition to the listed and drawn ones.
     #[getter]
     fn searched(&self) -> usize {
         self.study.searched
     }
 
-    /// Options of the main job with which it plans, as the study has them.
+    /// Options of the main job, as the study states them.
     #[getter]
     fn options(&self) -> Vec<String> {
         self.study.options().to_vec()
     }
 
-    /// The number of layouts that are listed and drawn.
+    /// Returns the number of layouts that are listed and drawn.
     fn __len__(&self) -> usize {
         self.study.count()
     }
 
-    /// The values of a layout, by the names of the parameters.
+    /// Returns the values of a layout, by the names of the parameters.
     fn values<'py>(&self, py: Python<'py>, layout: usize) -> PyResult<Bound<'py, PyDict>> {
         if layout >= self.study.count() {
             return Err(PyValueError::new_err(format!("the study has {} layouts, from 0 on", self.study.count())));
@@ -89,7 +90,7 @@ impl Study {
         Ok(values)
     }
 
-    /// Robot and world with the values of a row in place.
+    /// Returns robot and world with the values of a row.
     fn layout(&self, values: Vec<f64>) -> PyResult<(Arm, World)> {
         if values.len() != self.study.parameters.len() {
             return Err(PyValueError::new_err(format!("expected {} values", self.study.parameters.len())));
@@ -98,46 +99,47 @@ impl Study {
         Ok((Arm::of(urdf), World::of(world)))
     }
 
-    /// Rows of the layouts from `first` to before `last`, planned in on so many threads.
+    /// Plans in the layouts from `first` to before `last` with `jobs` threads, and returns their rows.
     ///
-    /// Other threads run meanwhile; Ctrl-C ends it.
+    /// Other Python threads run meanwhile; Ctrl-C ends it.
     #[pyo3(signature = (first, last, jobs = 1))]
     fn rows(&self, py: Python<'_>, first: usize, last: usize, jobs: usize) -> PyResult<Rows> {
         let last = last.min(self.study.count());
         collected(py, |each| self.study.rows(first..last.max(first), jobs, each))
     }
 
-    /// Rows of the search that begins with these ones, on so many threads; `done` are rows of one that was stopped.
+    /// Continues with a search after the rows `known`, with `jobs` threads, and returns its rows. `done` are rows of a
+    /// search that was interrupted.
     fn search(&self, py: Python<'_>, known: &Rows, done: &Rows, jobs: usize) -> PyResult<Rows> {
         collected(py, |each| self.study.search(&known.rows, &done.rows, jobs, each))
     }
 
-    /// Of these rows, in some lines for people.
+    /// Summarises rows in some lines for people.
     fn summary(&self, rows: &Rows) -> String {
         Summary::new(&self.study, &rows.rows).to_text(false)
     }
 
-    /// The same as a JSON object.
+    /// Summarises rows as a JSON object.
     fn summary_json(&self, rows: &Rows) -> String {
         Summary::new(&self.study, &rows.rows).to_json().to_string()
     }
 
-    /// Their table as CSV.
+    /// Returns the table of rows as CSV.
     fn csv(&self, rows: &Rows) -> String {
         self.study.csv(&rows.rows)
     }
 
-    /// Their table as a Parquet file.
+    /// Returns the table of rows as a Parquet file.
     fn parquet<'py>(&self, py: Python<'py>, rows: &Rows) -> PyResult<Bound<'py, PyBytes>> {
         Ok(PyBytes::new(py, &self.study.parquet(&rows.rows).map_err(refused)?))
     }
 
-    /// Their page, with pictures of the best and the worst layout, and of one without a motion.
+    /// Returns the page of rows, with pictures of the best and the worst layout, and of one without a motion.
     fn html(&self, py: Python<'_>, rows: &Rows) -> String {
         py.detach(|| self.study.html(&rows.rows, &study::pictures(&self.study, &rows.rows)))
     }
 
-    /// Their columns by name: numbers and flags as arrays, words as lists with None.
+    /// Returns the columns of rows by name: numbers and flags as arrays, words as lists with None.
     fn columns<'py>(&self, py: Python<'py>, rows: &Rows) -> PyResult<Bound<'py, PyDict>> {
         let (columns, rows) = (PyDict::new(py), &rows.rows);
         let nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
@@ -165,14 +167,14 @@ impl Study {
     }
 }
 
-/// What hears of each row, and whether to go on.
+/// A function that receives each row. It returns an error to end the work.
 type Each<'a> = &'a mut dyn FnMut(Row) -> Result<(), ()>;
 
-/// All rows that `work` hands on, until Ctrl-C.
+/// Returns all rows that `work` reports, until Ctrl-C.
 fn collected(py: Python<'_>, work: impl FnOnce(Each) -> Result<(), ()> + Send) -> PyResult<Rows> {
     let rows = interruptible(py, |raised| {
         let mut rows = Vec::new();
-        // What ends it early is raised.
+        // The exception that ended it early is raised below.
         let _ = work(&mut |row| {
             rows.push(row);
             cplan::interrupt::checkpoint();
@@ -192,7 +194,7 @@ pub struct Rows {
 
 #[pymethods]
 impl Rows {
-    /// Rows one after the other.
+    /// Creates rows by joining parts.
     #[new]
     #[pyo3(signature = (*parts))]
     fn new(parts: Vec<PyRef<'_, Rows>>) -> Self {
@@ -203,13 +205,13 @@ impl Rows {
         self.rows.len()
     }
 
-    /// The first so many rows, and the others.
+    /// Splits into the first `count` rows and the others.
     fn split(&self, count: usize) -> (Self, Self) {
         let (first, others) = self.rows.split_at(count.min(self.rows.len()));
         (Self { rows: first.to_vec() }, Self { rows: others.to_vec() })
     }
 
-    /// The values of a row, in the order of the parameters.
+    /// Returns the values of a row, in the order of the parameters.
     fn values(&self, row: usize) -> PyResult<Vec<f64>> {
         self.rows.get(row).map(|row| row.values.clone()).ok_or_else(|| PyValueError::new_err("there is no such row"))
     }
@@ -221,13 +223,13 @@ impl Rows {
     }
 }
 
-/// Rows from what they were pickled as.
+/// Restores pickled rows.
 #[pyfunction]
 pub fn rows_restored(data: &[u8]) -> PyResult<Rows> {
     serde_json::from_slice(data).map(|rows| Rows { rows }).map_err(refused)
 }
 
-/// Rows of a study on disk while it runs.
+/// The rows of a running study on disk.
 #[pyclass(frozen, module = "cplan")]
 pub struct Journal {
     journal: Mutex<Option<study::Journal>>,
@@ -235,21 +237,21 @@ pub struct Journal {
 
 #[pymethods]
 impl Journal {
-    /// Opens the journal of a study, with the rows that an earlier run has left; `fresh` begins anew.
+    /// Opens the journal of a study, and returns it with the rows of an earlier run; `fresh` drops these.
     #[staticmethod]
     fn open(path: PathBuf, study: &Study, fresh: bool) -> PyResult<(Self, Rows)> {
         let (journal, rows) = study::Journal::open(&path, &study.study, fresh).map_err(failed)?;
         Ok((Self { journal: Mutex::new(Some(journal)) }, Rows { rows }))
     }
 
-    /// Adds the next rows; they are on disk then.
+    /// Adds the next rows, and writes them to disk.
     fn add(&self, rows: &Rows) -> PyResult<()> {
         let mut journal = self.journal.lock().map_err(refused)?;
         let journal = journal.as_mut().ok_or_else(|| PyValueError::new_err("the journal is removed"))?;
         rows.rows.iter().try_for_each(|row| journal.add(row)).and_then(|()| journal.flush()).map_err(failed)
     }
 
-    /// Removes it.
+    /// Removes the journal.
     fn remove(&self) -> PyResult<()> {
         self.journal.lock().map_err(refused)?.take().map_or(Ok(()), study::Journal::remove).map_err(failed)
     }

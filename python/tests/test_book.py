@@ -1,4 +1,4 @@
-"""The examples of the book's page print what it says."""
+"""Runs the examples of the book's pages and compares the output with the pages."""
 
 import re
 import subprocess

@@ -1,4 +1,4 @@
-"""Configuration spaces as arrays, against what `check` finds of single configurations, which shares nothing with them."""
+"""Configuration spaces as arrays, against `check` of single configurations, which shares nothing with them."""
 
 from pathlib import Path
 
@@ -50,7 +50,7 @@ def test_free_cells_are_free_and_lead_to_the_goal() -> None:
     assert grid.quantity == "steps" and not np.isfinite(grid.values[grid.blocked]).any()
     i, j = np.argwhere(grid.values == 0)[0]
     assert np.all(np.abs(grid.lower + (np.array([i, j]) + 0.5) * grid.size - found.goals[0, 0]) <= grid.size)
-    # One step a cell, not more, between free neighbours.
+    # At most one step between neighbouring free cells.
     steps = np.abs(np.diff(grid.values, axis=0))
     assert np.nanmax(steps) == 1
     assert grid.extent == pytest.approx((-2.9, 2.9, -2.9, 2.9))

@@ -1,4 +1,4 @@
-"""The lines of the book that draw a configuration space draw it."""
+"""The code of the book that draws a configuration space draws it."""
 
 import re
 import subprocess

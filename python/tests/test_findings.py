@@ -1,4 +1,4 @@
-"""What is found of configurations, motions and planners, against what the program prints."""
+"""Results on configurations, motions and planners, against the output of the program."""
 
 import copy
 import json
@@ -113,7 +113,7 @@ def test_what_is_no_motion_is_refused(tmp_path: Path) -> None:
 
 
 def untimed(text: str) -> Any:
-    """Without what differs from run to run."""
+    """Returns JSON without the members that differ from run to run."""
     return json.loads(text, object_hook=lambda found: {
         name: value for name, value in found.items() if name not in ("time", "memory", "distributions", "summary", "total")
     })
@@ -249,7 +249,7 @@ def test_trajectories_and_plans_can_be_pickled_and_copied() -> None:
 
 
 def test_files_beside_a_world_are_found_from_elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Read by a path that is relative, here and in another folder."""
+    """Reads a world by a relative path, here and in another folder."""
     monkeypatch.chdir(ROOT)
     arm, world = cplan.Arm.from_urdf("robots/room_gantry.urdf"), cplan.World.from_toml("workspaces/store_room.toml")
     stored = pickle.dumps((arm, world))

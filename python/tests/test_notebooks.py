@@ -1,4 +1,4 @@
-"""The notebooks run, and show what the book's pages say."""
+"""The notebooks run, and show the results of the book's pages."""
 
 import json
 import re

@@ -1,4 +1,4 @@
-"""Plans through the package's front door, against what the program writes."""
+"""Plans through the package's public functions, against the files of the program."""
 
 import json
 import pickle
@@ -143,7 +143,7 @@ def test_pictures_and_files(tmp_path: Path) -> None:
 
 
 def slow() -> tuple[cplan.Arm, cplan.World]:
-    """Some seconds of work."""
+    """Returns a problem that takes some seconds."""
     return cplan.Arm.from_urdf(ROBOT), cplan.World.from_toml(ROOT / "workspaces/u_trap.toml")
 
 
@@ -161,7 +161,7 @@ def test_control_c_ends_a_plan() -> None:
 
 
 def test_handlers_of_signals_run_while_a_plan_is_made() -> None:
-    """One that raises nothing is called long before the plan is there, which goes on."""
+    """A handler that raises nothing is called long before the plan is finished, and the plan continues."""
     called: list[float] = []
     before = signal.signal(signal.SIGALRM, lambda *_: called.append(time.monotonic()))
     begun = time.monotonic()

@@ -1,4 +1,4 @@
-"""Studies: rows as the program has them, on this machine and on a cluster of Ray."""
+"""Studies: the same rows as in the program, on this machine and on a Ray cluster."""
 
 import copy
 import csv
@@ -64,7 +64,7 @@ def test_the_table_is_the_programs(study: cplan.Study, results: cplan.Results, t
     for ending in ["csv", "parquet"]:
         assert (tmp_path / f"own.{ending}").read_bytes() == (tmp_path / f"t.{ending}").read_bytes()
     assert json.loads(said.stdout) == results.figures
-    # The search plans no layout twice: of its 20 there are as many as differ.
+    # The search plans no layout twice, so there are as many of its 20 layouts as differ.
     assert results.figures["layouts"] == len(results) and 25 < len(results) <= 45
     assert "Best layouts" in (tmp_path / "own.html").read_text()
     with pytest.raises(ValueError, match="results are saved as"):
@@ -182,7 +182,7 @@ def test_bad_studies_say_where(tmp_path: Path) -> None:
 
 @pytest.fixture(scope="module")
 def cluster():
-    """Two workers on this machine."""
+    """Provides two workers on this machine."""
     ray = pytest.importorskip("ray")
     ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False, logging_level="ERROR")
     yield ray
@@ -190,7 +190,7 @@ def cluster():
 
 
 def workers() -> list[int]:
-    """Processes that do tasks of a study."""
+    """Returns the processes that do tasks of a study."""
     found = []
     for folder in Path("/proc").glob("[0-9]*"):
         try:

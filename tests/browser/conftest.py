@@ -2,8 +2,8 @@
 
     pytest tests/browser
 
-CPLAN names the program (target/debug/cplan without it), CPLAN_PAGE the page with the program within it (target/page/index.html),
-CPLAN_BROWSER the browser (chromium), CPLAN_SCREENSHOTS a folder for pictures of what was seen (target/browser).
+CPLAN names the program (default target/debug/cplan), CPLAN_PAGE the page with the program inside (target/page/index.html),
+CPLAN_BROWSER the browser (chromium), CPLAN_SCREENSHOTS a folder for screenshots (target/browser).
 """
 
 import functools
@@ -26,19 +26,19 @@ SCREENSHOTS = Path(os.environ.get("CPLAN_SCREENSHOTS", ROOT / "target/browser"))
 
 
 class Program:
-    """cplan, run in a folder of its own."""
+    """The program cplan, run in its own folder."""
 
     def __init__(self, folder):
         self.folder = folder
 
     def run(self, *words, code=0):
-        """Runs it and returns what it printed; the exit code must be the given one."""
+        """Runs it and returns its output; the exit code must be the given one."""
         done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
         assert done.returncode == code, done.stderr
         return done.stdout
 
     def plan(self, robot, world, *words, code=0):
-        """Plans a shipped workspace; returns the page of it and the result."""
+        """Plans a shipped workspace; returns its page and the result."""
         name = world.replace("/", "_") + "-".join(words).replace("--", "")
         page = self.folder / f"{name}.html"
         files = [ROOT / f"robots/{robot}.urdf", ROOT / f"workspaces/{world}.toml"]
@@ -57,14 +57,14 @@ def browser():
     path = shutil.which(name)
     assert path, f"there is no {name}: install Debian's chromium, or set CPLAN_BROWSER"
     with sync_playwright() as playwright:
-        # Containers run as root, where Chromium's sandbox does not work.
+        # Containers run as root, and Chromium's sandbox does not work there.
         launched = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
         yield launched
         launched.close()
 
 
 class Seen:
-    """A page, with what it complained about."""
+    """A page, with its error messages."""
 
     def __init__(self, page):
         self.page = page
@@ -80,7 +80,7 @@ class Seen:
         return self.page.evaluate(code, argument)
 
     def until(self, code, seconds=60):
-        """Waits until this is true. (The page's policy forbids the browser to evaluate strings by itself.)"""
+        """Waits until the expression is true. (The page's policy does not allow the browser to evaluate strings.)"""
         deadline = time.monotonic() + seconds
         while not self.do(code):
             assert time.monotonic() < deadline, f"{code} is not true after {seconds} s"
@@ -89,7 +89,7 @@ class Seen:
 
 @pytest.fixture
 def show(browser):
-    """Opens an address in a window of its own; at the end nothing may have gone wrong in it."""
+    """Opens an address in a new window. At the end, the page must have reported no error."""
     opened = []
 
     def open_(address, width=1400, height=1000, **options):
@@ -107,7 +107,7 @@ def show(browser):
 
 @pytest.fixture
 def show_file(show):
-    """The same for a page in a file, which must not ask for anything else."""
+    """Opens a page in a file, which must not request anything else."""
 
     def open_(path, **options):
         asked = []
@@ -122,7 +122,7 @@ def show_file(show):
 
 @pytest.fixture
 def serve(show):
-    """Serves files and opens the page; returns it, with its server, once a plan is shown."""
+    """Serves files and opens the page; returns it, with its server, when a plan is visible."""
     from live import Server, settled
 
     running = []
@@ -147,7 +147,7 @@ class Files(http.server.SimpleHTTPRequestHandler):
 
 @pytest.fixture(scope="session")
 def host(tmp_path_factory):
-    """The live page with the program within it, below a path of a host of files."""
+    """Serves the live page with the program inside, below a path of a file server."""
     if not PAGE.exists():
         pytest.skip("the page without a server is not built (.ci/page): is the target wasm32-unknown-unknown installed?")
     root = tmp_path_factory.mktemp("host")
@@ -162,7 +162,7 @@ def host(tmp_path_factory):
 
 @pytest.fixture
 def alone(show, host):
-    """Opens that page once a plan is shown."""
+    """Opens that page, and returns it when a plan is visible."""
     from live import settled
 
     def open_(fragment="", **options):
@@ -175,7 +175,7 @@ def alone(show, host):
 
 @pytest.fixture(params=["server", "page"])
 def either(request, show):
-    """Opens the live page, of a server or with the program within it, once a plan is shown."""
+    """Opens the live page, from a server or with the program inside, and returns it when a plan is visible."""
     from live import PLANAR, Server, settled
 
     server = Server(PLANAR) if request.param == "server" else None

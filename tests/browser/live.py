@@ -1,4 +1,4 @@
-"""A server whose page is looked at, and what a hand does there."""
+"""A server whose page is tested, and the actions of a user on it."""
 
 import signal
 import subprocess
@@ -10,7 +10,7 @@ PLANAR = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]
 
 
 class Server:
-    """`cplan serve`, which can be ended and started again at the same address."""
+    """A running `cplan serve`, which can be ended and started again at the same address."""
 
     def __init__(self, words):
         self.words = words
@@ -27,7 +27,7 @@ class Server:
         self.process.wait(timeout=60)
 
     def start_again(self, *words):
-        """At the same address, with other files if some are given."""
+        """Starts it again at the same address, with other files if some are given."""
         self.words = words or self.words
         self.start(int(self.address.rstrip("/").rsplit(":", 1)[1]))
 
@@ -38,20 +38,20 @@ class Server:
         self.process.send_signal(signal.SIGCONT)
 
     def end(self):
-        """Tells it to end, as the user does; it must have been running."""
+        """Ends it as the user does; it must have been running."""
         assert self.process.poll() is None, "nothing ends the server"
         self.process.terminate()
         assert self.process.wait(timeout=60) == 0
 
 
 def settled(seen, seconds=90):
-    """Waits until what is shown is the answer to the last thing that was asked."""
+    """Waits until the page shows the answer to its last request."""
     seen.until("cplan.view && !cplan.link.awaited && !cplan.link.next && cplan.answered.id === cplan.link.id", seconds)
     return seen.do("cplan.answered")
 
 
 def spot(seen, panel, place):
-    """Where on the screen a place of a panel is."""
+    """Returns the place on the screen for a place in a panel."""
     name = {"workspace": "Workspace", "cspace": "Configuration space"}[panel]
     canvas = seen.page.locator(f"canvas[aria-label='{name}']")
     canvas.scroll_into_view_if_needed()
@@ -78,5 +78,5 @@ def badge(seen):
 
 
 def notices(seen):
-    """What is said to be wrong, by place."""
+    """Returns the visible error messages by place."""
     return {place: seen.page.locator(f".notice.{place}").inner_text() for place in ("picture", "options", "text", "files") if seen.page.locator(f".notice.{place}").is_visible()}

@@ -1,4 +1,4 @@
-"""The live page with the program within it: no server but one of files, below a path, or none at all."""
+"""The live page with the program inside: from a file server, below a path, or without any server."""
 
 import itertools
 import json
@@ -44,7 +44,7 @@ def test_something_newer_ends_what_takes_long(alone):
     seen.do("cplan.choose('shortest')")
     answer = settled(seen, 10)
     assert answer["certified"] and seen.do("cplan.words") == "shortest"
-    # And what is edited is still there.
+    # The edits are still there.
     assert seen.do("cplan.world.base") == 1
 
 
@@ -60,7 +60,7 @@ def test_what_takes_too_long_is_shown_without_a_plan(alone):
     assert settled(seen)["certified"], "another instance goes on"
 
 
-# Requests, and what tells the answers of one engine from the other's: how long they took.
+# Requests, and the member that differs between the answers of two engines: their time.
 WORDS = ["shortest", "visibility --gap 0.001", "trapezoid", "voronoi", "wavefront", "harmonic --cells 64", "prm", "subdivision", "fastest"]
 
 TALK = """async (requests) => {
@@ -91,7 +91,7 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 
 
 def told(seen, requests):
-    """All messages in order, without times, what is drawn, and the planner's own counts."""
+    """Returns all messages in order, without times, drawings, and the planner's own counts."""
     world, answers = seen.do(TALK, requests)
     for message in [world, *itertools.chain(*answers)]:
         if message.startswith("{"):
@@ -120,7 +120,7 @@ def test_both_engines_give_the_same_answers(serve, alone, robot, world):
     there.do("(files) => Object.assign(cplan.gallery, { files, seconds: 600 })", {"urdf": files[0].read_text(), "world": text, "options": "shortest"})
     for ours, theirs in zip(told(there, requests), told(here, requests), strict=True):
         theirs = theirs.replace(str(files[1]), "world.toml")
-        # Each platform's sines and cosines are its own, to the last digit.
+        # The last digits of sines and cosines depend on the platform.
         assert NUMBER.split(ours) == NUMBER.split(theirs)
         numbers = ([float(number) for number in NUMBER.findall(text)] for text in (ours, theirs))
         assert all(a == pytest.approx(b, rel=1e-9, abs=1e-9) for a, b in zip(*numbers))

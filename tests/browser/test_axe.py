@@ -1,4 +1,6 @@
-"""Who reads with a keyboard, a screen reader or tired eyes: axe finds nothing on any page, light or dark, on a desk or a phone."""
+"""Accessibility for users of a keyboard or a screen reader, or with weak eyes: axe finds nothing on any page, light or
+dark, on a desktop or a phone.
+"""
 
 import json
 
@@ -10,7 +12,7 @@ LOOKS = [("light", 1400, 1000), ("dark", 1400, 1000), ("light", 390, 844), ("dar
 
 
 def faults(seen):
-    """What axe finds: each rule that is broken, where, and why."""
+    """Returns the findings of axe: each violated rule, with place and reason."""
     found = Axe().run(seen.page).response
     assert found["passes"], "axe has looked at nothing"
     return [
@@ -21,13 +23,13 @@ def faults(seen):
 
 
 def is_in_place(seen):
-    """The page itself never scrolls sideways, on a phone either."""
+    """Returns true if the page does not scroll sideways, not even on a phone."""
     return seen.do("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
 
 
 @pytest.fixture(scope="module")
 def pages(program):
-    """Pages of a plan, a proof, a task, comparisons, a study and a convergence."""
+    """Returns pages of a plan, a proof, a task, comparisons, a study and a convergence."""
     robot, shelf, closed = (
         ROOT / f"{name}" for name in ("robots/planar_2r.urdf", "workspaces/shelf.toml", "workspaces/no_path.toml")
     )

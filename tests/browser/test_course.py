@@ -1,4 +1,4 @@
-"""The course of the book: its live figures, and how they come into it."""
+"""The course of the book: its live figures, and how they are loaded."""
 
 import re
 import shlex

@@ -1,4 +1,4 @@
-"""Worlds to open, puzzles, links and undo: on the page of a server and on the one with the program within it."""
+"""Worlds to open, puzzles, links and undo: on the page of a server and on the one with the program inside."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Pages and pictures say the same in the same signs."""
+"""Pages and pictures state the same facts with the same signs."""
 
 import re
 import xml.etree.ElementTree as ElementTree
@@ -16,12 +16,12 @@ CASES = [
     ("planar_2r_continuous", "no_path", (), 3),
     ("gantry", "tasks/board_and_gate", (), 3),
 ]
-# What pictures show side by side, and pages one after the other.
+# Labels that only pictures have. They show worlds side by side, and pages one after the other.
 STILL_ALONE = {"open to link 2 (picked or placed)"}
 
 
 def picture(program, robot, world, *words, code=0):
-    """The texts of the picture."""
+    """Returns the texts of the picture."""
     program.run(ROOT / f"robots/{robot}.urdf", ROOT / f"workspaces/{world}.toml", *words, "--quiet", "--picture", "picture.svg", code=code)
     tree = ElementTree.parse(program.folder / "picture.svg")
     return [text.text.strip() for text in tree.iter("{http://www.w3.org/2000/svg}text")]
@@ -34,12 +34,12 @@ def test_the_legend_is_that_of_the_picture(program, show_file, robot, world, wor
     seen = show_file(page, color_scheme=scheme)
     entries = seen.page.get_by_role("list", name="Legend").get_by_role("listitem").all_inner_texts()
     texts = picture(program, robot, world, *words, code=code)
-    # The legend is what the picture ends with.
+    # The legend is the last part of the picture.
     begin = len(texts) - 1 - texts[::-1].index("start")
     assert [text for text in texts[begin:] if text not in STILL_ALONE] == entries
     signs = seen.page.locator(".legend svg")
     assert signs.count() == len(entries)
-    # Each sign can be seen.
+    # Each sign is visible.
     bare = seen.do("[...document.querySelectorAll('.legend svg')].filter((sign) => ![...sign.children].some((part) => ['fill', 'stroke'].some((name) => !/^(none|)$/.test(part.getAttribute(name) ?? '')))).length")
     assert bare == 0
     title = seen.do("cplan.model.worlds[0].scale?.title ?? null")
@@ -96,7 +96,7 @@ def test_arms_and_obstacles_are_named_alike(program, show_file):
     written = seen.do("written")
     assert {"start", "goal"} <= set(written)
     for name in ("vice", "bottle", "lamp", "rack", "board"):
-        # In both spaces; in pictures in the legend, too.
+        # In both panels; in pictures also in the legend.
         assert (written.count(name), texts.count(name)) == (2, 3), name
     # Every number of the axes has its unit.
     seen.do("() => { written.length = 0; cplan.panels.cspace.dirty = true; cplan.panels.cspace.draw(); }")

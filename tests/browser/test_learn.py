@@ -1,4 +1,4 @@
-"""Lessons in geometry: what the page computes is what the program says."""
+"""Lessons in geometry: the page computes the same values as the program."""
 
 import json
 import math
@@ -21,7 +21,9 @@ def rows_of(seen):
 
 
 def slice_at(seen, part):
-    """The slice at this part of joint 1's domain: its value, what is barred whatever joint 2 is, and intervals by obstacle."""
+    """Returns the slice at this part of joint 1's domain: its value, the obstacles that block all of it, and intervals
+    by obstacle.
+    """
     seen.do("(part) => cplan.seek(part * cplan.duration)", part)
     return seen.do(
         """() => { const { q1, bands, rows } = cplan.learn.slice; const name = (k) => cplan.world.obstacles[k].name;
@@ -50,7 +52,7 @@ def test_slices_are_those_of_the_program(program, show_file, robot, world):
             for begin, end in intervals:
                 for value, is_contact in (begin, end):
                     places.append(value)
-                    # At a contact the obstacle is as far away as it must be: not at all.
+                    # At a contact, the distance to the obstacle is zero.
                     by = (high - low) * 1e-3
                     near = touched(q1, value)[1]
                     assert not is_contact or near <= by and name in touched(q1, value - by)[0] | touched(q1, value + by)[0]
@@ -80,7 +82,7 @@ def test_slices_are_the_exact_ones_of_the_planner(program, show_file, robot, wor
         ends = [value for _, intervals in rows for pair in intervals for value, _ in pair] + domains[1]
         for row in exact:
             if row[0][0] == q1:
-                # Obstacles of the planner are grown by a hair.
+                # The planner's obstacles are slightly larger.
                 assert all(min(abs(end - q[1]) for end in ends) < 2e-3 for q in row), (q1, row, ends)
                 compared += 1
     assert compared > 8
@@ -131,7 +133,7 @@ def test_a_link_that_touches_bars_the_whole_slice(program, show_file):
     assert said == {True, False}
 
 
-# A tool whose corners have few binary digits, so that touching is decided alike by everybody.
+# A tool whose corners have few binary digits, so that all implementations agree on touching.
 GANTRY = (ROOT / "robots/gantry.urdf").read_text().replace('size="0.1 0.1 0.4"', 'size="0.25 0.125 0.4"')
 BARE = re.sub(r'<collision>\s*<origin xyz="0 0.75 0.5"/>.*?</collision>', "", GANTRY, flags=re.S)
 WORLD = """name = "tests"
@@ -166,7 +168,7 @@ def test_both_tests_of_penetration_are_the_programs(program, block, corners):
     source = random.Random(7)
     kinds = set()
     for _ in range(40):
-        # Sixteenths: corners lie on sides and on corners now and then.
+        # Sixteenths, so that corners sometimes lie on sides and on other corners.
         at = [source.randint(5, 22) / 16, source.randint(5, 18) / 16]
         seen.do("(at) => { cplan.learn.pieces.at = at; cplan.learn.changed(); }", at)
         test = seen.do("cplan.learn.test()")
@@ -193,7 +195,7 @@ def test_the_difference_is_swept_to_the_c_obstacle(program, block, corners):
     seen = block(corners)
     learn(seen, "sweep")
     steps = seen.do("cplan.learn.steps")
-    # Sides of the block and of the tool that are parallel are one.
+    # Parallel sides of the block and of the tool are merged.
     assert len(steps) == (4 if len(corners) == 4 else 7)
     assert {step["of"] for step in steps} == ({"both"} if len(corners) == 4 else {"a", "b"})
     swept = seen.do("cplan.learn.steps.map((step) => cplan.learn.placeOf(step.at))")
@@ -229,7 +231,7 @@ def test_polygons_are_dragged_by_pointer_and_keys_and_stay_convex(program, show_
     drag(corner, (30, -25))
     after = seen.do("cplan.learn.pieces.b")
     assert after[2][0] > corner[0] and after[2][1] > corner[1]
-    # Beyond the opposite corner it would be convex no more.
+    # Beyond the opposite corner, the polygon would not be convex.
     drag(after[2], (-600, 400))
     turns = seen.do(
         """cplan.learn.pieces.b.map((p, i, all) => { const [q, r] = [1, 2].map((k) => all[(i + k) % all.length]);
@@ -249,7 +251,7 @@ def test_a_link_that_turns_has_a_difference_for_each_angle(program, show_file):
     shown = set()
     for part in (0, 0.3, 0.6):
         seen.do("(part) => cplan.seek(part * cplan.duration)", part)
-        # The origin of the link is in the difference just where the polygons meet.
+        # The origin of the link is in the difference exactly if the polygons meet.
         for dx in (-0.4, -0.1, 0, 0.2, 0.7):
             seen.do("(dx) => { const [x, y] = cplan.learn.pieces.b[0]; cplan.learn.pieces.at = [x + dx, y + 0.04]; }", dx)
             inside = "Contact.pointTest(cplan.learn.pieces.at, cplan.learn.steps.map((step) => step.at)).inside"
@@ -301,6 +303,6 @@ def test_the_legend_names_what_lessons_draw(program, show_file):
     assert set(moves) - set(legend()) == {"path, and trace of the tip", "reduced visibility graph"}
     seen.page.get_by_role("button", name="Move", exact=True).click()
     assert legend() == moves
-    # As do layers.
+    # Layers do the same.
     seen.page.get_by_role("checkbox", name="reduced visibility graph").uncheck()
     assert set(moves) - set(legend()) == {"reduced visibility graph"}

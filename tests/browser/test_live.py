@@ -15,7 +15,7 @@ def test_an_obstacle_that_is_dragged_into_the_path_changes_it(serve):
     first = settled(seen)
     assert first["verdict"] == "found" and first["certified"]
     before, c_obstacles = path(seen), seen.do("JSON.stringify(cplan.view.world.c_obstacles)")
-    # The crate, from below into the way of the forearm.
+    # Move the crate from below to a place that blocks the forearm.
     drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
     after = settled(seen)
     assert after["final"] and after["verdict"] == "found" and after["certified"]
@@ -24,7 +24,7 @@ def test_an_obstacle_that_is_dragged_into_the_path_changes_it(serve):
     assert after["figures"]["length"] >= after["figures"]["lower_bound"] > 0
     assert after["figures"]["length"] > first["figures"]["length"], "it was in the way"
     seen.shoot("live-dragged")
-    # What came back is free by the page's own contact test, which the pages' tests hold to the program.
+    # The received path is free by the page's own contact test. The tests of pages compare this test with the program.
     worst = seen.do(
         """() => { const { view } = cplan; let least = Infinity;
              for (let k = 0; k <= 2000; k += 1) {
@@ -78,7 +78,7 @@ def test_a_world_that_is_saved_and_loaded_gives_the_same_plan(serve):
     assert path(again) == moved
     figures = again.do("cplan.answered.figures")
     assert {key: figures[key] for key in figures if key != "milliseconds"} == {key: answer[key] for key in answer if key != "milliseconds"}
-    # Other files, as the main job writes them.
+    # Other files are the same as those of the main job.
     for format_ in ("json", "csv", "yaml", "svg", "html"):
         with again.page.expect_download() as saved:
             again.page.get_by_label("file to save").select_option(format_)
@@ -98,7 +98,7 @@ def test_what_is_wrong_is_said_and_what_was_there_stays(serve):
     seen.until("cplan.answered.error")
     assert "line 2" in seen.page.get_by_role("alert").inner_text()
     assert path(seen) == before
-    # A start that collides: the shelf upon the arm.
+    # A start in collision: the shelf on the arm.
     drag(seen, "workspace", [1.3, 0.24], [0.85, -0.95])
     answer = settled(seen)
     assert answer["verdict"] is None and "shelf" in answer["error"]
@@ -189,7 +189,7 @@ joints = [1.55, -0.35]
 
 
 def test_the_configuration_space_follows_ten_obstacles(serve, tmp_path):
-    """Drags one of ten obstacles for three seconds, and says how many answers a second came and were drawn."""
+    """Drags one of ten obstacles for three seconds, and prints the answers per second that were received and drawn."""
     world = tmp_path / "ten.toml"
     world.write_text(TEN)
     seen = serve(ROOT / "robots/planar_2r.urdf", world)
@@ -211,7 +211,7 @@ def test_the_configuration_space_follows_ten_obstacles(serve, tmp_path):
     count = 0
     while (passed := time.monotonic() - begin) < 3:
         count += 1
-        # As many places on the way as a hand's mouse tells of.
+        # As many intermediate places as a mouse moved by hand reports.
         mouse.move(*ends[count % 2], steps=40)
     drawn = seen.do("drawn.length")
     gaps = seen.do("drawn.slice(1).map((t, i) => t - drawn[i]).sort((a, b) => a - b)")
@@ -228,7 +228,7 @@ def test_the_configuration_space_follows_ten_obstacles(serve, tmp_path):
 
 
 def test_three_hundred_obstacles_are_followed_ten_times_a_second(serve, tmp_path):
-    """Drags one of three hundred obstacles, and takes the times at which answers were drawn."""
+    """Drags one of three hundred obstacles, and measures the times at which answers were drawn."""
     inside = lambda x, y: 0.25 < math.hypot(x, y) < 1.95 and not (abs(math.atan2(y, x) + 0.75) < 0.35 or abs(math.atan2(y, x) - 1.5) < 0.25)
     places = [(0.14 * i, 0.14 * k) for i in range(-14, 15) for k in range(-14, 15)]
     places = sorted((place for place in places if inside(*place)), key=lambda place: -math.hypot(*place))[:300]
@@ -244,7 +244,7 @@ def test_three_hundred_obstacles_are_followed_ten_times_a_second(serve, tmp_path
     mouse = seen.page.mouse
     mouse.move(*ends[0])
     mouse.down()
-    # Any second will do: a machine that is busy otherwise loses some.
+    # Any second will do, because a busy machine loses some.
     shortest = "Math.min(...drawn.slice(10).map((t, i) => t - drawn[i]))"
     begin, moves = time.monotonic(), 0
     while seen.do(shortest) is None or seen.do(shortest) > 1000:
@@ -269,7 +269,7 @@ def test_how_a_plan_was_found_is_told_when_somebody_asks(serve):
     assert len(phases) > 1 and seen.page.locator(".step").inner_text() == f"1 of {len(phases)}: {phases[0]['caption']}"
     seen.do("cplan.view.seek(0.5 * cplan.view.duration)")
     seen.shoot("live_think")
-    # Of each plan that follows, too, until somebody looks at the motion again.
+    # Every following plan has a replay, too, until the user selects the motion again.
     drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
     assert settled(seen)["certified"]
     assert seen.do("cplan.view.mode") == "think" and seen.do("cplan.view.replay") != phases

@@ -1,4 +1,4 @@
-"""What the live page plans with where nobody has chosen anything: what the command line plans with."""
+"""The defaults of the live page are those of the command line."""
 
 import json
 
@@ -39,7 +39,7 @@ def test_menus_keep_their_order_and_send_what_is_chosen(serve, program):
     assert seen.do("cplan.words") == "wavefront --search astar"
     expected = program.run(*PLANAR, "--planner", "wavefront", "--search", "astar", "--json")
     assert json.loads(saved(seen, "json")) == json.loads(expected)
-    # What other planners do not know is not asked of them.
+    # Options that other planners do not know are not sent for them.
     seen.page.get_by_label("planner", exact=True).select_option("harmonic")
     assert settled(seen)["certified"]
     assert option("--search").count() == 0 and seen.do("cplan.words") == "harmonic"

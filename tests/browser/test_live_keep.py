@@ -1,4 +1,4 @@
-"""Edits of the live page outlive a reload of the page and the end of the server."""
+"""Edits of the live page survive a reload of the page and the end of the server."""
 
 from conftest import ROOT
 from live import PLANAR, badge, drag, path, settled
@@ -21,11 +21,11 @@ def test_edits_survive_a_reload(serve):
     assert [crate(seen), path(seen), seen.do("cplan.words"), seen.do("cplan.answered.figures.length")] == before
     assert seen.page.get_by_label("planner", exact=True).input_value() == "wavefront"
     assert "back" in seen.page.locator(".remark").inner_text()
-    # With the way back.
+    # Undo still works.
     seen.page.get_by_label("undo").click()
     settled(seen)
     assert [name for name in seen.do("cplan.scene.obstacles.map(({ name }) => name)")] == ["shelf", "crate"]
-    # And back to the world of the file, for good.
+    # Starting again returns to the world of the file permanently.
     seen.page.get_by_role("button", name="Start again").click()
     settled(seen)
     assert crate(seen)[0] == [0.5, -1.6]
@@ -72,7 +72,7 @@ def test_edits_made_while_the_server_is_gone_are_sent_when_it_is_back(serve):
     assert badge(seen) == "? no connection"
     lost = seen.page.locator(".line")
     assert lost.is_visible() and "connection to cplan is lost" in lost.inner_text()
-    # Goes on without it, and says so.
+    # The page continues without it, and says so.
     drag(seen, "workspace", [0.9, -1.4], [1.15, -0.75])
     seen.page.get_by_role("button", name="add a thin wall").click()
     moved = crate(seen)

@@ -8,7 +8,9 @@ PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True, "dev
 
 @pytest.fixture
 def fingers():
-    """Moves a finger as Chromium's own touch input does: gestures are recognised, and the page is scrolled."""
+    """Returns a function that moves a finger through Chromium's own touch input: gestures are recognised, and the page
+    scrolls.
+    """
     sessions = []
 
     def swipe(seen, from_, to, steps=12):
@@ -104,7 +106,7 @@ def test_pages_by_themselves_scroll_too(program, show_file, fingers):
 
 
 def test_nothing_moves_under_the_finger(serve):
-    """What is selected, wrong or under way changes no place of the panels."""
+    """Selections, errors and running plans change no place of the panels."""
     seen = serve(*PLANAR, **PHONE)
     places = "['Workspace', 'Configuration space'].map((name) => document.querySelector(`canvas[aria-label='${name}']`).getBoundingClientRect().top + window.scrollY)"
     before = seen.do(places)

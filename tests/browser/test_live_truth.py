@@ -1,16 +1,16 @@
-"""The live page says certified of what is certified, and what is wrong where it is."""
+"""The live page shows "certified" only for certified answers, and errors at their places."""
 
 import re
 
 import pytest
 from live import PLANAR, badge, drag, notices, settled, spot
 
-# Where the shelf goes to lie across the arm's start.
+# A place of the shelf at which it covers the arm's start.
 ON_THE_ARM = [[1.3, 0.24], [0.85, -0.95]]
 
 
 def reds(seen, panel):
-    """How many pixels of a panel are as red as what is barred."""
+    """Returns the number of pixels of a panel that are as red as blocked parts."""
     return seen.do(
         """(panel) => { const { canvas } = cplan.view.panels[panel];
              const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -27,7 +27,7 @@ def test_a_blocked_start_is_shown_where_it_is(serve):
     drag(seen, "workspace", *ON_THE_ARM)
     answer = settled(seen)
     assert answer["verdict"] is None and not answer["certified"]
-    # Where: the configuration, the links that hit something, and what they hit.
+    # Place: the configuration, the links in contact, and the obstacles that they hit.
     [blocked] = seen.do("cplan.blocked")
     assert blocked["at"] == pytest.approx([-0.9, 0.4])
     assert {(hit["link"], seen.do("cplan.view.world.obstacles.map((o) => o.name)")[hit["obstacle"]]) for hit in blocked["hits"]} <= {(0, "shelf"), (1, "shelf")}
@@ -36,12 +36,12 @@ def test_a_blocked_start_is_shown_where_it_is(serve):
     assert deepest == pytest.approx(-shown[0]["distance"], abs=3e-5), "the page's own contact test finds the same depth"
     after = [reds(seen, panel) for panel in ("workspace", "cspace")]
     assert after[0] > before[0] + 200 and after[1] > before[1] + 30
-    # In words that need no file.
+    # The message does not refer to files.
     [text] = notices(seen).values()
     assert text.startswith("The start is blocked: link") and '"shelf"' in text and f"{1e3 * deepest:.3g}"[:3] in text
     assert "line" not in text and ".toml" not in text and "^" not in text and "joints =" not in text
     assert badge(seen) == "\u2715 start blocked"
-    # Over the panel that was used, within sight.
+    # Over the panel that was used, and visible.
     notice, canvas = (seen.page.locator(where).bounding_box() for where in (".notice.picture", "canvas[aria-label='Workspace']"))
     assert canvas["y"] <= notice["y"] + 1 and notice["y"] + notice["height"] <= canvas["y"] + canvas["height"]
     seen.shoot("live-blocked")
@@ -52,7 +52,7 @@ def test_a_blocked_start_is_shown_where_it_is(serve):
 
 def test_a_blocked_goal_and_one_out_of_reach_are_told_apart(serve):
     seen = serve(*PLANAR)
-    # All configurations with the tip in the crate are in it.
+    # In all configurations with the tip in the crate, the arm hits it.
     drag(seen, "workspace", seen.do("cplan.editor.tips.goal"), [0.65, -1.45])
     settled(seen)
     assert badge(seen) == "\u2715 goal blocked" and '"crate"' in notices(seen)["picture"]
@@ -102,7 +102,7 @@ def test_wrong_text_is_told_beside_it_until_it_is_changed(serve):
     assert list(notices(seen)) == ["text"] and "line 2" in notices(seen)["text"], "here there are lines"
     box = seen.page.locator(".notice.text").bounding_box()
     assert 0 <= box["y"] and box["y"] + box["height"] <= 1000, "in sight"
-    # The world is as it was, and certified.
+    # The world is unchanged, and certified.
     assert "certified" in badge(seen)
     text.press_sequentially("#")
     assert notices(seen) == {}
@@ -110,7 +110,7 @@ def test_wrong_text_is_told_beside_it_until_it_is_changed(serve):
 
 def test_an_error_during_a_drag_on_a_phone_is_in_sight(serve):
     seen = serve(*PLANAR, width=390, height=844)
-    # In the configuration space, which is far below the workspace here.
+    # In the configuration space, which is far below the workspace on this screen.
     drag(seen, "cspace", [-0.9, 0.4], [0.2, 0.0])
     settled(seen)
     box = seen.page.locator(".notice.picture").bounding_box()
@@ -142,7 +142,9 @@ WATCH = """() => {
 
 
 def test_the_badge_never_says_certified_of_what_is_not(serve):
-    """Holds the badge against the page's world and the last answer, with every change of the page and every picture."""
+    """Compares the badge with the page's world and the last answer, after every change of the page and for every
+    picture.
+    """
     seen = serve(*PLANAR)
     seen.do(WATCH)
     drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75], steps=30)
@@ -186,7 +188,7 @@ def test_what_is_awaited_is_not_certified(serve):
         assert badge(seen) == "\u2026 planning\u2026"
         seen.page.wait_for_timeout(600)
         assert badge(seen) == "\u2026 planning\u2026" and "not up to date" in seen.do("getComputedStyle(document.querySelector('.panels figcaption'), '::after').content")
-        # Facts of the plan before are not those of this world.
+        # Facts of the previous plan are not facts of this world.
         assert not seen.page.locator(".facts").is_visible() and not seen.page.locator(".lines").is_visible()
     finally:
         seen.server.go_on()
@@ -201,12 +203,12 @@ def test_delete_works_after_something_was_added(serve):
         assert seen.do(names) == ["shelf", "crate", name]
         seen.page.keyboard.press("Delete")
         assert settled(seen)["certified"] and seen.do(names) == ["shelf", "crate"]
-    # Nor does it matter where the focus is.
+    # The focus does not matter either.
     seen.page.get_by_role("button", name="add a thin wall").click()
     seen.page.get_by_label("speed").focus()
     seen.page.keyboard.press("Delete")
     assert seen.do(names) == ["shelf", "crate"]
-    # But in a field it deletes what is in the field.
+    # In a text field, the key deletes text of the field.
     seen.page.get_by_role("button", name="add a thin wall").click()
     seen.page.get_by_label("clearance in millimetres").focus()
     seen.page.keyboard.press("Delete")

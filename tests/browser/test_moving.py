@@ -1,4 +1,4 @@
-"""Obstacles that move: where they are, in both spaces, at any time of the motion."""
+"""Moving obstacles: their places in both panels, at any time of the motion."""
 
 import math
 

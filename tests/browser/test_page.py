@@ -21,7 +21,7 @@ CASES = [
 
 
 def pixels(seen, panel):
-    """The pixels of a panel, to see whether something changes."""
+    """Returns the pixels of a panel, to detect changes."""
     return seen.do("(panel) => cplan.panels[panel].canvas.toDataURL()", panel)
 
 
@@ -73,7 +73,7 @@ def test_time_runs_and_obeys(program, show_file):
     assert pixels(seen, "workspace") != before
     seen.page.get_by_label("time", exact=True).fill(str(duration / 2))
     assert seen.do("cplan.time") == pytest.approx(duration / 2)
-    # The third plot's middle is the middle of the time.
+    # The middle of the third plot is the middle of the time.
     box = seen.page.locator(".plots canvas").nth(2).bounding_box()
     seen.page.mouse.click(box["x"] + box["width"] * 0.3, box["y"] + box["height"] / 2)
     assert 0.1 * duration < seen.do("cplan.time") < 0.4 * duration
@@ -94,7 +94,7 @@ def test_everything_can_be_done_by_keyboard(program, show_file):
     assert seen.do("cplan.playing")
     keyboard.press(" ")
     assert not seen.do("cplan.playing")
-    # Every control is reached by the tabulator, and has a name.
+    # The tab key reaches every control, and each has a name.
     reached = set()
     for _ in range(40):
         keyboard.press("Tab")
@@ -183,7 +183,7 @@ def test_no_path_shows_its_proof(program, show_file):
     before = pixels(seen, "cspace")
     seen.page.locator("[data-layer='proof']").uncheck()
     assert pixels(seen, "cspace") != before
-    # Nothing moves; how it was found can be played.
+    # Nothing moves, but the planner's replay can be played.
     assert seen.do("cplan.mode") == "think" and not seen.page.locator(".plots").is_visible()
     seen.page.locator("[data-layer='proof']").check()
     seen.shoot("no-path")
@@ -265,7 +265,7 @@ def test_where_the_tip_can_get_is_seen_as_in_the_picture(program, show_file):
     kinds = {"reachable": "01", "unreachable": "2", "blocked": "3", "unknown": "4"}
     for access, letters in kinds.items():
         assert sum(letter in letters for letter in reach["cells"]) == told["cells"][access], access
-    # The cell under a place has its colour, on paper of another.
+    # The cells are visible: hiding them changes both panels.
     full = pixels(seen, "workspace"), pixels(seen, "cspace")
     legend = seen.page.locator(".legend li").all_inner_texts()
     assert "the tip can get there, one way" in legend and all(text in picture.read_text() for text in legend)
@@ -280,7 +280,7 @@ def test_steps_are_numbered_as_they_are_done(program, show_file):
     seen = show_file(page)
     labels = seen.do("cplan.model.motions.map(({ label }) => label)")[:-1]
     assert [int(label.split(".")[0]) for label in labels] == list(range(1, 25))
-    # The file's number is said where it is another one.
+    # The number in the file is shown if it differs.
     named = [re.search(r"\((\d+) in the file\)$", label) for label in labels]
     filed = [int(found[1]) if found else number for number, found in enumerate(named, 1)]
     assert filed == [step["step"] for step in result["steps"]] and filed != sorted(filed)

@@ -1,4 +1,4 @@
-"""Small screens, tasks, and who does not see the pictures."""
+"""Small screens, tasks, and users who do not see the pictures."""
 
 import pytest
 

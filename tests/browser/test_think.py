@@ -1,4 +1,4 @@
-"""How the planner came to its answer, played on the page."""
+"""The planner's replay on the page."""
 
 import json
 
@@ -31,7 +31,7 @@ def test_each_planner_tells_its_run_phase_by_phase(program, show_file, planner):
         assert len(shown) > 2, phase["caption"]
         begin += phase["seconds"]
     seen.shoot(f"think_{planner}")
-    # Back in the motion all is as it was.
+    # Back in the motion, everything is as before.
     seen.page.get_by_role("button", name="Move", exact=True).click()
     assert pixels(seen, "cspace") == still
 
@@ -55,7 +55,7 @@ def test_thinking_is_played_by_keyboard_and_each_keeps_its_time(program, show_fi
     assert seen.do("cplan.time") == pytest.approx(0.05)
     keyboard.press("t")
     assert (seen.do("cplan.mode"), seen.do("cplan.time")) == ("move", pytest.approx(0.5))
-    # Who does not see it is told of each phase, once.
+    # Screen readers announce each phase once.
     assert seen.page.locator(".step").get_attribute("aria-live") == "polite"
     pressed = seen.page.get_by_role("group", name="What is played").get_by_role("button", pressed=True)
     assert pressed.all_inner_texts() == ["Move"]
@@ -67,7 +67,7 @@ def test_the_arm_stands_where_the_planner_looks(program, show_file):
     think(seen)
     edges = seen.do("cplan.world.trace.edges")
     ends = [tuple(edges[k : k + 2]) for k in range(0, len(edges), 2)]
-    # A configuration of an edge's end, not the start.
+    # A configuration at an edge's end, not the start.
     seen.do("cplan.seek(0.6 * cplan.model.replay[0].seconds)")
     at = seen.do("cplan.q")
     middles = [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) for a, b in zip(ends[::2], ends[1::2])]
@@ -90,7 +90,7 @@ def test_each_motion_of_a_task_is_told(program, show_file):
     page, _ = program.plan("rrbot_vertical", "tasks/tower")
     seen = show_file(page)
     still = pixels(seen, "cspace")
-    # That which is under way is told first.
+    # The replay of the current motion comes first.
     third = seen.do("cplan.model.motions[2].from")
     seen.do("(t) => cplan.seek(t + 0.01)", third)
     think(seen)
@@ -106,7 +106,7 @@ def test_each_motion_of_a_task_is_told(program, show_file):
         label = seen.do("(k) => cplan.model.motions[k].label", number - 1)
         seen.do("cplan.seek(cplan.duration)")
         assert seen.page.locator(".step").inner_text() == f"{label}. {len(phases)} of {len(phases)}: {phases[-1]['caption']}"
-        # In the end that motion's path is there, and no other.
+        # At the end, that motion's path is visible, and no other.
         path = seen.do("(k) => cplan.model.paths[cplan.model.motions[k].path].points", number - 1)
         assert seen.do("Think.paths(cplan, cplan.pathsHere()).map(({ points }) => points)") == [pytest.approx(path)]
         whole = pixels(seen, "cspace")
@@ -115,7 +115,7 @@ def test_each_motion_of_a_task_is_told(program, show_file):
         told.add(tuple(phase["kind"] for phase in phases))
     assert {("path",), ("slabs", "slices", "path")} <= told, "straight ones, and some that had to be found"
     seen.shoot("think_task")
-    # What is left when all is done nobody planned.
+    # The last entry, after all steps, has no replay.
     assert steps.last.is_disabled()
     seen.page.keyboard.press("t")
     assert seen.do("cplan.mode") == "move" and seen.do("cplan.time") == pytest.approx(third + 0.01)

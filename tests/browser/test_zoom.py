@@ -1,4 +1,4 @@
-"""Narrow passages are less than a pixel wide: both spaces can be magnified."""
+"""Narrow passages are less than a pixel wide, so both panels can be magnified."""
 
 import pytest
 from live import PLANAR, settled
@@ -6,7 +6,7 @@ from test_page import pixels
 
 
 def place(seen, panel, value, view="cplan"):
-    """Where a value of a panel is on the screen."""
+    """Returns the place on the screen for a value in a panel."""
     box = seen.page.locator("canvas[aria-label='%s']" % {"workspace": "Workspace", "cspace": "Configuration space"}[panel]).bounding_box()
     x, y = seen.do(f"([panel, value]) => {view}.panels[panel].at(value)", [panel, value])
     return box["x"] + x, box["y"] + y
@@ -29,7 +29,7 @@ def slot(program, show_file):
 @pytest.mark.parametrize("panel", ["workspace", "cspace"])
 def test_the_wheel_magnifies_what_is_under_the_pointer(slot, panel):
     whole, before = shown(slot, panel), pixels(slot, panel)
-    # Wheels have whole pixels.
+    # Wheels report whole pixels.
     box = slot.page.locator("canvas").nth(["workspace", "cspace"].index(panel)).bounding_box()
     at = [round(box["x"] + box["width"] * 0.6), round(box["y"] + box["height"] * 0.4)]
     value = slot.do("([panel, spot]) => cplan.panels[panel].value(spot)", [panel, [at[0] - box["x"], at[1] - box["y"]]])
@@ -44,7 +44,7 @@ def test_the_wheel_magnifies_what_is_under_the_pointer(slot, panel):
     slot.until(f"!cplan.panels.{panel}.dirty")
     assert pixels(slot, panel) != before
     slot.shoot(f"zoom-{panel}")
-    # What is dragged goes along.
+    # The dragged content follows the pointer.
     slot.page.mouse.down()
     slot.page.mouse.move(at[0] + 60, at[1] - 30, steps=4)
     slot.page.mouse.up()
@@ -69,7 +69,7 @@ def test_a_wheel_turned_down_scrolls_the_page_where_nothing_is_magnified(slot):
     slot.page.mouse.wheel(0, 200)
     slot.until("window.scrollY > 0")
     assert slot.do("cplan.panels.cspace.times") == 1
-    # It goes on with that, up as well.
+    # Scrolling continues, also upwards.
     slot.page.mouse.wheel(0, -100)
     assert slot.do("cplan.panels.cspace.times") == 1
 

@@ -18,12 +18,12 @@ impl Dice {
         z ^ (z >> 31)
     }
 
-    /// Uniform in `[from, to)`.
+    /// Returns a number uniform in `[from, to)`.
     pub fn within(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    /// A whole number, at least 0 and below `n`.
+    /// Returns a whole number, at least 0 and below `n`.
     pub fn below<N>(&mut self, n: N) -> N
     where
         N: TryInto<u64, Error: Debug> + TryFrom<u64, Error: Debug>,
@@ -32,12 +32,12 @@ impl Dice {
         N::try_from(self.bits() % n).expect("less than another")
     }
 
-    /// A whole number from `-n` to `n`.
+    /// Returns a whole number from `-n` to `n`.
     pub fn about_zero(&mut self, n: i64) -> i64 {
         self.below(2 * n + 1) - n
     }
 
-    /// True in this share of the cases.
+    /// Returns true in this fraction of the cases.
     pub fn chance(&mut self, share: f64) -> bool {
         self.within(0.0, 1.0) < share
     }

@@ -1,6 +1,7 @@
-//! Mazes and spirals with corridors one cell wide, on `n x n` cells (`n` odd), row by row: whether a cell is blocked.
+//! Mazes and spirals with corridors one cell wide, on `n x n` cells (`n` odd), row by row, with true for a blocked
+//! cell.
 
-/// Numbers that look random (xorshift, Marsaglia 2003).
+/// Returns a pseudorandom number (xorshift, Marsaglia 2003).
 fn random(state: &mut u64) -> u64 {
     *state ^= *state << 13;
     *state ^= *state >> 7;
@@ -8,8 +9,8 @@ fn random(state: &mut u64) -> u64 {
     *state
 }
 
-/// A maze without loops, by depth-first search over the cells with even coordinates; then of every thousand walls between
-/// two corridors `openings` are opened.
+/// Returns a maze without loops, by depth-first search over the cells with even coordinates. Then, out of every
+/// thousand walls between two corridors, it opens `openings`.
 pub fn maze(n: usize, openings: u64) -> Vec<bool> {
     let rooms = n.div_ceil(2);
     let mut state = 88_172_645_463_325_252;
@@ -37,7 +38,7 @@ pub fn maze(n: usize, openings: u64) -> Vec<bool> {
     blocked
 }
 
-/// A corridor that winds inwards, and its inner end; the outer one is cell 0.
+/// Returns a corridor that winds inwards, and its inner end; the outer end is cell 0.
 pub fn spiral(n: usize) -> (Vec<bool>, usize) {
     let n = n as i64;
     let mut blocked = vec![true; (n * n) as usize];
@@ -47,7 +48,7 @@ pub fn spiral(n: usize) -> (Vec<bool>, usize) {
         let before = (i, j);
         let inside = |i: i64, j: i64| (0..n).contains(&i) && (0..n).contains(&j);
         let is_free = |i: i64, j: i64, blocked: &[bool]| inside(i, j) && !blocked[(i * n + j) as usize];
-        // On while the corridor does not come next to itself.
+        // Continues as long as the corridor does not come next to itself.
         while inside(i + di, j + dj) && !is_free(i + 2 * di, j + 2 * dj, &blocked) {
             (i, j) = (i + di, j + dj);
             blocked[(i * n + j) as usize] = false;

@@ -19,7 +19,7 @@ use cplan::space::{Configuration, GoalSet, JointRange};
 use dice::Dice;
 use nalgebra::Vector3;
 
-/// The generator of this number; another one with another `CPLAN_SEED`.
+/// Returns the generator with this number. With another `CPLAN_SEED`, it is a different one.
 pub fn dice(stream: u64) -> Dice {
     Dice::new(stream ^ random::seed().wrapping_mul(0xd134_2543_de82_ef95))
 }
@@ -28,7 +28,7 @@ pub fn q(a: f64, b: f64) -> Configuration {
     Configuration::new(a, b)
 }
 
-/// What the judge says of the claim that these boxes separate the start from all goals.
+/// Returns the judge's verdict on the claim that these boxes separate the start from all goals.
 pub fn recheck(
     stuck: &[StuckBox],
     scene: &Scene,
@@ -39,22 +39,22 @@ pub fn recheck(
     Disconnection::new(stuck.to_vec()).checked(scene, start, goals, clearance).map(drop)
 }
 
-/// A convex polygon grown by a radius, which must be one.
+/// Returns a convex polygon grown by a radius; panics if it is not convex.
 pub fn convex(core: Vec<Point>, radius: f64) -> Convex {
     Convex::new(core, radius).expect("a convex shape")
 }
 
-/// A disc; with radius 0 a point.
+/// Returns a disc; with radius 0 a point.
 pub fn disc(center: Point, radius: f64) -> Convex {
     Convex::disc(center, radius).expect("a disc")
 }
 
-/// A wall without thickness.
+/// Returns a wall without thickness.
 pub fn wall(a: Point, b: Point) -> Convex {
     Convex::segment(a, b).expect("a wall")
 }
 
-/// The rectangle `[x0, x1] x [y0, y1]`.
+/// Returns the rectangle `[x0, x1] x [y0, y1]`.
 pub fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64) -> Convex {
     convex(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], 0.0)
 }
@@ -93,7 +93,7 @@ pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> 
     }
 }
 
-/// Bars of 1.0 and 0.8 m, 0.1 m wide, both joints on circles unless limits are given.
+/// Returns bars of 1.0 and 0.8 m, 0.1 m wide, both joints on circles unless limits are given.
 pub fn rr(axes: [JointRange; 2]) -> Arm {
     let turn = JointType::Revolute { sign: 1.0 };
     arm(
@@ -104,7 +104,7 @@ pub fn rr(axes: [JointRange; 2]) -> Arm {
     )
 }
 
-/// One arm of every kind, some axes reversed or oblique, with outlines off the joints.
+/// Returns one arm of every kind, some axes reversed or oblique, with outlines off the joints.
 pub fn all_kinds() -> Vec<Arm> {
     let turn = |sign| JointType::Revolute { sign };
     let slide = |x: f64, y: f64| JointType::Prismatic { direction: Vector::new(x, y).normalize() };
@@ -126,7 +126,7 @@ pub fn all_kinds() -> Vec<Arm> {
     ]
 }
 
-/// A polygon, a triangle, a disc and a thin wall within reach of all arms here.
+/// Returns a polygon, a triangle, a disc and a thin wall within reach of all arms here.
 pub fn clutter() -> Vec<Convex> {
     vec![
         rectangle(0.7, 0.9, 0.4, 0.8),
@@ -145,12 +145,12 @@ pub fn obstacle(name: &str, piece: Convex) -> Obstacle {
     Obstacle { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL }
 }
 
-/// An arm in a workspace, both of which must be valid.
+/// Returns the scene of an arm in a workspace; panics if either is invalid.
 pub fn placed(arm: Arm, workspace: Workspace) -> Scene {
     Scene::new(arm, workspace).expect("a scene")
 }
 
-/// A problem that must be valid.
+/// Returns a problem; panics if it is invalid.
 pub fn asked(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> MotionProblem {
     MotionProblem::new(scene, start, goals).expect("a problem")
 }
@@ -176,7 +176,7 @@ pub enum Benchmark {
     T,
 }
 
-/// Scene, start and goal of a benchmark problem.
+/// Returns scene, start and goal of a benchmark problem.
 pub fn benchmark(which: Benchmark) -> (Scene, Configuration, Configuration) {
     let mut polygons = [
         vec![(-0.21, -0.85), (-0.03, -1.20), (0.22, -1.21), (0.44, -0.93), (0.27, -0.62), (-0.09, -0.65)],
@@ -197,7 +197,7 @@ pub fn benchmark(which: Benchmark) -> (Scene, Configuration, Configuration) {
     (scene(rr([JointRange::Circle, JointRange::Circle]), pieces), q(-0.7, 0.0), goal)
 }
 
-/// Small regular polygons with 4 to 7 corners on a spiral.
+/// Returns small regular polygons with 4 to 7 corners on a spiral.
 pub fn spiral(count: u8) -> Vec<Convex> {
     let polygon = |i: u8| {
         let (index, corners) = (f64::from(i), 4 + i % 4);
@@ -213,18 +213,18 @@ pub fn spiral(count: u8) -> Vec<Convex> {
     (0..count).map(polygon).collect()
 }
 
-/// The benchmark for building configuration spaces, W20: two bars on the torus among 20 polygons on a spiral.
+/// Returns the benchmark for building configuration spaces, W20: two bars on the torus among 20 polygons on a spiral.
 pub fn w20() -> Scene {
     scene(rr([JointRange::Circle, JointRange::Circle]), spiral(20))
 }
 
-/// A benchmark problem as the solver takes it.
+/// Returns a benchmark problem for the solver.
 pub fn problem(which: Benchmark) -> MotionProblem {
     let (scene, start, goal) = benchmark(which);
     asked(scene, start, goal)
 }
 
-/// The configuration at these shares of the joints' ranges.
+/// Returns the configuration at these fractions of the joints' ranges.
 pub fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
     let at = |k: usize, t: f64| {
         let (lower, upper) = scene.arm().topology().ranges[k].domain();
@@ -233,7 +233,7 @@ pub fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
     q(at(0, u), at(1, v))
 }
 
-/// The shipped workspaces that say that there is a path, with their robots; by name.
+/// Returns the shipped workspaces that state that there is a path, with their robots; by name.
 pub fn shipped_feasible() -> Vec<(String, MotionProblem)> {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files: Vec<_> =

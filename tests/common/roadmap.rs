@@ -5,7 +5,7 @@ use cplan::cspace::{Polygon, Proves, Regions};
 use cplan::geometry::{Point, segments_cross};
 use cplan::space::{Configuration, JointRange, Metric, Path, Topology};
 
-/// Free space over a window of two intervals.
+/// Returns free space over a window of two intervals.
 pub fn regions(window: [(f64, f64); 2], free: Vec<Polygon>) -> Regions {
     let axes = window.map(|(lower, upper)| JointRange::Interval { lower, upper });
     Regions { topology: Topology { ranges: axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
@@ -15,18 +15,18 @@ pub fn points(corners: &[(f64, f64)]) -> Vec<Point> {
     corners.iter().map(|&(x, y)| Point::new(x, y)).collect()
 }
 
-/// A rectangle, counter-clockwise.
+/// Returns a rectangle, counter-clockwise.
 pub fn rectangle(x: (f64, f64), y: (f64, f64)) -> Vec<Point> {
     points(&[(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1)])
 }
 
-/// A rectangular window with holes (given counter-clockwise) that lie within it, apart from each other.
+/// Returns a rectangular window with holes (given counter-clockwise) that lie within it, apart from each other.
 pub fn window_with_holes(x: (f64, f64), y: (f64, f64), holes: Vec<Vec<Point>>) -> Regions {
     let reversed = holes.into_iter().map(|hole| hole.into_iter().rev().collect()).collect();
     regions([x, y], vec![Polygon { outer: rectangle(x, y), holes: reversed }])
 }
 
-/// `side * side` disjoint convex polygons of `corners` corners each, within `[0, side]^2`.
+/// Returns `side * side` disjoint convex polygons of `corners` corners each, within `[0, side]^2`.
 pub fn convex_crowd(random: &mut Dice, side: usize, corners: usize) -> Vec<Vec<Point>> {
     let mut crowd = Vec::new();
     for i in 0..side {
@@ -42,8 +42,8 @@ pub fn convex_crowd(random: &mut Dice, side: usize, corners: usize) -> Vec<Vec<P
     crowd
 }
 
-/// `count` disjoint star-shaped polygons of ten corners each, most of them not convex, of random sizes at random places in
-/// a window of as many unit squares: about 23 % of it is filled.
+/// Returns `count` disjoint star-shaped polygons of ten corners each, most of them not convex. They have random sizes
+/// and random places in a window of as many unit squares, and fill about 23 % of it.
 pub fn star_crowd(random: &mut Dice, count: usize) -> Regions {
     let columns = (count as f64).sqrt().ceil() as usize;
     let rows = count.div_ceil(columns);
@@ -61,7 +61,7 @@ pub fn star_crowd(random: &mut Dice, count: usize) -> Regions {
     window_with_holes((-0.25, columns as f64 + 0.25), (-0.25, rows as f64 + 0.25), stars)
 }
 
-/// The crowd as holes in a window a little larger than it.
+/// Returns the crowd as holes in a window a little larger than it.
 pub fn crowd_regions(side: usize, crowd: &[Vec<Point>]) -> Regions {
     let window = (-0.25, side as f64 + 0.25);
     window_with_holes(window, window, crowd.to_vec())
@@ -83,7 +83,7 @@ impl Board {
         inside(x) && inside(y) && self.free[x as usize * self.size + y as usize]
     }
 
-    /// The 4-connected component of every square, by flood fill.
+    /// Returns the 4-connected component of every square, by flood fill.
     pub fn components(&self) -> Vec<Option<usize>> {
         let n = self.size as i32;
         let mut component = vec![None; self.free.len()];
@@ -103,8 +103,9 @@ impl Board {
         component
     }
 
-    /// The free squares as polygons, mapped by the integer matrix `map` (of positive determinant). Where two squares
-    /// of one component touch in a corner, `link` says whether a contour goes on along the other square there.
+    /// Returns the free squares as polygons, mapped by the integer matrix `map` (of positive determinant). If two
+    /// squares of one component touch in a corner, `link` decides whether a contour continues along the other square
+    /// there.
     pub fn regions(&self, map: [[i32; 2]; 2], mut link: impl FnMut() -> bool) -> Regions {
         let n = self.size as i32;
         let component = self.components();
@@ -164,23 +165,23 @@ impl Board {
     }
 }
 
-/// A board point under an integer matrix.
+/// Maps a board point by an integer matrix.
 pub fn mapped(map: [[i32; 2]; 2], x: f64, y: f64) -> Point {
     let row = |k: usize| f64::from(map[k][0]) * x + f64::from(map[k][1]) * y;
     Point::new(row(0), row(1))
 }
 
-/// All contours of free space.
+/// Returns all contours of free space.
 pub fn contours(regions: &Regions) -> impl Iterator<Item = &Vec<Point>> {
     regions.free.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes))
 }
 
-/// All sides of free space.
+/// Returns all sides of free space.
 pub fn sides(regions: &Regions) -> Vec<(Point, Point)> {
     contours(regions).flat_map(|c| (0..c.len()).map(|k| (c[k], c[(k + 1) % c.len()]))).collect()
 }
 
-/// Area of free space (shoelace formula).
+/// Returns the area of free space (shoelace formula).
 pub fn area(contours: impl IntoIterator<Item = Vec<Point>>) -> f64 {
     let twice = |c: &Vec<Point>| -> f64 {
         (0..c.len()).map(|k| (c[k], c[(k + 1) % c.len()])).map(|(p, q)| p.x * q.y - p.y * q.x).sum()
@@ -188,7 +189,8 @@ pub fn area(contours: impl IntoIterator<Item = Vec<Point>>) -> f64 {
     contours.into_iter().map(|c| twice(&c) / 2.0).sum()
 }
 
-/// All arcs of the reduced visibility graph of obstacles in general position, left end first, by plain arithmetic.
+/// Returns all arcs of the reduced visibility graph of obstacles in general position, left end first, by plain
+/// arithmetic.
 pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
     let turn = |a: Point, b: Point, c: Point| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     let sides = sides(regions);
@@ -216,7 +218,7 @@ pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
     arcs
 }
 
-/// Whether `p` is in free space or within 1e-9 of it: winding angles and distances, all in plain floats.
+/// Returns true if `p` is in free space or within 1e-9 of it: by winding angles and distances, all in plain floats.
 pub fn is_nearly_free(sides: &[(Point, Point)], p: Point) -> bool {
     let winding: f64 = sides
         .iter()
@@ -228,7 +230,7 @@ pub fn is_nearly_free(sides: &[(Point, Point)], p: Point) -> bool {
     winding.abs() > std::f64::consts::PI || sides.iter().any(|(a, b)| distance(p, *a, *b) < 1e-9)
 }
 
-/// Distance of a point and a segment.
+/// Returns the distance of a point and a segment.
 fn distance(p: Point, a: Point, b: Point) -> f64 {
     let t = ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
     (p - (a + (b - a) * t)).norm()
@@ -251,13 +253,14 @@ pub fn assert_free(regions: &Regions, path: &Path) {
     }
 }
 
-/// Length of the shortest path among open convex obstacles (counter-clockwise) within a window, by brute force: all
-/// pairs of all corners are clipped against all obstacles; then Dijkstra's algorithm on the full matrix.
+/// Returns the length of the shortest path among open convex obstacles (counter-clockwise) within a window. It uses
+/// brute force: all pairs of all corners are clipped against all obstacles; then Dijkstra's algorithm runs on the full
+/// matrix.
 pub fn brute_force_length(obstacles: &[Vec<Point>], window: (f64, f64), start: Point, goal: Point) -> Option<f64> {
     brute_force(obstacles, window, start, goal, Metric::Euclidean)
 }
 
-/// The same in any metric.
+/// Returns this length in any metric.
 pub fn brute_force(
     obstacles: &[Vec<Point>],
     window: (f64, f64),
@@ -286,7 +289,7 @@ pub fn brute_force(
     length[1].is_finite().then_some(length[1])
 }
 
-/// Whether a segment enters a convex polygon deeper than rounding (Cyrus and Beck's clipping).
+/// Returns true if a segment enters a convex polygon deeper than rounding (Cyrus and Beck's clipping).
 fn enters(polygon: &[Point], p: Point, q: Point) -> bool {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for k in 0..polygon.len() {

@@ -1,8 +1,8 @@
-//! Texts with slips of the pen.
+//! Texts with random typing mistakes.
 
 use super::dice::Dice;
 
-/// What numbers become.
+/// Replacements of numbers.
 const NUMBERS: [&str; 16] = [
     "0",
     "-0",
@@ -21,11 +21,11 @@ const NUMBERS: [&str; 16] = [
     "0x7f",
     "",
 ];
-/// What is put in anywhere.
+/// Characters that are inserted at random places.
 const BITS: [&str; 18] =
     ["[", "]", "{", "}", "\"", "<", ">", "/", "=", ",", "#", "\n", "\0", "\u{e4}", "[[", "]]", ";", "\t"];
 
-/// The text with one to three slips: something deleted, written twice, swapped, changed or put in.
+/// Returns the text with one to three mistakes: something deleted, written twice, swapped, changed or inserted.
 pub fn slipped(dice: &mut Dice, text: &str) -> String {
     let mut text: Vec<char> = text.chars().collect();
     for _ in 0..1 + dice.below(3) {
@@ -35,7 +35,7 @@ pub fn slipped(dice: &mut Dice, text: &str) -> String {
             text.splice(at..at, bit.chars());
         };
         match dice.below(9) {
-            // A number becomes another.
+            // Replace a number.
             0 | 1 => {
                 let is_number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '-');
                 let starts: Vec<usize> =
@@ -51,7 +51,7 @@ pub fn slipped(dice: &mut Dice, text: &str) -> String {
                 let end = (at + 1 + dice.below(8)).min(text.len());
                 text.drain(at..end);
             }
-            // A line again, or away.
+            // Repeat a line, or delete it.
             4 | 5 => {
                 let lines: Vec<String> = text.iter().collect::<String>().lines().map(str::to_owned).collect();
                 let k = dice.below(lines.len().max(1));
@@ -62,7 +62,7 @@ pub fn slipped(dice: &mut Dice, text: &str) -> String {
                     .flat_map(|(i, line)| vec![line.clone(); if i == k { 2 * twice } else { 1 }]);
                 text = again.collect::<Vec<_>>().join("\n").chars().collect();
             }
-            // Two lines, or two words, change places.
+            // Swap two lines, or two words.
             6 => text = swapped(dice, &text, '\n'),
             7 => text = swapped(dice, &text, ' '),
             _ => text.truncate(at.max(1)),
@@ -71,7 +71,7 @@ pub fn slipped(dice: &mut Dice, text: &str) -> String {
     text.into_iter().collect()
 }
 
-/// Two of the pieces between separators in each other's place.
+/// Swaps two of the pieces between separators.
 fn swapped(dice: &mut Dice, text: &[char], separator: char) -> Vec<char> {
     let mut pieces: Vec<&[char]> = text.split(|c| *c == separator).collect();
     let (a, b) = (dice.below(pieces.len()), dice.below(pieces.len()));

@@ -1,4 +1,4 @@
-//! The match of `examples/robot_football`: that nobody runs into anybody, and what is said of its fields.
+//! The match of `examples/robot_football`: no robot hits another, and the reported facts about its fields hold.
 
 #[path = "../../examples/robot_football/measure.rs"]
 #[allow(dead_code, reason = "the report is the example's")]
@@ -72,7 +72,7 @@ fn the_last_frame_is_a_better_start_than_nothing() {
         let standing = run(moments.iter().skip(12).step_by(4), &case, 1e-6, true).unwrap();
         assert!(standing.fields == 3 && warm.fields == 12, "{standing:?}");
         let [warm, standing] = [warm, standing].map(|run: Run| run.mean_sweeps());
-        // A harmonic field takes multigrid a step, from wherever it begins.
+        // Multigrid solves a harmonic field in one step, from any initial values.
         let is_direct = (case.kind, case.solver) == (Kind::Harmonic, Solver::Multigrid);
         assert!(
             0.0 < warm && (warm < standing || is_direct),
@@ -109,7 +109,7 @@ fn the_page_has_every_frame_and_loads_nothing() {
     assert_eq!((data["frames"].as_array().unwrap().len(), data["fields"].as_array().unwrap().len()), (6, 2));
     let robots = data["frames"][5][0].as_array().unwrap();
     assert_eq!(robots.len(), 14);
-    // As many letters as there are places of arrows: rows 1, 4, .. 82, columns 1, 4, .. 64.
+    // One letter for each arrow: rows 1, 4, .. 82, columns 1, 4, .. 64.
     assert_eq!(data["fields"][1][0][2][0].as_str().unwrap().len(), 28 * 22);
     assert!(["http:", "https:", "src=", "href=", "@import", "url("].iter().all(|word| !page.contains(word)));
 }

@@ -1,4 +1,4 @@
-//! Fields among obstacles that move, against direct solutions of what there is at each moment.
+//! Fields among moving obstacles, against direct solutions for each moment.
 
 use super::common::dice::Dice;
 use super::common::random;
@@ -11,7 +11,7 @@ use cplan::field::{
 const BOUNDARIES: [Boundary; 3] = [Boundary::High, Boundary::Reflecting, Boundary::Periodic];
 
 fn point(dice: &mut Dice, [rows, columns]: [usize; 2]) -> [f64; 2] {
-    // Whole and half numbers among them, so that distances are equal.
+    // Some are whole and half numbers, so that distances can be equal.
     let at = [dice.within(-1.0, rows as f64), dice.within(-1.0, columns as f64)];
     if dice.chance(0.5) { at.map(|x| (2.0 * x).round() / 2.0) } else { at }
 }
@@ -41,7 +41,7 @@ fn distance(cell: usize, columns: usize, center: [f64; 2]) -> f64 {
     a.hypot(b)
 }
 
-/// What each cell is, cell by cell.
+/// Returns the kind of each cell.
 fn kinds(walls: &[bool], columns: usize, moment: &Moment) -> Vec<Cell> {
     let within = |cell: usize, discs: &[Disc]| discs.iter().any(|d| distance(cell, columns, d.center) < d.radius);
     let mut kinds = vec![Cell::Free; walls.len()];
@@ -56,7 +56,7 @@ fn kinds(walls: &[bool], columns: usize, moment: &Moment) -> Vec<Cell> {
     kinds
 }
 
-/// The drift of each cell: that of the nearest robot, the first of equals, within its disc.
+/// Returns the drift of each cell: that of the nearest robot, the first of equals, within its disc.
 fn drift(cells: usize, columns: usize, robots: &[Influence]) -> Vec<[f64; 2]> {
     let of = |cell: usize| {
         let mut best: Option<&Influence> = None;
@@ -82,7 +82,7 @@ fn each_moment_is_what_it_would_be_from_nothing() {
         let mut dice = Dice::new(seed);
         let cells = [dice.below(9_usize) + 3, dice.below(9_usize) + 3];
         let mut walls: Vec<bool> = (0..cells[0] * cells[1]).map(|_| dice.chance(0.1)).collect();
-        // So that values are determined, whatever the limits.
+        // A wall makes the values determined for any limits.
         walls[0] = true;
         let boundaries = [BOUNDARIES[dice.below(3_usize)], BOUNDARIES[dice.below(3_usize)]];
         let difference = if dice.chance(0.5) { Difference::Central } else { Difference::Upwind };
@@ -126,7 +126,7 @@ fn directions_are_those_of_the_published_formula_at_centres() {
             }
             let down = [value(i.wrapping_sub(1), j) - value(i + 1, j), value(i, j.wrapping_sub(1)) - value(i, j + 1)];
             let length = down[0].hypot(down[1]);
-            // Where values differ by rounding they show nothing.
+            // Differences of values that come only from rounding show nothing.
             if length > 1e-9 {
                 let found = found.unwrap_or_else(|| panic!("a direction at {i}, {j}"));
                 assert!((0..2).all(|k| (found[k] - down[k] / length).abs() < 1e-6), "{i}, {j}: {found:?}, {down:?}");
@@ -197,7 +197,7 @@ fn multigrid_agrees_with_elimination_for_strong_drifts() {
             assert!(found.converged() && found.sweeps() < 150, "{difference:?} {strength}: {:?}", found.stages);
             let error = greatest_difference(&found.values, &eliminated(&domain, &equation).expect("a solution"));
             assert!(error < 1e-8, "{difference:?} {strength}: {error:e} off");
-            // What is found needs no step.
+            // The solution itself needs no step.
             let again = by_multigrid(&domain, &equation, &stopping, found.values.clone()).unwrap();
             assert_eq!((again.sweeps(), again.values), (0, found.values));
         }

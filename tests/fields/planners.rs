@@ -6,7 +6,7 @@ use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query, Run, Size, Tr
 use cplan::space::{Configuration, GoalSet, JointRange, Path, Topology};
 use proptest::prelude::*;
 
-/// A grid with steps of 1 along intervals; circles are as long as they are.
+/// Creates a grid with steps of 1 along intervals; circles are scaled to their length.
 fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     let axis = |k: usize| match circles[k] {
         true => JointRange::Circle,
@@ -15,14 +15,14 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
 }
 
-/// A grid without circles drawn in text: `#` blocked; rows of text are rows of the grid.
+/// Parses a grid without circles drawn in text: `#` blocked; rows of text are rows of the grid.
 fn drawn(text: &str) -> Grid {
     let rows: Vec<&str> = text.split_whitespace().collect();
     let blocked = rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
     grid([rows.len(), rows[0].len()], [false; 2], blocked)
 }
 
-/// A corridor one cell wide that winds inwards on `n x n` cells; its two ends.
+/// Returns a corridor one cell wide that winds inwards on `n x n` cells, and its two ends.
 fn spiral(n: i64) -> (Grid, usize, usize) {
     let mut free = vec![false; (n * n) as usize];
     let (mut i, mut j) = (0, 0);
@@ -32,7 +32,7 @@ fn spiral(n: i64) -> (Grid, usize, usize) {
         let is_free =
             |i: i64, j: i64, free: &[bool]| (0..n).contains(&i) && (0..n).contains(&j) && free[(i * n + j) as usize];
         let before = (i, j);
-        // On while the corridor does not come next to itself.
+        // Continues as long as the corridor does not come next to itself.
         while (0..n).contains(&(i + di)) && (0..n).contains(&(j + dj)) && !is_free(i + 2 * di, j + 2 * dj, &free) {
             (i, j) = (i + di, j + dj);
             free[(i * n + j) as usize] = true;
@@ -53,7 +53,7 @@ fn random_grid() -> impl Strategy<Value = Grid> {
     })
 }
 
-/// A grid and two of its cells, whether free or not.
+/// Generates a grid and two of its cells, free or not.
 fn random_problem() -> impl Strategy<Value = (Grid, usize, usize)> {
     random_grid().prop_flat_map(|grid| {
         let n = grid.blocked.len();
@@ -61,7 +61,7 @@ fn random_problem() -> impl Strategy<Value = (Grid, usize, usize)> {
     })
 }
 
-/// Steps between all pairs of free cells, by Floyd-Warshall over adjacency told by coordinates.
+/// Returns the steps between all pairs of free cells, by Floyd-Warshall with adjacency from coordinates.
 fn all_steps(grid: &Grid) -> Vec<Vec<u32>> {
     let n = grid.blocked.len();
     let apart = |a: usize, b: usize, k: usize| {
@@ -88,7 +88,7 @@ fn all_steps(grid: &Grid) -> Vec<Vec<u32>> {
     steps
 }
 
-/// The harmonic potential by Gaussian elimination: 1 at the goal, 0 where it does not reach.
+/// Returns the harmonic potential by Gaussian elimination: 1 at the goal, 0 in cells that it does not reach.
 fn direct(grid: &Grid, goal: usize) -> Vec<f64> {
     let steps = &all_steps(grid)[goal];
     let n = grid.blocked.len();
@@ -114,7 +114,7 @@ fn found(run: &Run) -> Path {
     }
 }
 
-/// The goal's component and its potential.
+/// Returns the goal's component and its potential.
 fn field(grid: &Grid, goal: usize) -> (Component, Field) {
     let lattice = Lattice::from(grid);
     let component = Component::new(&lattice, lattice.wave(&[goal]));
@@ -122,7 +122,7 @@ fn field(grid: &Grid, goal: usize) -> (Component, Field) {
     (component, field)
 }
 
-/// Both planners, by whether it is the wavefront.
+/// Both planners: true for the wavefront.
 const BOTH: [bool; 2] = [true, false];
 
 fn run(is_wavefront: bool, grid: &Grid, query: &Query, path: PathKind) -> Run {
@@ -135,8 +135,8 @@ fn run(is_wavefront: bool, grid: &Grid, query: &Query, path: PathKind) -> Run {
     }
 }
 
-/// Both planners find a way where there is one; the wavefront's plain path visits free cells, each a neighbour of the one
-/// before, and is a shortest one.
+/// Checks that both planners find a path if there is one. The wavefront's plain path must visit free cells, each a
+/// neighbour of the one before, and must be a shortest one.
 fn goes_from_cell_to_cell(grid: &Grid, start: usize, goal: usize) -> Result<(), TestCaseError> {
     let reached = all_steps(grid)[goal][start];
     let step = grid.step();
@@ -248,12 +248,13 @@ fn a_long_spiral_is_no_flat_field() {
     let run = run(false, &grid, &query(&grid, outer, inner), PathKind::Own);
     assert!(found(&run).length() > 0.7 * free as f64);
     let (_, potential) = run.trace.logarithms().expect("a field's");
-    // A corridor one cell wide: each cell has 2 - sqrt 3 of the one before, but for the few at its closed end.
+    // A corridor one cell wide: each cell has 2 - sqrt 3 times the value of the one before, except the few at its
+    // closed end.
     let expected = (free - 1) as f64 * (2.0 - 3.0_f64.sqrt()).ln();
     assert!((potential[outer] - expected).abs() < 0.1, "{} instead of {expected}", potential[outer]);
 }
 
-/// Found by the property tests: a ring of three cells, where the goal is one step away either way round.
+/// Found by the property tests: on a ring of three cells, the goal is one step away in both directions.
 #[test]
 fn paths_on_a_ring_of_three_cells_go_the_short_way() {
     let grid = grid([3, 8], [true, false], vec![false; 24]);
@@ -261,7 +262,7 @@ fn paths_on_a_ring_of_three_cells_go_the_short_way() {
     goes_from_cell_to_cell(&grid, 0, 16).unwrap_or_else(|e| panic!("{e}"));
 }
 
-/// Without walls the harmonic function is constant: only the loss of walks on their way makes it fall.
+/// Without walls, the harmonic function is constant. Only the loss per step of walks makes it fall.
 #[test]
 fn a_torus_without_walls_navigates() {
     for cells in [[2, 10], [1, 7], [64, 48], [300, 300]] {

@@ -1,4 +1,4 @@
-//! Shapes with small integer corners, on which plain integer arithmetic is exact, and the oracle that decides in it.
+//! Shapes with small integer corners, on which plain integer arithmetic is exact, and an oracle that uses it.
 
 use cplan::geometry::{Point, hull};
 use proptest::prelude::*;
@@ -18,13 +18,13 @@ pub fn points(corners: &[Corner]) -> Vec<Point> {
     corners.iter().map(|&p| point(p)).collect()
 }
 
-/// Convex cores in a small box, where touching, collinear sides and shapes without area are frequent.
+/// Generates convex cores in a small box, where touching, collinear sides and shapes without area are frequent.
 pub fn core() -> impl Strategy<Value = Vec<Corner>> {
     prop::collection::vec((-4..=4i64, -4..=4i64), 1..7)
         .prop_map(|list| hull(&points(&list)).iter().map(|p| (p.x as i64, p.y as i64)).collect())
 }
 
-/// Whether two convex cores meet, by separating axes in integers.
+/// Returns true if two convex cores meet, by separating axes in integers.
 ///
 /// The axes are the normals of all sides and, for cores without area, the sides themselves and the coordinate axes.
 pub fn meet(a: &[Corner], b: &[Corner]) -> bool {

@@ -1,11 +1,11 @@
-//! Polygons with more corners than anybody draws by hand: what they are cut into, against integer arithmetic and the polygon
-//! itself, and which sides of a broken one are named, against looking at all pairs.
+//! Polygons with very many corners. Their pieces are compared with integer arithmetic and with the polygon itself. The
+//! reported sides of an invalid polygon are compared with a test of all pairs.
 
 use crate::lattice::{Corner, cross, meet, points};
 use cplan::geometry::{Convex, MOST_CORNERS, Point, PolygonError, SimplePolygon, decompose};
 use proptest::prelude::*;
 
-/// A ring around the origin on the lattice, with one corner in each of `count` directions; `radius` of each.
+/// Returns a ring around the origin on the lattice, with one corner in each of `count` directions; `radius` of each.
 fn around(count: usize, radius: impl Fn(usize) -> f64) -> Vec<Corner> {
     let corner = |k: usize| {
         let angle = k as f64 / count as f64 * std::f64::consts::TAU;
@@ -14,7 +14,7 @@ fn around(count: usize, radius: impl Fn(usize) -> f64) -> Vec<Corner> {
     (0..count).map(corner).collect()
 }
 
-/// A comb: `teeth` of alternating heights that a slant leaves overlapping in both coordinates.
+/// Returns a comb: `teeth` of alternating heights, slanted so that they overlap in both coordinates.
 fn slanted_comb(teeth: usize) -> Vec<Corner> {
     let mut ring = vec![(0, 0)];
     for k in 0..teeth as i64 {
@@ -24,7 +24,7 @@ fn slanted_comb(teeth: usize) -> Vec<Corner> {
     ring
 }
 
-/// Twice the area of a ring.
+/// Returns twice the area of a ring.
 fn twice_area(ring: &[Corner]) -> i128 {
     let product = |i: usize| {
         let ((a, b), (c, d)) = (ring[i], ring[(i + 1) % ring.len()]);
@@ -37,14 +37,15 @@ fn in_integers(piece: &Convex) -> Vec<Corner> {
     piece.core().iter().map(|p| (p.x as i64, p.y as i64)).collect()
 }
 
-/// Whether a strictly convex ring holds a point: 0 outside, 1 on the boundary, 2 inside.
+/// Locates a point in a strictly convex ring: 0 outside, 1 on the boundary, 2 inside.
 fn holds(ring: &[Corner], p: Corner) -> i64 {
     let side = |i: usize| cross(ring[i], ring[(i + 1) % ring.len()], p).signum();
     (0..ring.len()).map(side).min().map_or(0, |least| least + 1)
 }
 
-/// Pieces are strictly convex and small, and have disjoint interiors whose areas add up to the polygon's, exactly; points of
-/// the lattice are inside the polygon, on its boundary or outside of it as they are of the pieces.
+/// Checks that pieces are strictly convex and small, and have disjoint interiors whose areas add up exactly to the
+/// polygon's. Points of the lattice must have the same location in the polygon as in the pieces: inside, on the
+/// boundary, or outside.
 fn is_cut_up_exactly(ring: &[Corner]) {
     let polygon = SimplePolygon::new(points(ring)).unwrap();
     let pieces: Vec<Vec<Corner>> = decompose(&polygon).iter().map(in_integers).collect();
@@ -56,7 +57,7 @@ fn is_cut_up_exactly(ring: &[Corner]) {
     assert_eq!(pieces.iter().map(|piece| twice_area(piece)).sum::<i128>(), twice_area(ring).abs());
     let extent = ring.iter().map(|c| c.0.abs().max(c.1.abs())).max().unwrap();
     for k in 0..40_i64 {
-        // Multiples of the golden section and of another irrational number are all over the square.
+        // Multiples of the golden ratio and of another irrational number spread over the square.
         let at = |share: f64| ((k as f64 * share).fract() * 2.2 - 1.1) * extent as f64;
         let p = (at(0.618_033_988_749) as i64, at(0.754_877_666_246) as i64);
         let found: Vec<i64> = pieces.iter().map(|piece| holds(piece, p)).collect();
@@ -89,14 +90,14 @@ fn a_slanted_comb_of_10_000_teeth_is_cut_up_exactly() {
 #[test]
 fn one_crossing_among_20_000_sides_is_found() {
     let mut ring = slanted_comb(10_000);
-    // The tip of one tooth through the next one.
+    // The tip of one tooth crosses the next one.
     ring[9_000].0 += 14;
     let error = SimplePolygon::new(points(&ring)).unwrap_err();
     let PolygonError::SidesCross { first, second } = error else { panic!("{error}") };
     assert!((8_998..=9_001).contains(&first) && (9_000..=9_003).contains(&second), "{error}");
 }
 
-/// The sides of the first side, in the order of the list, that meets an earlier one which is no neighbour.
+/// Returns the first side in the list that meets an earlier side which is not its neighbour, and that side.
 fn first_meeting(ring: &[Corner]) -> Option<(usize, usize)> {
     let n = ring.len();
     let side = |i: usize| [ring[i], ring[(i + 1) % n]];

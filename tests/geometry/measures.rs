@@ -1,4 +1,4 @@
-//! Distance and penetration depth: two methods of the library against each other, against their definition, against
+//! Distance and penetration depth: two methods of the library against each other, against their definition, and against
 //! parry2d.
 
 use crate::common::{convex, disc, wall};
@@ -14,7 +14,8 @@ const ROUNDING: f64 = 1e-13;
 /// are no oracle: for some overlapping lattice polygons version 0.31 answers 2/3 where every direction needs 1 or more.
 const PARRY: f64 = 1e-6;
 
-/// Lattice shapes at a scale that is no binary fraction, so that collinear and touching sides are so up to rounding.
+/// Generates lattice shapes with a scale that is not a binary fraction, so that collinear and touching sides are so up
+/// to rounding.
 fn lattice_shape() -> impl Strategy<Value = Convex> {
     let scale = prop::sample::select(vec![1.0, 0.1, 1.0 / 3.0]);
     let radius = prop::sample::select(vec![0.0, 0.0, 0.05, 1.0]);
@@ -34,7 +35,7 @@ fn random_shape() -> impl Strategy<Value = Convex> {
     )
 }
 
-/// Gap between two shapes along a unit direction: positive if a line across it separates them.
+/// Returns the gap between two shapes along a unit direction: positive if a line across it separates them.
 fn gap(a: &Convex, b: &Convex, direction: Vector) -> f64 {
     let along = |p: &Point| direction.dot(&p.coords);
     let front = a.core().iter().map(along).fold(f64::NEG_INFINITY, f64::max) + a.radius();

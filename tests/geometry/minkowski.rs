@@ -6,12 +6,12 @@ use proptest::prelude::*;
 
 use crate::lattice::{Corner, core, meet, points};
 
-/// The difference of two polygons.
+/// Returns the difference of two polygons.
 fn difference(b: Vec<Point>, a: Vec<Point>) -> Vec<Point> {
     convex(b, 0.0).minkowski_difference(&convex(a, 0.0)).core().to_vec()
 }
 
-/// The corners, counter-clockwise from the leftmost (lowest).
+/// Returns the corners, counter-clockwise from the leftmost (lowest).
 fn from_leftmost(mut polygon: Vec<Point>) -> Vec<Point> {
     let leftmost = (0..polygon.len()).min_by(|&i, &j| {
         let (p, q) = (polygon[i], polygon[j]);
@@ -25,12 +25,12 @@ fn sides(polygon: &[Point]) -> impl Iterator<Item = Vector> {
     (0..polygon.len()).map(|i| polygon[(i + 1) % polygon.len()] - polygon[i])
 }
 
-/// The greatest value of `n . p` over the polygon.
+/// Returns the greatest value of `n . p` over the polygon.
 fn support(polygon: &[Point], n: Vector) -> f64 {
     polygon.iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Polygons from points on a circle of random radius, in random position.
+/// Generates polygons from points on a circle of random radius, at a random position.
 fn polygon() -> impl Strategy<Value = Vec<Point>> {
     let angles = prop::collection::vec(0.0..std::f64::consts::TAU, 1..20);
     (angles, 0.01..10.0f64, -10.0..10.0f64, -10.0..10.0f64).prop_map(|(angles, r, x, y)| {
@@ -90,7 +90,7 @@ fn radii_add_up() {
     let difference = b.grown(0.5).minkowski_difference(&a);
     assert_eq!(difference.radius(), 0.75);
     assert_eq!(difference.core(), [Point::new(-1.0, -2.0), Point::new(0.0, -2.0)]);
-    // Cores without length do no harm.
+    // Cores without length are allowed.
     assert_eq!(wall(Point::origin(), Point::origin()).core().len(), 1);
 }
 

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use crate::lattice::{Corner, cross, meet, point, points};
 
-/// Whether a ring of corners is a simple polygon: no two sides meet but neighbours, and these in one corner only.
+/// Returns true if a ring of corners is a simple polygon: only neighbouring sides meet, and these in one corner only.
 fn is_simple(ring: &[Corner]) -> bool {
     let n = ring.len();
     let side = |i: usize| [ring[i], ring[(i + 1) % n]];
@@ -16,7 +16,7 @@ fn is_simple(ring: &[Corner]) -> bool {
                 let far_end = if j == i + 1 { Some(side(j)[1]) } else { (i == 0 && j == n - 1).then(|| side(j)[0]) };
                 match far_end {
                     None => !meet(&side(i), &side(j)),
-                    // Neighbours overlap iff the far end of the one lies on the other, or the reverse.
+                    // Neighbours overlap exactly if the far end of one lies on the other.
                     Some(end) => {
                         let other = if j == i + 1 { side(i)[0] } else { side(i)[1] };
                         !meet(&side(i), &[end]) && !meet(&side(j), &[other])
@@ -30,7 +30,8 @@ fn twice_area(ring: &[Corner]) -> i64 {
     (1..ring.len() - 1).map(|i| cross(ring[0], ring[i], ring[i + 1])).sum()
 }
 
-/// Simple polygons with up to 30 corners, straight ones among them: corners put into sides one by one.
+/// Generates simple polygons with up to 30 corners, including straight ones: corners are inserted into sides one by
+/// one.
 fn simple_ring() -> impl Strategy<Value = Vec<Corner>> {
     prop::collection::vec((-8..=8i64, -8..=8i64, 0..30usize), 3..40).prop_map(|list| {
         let mut ring = vec![(-9, -9), (9, -9), (0, 9)];
@@ -45,7 +46,8 @@ fn simple_ring() -> impl Strategy<Value = Vec<Corner>> {
     })
 }
 
-/// Whether a ring contains a point that is not on its boundary (crossing number; coordinates in thirds of the lattice).
+/// Returns true if a ring contains a point that is not on its boundary (crossing number; coordinates in thirds of the
+/// lattice).
 fn contains(ring: &[Corner], p: Corner) -> bool {
     let scaled = |i: usize| (3 * ring[i % ring.len()].0, 3 * ring[i % ring.len()].1);
     let crossings = (0..ring.len()).filter(|&i| {
@@ -95,7 +97,7 @@ proptest! {
             area += twice_area(piece);
         }
         prop_assert_eq!(area, twice_area(&ring));
-        // Every point that lies on no line of a side is in as many pieces as it is in the polygon: one or none.
+        // Every point that is not on the line of a side is in one piece if it is in the polygon, and in none otherwise.
         for x in -27..=27 {
             for y in -27..=27 {
                 let p = (x, y);
@@ -110,7 +112,7 @@ proptest! {
                 prop_assert_eq!(count, usize::from(contains(&ring, p)));
             }
         }
-        // At lattice points the boundary counts: a closed piece contains them, or none does.
+        // At lattice points, the boundary counts: a closed piece contains them, or none does.
         for x in -10..=10 {
             for y in -10..=10 {
                 let on_boundary = (0..ring.len()).any(|i| meet(&[ring[i], ring[(i + 1) % ring.len()]], &[(x, y)]));
@@ -125,7 +127,7 @@ proptest! {
     }
 }
 
-/// A gear with `teeth` teeth between radius 1 and 2, four corners a tooth.
+/// Returns a gear with `teeth` teeth between radius 1 and 2, four corners per tooth.
 fn gear(teeth: u32) -> Vec<Point> {
     let corner = |k: u32| {
         let angle = f64::from(k) / f64::from(4 * teeth) * std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! Polygons with holes and touching corners: what they cover, against counting cells and casting rays in integers.
+//! Polygons with holes and touching corners: their covered area, against counting cells and casting rays in integers.
 
 use crate::common::dice;
 use crate::common::dice::Dice;
@@ -15,13 +15,14 @@ fn polygon(rings: &[Vec<Corner>]) -> Result<Polygon, RingError> {
     Polygon::new(points(&rings[0]), rings[1..].iter().map(|ring| points(ring)).collect())
 }
 
-/// Whether a strictly convex piece contains a point.
+/// Returns true if a strictly convex piece contains a point.
 fn contains(piece: &Convex, p: Point) -> bool {
     let core = piece.core();
     (0..core.len()).all(|i| orientation(core[i], core[(i + 1) % core.len()], p) != Orientation::Clockwise)
 }
 
-/// Whether a ray from a point, which no corner is level with, crosses a ring an odd number of times.
+/// Returns true if a ray from a point crosses a ring an odd number of times. No corner has the same height as the
+/// point.
 fn is_inside(ring: &[Corner], p: Point) -> bool {
     let crosses = |i: usize| {
         let (a, b) = (point(ring[i]), point(ring[(i + 1) % ring.len()]));
@@ -30,7 +31,7 @@ fn is_inside(ring: &[Corner], p: Point) -> bool {
     (0..ring.len()).filter(|i| crosses(*i)).count() % 2 == 1
 }
 
-/// Pieces are strictly convex, counter-clockwise, and cover exactly what is wanted: as much, and nowhere else.
+/// Checks that pieces are strictly convex and counter-clockwise, and that they cover exactly the required area.
 fn covers(pieces: &[Convex], area: f64, inside: impl Fn(Point) -> bool, samples: &[Point]) {
     for piece in pieces {
         let core = piece.core();
@@ -49,7 +50,7 @@ fn covers(pieces: &[Convex], area: f64, inside: impl Fn(Point) -> bool, samples:
 
 const SIDE: i64 = 7;
 
-/// Random cells that hang together by their sides.
+/// Returns random cells that are connected by their sides.
 fn blob(dice: &mut Dice) -> BTreeSet<Corner> {
     let mut cells = BTreeSet::from([(SIDE / 2, SIDE / 2)]);
     for _ in 0..dice.below(200) {
@@ -57,7 +58,7 @@ fn blob(dice: &mut Dice) -> BTreeSet<Corner> {
         if [(1, 0), (-1, 0), (0, 1), (0, -1)].iter().any(|(dx, dy)| cells.contains(&(x + dx, y + dy))) {
             cells.insert((x, y));
         }
-        // Holes and touching corners come of taking cells away where the rest still hangs together.
+        // Cells are removed as long as the rest stays connected. That makes holes and touching corners.
         let (x, y) = (dice.below(SIDE as u64) as i64, dice.below(SIDE as u64) as i64);
         let less: BTreeSet<Corner> = cells.iter().copied().filter(|c| *c != (x, y)).collect();
         if dice.below(2) == 0 && hangs_together(&less) {
@@ -80,7 +81,8 @@ fn hangs_together(cells: &BTreeSet<Corner>) -> bool {
     seen.len() == cells.len()
 }
 
-/// The boundary of cells as rings, cells to the left; where four sides meet, all rings turn left or all turn right.
+/// Returns the boundary of cells as rings, with cells to the left. Where four sides meet, all rings turn left or all
+/// turn right.
 fn boundary(cells: &BTreeSet<Corner>, turn_left: bool) -> Vec<Vec<Corner>> {
     let mut sides: BTreeMap<Corner, Vec<Corner>> = BTreeMap::new();
     for &(x, y) in cells {
@@ -119,7 +121,7 @@ fn twice_area(ring: &[Corner]) -> i64 {
     (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()])).map(|(a, b)| a.0 * b.1 - a.1 * b.0).sum()
 }
 
-/// A ring as somebody might write it: begun anywhere, in either direction, straight corners kept or left out.
+/// Returns a ring as a user might write it: from any corner, in either direction, with or without straight corners.
 fn as_written(dice: &mut Dice, ring: &[Corner]) -> Vec<Corner> {
     let n = ring.len();
     let keep_straight = dice.below(3);
@@ -146,7 +148,7 @@ fn cells_are_covered_whatever_the_rings_touch() {
         let turn_left = dice.below(2) == 0;
         let mut rings = boundary(&cells, turn_left);
         rings.sort_by_key(|ring| -twice_area(ring));
-        // Sheared, so that not all sides are level or upright.
+        // Sheared, so that not all sides are horizontal or vertical.
         let shear = dice.below(3) as i64;
         let sheared = |(x, y): Corner| (3 * x + shear * y, 2 * y - shear * x);
         let determinant = 6 + shear * shear;
@@ -165,7 +167,7 @@ fn cells_are_covered_whatever_the_rings_touch() {
             .collect();
         let wanted = |p: Point| all.iter().any(|(q, inside)| *q == p && *inside);
         let samples: Vec<Point> = all.iter().map(|(p, _)| *p).collect();
-        // Middles of cells lie on no diagonal only by chance, so areas decide where pieces share a middle.
+        // Centres of cells can lie on diagonals, so areas decide if pieces share a centre.
         let pieces = polygon.convex_pieces();
         let sum: f64 = pieces.iter().map(Convex::area).sum();
         assert!((sum - cells.len() as f64 * determinant as f64).abs() < 1e-9 * sum);
@@ -176,8 +178,8 @@ fn cells_are_covered_whatever_the_rings_touch() {
     assert!(!usual() || holed > 40 && touching > 40, "{holed} {touching}");
 }
 
-/// Whatever is taken covers what counting crossings says; whatever is refused has a crossing, an overlap, or a ring on the
-/// wrong side, and the cases where none of these holds are named in the other tests.
+/// An accepted polygon covers the area that counting crossings gives. A refused one has a crossing, an overlap, or a
+/// ring on the wrong side; the other tests name the cases without any of these.
 #[test]
 fn random_rings_are_refused_or_covered() {
     let mut dice = dice(7);
@@ -209,7 +211,7 @@ fn random_rings_are_refused_or_covered() {
 #[test]
 fn what_cannot_be_meant_is_named() {
     let square = |x: i64, y: i64, size: i64| vec![(x, y), (x + size, y), (x + size, y + size), (x, y + size)];
-    // A hole that hangs in a corner of the outer ring is one.
+    // A hole that touches a corner of the outer ring from inside is allowed.
     for (dx, dy) in [(0, 0), (9, 0), (9, 9), (0, 9)] {
         let (sx, sy) = (if dx == 0 { 1 } else { -1 }, if dy == 0 { 1 } else { -1 });
         let hung = vec![(dx, dy), (dx + 3 * sx, dy + sy), (dx + sx, dy + 3 * sy)];
@@ -237,7 +239,7 @@ fn what_cannot_be_meant_is_named() {
     }
 }
 
-/// A plate with many holes is cut in little more than linear time.
+/// Cutting a plate with many holes takes little more than linear time.
 #[test]
 fn a_perforated_plate() {
     let rows = 40;

@@ -1,4 +1,4 @@
-//! Whether shapes meet, and where points lie: exact verdicts.
+//! Exact verdicts: whether shapes meet, and the location of points.
 
 use crate::common::{convex, disc, wall};
 use cplan::geometry::{Location, Point, hull, point_penetration, polygon_test, shapes_meet};
@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use crate::lattice::{core, cross, meet, point, points};
 
-/// Moves a coordinate by a few units in the last place: shapes that touch almost or barely.
+/// Moves a coordinate by a few units in the last place, for shapes that almost or barely touch.
 fn nudged(x: f64, steps: i8) -> f64 {
     (0..steps.unsigned_abs()).fold(x, |x, _| if steps > 0 { x.next_up() } else { x.next_down() })
 }
@@ -35,7 +35,7 @@ proptest! {
         };
         prop_assert_eq!(found.location, expected);
         if n > 1 {
-            // The textbook's formula, from the coefficients of the line.
+            // The textbook formula, from the coefficients of the line.
             let distance = |i: usize| {
                 let ((x1, y1), (x2, y2)) = (polygon[i], polygon[(i + 1) % n]);
                 let (a, b, c) = (y1 - y2, x2 - x1, x1 * y2 - x2 * y1);
@@ -56,8 +56,8 @@ proptest! {
         a in core(), b in core(),
         steps in prop::collection::vec((-2..=2i8, -2..=2i8), 14),
     ) {
-        // Tenths are not binary fractions, so nudged corners lie on either side of the sides that they touched. None is
-        // 0, whose neighbours (5e-324) are below what the predicates promise to handle.
+        // Tenths are not binary fractions, so nudged corners lie on either side of the sides that they touched. No
+        // coordinate is 0, because the neighbours of 0 (5e-324) are below the range that the predicates guarantee.
         let nudge = |corners: &[(i64, i64)], steps: &[(i8, i8)]| {
             let nudged = corners.iter().zip(steps).map(|(p, s)| {
                 Point::new(nudged((p.0 + 5) as f64 / 10.0, s.0), nudged((p.1 + 5) as f64 / 10.0, s.1))

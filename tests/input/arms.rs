@@ -18,7 +18,7 @@ fn load_arm(urdf: &str, robot: &str) -> LoadedScene {
     load_scene(&u, &w).unwrap_or_else(|e| panic!("{e}\n{urdf}"))
 }
 
-/// Rotation about a unit axis by Rodrigues' formula.
+/// Returns a rotation about a unit axis by Rodrigues' formula.
 fn rotation(axis: Vector3<f64>, angle: f64) -> Matrix3<f64> {
     let k = axis.cross_matrix();
     Matrix3::identity() + k * angle.sin() + k * k * (1.0 - angle.cos())
@@ -28,7 +28,7 @@ fn rpy([r, p, y]: [f64; 3]) -> Matrix3<f64> {
     rotation(Vector3::z(), y) * rotation(Vector3::y(), p) * rotation(Vector3::x(), r)
 }
 
-/// A joint as a test sees it.
+/// A joint of the test's own kinematics.
 #[derive(Debug, Clone, Copy)]
 struct TestJoint {
     revolute: bool,
@@ -50,7 +50,7 @@ impl TestJoint {
         )
     }
 
-    /// Frame of the child, given the parent's.
+    /// Returns the frame of the child from that of the parent.
     fn step(&self, (r, p): (Matrix3<f64>, Vector3<f64>), q: f64) -> (Matrix3<f64>, Vector3<f64>) {
         let p = p + r * Vector3::from(self.xyz);
         let r = r * rpy(self.rpy);
@@ -73,7 +73,7 @@ fn urdf(joints: [TestJoint; 2]) -> String {
     )
 }
 
-/// Arms of all kinds in planes of all directions: the second joint's frame is turned about the normal only.
+/// Generates arms of all kinds in planes of all directions; the second joint's frame is only turned about the normal.
 fn arms() -> impl Strategy<Value = [TestJoint; 2]> {
     let number = -1.0..1.0f64;
     let triple = || [number.clone(), number.clone(), number.clone()];
@@ -112,7 +112,7 @@ proptest! {
         let project = |x: Vector3<f64>| Point::new(x.dot(&arm.plane.u), x.dot(&arm.plane.v));
         let tip = project(two.1 + two.0 * Vector3::from(TIP));
         prop_assert!((arm.tip_at(q) - tip).norm() < 1e-9, "{:?} against {tip:?}, kind {}", arm.tip_at(q), arm.kind());
-        // A ball about link 1's origin is a disc about its projection, whatever the pose.
+        // A ball about link 1's origin is a disc about its projection, for every pose.
         let disc = arm.links[0].parts[0].shape.at(&arm.pose(0, q));
         prop_assert!((disc.core()[0] - project(one.1)).norm() < 1e-9);
     }
@@ -127,7 +127,7 @@ proptest! {
         for branch in &solved.branches {
             prop_assert!((arm.tip_at(*branch) - target).norm() < 1e-9);
         }
-        // The IK solution that the target came from is among them, up to whole turns.
+        // The IK solution of the target's configuration is among them, up to whole turns.
         let turns = |i: usize| if arm.joints[i].joint_type.is_revolute() { JointRange::Circle } else { JointRange::Interval { lower: -9.0, upper: 9.0 } };
         let near = |b: &Configuration| (0..2).all(|i| turns(i).displacement(q[i], b[i]).abs() < 1e-4);
         prop_assert!(solved.branches.iter().any(near), "{q:?} not in {:?}", solved.branches);
@@ -137,7 +137,7 @@ proptest! {
     fn outlines_hold_the_projected_solid_and_little_more(
         shape in 0..4usize, r in [-3.0..3.0f64, -3.0..3.0, -3.0..3.0], right in any::<bool>(), seed in any::<u64>()
     ) {
-        // Right angles as well as general ones.
+        // Right angles as well as other ones.
         let r = if right { r.map(|a| a.round() * std::f64::consts::FRAC_PI_2) } else { r };
         let (xml, points) = solid(shape, seed);
         let urdf = urdf_with(&format!("<origin xyz=\"0.1 0.2 0.3\" rpy=\"{} {} {}\"/><geometry>{xml}</geometry>", r[0], r[1], r[2]));
@@ -149,14 +149,14 @@ proptest! {
             prop_assert!(inside < 2e-9, "{inside} outside");
             prop_assert!(part.heights.lower - 1e-9 <= p.z && p.z <= part.heights.upper + 1e-9);
         }
-        // The outline's support exceeds the sampled solid's by no more than the sampling and the stated bound allow.
+        // The outline's support exceeds that of the sampled solid at most by the sampling and the stated bound.
         for i in 0..64 {
             let a = f64::from(i) * std::f64::consts::TAU / 64.0;
             let d = nalgebra::Vector2::new(a.cos(), a.sin());
             let outline = part.shape.core().iter().map(|p| p.coords.dot(&d)).fold(f64::MIN, f64::max) + part.shape.radius();
             let sampled = placed.iter().map(|p| p.xy().dot(&d)).fold(f64::MIN, f64::max);
             prop_assert!(outline - sampled < 0.005 * RADIUS + SAMPLING, "excess {}", outline - sampled);
-            // What proofs rest on is within the solid, and hardly less.
+            // The inner outline of proofs is within the solid, and only slightly smaller.
             let inner = part.inner.as_ref().unwrap_or(&part.shape);
             let support = inner.core().iter().map(|p| p.coords.dot(&d)).fold(f64::MIN, f64::max) + inner.radius();
             if shape == CYLINDER {
@@ -178,12 +178,12 @@ const SAMPLING: f64 = 6e-4;
 
 const CYLINDER: usize = 1;
 
-/// That of a solid, metres.
+/// Returns the length of a solid, in metres.
 fn length(seed: u64) -> f64 {
     0.1 + (seed % 7) as f64 * 0.15
 }
 
-/// A solid as URDF and as points of its surface.
+/// Returns a solid as URDF and as points of its surface.
 fn solid(shape: usize, seed: u64) -> (String, Vec<Vector3<f64>>) {
     let length = length(seed);
     let ring = |radius: f64, z: f64| {
@@ -218,7 +218,7 @@ fn solid(shape: usize, seed: u64) -> (String, Vec<Vector3<f64>>) {
     }
 }
 
-/// An arm turning about z whose first link has this collision geometry.
+/// Returns an arm that turns about z, whose first link has this collision geometry.
 fn urdf_with(collision: &str) -> String {
     format!(
         r#"<robot name="t"><link name="base"/><joint name="a" type="continuous"><parent link="base"/><child link="one"/><axis xyz="0 0 1"/><limit velocity="1"/></joint>
@@ -321,7 +321,8 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
     }
 }
 
-/// What exporters leave out, and what they put first: without a scene that shows anything geometries are where they are, in centimetres.
+/// Exporters omit some elements and write others first. Without a scene that shows anything, geometries stay where they
+/// are, in centimetres.
 #[test]
 fn collada_without_a_scene_and_with_a_comment_first() {
     let folder = tempfile::tempdir().unwrap();
@@ -375,7 +376,7 @@ fn meshes_are_held_to_a_range_as_they_are_scaled() {
         assert!(error.contains(&place) && error.contains(mesh), "{error}");
         assert!(error.contains(message) && error.contains("cure: give the scale"), "{message}: {error}");
     }
-    // What is far is brought near by its scale.
+    // Its scale brings a distant shape near.
     assert!(load("t.obj", &far.replace("1e300", "2e9"), "1e-9 1 1").is_ok());
 }
 
@@ -448,7 +449,7 @@ fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
     assert_eq!(load_arm(&turning, "limits = { a = [-1, 1] }").scene.arm().joints[0].range, limit(-1.0, 1.0));
 }
 
-/// An RR arm in the (x, y) plane with both links 1 m long, which can fold onto its base.
+/// Loads an RR arm in the (x, y) plane with both links 1 m long, which can fold onto its base.
 fn folding() -> LoadedScene {
     let joint = |x: f64| TestJoint { revolute: true, xyz: [x, 0.0, 0.0], rpy: [0.0; 3], axis: [0.0, 0.0, 1.0] };
     let text = urdf([joint(0.0), joint(1.0)]).replace("0.3 -0.2 0.5", "1 0 0");

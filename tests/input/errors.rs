@@ -1,10 +1,10 @@
-//! Bad input of every kind: refused with the file, the line, what is wrong, and what to do about it.
+//! Invalid input of every kind: refused with the file, the line, the defect, and a hint.
 
 use cplan::input::{InputError, Loaded, Overrides, load};
 use cplan::model::Region;
 use std::fs;
 
-/// A healthy two-link arm in the (x, y) plane.
+/// A valid two-link arm in the (x, y) plane.
 pub const ARM: &str = r#"<robot name="arm">
   <link name="base"/>
   <joint name="j1" type="revolute">
@@ -29,7 +29,7 @@ pub const ARM: &str = r#"<robot name="arm">
 </robot>
 "#;
 
-/// A healthy world.
+/// A valid world.
 pub const WORLD: &str = r#"name = "test"
 [start]
 joints = [0.0, 0.5]
@@ -55,7 +55,7 @@ fn refused(result: Result<Loaded, InputError>, parts: &[&str]) {
     }
 }
 
-/// The arm with one piece of text replaced must be refused with these parts in the message.
+/// Checks that the arm with one piece of text replaced is refused with these parts in the message.
 fn bad_arm(from: &str, to: &str, parts: &[&str]) {
     assert!(ARM.contains(from), "{from}");
     let urdf = ARM.replacen(from, to, 1);
@@ -148,7 +148,7 @@ fn files_that_are_no_urdf() {
     refused(run("arm.urdf", WORLD), &["not well-formed XML"]);
     refused(run("arm.urdf", ""), &["arm.urdf", "not well-formed XML"]);
     refused(run("arm.urdf", "<html/>"), &["root element is <html>"]);
-    // Declaring the namespace alone is no xacro.
+    // A namespace declaration alone does not make a file xacro.
     let declared = ARM.replace("<robot", "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"");
     assert!(run("arm.urdf", &declared).is_ok());
     let folder = tempfile::tempdir().unwrap();
@@ -278,7 +278,7 @@ fn starts_and_goals_that_cannot_be() {
 
 #[test]
 fn touching_counts_as_contact() {
-    // The straight forearm reaches x = 2; the wall stands there.
+    // The straight forearm reaches x = 2, where the wall is.
     let wall = |x: f64| {
         let world = WORLD.replace("joints = [0.0, 0.5]", "joints = [0.0, 0.0]");
         format!("{world}[[obstacle]]\nname = \"wall\"\npolyline = [[{x}, -1], [{x}, 1]]\n")
@@ -349,7 +349,7 @@ polygon = [[0, 0], [0, 1], [1, 1]]
     assert!(matches!(&second.region, Region::Tip(polygon) if polygon.area() == 0.5));
 }
 
-/// A kilometre too far says how far numbers go.
+/// Numbers that are too large by a kilometre: the message states the bound.
 #[test]
 fn numbers_that_are_too_large_say_the_bound() {
     bad_arm("xyz=\"0.5 0 0\"", "xyz=\"1000500 0 0\"", &["line 9", "at most 1e6", "from -1e6 to 1e6"]);

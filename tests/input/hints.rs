@@ -1,20 +1,20 @@
-//! Hints that are applied: no hint leads to another error.
+//! Applied hints: following a hint never leads to another error.
 
 use super::errors::{ARM, WORLD, load_files};
 use cplan::input::Overrides;
 
-/// A file with a piece of its text replaced.
+/// Returns a file with a piece of its text replaced.
 fn with(text: &str, from: &str, to: &str) -> String {
     assert!(text.contains(from), "{from}");
     text.replacen(from, to, 1)
 }
 
-/// The world with a `[robot]` table.
+/// Returns the world with a `[robot]` table.
 fn robot(table: &str) -> String {
     with(WORLD, "[start]", &format!("[robot]\n{table}\n[start]"))
 }
 
-/// Files that are refused with a hint, and the same with the hint applied to either of them.
+/// Checks that files are refused with a hint, and that they load with the hint applied to either of them.
 fn holds([urdf, world]: [&str; 2], hint: &str, mended: &[[&str; 2]]) {
     let refused = load_files("arm.urdf", urdf, world, &Overrides::default()).expect_err(hint).to_string();
     let hints = refused.split("cure: ").skip(1).collect::<Vec<_>>().join("\n");
@@ -25,21 +25,21 @@ fn holds([urdf, world]: [&str; 2], hint: &str, mended: &[[&str; 2]]) {
     }
 }
 
-/// A slip in the URDF, and what the hint makes of it.
+/// Checks a mistake in the URDF, and the corrections that the hint suggests.
 fn of_arm(from: &str, slip: &str, hint: &str, mended: &[&str]) {
     let mended: Vec<String> = mended.iter().map(|text| with(ARM, from, text)).collect();
     let mended: Vec<[&str; 2]> = mended.iter().map(|urdf| [urdf.as_str(), WORLD]).collect();
     holds([&with(ARM, from, slip), WORLD], hint, &mended);
 }
 
-/// A slip in the world file, and what the hint makes of it.
+/// Checks a mistake in the world file, and the corrections that the hint suggests.
 fn of_world(from: &str, slip: &str, hint: &str, mended: &[&str]) {
     let mended: Vec<String> = mended.iter().map(|text| with(WORLD, from, text)).collect();
     let mended: Vec<[&str; 2]> = mended.iter().map(|world| [ARM, world.as_str()]).collect();
     holds([ARM, &with(WORLD, from, slip)], hint, &mended);
 }
 
-/// A `[robot]` table that does not fit, and what the hint makes of it.
+/// Checks an invalid `[robot]` table, and the corrections that the hint suggests.
 fn of_robot(slip: &str, hint: &str, mended: &[&str]) {
     let mended: Vec<String> = mended.iter().map(|table| robot(table)).collect();
     let mended: Vec<[&str; 2]> = mended.iter().map(|world| [ARM, world.as_str()]).collect();
@@ -75,7 +75,7 @@ fn hints_about_limits_of_the_robot() {
     let soft = "<safety_controller soft_lower_limit=\"4\" soft_upper_limit=\"5\" k_velocity=\"1\"/></joint>";
     let urdf = with(ARM, "</joint>", soft);
     holds([&urdf, WORLD], "limits = { j1 = [-3, 3] }", &[[&urdf, &robot("limits = { j1 = [-3, 3] }")]]);
-    // In degrees, or meant as they stand.
+    // In degrees, or correct as written.
     let urdf = with(ARM, limits, "lower=\"-150\" upper=\"132.5\"");
     let [degrees, radians] = ["[\"-150deg\", \"132.5deg\"]", "[-150, 132.5]"];
     let mended = [degrees, radians].map(|range| robot(&format!("limits = {{ j1 = {range} }}")));
@@ -215,17 +215,17 @@ fn hints_about_start_and_goal() {
     of_world(&format!("[goal]\n{goal}"), "", "[goal] joints = [q1, q2] or tip = [x, y]", &there);
     of_world(goal, "", "joints = [q1, q2], or tip = [x, y]", &["joints = [0.1, 0.2]", "tip = [1.0, 1.0]"]);
     of_world(goal, "tip = [3, 0]", "choose a point nearer by", &["tip = [1.5, 0]"]);
-    // Past limits alone there is no obstacle to move away from.
+    // If only limits are violated, there is no obstacle to move away from.
     let points = "choose another point, or override [robot] limits in the world file";
     let folded = with(WORLD, goal, "tip = [0, 0.1]");
     holds([ARM, &folded], points, &[[ARM, &with(WORLD, goal, "tip = [0, 1.5]")], [ARM, &override_limits(&folded)]]);
     of_world(goal, "tip = [-1.5, 0.1]", "move it away from the obstacle", &["tip = [-1.0, 0.9]"]);
-    // Some IK solutions are past limits, the others in contact: moved away it is free.
+    // Some IK solutions are past limits, the others in contact. A point farther away is free.
     let one_sided = with(ARM, "lower=\"-2\" upper=\"2\"", "lower=\"0\" upper=\"2\"");
     let both = with(WORLD, goal, "tip = [-1.5, 0.1]");
     let mended = with(WORLD, goal, "tip = [-1.0, 0.9]");
     holds([&one_sided, &both], &format!("{away}, or {points}"), &[[&one_sided, &mended]]);
-    // A point that the arm cannot fold back to is not reached from nearer by.
+    // A point that the arm cannot fold back to is not reachable from nearer by.
     let long = with(ARM, "<origin xyz=\"1 0 0\"/></joint>", "<origin xyz=\"0.4 0 0\"/></joint>");
     let near = with(WORLD, goal, "tip = [0.1, 0.0]");
     holds([&long, &near], "choose a point farther from joint 1", &[[&long, &with(WORLD, goal, "tip = [1.2, 0.0]")]]);

@@ -1,4 +1,4 @@
-//! The doctor: what it says of broken robots, of every shipped one, and of robots of the field as they are published.
+//! The command `inspect`: its reports on broken robots, on every shipped one, and on published robots.
 
 use crate::common::reference::published;
 use assert_cmd::Command;
@@ -34,7 +34,7 @@ const ARM: &str = r#"<robot name="arm">
 </robot>
 "#;
 
-/// The report on a URDF, with a world if one is given.
+/// Returns the report on a URDF, with a world if one is given.
 fn report(urdf: &str, world: Option<&str>) -> Inspection {
     let folder = tempfile::tempdir().unwrap();
     let (u, w) = (folder.path().join("arm.urdf"), folder.path().join("world.toml"));
@@ -109,7 +109,7 @@ fn single_diagnostics_leave_the_rest_of_the_report() {
             assert!(messages(&found).contains(part), "no {part} in {}", messages(&found));
         }
         assert_eq!(found.links.len(), 4, "{to}");
-        // One slip, one diagnostic: what follows from it is none.
+        // One mistake gives one diagnostic; its consequences give none.
         assert_eq!(found.errors.iter().map(|e| e.diagnostics().len()).sum::<usize>(), 1, "{}", messages(&found));
         assert_eq!(found.pairs.is_empty(), !to.starts_with("size"), "{to}");
         assert!(found.joints.iter().any(|j| j.name == "j2" && j.kind == "continuous" && j.line == 13), "{to}");
@@ -141,7 +141,7 @@ fn links_that_form_no_tree_are_listed_all_the_same() {
     assert!(messages(&no_world).contains("cannot be read") && no_world.outlines.len() == 2);
 }
 
-/// What the report prescribes must work: with the help as the world's table the robot loads.
+/// Checks that the suggested help works: with it as the world's table, the robot loads.
 fn help_works(urdf: &Path, found: &Inspection) {
     let Some(help) = &found.help else { return };
     let folder = tempfile::tempdir().unwrap();
@@ -169,7 +169,7 @@ fn shipped_robots_can_be_planned_with_or_have_help() {
     assert!(checked >= 8);
 }
 
-/// File; whether it can be planned with as it is; the pair that the report is about; parts of diagnostics and pairs.
+/// File; true if planning works without changes; the pair that the report is about; parts of diagnostics and pairs.
 type Expected = (&'static str, bool, Option<[&'static str; 2]>, &'static [&'static str]);
 const PUBLISHED: [Expected; 18] = [
     ("bullet_pantilt", false, Some(["pan_joint", "tilt_joint"]), &["these axes are not parallel"]),
@@ -209,10 +209,10 @@ fn published_robots_are_diagnosed() {
         for part in parts {
             assert!(all.contains(part), "{file}: no \"{part}\" in {all}");
         }
-        // Whatever has a planar pair is cured by what a world can say.
+        // If there is a planar pair, a table in the world file can solve the problem.
         assert_eq!(!plannable && found.pairs.iter().any(|p| p.planar), found.help.is_some(), "{file}");
         help_works(&path, &found);
-        // The report refuses what planning refuses, and for the same reason first.
+        // The report and planning refuse the same files, and give the same first reason.
         let empty = tempfile::NamedTempFile::new().unwrap();
         let loaded = load_scene(&path, empty.path()).err().map(|e| e.to_string());
         assert_eq!(found.errors.first().map(|e| e.to_string()), loaded, "{file}");
@@ -225,7 +225,7 @@ fn command(args: &[&str]) -> (i32, String, String) {
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }
 
-/// A SCARA whose quill turns, and whose hand nods: three pairs of neighbours would do, in two planes.
+/// Returns a SCARA whose quill turns and whose hand tilts: three pairs of neighbours are possible, in two planes.
 fn turning_quill(folder: &tempfile::TempDir) -> String {
     let urdf = std::fs::read_to_string("robots/scara.urdf").unwrap();
     assert!(urdf.contains("type=\"prismatic\""));
@@ -301,7 +301,8 @@ fn the_picture_shows_the_frames() {
     assert!(stderr.contains("no planar arm to draw"), "{stderr}");
 }
 
-/// Found by fuzzing: a joint that is held for want of a pair, with limits in the wrong order or one of them left out.
+/// Found by fuzzing: a joint that is held because there is no pair, with limits in the wrong order or one of them
+/// missing.
 #[test]
 fn reversed_limits_of_a_held_joint_are_reported_and_no_more() {
     let wrist = |limit: &str| {

@@ -1,4 +1,4 @@
-//! Robots, worlds, tasks and maps as they are read, and what is said of bad ones.
+//! Reading robots, worlds, tasks and maps, and the diagnostics of invalid ones.
 
 mod arms;
 #[path = "../common/mod.rs"]

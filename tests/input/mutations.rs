@@ -1,4 +1,5 @@
-//! Files with a slip of the pen, by the hundred: read or refused with place and help, never a panic, never a long wait.
+//! Hundreds of files with typing mistakes: read, or refused with place and hint, without a panic and without a long
+//! wait.
 
 use crate::common::dice;
 use crate::common::random::times;
@@ -34,7 +35,7 @@ epsilon = 0.1
 polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.6]]
 "#;
 
-/// So long may the reading of a small file take, on a machine that is busy.
+/// Longest time to read a small file on a busy machine.
 const TIME_LIMIT: Duration = Duration::from_secs(20);
 
 fn is_helpful(error: &InputError, text: &str) {
@@ -98,7 +99,7 @@ fn slips_in_tables_are_read_or_refused() {
     assert!(read > refused / 20 && refused > read / 20, "{read} {refused}");
 }
 
-/// A robot with most of what xacro has, and a file that it includes.
+/// A robot with most features of xacro, and a file that it includes.
 const XACRO: [(&str, &str); 2] = [
     ("arm.urdf.xacro", include_str!("../../robots/scara.urdf.xacro")),
     (

@@ -1,4 +1,4 @@
-//! Packages are found by the name that their `package.xml` has, whatever their folders are called.
+//! Packages are found by the name in their `package.xml`, not by the names of their folders.
 
 use cplan::input::load_scene;
 use std::fs;
@@ -24,7 +24,7 @@ fn urdf(mesh: &str) -> String {
     )
 }
 
-/// A repository with a package, its sibling, and one further down; none is called what its folder is.
+/// Creates a repository with a package, its sibling, and one further down. No package has the name of its folder.
 fn repository() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let root = folder.path();
@@ -60,7 +60,7 @@ fn meshes_are_found_by_the_name_in_package_xml() {
     assert!(error.contains("shapes-main/meshes/none.obj"), "{error}");
 }
 
-/// Another repository beside this one is none of its packages.
+/// Packages of a neighbouring repository are not found.
 #[test]
 fn the_search_ends_at_the_repository() {
     let outer = tempfile::tempdir().unwrap();

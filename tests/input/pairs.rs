@@ -2,7 +2,7 @@
 
 use cplan::input::{InputError, LoadedScene, Source, scene_from};
 
-/// Joints one after another, each as its axis; of an upright slide the axis is `(0, 0, 1)`, of which nobody makes an arm.
+/// Returns a chain of joints, each given by its axis. An upright slide has the axis `(0, 0, 1)`, which no arm can use.
 fn chain(joints: &[(&str, [f64; 3])]) -> String {
     let mut urdf = "<robot name=\"chain\"><link name=\"l0\"/>".to_owned();
     for (k, (kind, [x, y, z])) in joints.iter().enumerate() {
@@ -55,7 +55,7 @@ fn planar_pairs_in_several_planes_or_on_branches_are_refused_with_what_to_write(
         let error = loaded(&urdf).unwrap_err().to_string();
         assert!(error.contains("which two are to be planned for is not said"), "{error}");
         assert!(error.contains("[robot] joints = [\"j1\", \"j2\"], or [robot] joints = "), "{error}");
-        // What the hint says is enough.
+        // The hint is sufficient.
         let world = Source::in_memory("world.toml", "[robot]\njoints = [\"j1\", \"j2\"]\n");
         assert!(scene_from(Source::in_memory("chain.urdf", &*urdf), world).is_ok());
     }

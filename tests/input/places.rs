@@ -1,4 +1,4 @@
-//! Robots and obstacles that the world puts somewhere, against the same made there.
+//! Robots and obstacles that the world places, against the same geometry written at that place.
 
 use cplan::geometry::Point;
 use cplan::input::{LoadedScene, Overrides, Source, scene_from};
@@ -8,7 +8,7 @@ use cplan::{Options, Problem, plan};
 
 const ROBOTS: [&str; 5] = ["planar_2r", "slide_arm", "polar", "gantry", "l_forearm"];
 
-/// A turn and a shift with their closed forms.
+/// A turn and a translation with their closed forms.
 const AT: [f64; 2] = [0.4, -1.3];
 const ANGLE: f64 = 0.7;
 
@@ -50,7 +50,8 @@ fn a_robot_stands_where_the_world_puts_it() {
     }
 }
 
-/// Moved together, robot and obstacles leave the plan as it is; an obstacle put somewhere is the one with corners there.
+/// If robot and obstacles are moved together, the plan stays the same. A placed obstacle equals one with corners at
+/// that place.
 #[test]
 fn what_moves_together_plans_alike() {
     let ends = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";

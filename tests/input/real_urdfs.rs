@@ -1,6 +1,6 @@
-//! Robots of the field as their owners publish them: each plans in a small world, or is refused for the right reason.
+//! Published robots: each plans in a small world, or is refused for the right reason.
 //!
-//! The files are not part of the project: these tests are ignored unless they are asked for.
+//! The files are not part of the project, so these tests are ignored by default.
 
 use crate::common::reference::published;
 use cplan::input::{Overrides, load_scene};
@@ -10,7 +10,7 @@ use cplan_check::check_files;
 use std::path::Path;
 
 enum Outcome {
-    /// Kind of arm, where the two outlines come from, the tip's link.
+    /// Kind of arm, sources of the two outlines, the tip's link.
     Loads(&'static str, [OutlineSource; 2], &'static str),
     /// Parts of the message.
     Refused(&'static [&'static str]),
@@ -103,7 +103,7 @@ fn table() -> Vec<(&'static str, String, Outcome)> {
     ]
 }
 
-/// That the motion planned there has a certificate that holds.
+/// Checks that the motion planned there has a valid certificate.
 fn is_certified(urdf: &Path, world: &Path, certificate: &Path) {
     let problem = Problem::load(urdf, world).unwrap();
     let plan = cplan::plan(&problem, &Options::default()).unwrap();
@@ -150,7 +150,8 @@ fn published_robots_plan_or_are_refused_with_the_reason() {
     }
 }
 
-/// A mount offset, tilted boxes and stacked heights as in the tutorial robot: the arm's zero configuration is known by hand.
+/// A mount offset, tilted boxes and stacked heights as in the tutorial robot. The arm's zero configuration is known by
+/// hand.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_tutorial_scara_has_the_known_dimensions() {

@@ -1,5 +1,5 @@
-//! The JSON schema of world files, by an independent validator: it accepts what the program reads and refuses what it
-//! refuses for its form.
+//! The JSON schema of world files in an independent validator. It accepts what the program reads, and refuses files
+//! that the program refuses for their form.
 
 #[path = "../../examples/world_reference/page.rs"]
 mod page;
@@ -55,7 +55,8 @@ fn shipped_worlds_are_valid() {
     }
 }
 
-/// A world that has every key, in several files because kinds of goals, and goals and steps, exclude each other.
+/// Worlds that together have every key. Several files are needed, because kinds of goals, and goals and steps, exclude
+/// each other.
 const FULL: [&str; 3] = [
     r#"
 name = "full"
@@ -194,7 +195,7 @@ areas = [[[0.3, 0.4], [0.5, 0.6]]]
 "#,
 ];
 
-/// Every key of every table of the schema.
+/// Returns every key of every table of the schema.
 fn keys(schema: &Value) -> Vec<String> {
     let mut keys = Vec::new();
     if let Value::Object(object) = schema {
@@ -256,7 +257,7 @@ fn studies() -> jsonschema::Validator {
     jsonschema::draft7::new(&cplan::study::study_schema()).unwrap()
 }
 
-/// The schema of studies takes those that are shipped, and refuses what the program refuses for its form.
+/// The schema of studies accepts the shipped ones, and refuses files that the program refuses for their form.
 #[cfg(feature = "study")]
 #[test]
 fn studies_are_valid_and_others_are_not() {
@@ -271,7 +272,7 @@ fn studies_are_valid_and_others_are_not() {
     }
 }
 
-/// Every key has a description, so that editors have something to show.
+/// Every key has a description for editors to show.
 #[test]
 fn every_key_is_described() {
     fn check(schema: &Value, at: &str) {
@@ -357,7 +358,7 @@ fn broken_worlds_are_not_valid() {
     let robot = root().join("robots/planar_2r.urdf");
     for text in broken {
         assert!(!validator.is_valid(&json(text)), "{text}");
-        // The program is of the same opinion.
+        // The program agrees.
         let world = folder.path().join("world.toml");
         std::fs::write(&world, text).unwrap();
         assert!(cplan::input::load_scene(&robot, &world).is_err(), "{text}");

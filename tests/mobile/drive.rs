@@ -77,14 +77,14 @@ fn repulsion_pushes_away_and_its_printed_sign_does_not() {
         let law = Tanh { pull: 1.0, push: dice.within(0.01, 2.0), range: dice.within(0.5, 3.0) };
         let nearest = Nearest { distance: dice.within(0.05, law.range - 0.01), angle: dice.within(-3.1, 3.1) };
         let away = -Vector2::new(nearest.angle.cos(), nearest.angle.sin());
-        // At the target only the obstacle counts.
+        // At the target, only the obstacle counts.
         let velocity = law.velocity(at, at, nearest);
         assert!(velocity.dot(&away) > 0.0, "seed {seed}: {velocity}");
         assert!(velocity.iter().all(|u| u.abs() <= 1.0), "seed {seed}: {velocity}");
         let d = nearest.distance;
         let printed = (law.push * (1.0 / law.range - 1.0 / d) / (d * d) * away).map(f64::tanh);
         assert!(printed.dot(&away) < 0.0 && (printed + velocity).norm() < 1e-9, "seed {seed}: {printed}");
-        // And the printed attraction leads away from the goal.
+        // The printed attraction leads away from the goal.
         let goal = at + Vector2::new(dice.within(-3.0, 3.0), 1.0);
         let printed = (law.pull * (at - goal)).map(f64::tanh);
         let far = Nearest { distance: law.range, ..nearest };
@@ -95,7 +95,7 @@ fn repulsion_pushes_away_and_its_printed_sign_does_not() {
     }
 }
 
-/// Distance of a point to a line through corners.
+/// Returns the distance of a point to a line through corners.
 fn off_line(p: Point, corners: &[[f64; 2]]) -> f64 {
     let side = |w: &[[f64; 2]]| {
         let ([dx, dy], [px, py]) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [p.x - w[0][0], p.y - w[0][1]]);
@@ -105,7 +105,7 @@ fn off_line(p: Point, corners: &[[f64; 2]]) -> f64 {
     corners.windows(2).map(side).fold(f64::INFINITY, f64::min)
 }
 
-/// Plans among the obstacles and follows the plan; whether there was one.
+/// Plans among the obstacles and follows the plan. Returns true if there was a plan.
 fn followed(arm: &Arm, obstacles: Vec<Obstacle>, start: [f64; 2], goal: [f64; 2], what: &str) -> bool {
     let workspace = Workspace { clearance: DEVIATION, ..Workspace::new(obstacles) };
     let Ok(problem) = Problem::new(arm.clone(), workspace, start, goal) else { return false };
@@ -159,7 +159,8 @@ fn plans_in_random_worlds_are_followed() {
     assert!(plans >= 8 || !usual(), "only {plans} plans");
 }
 
-/// Without a plan: past what stands free, and into traps, as the source reports of a room.
+/// Without a plan, the controller passes free-standing obstacles, and is trapped in others, as the source reports of a
+/// room.
 #[test]
 fn without_a_plan_the_controller_arrives_in_the_open_and_is_trapped_in_corners() {
     let law = Tanh { pull: 1.0, push: 1.0, range: 1.0 };

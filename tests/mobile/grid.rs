@@ -14,7 +14,7 @@ fn floors() -> [Floor; 2] {
     ["explore/hall.toml", "explore/house.toml"].map(|world| Floor::load(world).unwrap_or_else(|e| panic!("{e}")))
 }
 
-/// Rays, against steps as long as the distance to the nearest obstacle, which end where that is nothing.
+/// Compares rays with walks whose steps are the distance to the nearest obstacle, and which end when that is 0.
 #[test]
 fn rays_end_where_steps_of_the_free_distance_end() {
     let floors = floors();
@@ -36,7 +36,7 @@ fn rays_end_where_steps_of_the_free_distance_end() {
             t += free;
         }
         let (range, expected) = (floor.range(from, angle, 8.0), f64::min(t, 8.0));
-        // A ray that grazes a side ends a little sooner by steps.
+        // A ray that grazes a side ends slightly earlier in the walk.
         assert!((range - expected).abs() < 1e-3, "seed {seed}: {range} from {from} at {angle}, not {expected}");
         met += usize::from(range < 8.0);
     }
@@ -52,7 +52,7 @@ fn places_have_the_published_rows_and_columns() {
     assert_eq!([cell(Point::new(20.0, -10.0)), cell(Point::new(-20.0, 10.0))], [[39, 79], [0, 0]]);
 }
 
-/// What a scan says of cells, against distances to the rays.
+/// Compares the cells that a scan marks with distances to the rays.
 #[test]
 fn a_scan_frees_what_rays_cross_and_marks_what_they_meet() {
     for floor in floors() {
@@ -73,13 +73,13 @@ fn a_scan_frees_what_rays_cross_and_marks_what_they_meet() {
                 assert!(free <= SIDE, "cell {at:?} is marked, {free} m from anything");
             }
         }
-        // It stands in a passage: something is near, and most is free.
+        // The robot is in a passage: some cells are near obstacles, and most are free.
         let [free, occupied, _] = map.counts();
         assert!(occupied > 5 && free > 100, "{free}, {occupied}");
     }
 }
 
-/// Forces of a single cell by hand, and that of a long wall, whose sum is close to the integral `2 / D`.
+/// Forces of a single cell by hand, and the force of a long wall, whose sum is close to the integral `2 / D`.
 #[test]
 fn forces_add_up() {
     let (at, target) = (Point::new(0.0, 0.0), Point::new(3.0, 4.0));

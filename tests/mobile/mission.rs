@@ -1,4 +1,4 @@
-//! The mission: no robot is ever in anything, and each leg ends as it is said.
+//! The mission: no robot ever hits anything, and each leg ends as reported.
 
 use crate::mobile::floor::Floor;
 use crate::mobile::forces::Ending;
@@ -14,7 +14,7 @@ fn floor(name: &str) -> Floor {
     Floor::load(&format!("explore/{name}.toml")).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// What was reached is reached, what was not is said to be as near as it came.
+/// Checks that reported goals are reached, and that the reported distance of a trapped robot is its least one.
 fn check(floor: &Floor, legs: &[Leg], stop: f64, what: &str) {
     assert_eq!(legs.len(), TARGETS.len());
     for (leg, (name, target)) in legs.iter().zip(TARGETS) {
@@ -24,7 +24,7 @@ fn check(floor: &Floor, legs: &[Leg], stop: f64, what: &str) {
         let (last, best) = (distances[distances.len() - 1], distances.iter().copied().fold(f64::INFINITY, f64::min));
         match leg.ending {
             Ending::Reached => assert!(last <= stop, "{what}: {last} m before it"),
-            // The least distance is noted once in a cycle and where 1 cm was gained.
+            // The least distance is recorded once per cycle, and after each gain of 1 cm.
             Ending::Trapped(short) => {
                 assert!(best > stop * 0.9 && short - best < 0.1 && short >= best, "{what}: {short}, {best}")
             }
@@ -61,7 +61,8 @@ fn forces_arrive_in_the_hall_and_are_trapped_in_the_house() {
     }
 }
 
-/// The map that the follower draws is the source's: what nobody saw is solid to fields. With it sweeps come near to the published ones.
+/// The map that the follower draws is the source's: unseen cells are solid for fields. With it, the number of sweeps is
+/// close to the published one.
 #[test]
 fn fields_on_the_followers_map_take_about_the_published_sweeps_and_lead_to_the_targets() {
     let hall = floor("hall");
@@ -77,8 +78,8 @@ fn fields_on_the_followers_map_take_about_the_published_sweeps_and_lead_to_the_t
     assert_eq!(reached(&legs), [true; 4]);
 }
 
-/// Around furniture a field that is relaxed as published leads nowhere; relaxed further it leads to the target, about which the controller
-/// may circle all the same, a little farther off than counts as reached.
+/// Around furniture, a field with the published tolerance leads nowhere. With a smaller tolerance it leads to the
+/// target. The controller may still circle about the target, slightly too far away to have reached it.
 #[test]
 fn around_furniture_the_published_tolerance_is_too_coarse() {
     let house = floor("house");
@@ -97,7 +98,7 @@ fn around_furniture_the_published_tolerance_is_too_coarse() {
     }
 }
 
-/// cplan's way, by two of its planners. Each leg is looked at every centimetre.
+/// cplan's own method, with two of its planners. Each leg is checked every centimetre.
 #[test]
 fn the_explorer_reaches_every_target_of_both_rooms() {
     for name in ["hall", "house"] {

@@ -1,19 +1,20 @@
-//! Distances by formulas of the test's own: to segments and discs, and whether a place is inside.
+//! Distances by the test's own formulas: to segments and discs, and whether a place is inside a polygon.
 
 use cplan::Point;
 use cplan::model::{Scene, Shape};
 
-/// The radius of the robot's body, `robots/mobile_robot.urdf`, metres.
+/// Radius of the robot's body, `robots/mobile_robot.urdf`, metres.
 pub const RADIUS: f64 = 0.25;
 
-/// Distance of a point to a segment: to the foot of the perpendicular if it lies on it, else to the nearer end.
+/// Returns the distance of a point to a segment: to the foot of the perpendicular if it lies on it, otherwise to the
+/// nearer end.
 fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     let ([dx, dy], [px, py]) = ([b.x - a.x, b.y - a.y], [p.x - a.x, p.y - a.y]);
     let share = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
     (px - share * dx).hypot(py - share * dy)
 }
 
-/// Whether a ray to the right crosses the sides an odd number of times.
+/// Returns true if a ray to the right crosses the sides an odd number of times.
 fn is_inside(p: Point, corners: &[Point]) -> bool {
     let crosses = |k: &usize| {
         let (a, b) = (corners[*k], corners[(*k + 1) % corners.len()]);
@@ -22,7 +23,7 @@ fn is_inside(p: Point, corners: &[Point]) -> bool {
     (0..corners.len()).filter(crosses).count() % 2 == 1
 }
 
-/// Distance between a robot's body in a place and a shape as the user gave it; not positive where they meet.
+/// Returns the distance between a robot's body at a place and a shape of the world file; not positive if they meet.
 fn to_shape(p: Point, shape: &Shape) -> f64 {
     let open = |corners: &[Point]| corners.windows(2).map(|w| to_segment(p, w[0], w[1])).fold(f64::INFINITY, f64::min);
     let distance = match shape {
@@ -35,12 +36,12 @@ fn to_shape(p: Point, shape: &Shape) -> f64 {
     distance - RADIUS
 }
 
-/// Distance between a robot's body in a place and the nearest obstacle.
+/// Returns the distance between a robot's body at a place and the nearest obstacle.
 pub fn gap(scene: &Scene, p: Point) -> f64 {
     scene.workspace().obstacles.iter().map(|obstacle| to_shape(p, &obstacle.shape)).fold(f64::INFINITY, f64::min)
 }
 
-/// The least such distance along a way, whose points are close together.
+/// Returns the least such distance along a path whose points are close together.
 pub fn least_gap(scene: &Scene, way: &[Point]) -> f64 {
     way.iter().map(|&p| gap(scene, p)).fold(f64::INFINITY, f64::min)
 }

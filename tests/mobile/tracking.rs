@@ -49,7 +49,7 @@ fn the_desired_point_goes_along_the_line_and_rests_at_its_end() {
     assert_eq!((at(6.0).at, at(60.0).velocity.norm()), (Point::new(2.0, 1.0), 0.0));
 }
 
-/// Distance of a point to a line through corners.
+/// Returns the distance of a point to a line through corners.
 fn off_line(p: Point, corners: &[[f64; 2]]) -> f64 {
     let side = |w: &[[f64; 2]]| {
         let ([dx, dy], [px, py]) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [p.x - w[0][0], p.y - w[0][1]]);

@@ -8,7 +8,7 @@ use cplan::motion::{Limits, time};
 use cplan::space::{Configuration, Path, Recording};
 use proptest::prelude::*;
 
-/// Least distance at `n` places of each blend, by the definition of the curve.
+/// Returns the least distance at `n` places of each blend, by the definition of the curve.
 fn sampled(scene: &Scene, waypoints: &[Configuration], radii: &[f64], n: u32) -> f64 {
     let mut least = f64::INFINITY;
     for i in 1..waypoints.len() - 1 {
@@ -46,11 +46,11 @@ proptest! {
         prop_assert!(curve.clearance() >= asked + 0.5 * (path.clearance() - asked));
         let nearest = curve.nearest().expect("there are obstacles");
         prop_assert!((scene.clearance(nearest.at) - nearest.contact.separation.distance).abs() < 1e-12);
-        // Smaller radii keep no less.
+        // Smaller radii keep at least this clearance.
         let small = blend(&scene, &path, 0.01, asked);
         prop_assert!(small.curve().radii().iter().all(|radius| *radius <= 0.01));
 
-        // The motion as others read it: the cubic through positions and velocities.
+        // The motion as other readers interpolate it: the cubic through positions and velocities.
         let trajectory = time(curve.clone(), &Limits::from(&scene.arm().joints), 0.02).unwrap().trajectory;
         let rows = |rows: &[[f64; 2]]| rows.iter().map(|row| q(row[0], row[1])).collect();
         let recording =
@@ -63,7 +63,7 @@ proptest! {
     }
 }
 
-/// Around a post that the straight path clears by little: the blend is as large as the room allows, and not larger.
+/// Around a post that the straight path clears by little, the blend is as large as the room allows, and not larger.
 #[test]
 fn the_clearance_bounds_the_radius() {
     // A tool of radius 0.1 at (x, y), a post inside the right angle of its path.
@@ -80,7 +80,7 @@ fn the_clearance_bounds_the_radius() {
     assert!(curve.clearance() >= 0.5 * path.clearance() && curve.clearance() <= middle(radius));
     assert!(radius > 0.25 && radius < 0.9, "{radius}");
     assert!(middle(1.3 * radius) < 0.5 * path.clearance() / 0.9, "{radius} could be larger");
-    // A clearance that leaves no room leaves the corner.
+    // A clearance that leaves no room keeps the corner sharp.
     let tight = blend(&scene, &path, f64::INFINITY, path.clearance());
     assert_eq!(tight.curve().radii(), [0.0; 3]);
 }

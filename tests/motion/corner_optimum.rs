@@ -1,10 +1,11 @@
-//! Motions with limits on jerks, through corners, against the least time along the curve that they are driven on: by an interior-point
-//! method on a fine grid, which shares nothing with the library's.
+//! Motions with limits on jerks, through corners, against the least time along their curve. An interior-point method on
+//! a fine grid computes it, which shares nothing with the library's.
 //!
-//! Let `q(s)` be the curve, `s` the motion's own time, and let it be driven anew, so that it is at `s(t)` after `t` seconds. With `z` the
-//! square of the rate of `s`, and derivatives by `s`, velocities are `q' z^(1/2)`, accelerations `q'' z + q' z' / 2`, and jerks
-//! `z^(1/2) (q''' z + 3 q'' z' / 2 + q' z'' / 2)`; the time is the integral of `z^(-1/2)`. The motion itself is `z = 1`. It begins and ends with
-//! all of its jerk alone, so that `z` need not vanish there.
+//! Let `q(s)` be the curve, with `s` the time of the motion. A second motion along the same curve is at `s(t)` after
+//! `t` seconds. Let `z` be the square of the rate of `s`, and take derivatives by `s`. Then velocities are `q'
+//! z^(1/2)`, accelerations `q'' z + q' z' / 2`, and jerks `z^(1/2) (q''' z + 3 q'' z' / 2 + q' z'' / 2)`; the time is
+//! the integral of `z^(-1/2)`. The motion itself has `z = 1`. It begins and ends with a non-zero jerk only, so `z` need
+//! not vanish there.
 
 use crate::common::placed;
 use crate::sampled::as_vector;
@@ -13,7 +14,7 @@ use cplan::model::Scene;
 use cplan::motion::{Drive, Trajectory};
 use cplan::space::Configuration;
 
-/// Greatest velocity, acceleration and jerk of each joint.
+/// Limits of velocity, acceleration and jerk of each joint.
 type Most = [[f64; 2]; 3];
 
 fn room([velocity, acceleration, jerk]: Most) -> Scene {
@@ -22,13 +23,14 @@ fn room([velocity, acceleration, jerk]: Most) -> Scene {
     placed(arm, workspace)
 }
 
-/// The motion about the corners of a path, as a user gets it.
+/// Returns the motion about the corners of a path, as a user gets it.
 fn driven(waypoints: &[[f64; 2]], most: Most) -> Trajectory {
     let scene = room(most);
     Drive::default().along(&scene, &certified(&scene, waypoints), 1.0).unwrap().trajectory
 }
 
-/// The three derivatives of a motion whose jerk is constant between samples, at so many equal steps from its beginning to its end.
+/// Returns the three derivatives of a motion with constant jerk between samples, at `steps` equal steps from its
+/// beginning to its end.
 fn derivatives(motion: &Trajectory, steps: usize) -> Vec<[Configuration; 3]> {
     let (times, mut k) = (&motion.time, 0);
     let at = |step: usize| {
@@ -53,7 +55,7 @@ struct Condition {
 }
 
 impl Condition {
-    /// The slack, its gradient and its second derivatives.
+    /// Returns the slack, its gradient and its second derivatives.
     fn slack(&self, z: &[f64]) -> (f64, [f64; 3], [[f64; 3]; 3]) {
         let i = self.at;
         let around = [z[i.saturating_sub(1)], z[i], z[(i + 1).min(z.len() - 1)]];
@@ -75,10 +77,12 @@ impl Condition {
     }
 }
 
-/// So many nodes from either end accelerations are held to the time that is left for them: in between nodes no jerk is looked at.
+/// Number of nodes near each end at which accelerations are bounded by the remaining time. Between nodes, no jerk is
+/// checked.
 const NEAR_ENDS: usize = 8;
 
-/// What the joints' limits ask of `z` at each node; nodes at both ends have no neighbours there, and need none: the arm is at rest.
+/// Returns the conditions of the joints' limits on `z` at each node. Nodes at both ends have no neighbours, and need
+/// none: the arm is at rest.
 fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<Condition> {
     let mut all = Vec::new();
     for (at, [first, second, third]) in nodes.iter().enumerate() {
@@ -92,7 +96,7 @@ fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<C
             for sign in [-1.0, 1.0] {
                 all.push(Condition { at, weights: pull.map(|w| sign * w / a[k]), has_root: false });
                 all.push(Condition { at, weights: jerk.map(|w| sign * w / j[k]), has_root: true });
-                // All of the acceleration has to come, and go, within the time from the beginning, or to the end.
+                // The whole acceleration has to build up since the beginning, and vanish before the end.
                 let steps = at.min(nodes.len() - 1 - at);
                 if (1..=NEAR_ENDS).contains(&steps) {
                     let most = j[k] * steps as f64 * step;
@@ -104,7 +108,8 @@ fn conditions(nodes: &[[Configuration; 3]], step: f64, [v, a, j]: Most) -> Vec<C
     all
 }
 
-/// Solves `A x = b` for a symmetric `A` of five diagonals: the middle one, and those one and two beside it. None unless it is positive definite.
+/// Solves `A x = b` for a symmetric `A` of five diagonals: the middle one, and those one and two beside it. Returns
+/// `None` unless it is positive definite.
 fn solved(middle: &[f64], beside: [&[f64]; 2], b: &[f64]) -> Option<Vec<f64>> {
     let n = middle.len();
     let (mut d, mut l, mut x) = (vec![0.0; n], [vec![0.0; n], vec![0.0; n]], b.to_vec());
@@ -135,13 +140,13 @@ fn solved(middle: &[f64], beside: [&[f64]; 2], b: &[f64]) -> Option<Vec<f64>> {
     Some(x)
 }
 
-/// The time, by the trapezoidal rule.
+/// Returns the time, by the trapezoidal rule.
 fn time(z: &[f64], step: f64) -> f64 {
     let half = |i: usize| if i == 0 || i + 1 == z.len() { 0.5 } else { 1.0 };
     z.iter().enumerate().map(|(i, z)| half(i) * step / z.sqrt()).sum()
 }
 
-/// Time with a barrier of this height before the limits; infinite beyond them.
+/// Returns the time with a barrier of this height before the limits; infinite beyond them.
 fn merit(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> f64 {
     if z.iter().any(|&z| z.is_nan() || z <= 0.0) {
         return f64::INFINITY;
@@ -153,7 +158,7 @@ fn merit(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> f64 {
     time(z, step) + height * barrier.sum::<f64>()
 }
 
-/// A step of Newton's method, made positive definite by as little as it takes.
+/// Returns a step of Newton's method, made positive definite by the smallest sufficient change.
 fn newton(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> (Vec<f64>, f64) {
     let n = z.len();
     let (mut gradient, mut middle, mut one, mut two) = (vec![0.0; n], vec![0.0; n], vec![0.0; n], vec![0.0; n]);
@@ -185,7 +190,7 @@ fn newton(z: &[f64], step: f64, conditions: &[Condition], height: f64) -> (Vec<f
     }
 }
 
-/// The least time along the curve of a motion, in so many steps, from this share of its speed on.
+/// Returns the least time along the curve of a motion, in this many steps, starting from this fraction of its speed.
 fn optimum(motion: &Trajectory, most: Most, steps: usize, from: f64) -> f64 {
     let step = motion.duration() / steps as f64;
     let conditions = conditions(&derivatives(motion, steps), step, most);
@@ -214,7 +219,7 @@ fn optimum(motion: &Trajectory, most: Most, steps: usize, from: f64) -> f64 {
 /// Waypoints and limits.
 type Case = (&'static [[f64; 2]], Most);
 
-/// By what share a motion takes longer than the least time along its curve, at the most.
+/// Largest fraction by which a motion takes longer than the least time along its curve.
 const LONGER: f64 = 0.01;
 
 /// Right angles, gentle turns, hairpins, short legs between long ones, one joint far slower than the other.
@@ -242,10 +247,11 @@ const PATHS: [Case; 12] = [
     ),
 ];
 
-/// Limits are kept at the steps, and may be exceeded in between: steps are halved until that makes no more difference than this share.
+/// Limits hold at the steps, and may be exceeded in between. The steps are halved until the difference is below this
+/// fraction.
 const OFF: f64 = 5e-3;
 
-/// The most steps that are tried.
+/// Largest number of steps.
 const MOST_STEPS: usize = 20_000;
 
 #[test]
@@ -267,7 +273,7 @@ fn near_the_least_time_along_the_same_curve() {
     }
 }
 
-/// The limits on jerks do not make a convex problem: from elsewhere the same is found.
+/// The limits on jerks do not make a convex problem, but the result is the same from another beginning.
 #[test]
 fn the_least_time_is_the_same_from_anywhere() {
     for &(waypoints, most) in [PATHS[1], PATHS[4], PATHS[7]].iter() {
@@ -277,7 +283,8 @@ fn the_least_time_is_the_same_from_anywhere() {
     }
 }
 
-/// In closed form: a long way at top speed between whole ramps, `L / v + v / a + a / j`. The motions that are driven anew are gentler ones.
+/// Closed form for a long segment at top speed between complete ramps: `L / v + v / a + a / j`. The motions of the test
+/// are gentler.
 #[test]
 fn along_straight_lines_the_least_time_is_known() {
     let motion = driven(&[[0.0, 0.0], [1.0, 0.5]], [[0.7, 0.7], [3.0, 3.0], [20.0, 20.0]]);

@@ -15,8 +15,9 @@ fn room(velocity: [f64; 2], acceleration: [f64; 2], jerk: [Option<f64>; 2]) -> S
     placed(arm, workspace)
 }
 
-/// The shortest duration from rest to rest in closed form, by which limits are reached (Biagiotti, Melchiorri,
-/// *Trajectory planning for automatic machines and robots*, 2008, section 3.4), and how long the shortest phase lasts.
+/// Returns the shortest duration from rest to rest in closed form, by the limits that are reached (Biagiotti,
+/// Melchiorri, *Trajectory planning for automatic machines and robots*, 2008, section 3.4), and the duration of the
+/// shortest phase.
 fn closed_form(length: f64, v: f64, a: f64, j: f64) -> (f64, f64) {
     let ramp = if v * j >= a * a { v / a + a / j } else { 2.0 * (v / j).sqrt() };
     if v * ramp <= length {
@@ -32,8 +33,8 @@ fn closed_form(length: f64, v: f64, a: f64, j: f64) -> (f64, f64) {
     (whole, whole / 4.0)
 }
 
-/// The shortest duration of a motion that stops at each corner, and by how much the least interval between samples may
-/// lengthen it.
+/// Returns the shortest duration of a motion that stops at each corner, and the time by which the least interval
+/// between samples may lengthen it.
 fn shortest(points: &[Configuration], joints: &[Joint; 2]) -> (f64, f64) {
     let (mut sum, mut floor) = (0.0, 0.0);
     for leg in points.windows(2).map(|pair| pair[1] - pair[0]).filter(|leg| leg.norm() > 0.0) {
@@ -43,7 +44,7 @@ fn shortest(points: &[Configuration], joints: &[Joint; 2]) -> (f64, f64) {
         };
         let (v, a) = (least(&|joint| joint.velocity), least(&|joint| joint.acceleration));
         let j = least(&|joint| joint.jerk.unwrap_or(f64::INFINITY));
-        // Without a limit its formulas hold, too: nothing grows.
+        // The formulas also hold without a limit on the jerk.
         let (whole, phase) = closed_form(leg.norm(), v, a, j);
         sum += whole;
         // Seven phases of whole nanoseconds.
@@ -52,8 +53,8 @@ fn shortest(points: &[Configuration], joints: &[Joint; 2]) -> (f64, f64) {
     (sum, floor)
 }
 
-/// The jerk alone, from rest at the start: its integrals are accelerations, velocities and positions of all samples, and
-/// the last are at rest. And the limits, between samples too.
+/// Integrates only the jerk, from rest at the start. The integrals must be the accelerations, velocities and positions
+/// of all samples, and the last sample must be at rest. Checks the limits, also between samples.
 fn check(joints: &[Joint; 2], timed: &Timed) {
     let trajectory = &timed.trajectory;
     let path = timed.curve.curve().path();
@@ -63,7 +64,7 @@ fn check(joints: &[Joint; 2], timed: &Timed) {
     let ends = [trajectory.velocity[0], trajectory.velocity[n - 1], trajectory.acceleration[n - 1]];
     assert_eq!(ends, [[0.0; 2]; 3]);
     let size = path.waypoints().iter().map(|q| q.amax()).fold(1.0, f64::max);
-    // Rounding of a position, and what it makes of derivatives over an interval.
+    // Rounding of a position, and its effect on derivatives over an interval.
     let rounding = 32.0 * f64::EPSILON * size;
     for (k, joint) in joints.iter().enumerate() {
         let Some(jerk) = joint.jerk else { continue };
@@ -110,7 +111,7 @@ fn seven_phases_on_each_leg_of_a_right_angle() {
     let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
     let timed = time(curve(&scene, &points, 0.3), &Limits::from(&scene.arm().joints), 1.0).unwrap();
     check(&scene.arm().joints, &timed);
-    // L / v + v / a + a / j, twice; samples at the ends of the phases and nowhere else, but for the second at 1 s.
+    // L / v + v / a + a / j, twice. Samples lie only at the ends of the phases, and at 1 s because of the period.
     let trajectory = &timed.trajectory;
     assert!((trajectory.duration() - (1.0 + 0.25 + 0.1) - (1.0 + 0.25 + 0.2)).abs() < 1e-8);
     let expected = [0.0, 0.1, 0.25, 0.35, 1.0, 1.1, 1.25, 1.35, 1.55, 1.6, 1.8, 2.0, 2.35, 2.55, 2.6, 2.8];
@@ -128,7 +129,7 @@ fn a_joint_without_a_limit_may_jump_where_it_moves_alone() {
     };
     let alone = along(&[[0.0, 0.0], [1.0, 0.0]]);
     assert_eq!((alone.acceleration[0], alone.duration()), ([4.0, 0.0], 1.25));
-    // In step with the other it grows as gently as that.
+    // In step with the other joint, the acceleration grows as gently as that joint's.
     let both = along(&[[0.0, 0.0], [1.0, 1.0]]);
     assert!((both.duration() - 1.45).abs() < 1e-8 && both.acceleration[0] == [0.0; 2]);
 }
@@ -145,7 +146,7 @@ fn less_speed_takes_that_much_longer() {
 
 #[test]
 fn a_jump_of_the_acceleration_is_a_broken_limit() {
-    // Timed without the limit, judged with it.
+    // Timed without the limit, verified with it.
     let scene = room([1.0, 1.0], [4.0, 4.0], [None, None]);
     let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.5]], 0.3), &Limits::from(&scene.arm().joints), 0.01).unwrap();
     let smooth = room([1.0, 1.0], [4.0, 4.0], [None, Some(1000.0)]);
@@ -170,7 +171,7 @@ fn the_tip_keeps_its_limit() {
     let limits = Limits { tip: Some(TipSpeed { arm: scene.arm(), speed: 0.5 }), ..Limits::from(&scene.arm().joints) };
     let timed = time(curve(&scene, &[[0.0, 0.0], [0.3, 0.4], [1.0, 0.4]], 0.3), &limits, 0.01).unwrap();
     check(&scene.arm().joints, &timed);
-    // On a gantry the tip is where the joints are.
+    // On a gantry, the tip is at the joint values.
     let top = timed.trajectory.velocity.iter().map(|v| as_vector(*v).norm()).fold(0.0, f64::max);
     assert!((0.499..=0.5 + 1e-12).contains(&top), "{top}");
 }
@@ -203,7 +204,7 @@ proptest! {
 proptest! {
     #![proptest_config(cplan_cases::cases(2000))]
 
-    /// One joint, from what an arm does to far beyond it.
+    /// One joint, from the values of an arm to far beyond them.
     #[test]
     fn as_fast_as_in_closed_form(
         length in -12.0..2.0_f64, speed in -3.0..4.0_f64, acceleration in -3.0..6.0_f64, jerk in -3.0..9.0_f64,

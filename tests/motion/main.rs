@@ -1,4 +1,4 @@
-//! Motions on blended paths: what they follow, what they keep, and how near they are to the optimum.
+//! Motions on blended paths: their curves, their limits and clearances, and their distance from the optimum.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -23,7 +23,7 @@ use cplan::model::{JointType, Scene};
 use cplan::space::{JointRange, Path};
 use proptest::prelude::*;
 
-/// A gantry in an empty room: nothing keeps a blend from being as large as asked for.
+/// Returns a gantry in an empty room, where a blend can be as large as requested.
 fn empty(velocity: [f64; 2], acceleration: [f64; 2]) -> Scene {
     let slide = |k: usize, x, y| {
         let range = JointRange::Interval { lower: -100.0, upper: 100.0 };
@@ -44,14 +44,14 @@ fn curve(scene: &Scene, waypoints: &[[f64; 2]], radius: f64) -> CertifiedCurve {
     blend(scene, &certified(scene, waypoints), radius, 0.0)
 }
 
-/// Limits of two joints that differ by up to a thousand.
+/// Generates limits of two joints that differ by a factor of up to a thousand.
 fn limits() -> impl Strategy<Value = [[f64; 2]; 2]> {
     let power = |range: std::ops::Range<f64>| range.prop_map(|e| 10f64.powf(e));
     let both = move |range: std::ops::Range<f64>| [power(range.clone()), power(range)];
     (both(-1.0..1.0), both(-0.5..2.5)).prop_map(|(velocity, acceleration)| [velocity, acceleration])
 }
 
-/// Paths with long and short legs, sharp and gentle corners.
+/// Generates paths with long and short legs, sharp and gentle corners.
 fn waypoints() -> impl Strategy<Value = Vec<[f64; 2]>> {
     let turn = prop_oneof![-3.2..3.2_f64, -0.3..0.3_f64, Just(std::f64::consts::PI), Just(0.0)];
     prop::collection::vec((-2.5..0.7_f64, turn), 1..7).prop_map(|legs| {

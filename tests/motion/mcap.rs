@@ -1,15 +1,16 @@
-//! Recordings, read back by the MCAP crate's reader and a decoder of CDR that shares no code with the writer: it knows
-//! where a value lies from the standard's rule alone. `tests/python/read_mcap.py` reads the same with other people's code.
+//! Recordings, read back by the MCAP crate's reader and a decoder of CDR that shares no code with the writer. The
+//! decoder derives the place of each value only from the rule of the standard. `tests/python/read_mcap.py` reads the
+//! same files with independent libraries.
 
 use cplan::motion::{JointMotion, mcap};
 use mcap_reader::read::{LinearReader, MessageStream, Summary};
 use mcap_reader::records::Record;
 use proptest::prelude::*;
 
-/// The crate, under a name that is not the function's.
+/// The crate, under a name that differs from the function's.
 use ::mcap as mcap_reader;
 
-/// Takes values off the front of a message.
+/// A reader that takes values off the front of a message.
 pub struct Decoder<'a> {
     message: &'a [u8],
     at: usize,
@@ -50,7 +51,7 @@ impl<'a> Decoder<'a> {
         (0..self.word()).map(|_| self.string()).collect()
     }
 
-    /// A time in whole nanoseconds.
+    /// Reads a time in whole nanoseconds.
     pub fn time(&mut self) -> u64 {
         let (seconds, rest) = (self.word(), self.word());
         assert!(seconds <= i32::MAX as u32 && rest < 1_000_000_000);
@@ -80,7 +81,7 @@ pub struct Motion {
     pub points: Vec<[Vec<f64>; 3]>,
 }
 
-/// Everything in a file, after checks of what is the same in all.
+/// Reads everything in a file, after checks of the common structure.
 pub fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
     let (mut states, mut motions) = (Vec::new(), Vec::new());
     for message in MessageStream::new(file).unwrap() {
@@ -91,7 +92,7 @@ pub fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
         assert_eq!(message.publish_time, message.log_time);
         let log = message.log_time;
         if !channel.topic.starts_with("/joint_") {
-            // What shows the motion: `recorded_scene`.
+            // `recorded_scene` tests the pictures of the motion.
             continue;
         }
         let mut from = Decoder::new(&message.data);
@@ -121,7 +122,7 @@ pub fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
     (states, motions)
 }
 
-/// Samples after each other by these steps, of these values, with accelerations.
+/// Returns a trajectory with samples at these steps and with these values, with accelerations.
 fn trajectory(joints: &[String], steps: &[f64], values: &[[f64; 6]]) -> JointMotion {
     let time = steps.iter().scan(-steps[0], |t, step| {
         *t += step;
@@ -182,7 +183,7 @@ fn motions_without_a_pause_between_them_share_a_state() {
 
 #[test]
 fn a_file_of_many_chunks() {
-    // Some 250 bytes a sample, and a chunk is a megabyte.
+    // A sample has some 250 bytes, and a chunk is a megabyte.
     let many = 20_000;
     let values: Vec<[f64; 6]> = (0..many).map(|k| [k as f64; 6]).collect();
     let motion = trajectory(&names(), &vec![1e-3; many], &values);

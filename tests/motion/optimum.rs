@@ -1,4 +1,4 @@
-//! Durations against an optimum that is computed on a fine grid, by code that shares nothing with the library's.
+//! Durations against an optimum on a fine grid, by code that shares nothing with the library's.
 
 use crate::common::q;
 use crate::{certified, curve, empty, limits, waypoints};
@@ -14,8 +14,8 @@ struct Grid {
     nodes: Vec<[Configuration; 3]>,
 }
 
-/// The stretches of a curve from its waypoints and radii, `per_unit` steps to a unit of length; several grids where the
-/// motion has to stop.
+/// Returns grids along a curve from its waypoints and radii, with `per_unit` steps per unit of length. There are
+/// several grids if the motion has to stop.
 fn grids(curve: &CertifiedCurve, per_unit: f64) -> Vec<Vec<Grid>> {
     let (points, radii) = (curve.curve().path().waypoints(), curve.curve().radii());
     let mut runs = vec![vec![]];
@@ -47,11 +47,12 @@ fn grids(curve: &CertifiedCurve, per_unit: f64) -> Vec<Vec<Grid>> {
     runs
 }
 
-/// The accelerations of the parameter that a squared speed allows at a node; none if the joints cannot keep to the path.
+/// Returns the range of accelerations of the parameter at a node with a squared speed; `None` if the joints cannot
+/// follow the path.
 fn allowed([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> Option<[f64; 2]> {
     let mut range = [f64::NEG_INFINITY, f64::INFINITY];
     if let Some(tip) = limits.tip {
-        // Central differences: the tip's way by the parameter.
+        // Central differences: the tip's velocity by the parameter.
         let step = 1e-6;
         let way = (tip.arm.tip_at(at + first * step) - tip.arm.tip_at(at - first * step)).norm() / (2.0 * step);
         if way * way * z > tip.speed * tip.speed {
@@ -75,7 +76,7 @@ fn allowed([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> 
     (range[0] <= range[1]).then_some(range)
 }
 
-/// The greatest value that is good, of values that are good up to somewhere.
+/// Returns the greatest good value by bisection; values are good up to some limit.
 fn bisected(good: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, 1e6);
     for _ in 0..80 {
@@ -85,7 +86,7 @@ fn bisected(good: impl Fn(f64) -> bool) -> f64 {
     low
 }
 
-/// The least time along the curve: controllable squared speeds backwards, the greatest of them forwards.
+/// Returns the least time along the curve: controllable squared speeds backwards, and the greatest of them forwards.
 fn optimum(curve: &CertifiedCurve, limits: &Limits, per_unit: f64) -> f64 {
     let mut total = 0.0;
     for run in grids(curve, per_unit) {
@@ -117,7 +118,7 @@ fn duration(scene: &Scene, curve: impl Into<CertifiedCurve>) -> f64 {
     time(curve, &Limits::from(&scene.arm().joints), 0.01).unwrap().trajectory.duration()
 }
 
-/// Random motions take so many times the least time at the most: 1.019 in the worst of 20 480.
+/// Largest ratio of the time of a random motion to the least time: 1.019 in the worst of 20 480.
 const MOST: f64 = 1.03;
 
 /// Waypoints, limits of velocity and of acceleration, radius.
@@ -164,13 +165,13 @@ fn straight_motions_are_bang_bang() {
     // 1 m at 2 m/s2 and 0.5 m/s: 0.25 s to top speed, 0.0625 m.
     let scene = empty([0.5, 0.5], [2.0, 2.0]);
     assert!((duration(&scene, curve(&scene, &[[0.0, 0.0], [1.0, 0.0]], 1.0)) - 2.25).abs() < 1e-12);
-    // A corner without a turn costs next to nothing.
+    // A corner without a turn costs almost nothing.
     let split = duration(&scene, curve(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]], 1.0));
     assert!((2.25..2.25 * 1.01).contains(&split), "{split}");
     assert!(duration(&scene, certified(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]])) > 2.49);
 }
 
-/// The tip's speed is bounded part by part, from which it loses a little on straight pieces.
+/// The tip's speed is bounded part by part, which loses a little on straight pieces.
 #[test]
 fn a_slow_tip_is_as_fast_as_it_may() {
     for (kind, arm) in crate::common::all_kinds().into_iter().enumerate() {
@@ -217,7 +218,7 @@ proptest! {
         let least = |per_unit| optimum(&timed.curve, &Limits::from(&scene.arm().joints), per_unit);
         let took = timed.trajectory.duration();
         let close = |least: f64| took <= least * MOST && took >= least * 0.995;
-        // The oracle is exact to a hundredth with coarse steps, where limits are far apart.
+        // With coarse steps, the oracle is exact to a hundredth if limits differ strongly.
         prop_assert!(close(least(300.0)) || close(least(3000.0)), "{took} {} {:?}", least(3000.0), timed.curve.curve().radii());
     }
 }

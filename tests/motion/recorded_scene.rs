@@ -1,5 +1,5 @@
-//! What recordings show, decoded by the rule of the standard: frames are where the states say, by trigonometry; surfaces
-//! are closed, and hold the volume that they should.
+//! Pictures in recordings, decoded by the rule of the standard. Frames are at the places of the states, by
+//! trigonometry. Surfaces are closed, and have the right volume.
 
 use crate::mcap::Decoder;
 use ::mcap::read::MessageStream;
@@ -20,18 +20,18 @@ struct Marker {
     corners: Vec<Place>,
 }
 
-/// What a file shows.
+/// The content of a file.
 #[derive(Default)]
 struct Shown {
-    /// By time and frame: place, and orientation (x, y, z, w).
+    /// Place and orientation (x, y, z, w), by time and frame.
     frames: BTreeMap<(u64, String), (Place, [f64; 4])>,
     markers: Vec<Marker>,
-    /// By frame.
+    /// Points by frame.
     points: BTreeMap<String, Vec<Place>>,
 }
 
 impl Shown {
-    /// Where a frame is at a time: where it moved last.
+    /// Returns the place of a frame at a time, from its last update.
     fn at(&self, time: u64, frame: &str) -> (Place, [f64; 4]) {
         let before = self.frames.range(..(time + 1, String::new())).rev();
         *before.into_iter().find(|((_, name), _)| name == frame).expect("a frame that was set").1
@@ -104,7 +104,8 @@ fn shown(file: &[u8]) -> Shown {
     shown
 }
 
-/// The volume within triangles; panics unless each side belongs to two of them, which go round it in opposite ways.
+/// Returns the volume within triangles. Panics unless each side belongs to two of them, which traverse it in opposite
+/// directions.
 fn volume(corners: &[Place]) -> f64 {
     let mut sides = BTreeMap::new();
     let key = |p: Place| p.map(f64::to_bits);
@@ -155,7 +156,8 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
     );
     let volumes: Vec<f64> = shown.markers.iter().map(|marker| volume(&marker.corners)).collect();
     assert!((volumes[0] - 0.5 * 0.5 * 0.3 * 0.3).abs() < 1e-12, "{volumes:?}");
-    // What has no end is as high as what has; chords of round ends lie inside, by less than 4 % of the area.
+    // Shapes of unlimited height are as high as those with a height. Chords of round ends lie inside, by less than 4 %
+    // of the area.
     let round =
         [std::f64::consts::PI * 0.01, 0.06 + std::f64::consts::PI * 0.0009, 0.048 + std::f64::consts::PI * 0.0009];
     for (found, area) in volumes[1..].iter().zip(round) {
@@ -180,7 +182,7 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
     assert!(shown.points["workspace"].len() > 100 && shown.points["workspace"].iter().all(on_rim));
 }
 
-/// A cart that comes and stops, by its frame: the straight line between its stops.
+/// A cart that comes and stops: its frame follows the straight line between its stops.
 #[test]
 fn what_moves_has_a_frame_that_follows_its_course() {
     let stop = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.2), angle: time / 2.0 };

@@ -8,14 +8,14 @@ use cplan::motion::{Limits, SHORTEST_INTERVAL, Timed, Trajectory, time};
 use cplan::space::{Configuration, HAIR, Recording};
 use proptest::prelude::*;
 
-/// Samples lie at whole nanoseconds, as near as that to where phases of the motion begin. Seconds.
+/// Samples lie at whole nanoseconds, at most this far from the beginnings of phases. In seconds.
 const HALF_A_NANOSECOND: f64 = 0.5e-9;
 
 pub fn as_vector(row: [f64; 2]) -> Configuration {
     q(row[0], row[1])
 }
 
-/// The polynomial of an interval as `INTERPOLATION` writes it down: position, velocity and acceleration at `t`.
+/// Returns the polynomial of an interval as `INTERPOLATION` states it: position, velocity and acceleration at `t`.
 pub fn between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] {
     let [p, v, a] =
         [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|rows| as_vector(rows[k]));
@@ -30,14 +30,14 @@ pub fn between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] 
     ]
 }
 
-/// The samples as anyone reads them.
+/// Returns the samples as any reader sees them.
 pub fn recording(trajectory: &Trajectory) -> Recording {
     let rows = |rows: &[[f64; 2]]| rows.iter().copied().map(as_vector).collect::<Vec<_>>();
     let velocity = rows(&trajectory.velocity);
     Recording::new(rows(&trajectory.position), Some(trajectory.time.clone()), Some(velocity)).unwrap()
 }
 
-/// Distance from a curve in one joint space unit, by Newton's method on every leg and blend.
+/// Returns the distance from a curve in one joint space unit, by Newton's method on every leg and blend.
 fn off(curve: &CertifiedCurve, at: Configuration) -> f64 {
     let (points, radii) = (curve.curve().path().waypoints(), curve.curve().radii());
     let mut least = (at - points[0]).norm();
@@ -65,7 +65,7 @@ fn off(curve: &CertifiedCurve, at: Configuration) -> f64 {
     least
 }
 
-/// Everything that holds of every motion.
+/// Checks everything that holds for every motion.
 fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
     let Timed { curve, trajectory } = timed;
     let n = trajectory.time.len();
@@ -77,7 +77,7 @@ fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
     let mut step = 0;
     for k in 0..n - 1 {
         let h = trajectory.time[k + 1] - trajectory.time[k];
-        // Multiples of the period near another sample are left out.
+        // Multiples of the period near another sample are skipped.
         assert!((0.998 * SHORTEST_INTERVAL..=period + 2e-4).contains(&h), "sample {k} lasts {h} s");
         // The stated acceleration alone, from rest at the start: Gauss's rule with three points, exact for the fifth
         // degree.
@@ -98,10 +98,10 @@ fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
             let far = (position[i] - trajectory.position[k + 1][i]).abs();
             assert!(far <= 1e-9 * size + drift * trajectory.duration(), "position {i} at {k}: {far}");
         }
-        // On the curve and within the limits, between samples too. What rounded positions say of accelerations gets
-        // lost in intervals as short as can be.
+        // On the curve and within the limits, between samples too. In the shortest intervals, rounding of positions
+        // hides the accelerations.
         step += 1;
-        // At a sample the acceleration is that of the interval which begins within half a nanosecond.
+        // At a sample, the acceleration is that of the interval which begins within half a nanosecond.
         let late = HALF_A_NANOSECOND * joints[0].acceleration.max(joints[1].acceleration) * h;
         for share in [0.0, 0.3, 0.7, 1.0] {
             let [at, speed, pull] = between(trajectory, k, share * h);
@@ -116,12 +116,12 @@ fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
             }
         }
     }
-    // So does the cubic through positions and velocities, and it is never farther off than a hair.
+    // The cubic through positions and velocities does so, too, and its distance is never above the tolerance.
     let recording = recording(trajectory);
     assert_eq!(limits_kept(joints, &recording), []);
     let largest = curve.curve().radii().iter().copied().fold(0.0, f64::max);
     for (k, piece) in recording.pieces().iter().enumerate() {
-        // A hair for each joint.
+        // The tolerance for each joint.
         let hair = 1.5 * HAIR * largest + 1e-13 * size;
         let (there, h) = (between(trajectory, k, (piece.to - piece.from) / 2.0)[0], piece.to - piece.from);
         let late = HALF_A_NANOSECOND * joints[0].acceleration.max(joints[1].acceleration) * h;
@@ -136,12 +136,12 @@ fn a_right_angle() {
     let limits = Limits::from(&scene.arm().joints);
     let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], 0.3), &limits, 0.01).unwrap();
     check(&scene.arm().joints, &timed, 0.01);
-    // It never rests on the way.
+    // It never rests in between.
     let moving = |k: usize| as_vector(timed.trajectory.velocity[k]).norm() > 0.1;
     let n = timed.trajectory.time.len();
     assert!((n / 10..n * 9 / 10).all(moving));
     assert!(n < 200, "{n} samples");
-    // A share of the speed takes that much longer, and keeps the limits of that share.
+    // At a fraction of the speed, the motion takes longer by that factor, and keeps the limits of that fraction.
     let slow = limits.scaled(0.5);
     let half = time(timed.curve.clone(), &slow, 0.01).unwrap().trajectory;
     assert!((half.duration() - 2.0 * timed.trajectory.duration()).abs() < 1e-4);

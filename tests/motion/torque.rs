@@ -1,4 +1,5 @@
-//! Torques: against bodies moved in small steps, closed forms, and the fastest motion by brute force; as motions are played.
+//! Torques: against bodies moved in small steps, closed forms, and the fastest motion by brute force, and as motions
+//! are played.
 
 use super::certified;
 use super::common::dice::Dice;
@@ -9,7 +10,7 @@ use cplan::model::{Arm, Body, Dynamics, Grip, Heights, JointType, Payload, Scene
 use cplan::motion::{Drive, Objective, TimingError, Trajectory};
 use cplan::space::{Configuration, JointRange, Path};
 
-/// Where a body's centre is, and how it is turned: by complex numbers, and nothing of the arm's own kinematics.
+/// Returns centre and orientation of a body: by complex numbers, without the arm's own kinematics.
 fn placed(arm: &Arm, link: usize, center: Point, q: [f64; 2]) -> ([f64; 2], f64) {
     let (mut at, mut angle) = ([arm.base.x, arm.base.y], 0.0_f64);
     let mut go = |by: [f64; 2], angle: f64| {
@@ -29,7 +30,7 @@ fn placed(arm: &Arm, link: usize, center: Point, q: [f64; 2]) -> ([f64; 2], f64)
     (at, angle)
 }
 
-/// The torques that move the bodies so: by the principle of virtual work, differences standing for derivatives.
+/// Returns the torques that move the bodies, by the principle of virtual work, with differences instead of derivatives.
 fn by_steps(arm: &Arm, dynamics: &Dynamics, q: [f64; 2], v: [f64; 2], a: [f64; 2]) -> [f64; 2] {
     let (h, small) = (1e-4, 1e-5);
     let moved = |t: f64| [0, 1].map(|k| q[k] + v[k] * t + a[k] * t * t / 2.0);
@@ -53,7 +54,7 @@ fn by_steps(arm: &Arm, dynamics: &Dynamics, q: [f64; 2], v: [f64; 2], a: [f64; 2
     torque
 }
 
-/// Bodies of up to some kilograms, and efforts that hold them.
+/// Draws bodies of up to some kilograms, and efforts that hold them.
 fn drawn(dice: &mut Dice, mut arm: Arm, strength: f64) -> Arm {
     let body = |dice: &mut Dice| Body {
         mass: dice.within(0.5, 4.0),
@@ -63,7 +64,7 @@ fn drawn(dice: &mut Dice, mut arm: Arm, strength: f64) -> Arm {
     let bodies = [body(dice), body(dice)];
     let gravity = Vector::new(dice.within(-10.0, 10.0), dice.within(-10.0, 10.0));
     let mut dynamics = Dynamics { bodies, gravity, effort: [1.0; 2], assumed: [true; 2], limits: true };
-    // What it takes to hold the arm is a share of that, wherever it is.
+    // In every pose, the torque to hold the arm is a fraction of this effort.
     let weight = bodies.map(|body| body.mass * gravity.norm());
     let holding = |k: usize| {
         let turns = arm.joints[k].joint_type.is_revolute();
@@ -78,7 +79,7 @@ fn drawn(dice: &mut Dice, mut arm: Arm, strength: f64) -> Arm {
     arm
 }
 
-/// Somewhere within the joints' ranges.
+/// Returns a configuration within the joints' ranges.
 fn anywhere(dice: &mut Dice, arm: &Arm) -> [f64; 2] {
     arm.joints.each_ref().map(|joint| {
         let (lower, upper) = joint.range.domain();
@@ -108,8 +109,8 @@ fn torques_move_the_bodies() {
     assert_eq!(seen, 50 * all_kinds().len());
 }
 
-/// Position, velocity and acceleration a share of the way from a sample to the next: by the cubic through positions and velocities, and by
-/// the polynomial of the fourth degree through the acceleration, too.
+/// Returns position, velocity and acceleration at a fraction of the interval from a sample to the next: by the cubic
+/// through positions and velocities, and by the polynomial of the fourth degree that also has the acceleration.
 fn between(trajectory: &Trajectory, i: usize, u: f64) -> [[[f64; 2]; 3]; 2] {
     let h = trajectory.time[i + 1] - trajectory.time[i];
     let of = |k: usize, is_quartic: bool| {
@@ -133,7 +134,8 @@ fn between(trajectory: &Trajectory, i: usize, u: f64) -> [[[f64; 2]; 3]; 2] {
     })
 }
 
-/// The torques as each of the two readers of the samples plays them, all along the motion; returns the greatest share of an effort.
+/// Checks the torques of both interpolations of the samples along the whole motion. Returns the greatest fraction of an
+/// effort.
 fn kept(arm: &Arm, dynamics: &Dynamics, trajectory: &Trajectory, what: &str) -> f64 {
     let mut greatest = 0.0_f64;
     for i in 0..trajectory.time.len() - 1 {
@@ -155,7 +157,7 @@ fn kept(arm: &Arm, dynamics: &Dynamics, trajectory: &Trajectory, what: &str) -> 
     greatest
 }
 
-/// The least time along a straight piece, by small steps in the plane of place and squared speed.
+/// Returns the least time along a straight piece, by small steps in the plane of place and squared speed.
 fn least_time(arm: &Arm, dynamics: &Dynamics, from: [f64; 2], to: [f64; 2]) -> f64 {
     const STEPS: usize = 4000;
     let offset = [0, 1].map(|k| to[k] - from[k]);
@@ -238,7 +240,7 @@ fn motions_with_corners_keep_the_efforts_as_they_are_played() {
     }
 }
 
-/// A gantry without gravity.
+/// Returns a gantry with these efforts, masses and gravity.
 fn gantry(effort: [f64; 2], mass: [f64; 2], gravity: Vector) -> Arm {
     let range = JointRange::Interval { lower: -10.0, upper: 10.0 };
     let slide = |name, x, y| joint(name, JointType::Prismatic { direction: Vector::new(x, y) }, range);
@@ -302,7 +304,7 @@ fn what_is_carried_counts() {
         (held.mass - 7.0).abs() < 1e-12 && (about_joint - (6.0 * 5.0 / 12.0 + 6.0 * 0.25)).abs() < 1e-9,
         "{held:?}"
     );
-    // Kept level it does not turn: all of it counts at the tip.
+    // A level payload does not turn: its whole mass counts at the tip.
     let level = Grip::Level { angle: 0.3, point: Point::new(0.2, 0.1) };
     let held = own.carrying(&turning, &payload(level, 6.0)).bodies[1];
     let about_joint = held.inertia + held.mass * held.center.coords.norm_squared();

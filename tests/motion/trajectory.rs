@@ -14,7 +14,8 @@ use serde_json::Value;
 
 const NAMES: [&str; 2] = ["shoulder, \"left\"", "no: 1"];
 
-/// A turning joint that carries nothing, and a sliding one that carries a disc; a distant obstacle if asked for.
+/// Returns a revolute joint that carries nothing, and a prismatic one that carries a disc; with a distant obstacle on
+/// request.
 fn scene(obstacle: bool) -> Scene {
     let joint = |name: &str, motion| Joint {
         name: name.into(),
@@ -80,7 +81,7 @@ fn found(obstacle: bool, waypoints: &[[f64; 2]]) -> Report {
 
 const WAYPOINTS: [[f64; 2]; 3] = [[-0.9, 0.4], [0.1, 1.7 + 1e-8], [1.55, 1.0 / 3.0]];
 
-/// The reader, not the writer, may miss the nearest double by one: it trades that for speed.
+/// The reader, not the writer, may miss the nearest double by one, because it prefers speed.
 fn assert_close(json: &Value, rows: &[[f64; 2]]) {
     let json = json.as_array().expect("a list");
     assert_eq!(json.len(), rows.len());
@@ -121,7 +122,7 @@ fn json_holds_the_contract() {
     assert_eq!(json["duration"].as_f64(), Some(trajectory.duration()));
     let length: f64 = WAYPOINTS.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
     assert!((json["length"].as_f64().expect("a number") - length).abs() < 1e-12);
-    // The layout: a line a field, in the order of the type.
+    // The layout: one line per field, in the order of the type.
     let keys: Vec<_> = text.lines().filter_map(|l| l.strip_prefix("  \"")?.split('"').next()).collect();
     let order = "status name planner joints units path length certified clearance closest size timings blends \
                  duration interpolation trajectory";
@@ -155,7 +156,7 @@ fn without_a_path_there_is_a_reason() {
     }
 }
 
-/// A report with a trajectory in a format that is text.
+/// Returns a report with a trajectory in a text format.
 fn text(format: Format, report: &Report) -> String {
     String::from_utf8(report.bytes(format).expect("there is a trajectory")).expect("UTF-8")
 }
@@ -181,7 +182,7 @@ fn csv_reads_back() {
 
 #[test]
 fn ros_message_reads_back() {
-    // A piece of a nanometre makes for samples a few microseconds apart.
+    // A piece of a nanometre gives samples a few microseconds apart.
     for waypoints in [&WAYPOINTS[..], &[[0.0, 0.0], [1e-9, 0.0], [1e-9, 1e-9], [0.3, 0.1]], &[[0.2, 0.1]]] {
         let report = found(true, waypoints);
         let text = text(Format::Yaml, &report);

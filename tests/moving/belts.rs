@@ -1,4 +1,5 @@
-//! Random tasks among what moves, with objects that are picked on their way, done again by the tests' own reckoning.
+//! Random tasks among moving obstacles, with objects that are picked while they move, replayed by the tests' own
+//! computations.
 
 use crate::common::dice::Dice;
 use crate::common::{disc, placed, rectangle};
@@ -14,7 +15,7 @@ use cplan::model::{
 use cplan::space::Configuration;
 use nalgebra::Isometry2;
 
-/// A task of a kind of arm and a seed; none if the draw makes no task.
+/// Returns a task for a kind of arm and a seed; `None` if the draw makes no task.
 pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
     let standing = world(kind, seed)?;
     let mut dice = Dice::new(seed.wrapping_mul(0x51_7cc1_b727).wrapping_add(u64::from(kind.as_bytes()[1])));
@@ -50,7 +51,7 @@ pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
     task.check().ok().map(|_| task)
 }
 
-/// Where the tip can be, most of the time with the arm free of what stands.
+/// Returns a place that the tip can reach, in most cases with the arm free of static obstacles.
 fn somewhere(dice: &mut Dice, still: &Scene) -> Point {
     let axes = still.arm().topology().ranges.map(|range| range.domain());
     let mut draw = || {
@@ -61,7 +62,7 @@ fn somewhere(dice: &mut Dice, still: &Scene) -> Point {
     still.arm().tip_at(*tries.iter().find(|q| still.clearance(**q) > 0.1).unwrap_or(&tries[0]))
 }
 
-/// An object that passes somewhere within reach, or lies there.
+/// Returns an object that passes a place within reach, or lies there.
 fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object {
     let size = dice.within(0.02, 0.06);
     let piece =
@@ -74,7 +75,7 @@ fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object 
     let course = match dice.below(4_usize) {
         0 => None,
         1 if !level => {
-            // It comes, stands, turns away and goes.
+            // It comes, stops, turns and leaves.
             let stops = vec![stop(1.0, from, angle), stop(4.0, place, angle + 0.5), stop(5.5, place, angle + 0.5)];
             Some(Course::new(stops, speed).expect("a course"))
         }
@@ -106,7 +107,7 @@ fn back(a: Frame) -> Frame {
     (turn, rotate([-a.1[0], -a.1[1]], turn))
 }
 
-/// Frames of both links, and the tip's.
+/// Returns the frames of both links and of the tip.
 pub fn frames(arm: &Arm, q: V) -> [Frame; 3] {
     let joint = |k: usize| match arm.joints[k].joint_type {
         JointType::Revolute { sign } => ([(sign * q[k]).cos(), (sign * q[k]).sin()], [0.0; 2]),
@@ -119,13 +120,13 @@ pub fn frames(arm: &Arm, q: V) -> [Frame; 3] {
     [first, second, ([1.0, 0.0], tip.1)]
 }
 
-/// Where an object is on its course, by its stops.
+/// Returns the frame of an object on its trajectory, from its stops.
 pub fn on_course(object: &Object, time: f64) -> Frame {
     let Some(course) = object.course.clone() else {
         let angle = object.at.rotation.angle();
         return ([angle.cos(), angle.sin()], [object.at.translation.x, object.at.translation.y]);
     };
-    // A point of it and another beside that say how it lies.
+    // A point of it and another one beside it, which give its pose.
     let pieces = vec![disc(Point::origin(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
     let points = Obstacle { name: String::new(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
     let placed = at(&Mover { obstacle: points, course }, time).pieces;
@@ -133,21 +134,22 @@ pub fn on_course(object: &Object, time: f64) -> Frame {
     (sub(beside, origin), origin)
 }
 
-/// Where the objects are in the course of a task.
+/// The poses of the objects during a task.
 pub struct Replayed<'a> {
     task: &'a Task,
     lies: Vec<Option<Frame>>,
     moving: Vec<bool>,
-    /// The object, and its frame in that of link 2, or of the tip.
+    /// The object, and its frame relative to that of link 2, or of the tip.
     held: Option<(usize, usize, Frame)>,
     released: Option<usize>,
 }
 
-/// The least distance that anything keeps from what it must not touch, less the clearance, all over the motions of an answer and where the arm
-/// stands between them; and what that is when. Where it cannot go on it may touch what it has just let go of.
+/// Returns the least distance that anything keeps from shapes that it must not touch, minus the clearance, and a
+/// description of that moment. It covers all motions of an answer, and the times when the arm waits between them. If
+/// the arm cannot continue, it may touch the object that it has just released.
 ///
 /// # Errors
-/// In words, what is not as it was asked for.
+/// The difference from the requested task, in words.
 pub fn replayed(task: &Task, answer: &TaskAnswer, looks: usize) -> Result<(f64, String), String> {
     let mut world = Replayed {
         task,
@@ -191,11 +193,12 @@ pub fn replayed(task: &Task, answer: &TaskAnswer, looks: usize) -> Result<(f64, 
 }
 
 impl Replayed<'_> {
-    /// Distance to what must not be touched at a time, less the clearance; link 2 may touch some objects.
+    /// Returns the distance at a time to shapes that must not be touched, minus the clearance; link 2 may touch some
+    /// objects.
     fn room(&self, q: V, time: f64, touched: [Option<usize>; 2]) -> (f64, String) {
         let Task { arm, workspace: Workspace { obstacles, movers, clearance, .. }, objects, .. } = self.task;
         let frames = frames(arm, q);
-        // What is in the way, at which heights, and which object that is.
+        // Obstacles with their heights, and the number of the object.
         let moved: Vec<Obstacle> = movers.iter().map(|mover| at(mover, time)).collect();
         let of = |obstacle: &Obstacle| {
             let heights = obstacle.heights;
@@ -232,7 +235,7 @@ impl Replayed<'_> {
         least
     }
 
-    /// What happens at the end of a motion.
+    /// Applies the event at the end of a motion.
     fn finish(&mut self, leg: &Leg, q: V, time: f64) -> Result<(), String> {
         let frames = frames(&self.task.arm, q);
         let tip = frames[2].1;

@@ -1,4 +1,4 @@
-//! Random worlds in which obstacles move, and where they are at a time by the tests' own reckoning.
+//! Random worlds with moving obstacles, and the poses of these by the tests' own computations.
 
 use crate::common::dice::Dice;
 use crate::common::{disc, rectangle};
@@ -10,14 +10,15 @@ use cplan::model::{Course, Heights, MotionProblem, Mover, Obstacle, Scene, Shape
 use cplan::motion::Trajectory;
 use cplan::space::Configuration;
 
-/// A world with obstacles that move.
+/// A world with moving obstacles.
 pub struct Moving {
     pub name: String,
     pub problem: MotionProblem,
 }
 
 impl Moving {
-    /// Of a kind of arm and a seed; none if the draw has no free start. Some move, or so many.
+    /// Returns a world for a kind of arm and a seed; `None` if the draw has no free start. `movers` is the number of
+    /// moving obstacles, otherwise random.
     pub fn drawn(kind: &str, seed: u64, movers: Option<u64>) -> Option<Self> {
         let standing = world(kind, seed)?;
         let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9).wrapping_add(u64::from(kind.as_bytes()[1])));
@@ -25,7 +26,7 @@ impl Moving {
         let (arm, mut workspace) = standing.into_scene().into_parts();
         workspace.obstacles.truncate(5);
         let reach = arm.reach();
-        // Halfway there is where it hurts.
+        // Halfway along the motion, obstacles block most.
         let halfway = arm.tip_at((start + goals.pieces()[0].ends()[0]) / 2.0);
         let count = movers.unwrap_or_else(|| 2 + dice.below(4));
         workspace.movers = (0..count).map(|_| mover(&mut dice, arm.base, reach, halfway)).collect();
@@ -34,7 +35,7 @@ impl Moving {
         Some(Self { name: format!("{kind} {seed}"), problem })
     }
 
-    /// Those of these seeds, of all kinds.
+    /// Returns the worlds of these seeds, for all kinds.
     pub fn all(seeds: std::ops::Range<u64>) -> impl Iterator<Item = Self> {
         seeds.flat_map(|seed| KINDS.iter().filter_map(move |kind| Self::drawn(kind, seed, None)))
     }
@@ -43,7 +44,7 @@ impl Moving {
         self.problem.clone().into()
     }
 
-    /// The same with nothing that moves.
+    /// Returns the problem without moving obstacles.
     pub fn standing(&self) -> Problem {
         let (arm, mut workspace) = self.problem.scene().clone().into_parts();
         workspace.movers.clear();
@@ -51,21 +52,21 @@ impl Moving {
         MotionProblem::new(scene, self.problem.start(), self.problem.goals().clone()).expect("a problem").into()
     }
 
-    /// Distance to all obstacles at a time, less the clearance to keep.
+    /// Returns the distance to all obstacles at a time, minus the clearance to keep.
     pub fn room(&self, q: Configuration, time: f64) -> f64 {
         let (arm, mut workspace) = self.problem.scene().clone().into_parts();
         workspace.obstacles.extend(std::mem::take(&mut workspace.movers).iter().map(|mover| at(mover, time)));
         Oracle::new(&Scene::new(arm, workspace).expect("a scene")).room(q)
     }
 
-    /// What moves alone, at a time.
+    /// Returns only the moving obstacles, at a time.
     pub fn movers_at(&self, time: f64) -> Oracle {
         let (arm, mut workspace) = self.problem.scene().clone().into_parts();
         workspace.obstacles = std::mem::take(&mut workspace.movers).iter().map(|mover| at(mover, time)).collect();
         Oracle::new(&Scene::new(arm, workspace).expect("a scene"))
     }
 
-    /// The same with obstacles that go from stop to stop so many times as fast.
+    /// Returns the world with moving obstacles that are faster between stops by this factor.
     pub fn hurried(self, times: f64) -> Self {
         let (start, goals) = (self.problem.start(), self.problem.goals().clone());
         let (arm, mut workspace) = self.problem.into_scene().into_parts();
@@ -80,7 +81,8 @@ impl Moving {
         Self { problem, ..self }
     }
 
-    /// From stop to stop of all that moves: from when, until when, and how far a point of it gets in a second at most, metres.
+    /// Returns, for each interval between stops of each moving obstacle, its beginning, its end, and the greatest speed
+    /// of a point of it, in m/s.
     pub fn speeds(&self) -> Vec<[f64; 3]> {
         let of = |mover: &Mover| {
             let pieces = mover.obstacle.pieces.iter();
@@ -97,14 +99,14 @@ impl Moving {
         self.problem.scene().workspace().movers.iter().flat_map(of).collect()
     }
 
-    /// The time after which nothing moves any more, or nothing that moves is near.
+    /// Returns the time after which nothing moves any more, or no moving obstacle is near.
     pub fn horizon(&self) -> f64 {
         let movers = &self.problem.scene().workspace().movers;
         movers.iter().flat_map(|m| m.course.stops()).map(|stop| stop.time).fold(0.0, f64::max) + 8.0
     }
 }
 
-/// Comes and goes, parks, passes by, or turns.
+/// Returns an obstacle that comes and goes, parks, passes by, or turns.
 pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover {
     let size = dice.within(0.05, 0.25);
     let piece = match dice.below(3) {
@@ -143,7 +145,7 @@ pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Mover 
     Mover { obstacle, course: course.expect("a course") }
 }
 
-/// Where a mover is, by its stops.
+/// Returns a moving obstacle at its pose, from its stops.
 pub fn at(mover: &Mover, time: f64) -> Obstacle {
     let stops = mover.course.stops();
     let (first, last) = (stops[0], stops[stops.len() - 1]);
@@ -165,14 +167,15 @@ pub fn at(mover: &Mover, time: f64) -> Obstacle {
     Obstacle { pieces: pieces.collect(), ..mover.obstacle.clone() }
 }
 
-/// Where a trajectory is between its samples, as its JSON says: the polynomial of the fourth degree.
+/// Returns the configuration of a trajectory between its samples, as its JSON states: the polynomial of the fourth
+/// degree.
 pub fn position(trajectory: &Trajectory, sample: usize, share: f64) -> (f64, Configuration) {
     let (a, b) = (sample, sample + 1);
     let h = trajectory.time[b] - trajectory.time[a];
     let t = share * h;
     let along = |k: usize| {
         let (p, v, w) = (trajectory.position[a][k], trajectory.velocity[a][k], trajectory.acceleration[a][k] / 2.0);
-        // What the fourth and third degree have to add at the end: position and velocity.
+        // The terms of the fourth and third degree must supply these differences at the end: of position and velocity.
         let gap = trajectory.position[b][k] - (p + v * h + w * h * h);
         let rate = trajectory.velocity[b][k] - (v + 2.0 * w * h);
         let (c3, c4) = ((4.0 * gap - rate * h) / h.powi(3), (rate * h - 3.0 * gap) / h.powi(4));

@@ -1,16 +1,16 @@
-//! What is found is free at all times, and as early as brute force finds.
+//! Motions found are free at all times, and as early as brute force finds.
 
 use crate::common::random::{seeds, usual};
 use crate::drawn::{Moving, position};
 use cplan::{Options, Outcome, plan};
 
-/// Moments between two samples at which it is looked.
+/// Number of checked moments between two samples.
 const BETWEEN: usize = 3;
 
-/// Steps in which waiting at the start is tried, seconds.
+/// Step of the waiting times at the start, in seconds.
 const STEP: f64 = 0.02;
 
-/// What brute force keeps from what moves: nearly all that moves in a step.
+/// Distance that brute force keeps from moving obstacles: nearly the largest movement in a step.
 const APART: f64 = 2e-2;
 
 #[test]
@@ -54,14 +54,15 @@ fn what_is_found_is_free_at_all_times_and_hardly_later_than_waiting_at_the_start
     assert!(!usual() || (found > 10 && waited > 1), "{found} found, {waited} with waits");
 }
 
-/// When the motion among what stands ends if it begins as soon as it may, and the arm can stay there; none if it must not begin, or there is none.
+/// Returns the earliest end of the motion among static obstacles, if it begins as soon as possible and the arm can stay
+/// at the goal. Returns `None` if the arm cannot wait at the start, or if there is no motion.
 fn waiting_at_the_start(world: &Moving) -> Option<f64> {
     let standing = plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
     let trajectory = standing.trajectory()?;
     let last = trajectory.time.len() - 1;
     let steps: Vec<_> = (0..last).map(|sample| position(trajectory, sample, 0.0)).collect();
     let (start, goal) = (trajectory.position[0].into(), trajectory.position[last].into());
-    // What moves, every step.
+    // The moving obstacles at every step.
     let horizon = world.horizon() + trajectory.duration();
     let movers: Vec<_> = (0..(horizon / STEP) as usize).map(|k| world.movers_at(k as f64 * STEP)).collect();
     let is_clear =

@@ -1,4 +1,4 @@
-//! The judge of recordings among what moves, against looks at single moments.
+//! Verification of recordings among moving obstacles, against checks at single moments.
 
 use crate::common::random::{seeds, usual};
 use crate::drawn::Moving;
@@ -15,7 +15,7 @@ fn motions_that_know_nothing_of_what_moves_are_judged_as_they_are() {
         let standing = plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Some(trajectory) = standing.trajectory() else { continue };
         let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
-        // On a clock that does not begin at 0: the course does with the recording.
+        // On a clock that does not begin at 0. The trajectories of obstacles begin with the recording.
         let time = trajectory.time.iter().map(|time| 100.0 + time).collect();
         let recording = Recording::new(rows(&trajectory.position), Some(time), Some(rows(&trajectory.velocity)));
         let recording = recording.expect("a recording");

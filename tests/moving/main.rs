@@ -1,4 +1,5 @@
-//! Motions among obstacles that move, against methods of the tests' own: kinematics, distances and courses by brute force.
+//! Motions among moving obstacles, against the tests' own methods: kinematics, distances and trajectories by brute
+//! force.
 
 mod belts;
 #[path = "../common/mod.rs"]

@@ -1,4 +1,4 @@
-//! What is said to be impossible along a path is impossible for brute force, too.
+//! A path that is proven impossible at any timing is also impossible for brute force.
 
 use crate::common::random::{seeds, usual};
 use crate::common::{asked, obstacle, placed, q, rectangle, rr};
@@ -9,7 +9,8 @@ use cplan::model::{Course, Mover, Stop, Workspace};
 use cplan::space::{Configuration, JointRange, Path};
 use cplan::{Options, Outcome, plan};
 
-/// Places on the path, seconds between looks at the most, and how far anything moves between two, metres.
+/// Number of places on the path; longest time between two checks, in seconds (`STEP`); largest movement between them,
+/// in metres (`GOES`).
 const PLACES: usize = 100;
 const STEP: f64 = 0.02;
 const GOES: f64 = 0.05;
@@ -21,7 +22,7 @@ fn where_no_timing_helps_a_flood_in_place_and_time_does_not_get_through() {
     assert!(!usual() || refuted > 0, "nothing was refuted");
 }
 
-/// Some cross the workspace in hundredths of a second, which looks every so often do not see.
+/// Some obstacles cross the workspace in hundredths of a second, which checks at regular intervals miss.
 #[test]
 fn where_no_timing_helps_among_what_is_fast_a_flood_does_not_get_through_either() {
     let (refuted, unknown) = flooded(Moving::all(seeds(8)).map(|world| world.hurried(100.0)));
@@ -29,7 +30,8 @@ fn where_no_timing_helps_among_what_is_fast_a_flood_does_not_get_through_either(
     assert!(!usual() || refuted > 0, "nothing was refuted");
 }
 
-/// Holds what is said to be impossible along a path to a flood; how many of the worlds are refuted, and how many open.
+/// Compares proofs that a path is impossible at any timing with a flood. Returns the numbers of refuted and of
+/// undecided worlds.
 fn flooded(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
     let (mut refuted, mut unknown) = (0, 0);
     for world in worlds {
@@ -54,8 +56,9 @@ fn flooded(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
     (refuted, unknown)
 }
 
-/// A bar that is in the way of every posture of the path for a thousandth of a second, and comes and goes at thousands of metres a second: that no
-/// timing helps is right, though a search that looks every hundredth of a second sees nothing of it.
+/// A bar blocks every configuration of the path for a thousandth of a second, and moves at thousands of metres per
+/// second. The proof that no timing helps is right, although a search that checks every hundredth of a second does not
+/// see the bar.
 #[test]
 fn what_is_in_the_way_for_a_moment_refutes_every_timing() {
     let at = |time: f64, x: f64| Stop { time, at: Point::new(x, 0.0), angle: 0.0 };
@@ -82,7 +85,7 @@ fn what_is_in_the_way_for_a_moment_refutes_every_timing() {
     }
 }
 
-/// Moments at which it is looked: every so often, and more often while something is fast.
+/// Returns the times of the checks: at regular intervals, and more often while an obstacle is fast.
 fn looks(world: &Moving) -> Vec<f64> {
     let count = (world.horizon() / STEP) as usize;
     let mut looks: Vec<f64> = (0..=count).map(|look| look as f64 * STEP).collect();
@@ -95,14 +98,14 @@ fn looks(world: &Moving) -> Vec<f64> {
     looks
 }
 
-/// Whether steps from place to place and from look to look lead along the path, within the joints' speeds.
+/// Returns true if steps between places and between checks lead along the path, within the joints' speeds.
 fn gets_through(world: &Moving, path: &Path) -> bool {
     let at = |k: usize| -> Configuration { path.part(path.length() * k as f64 / PLACES as f64, f64::MAX).start() };
     let speeds = world.problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
     let places: Vec<Configuration> = (0..=PLACES).map(at).collect();
     let takes =
         |a: Configuration, b: Configuration| (0..2).map(|j| (b - a)[j].abs() / speeds[j]).fold(0.0_f64, f64::max);
-    // Seconds up to each place without a stop.
+    // Time to reach each place without a stop, in seconds.
     let gone: Vec<f64> = (0..=PLACES)
         .scan(0.0, |gone, k| {
             *gone += takes(places[k.saturating_sub(1)], places[k]);
@@ -110,7 +113,7 @@ fn gets_through(world: &Moving, path: &Path) -> bool {
         })
         .collect();
     let (courses, arm) = (world.speeds(), world.movers_at(0.0).speed(speeds.into()));
-    // How far anything moves between two moments.
+    // The largest movement between two moments.
     let goes = |[from, to]: [f64; 2]| {
         let met = courses.iter().filter(|[begins, ends, _]| *begins < to && from < *ends);
         (to - from) * (arm + met.map(|[.., speed]| *speed).fold(0.0, f64::max))
@@ -120,7 +123,8 @@ fn gets_through(world: &Moving, path: &Path) -> bool {
     there[0] = true;
     for k in 1..looks.len() {
         let after = looks.get(k + 1).map_or(0.0, |next| goes([looks[k], *next]));
-        // What is kept, so that nothing happens between two looks: as far as anything moves in half of the time to the one before and the one after.
+        // The clearance with which nothing can happen between two checks: the largest movement in half of the time to
+        // the previous and to the next check.
         let apart = goes([looks[k - 1], looks[k]]).max(after) / 2.0;
         let mut next = vec![false; PLACES + 1];
         for from in (0..=PLACES).filter(|&from| there[from]) {

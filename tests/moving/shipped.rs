@@ -1,4 +1,4 @@
-//! The shipped worlds in which something moves, each with the outcome that it states.
+//! The shipped worlds with moving obstacles, each with the outcome that it states.
 
 use cplan::motion::{Drive, Objective};
 use cplan::{Options, Outcome, Problem, plan};
@@ -28,7 +28,7 @@ fn shipped_worlds_come_out_as_they_say() {
     assert!(files.len() >= 5);
 }
 
-/// With the least time asked for, the duration that is told beside its bound has the waits in it.
+/// If the motion is optimised for time, the duration that is printed beside its bound includes the waits.
 #[test]
 fn the_duration_beside_its_bound_is_that_of_the_motion() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -1,4 +1,5 @@
-//! Tasks among what moves: what is found is free at all times, picks what is there, and hardly later than brute force.
+//! Tasks among moving obstacles: the answers are free at all times, pick objects where they are, and are hardly later
+//! than brute force.
 
 use crate::belts::{drawn, frames, on_course, replayed};
 use crate::common::dice::Dice;
@@ -15,7 +16,7 @@ use cplan::space::Configuration;
 use cplan::{Options, Status};
 use std::f64::consts::{PI, TAU};
 
-/// Moments between two samples at which it is looked.
+/// Number of checked moments between two samples.
 const BETWEEN: usize = 2;
 
 #[test]
@@ -38,7 +39,7 @@ fn what_is_found_is_free_at_all_times_and_picks_what_is_there() {
                 Status::Infeasible => infeasible += 1,
                 Status::Unknown => {
                     unknown += 1;
-                    // What is done before the step that fails is free, too.
+                    // The steps before the failing one are free, too.
                     let least = replayed(&task, &answer, BETWEEN);
                     assert!(least.as_ref().is_ok_and(|(least, _)| *least > -1e-9), "{name}: {least:?}");
                 }
@@ -49,13 +50,13 @@ fn what_is_found_is_free_at_all_times_and_picks_what_is_there() {
     assert!(!usual() || (found > 8 && waited > 3), "{found} found, {waited} with waits");
 }
 
-/// Steps in which brute force tries departures and moments, seconds.
+/// Step of departures and moments that brute force tries, in seconds.
 const STEP: f64 = 0.02;
 
-/// What brute force keeps from all that is in the way: more than the tip moves in half a step.
+/// Distance that brute force keeps from all obstacles: more than the tip moves in half a step.
 const APART: f64 = 3e-2;
 
-/// A single pick from a belt by an arm of two bars, with some posts about.
+/// Returns a task with a single pick from a belt by an arm of two bars, with some posts nearby.
 fn single_pick(seed: u64) -> Task {
     let mut dice = Dice::new(seed ^ 0xbe17);
     let arm = Arm::rr([1.0, 0.8], 0.06).expect("an arm");
@@ -109,7 +110,8 @@ fn a_pick_is_hardly_later_than_brute_force_finds() {
     assert!(!usual() || compared > 8, "{compared} compared");
 }
 
-/// The soonest pick of a straight motion that begins after some time and waits for what comes; none within ten seconds.
+/// Returns the earliest pick by a straight motion that begins after some time and waits for the object; `None` if no
+/// such pick exists within ten seconds.
 fn soonest(task: &Task) -> Option<f64> {
     (1..500).map(|k| f64::from(k) * STEP).find(|&moment| {
         let place = on_course(&task.objects[0], moment).1;
@@ -121,7 +123,7 @@ fn soonest(task: &Task) -> Option<f64> {
     })
 }
 
-/// Both postures that reach a place from the start, the shorter way round, by the law of cosines.
+/// Returns both IK solutions of a place, by the shorter turn from the start, from the law of cosines.
 fn postures(task: &Task, [x, y]: V) -> Vec<V> {
     let (a, b) = (task.arm.offset.norm(), task.arm.tip.coords.norm());
     let cosine = (x * x + y * y - a * a - b * b) / (2.0 * a * b);
@@ -138,7 +140,7 @@ fn postures(task: &Task, [x, y]: V) -> Vec<V> {
         .into()
 }
 
-/// Seconds of the straight motion there: both joints together, each within its limits.
+/// Returns the duration of the straight motion to a configuration: both joints together, each within its limits.
 fn straight(task: &Task, to: V) -> f64 {
     let (velocity, acceleration) = limits(task, to);
     if acceleration <= velocity * velocity {
@@ -148,7 +150,7 @@ fn straight(task: &Task, to: V) -> f64 {
     }
 }
 
-/// Greatest speed and acceleration of the share of the way.
+/// Returns the greatest speed and acceleration of the fraction of the motion.
 fn limits(task: &Task, to: V) -> (f64, f64) {
     let share = |k: usize, limit: f64| limit / (to[k] - task.start[k]).abs();
     let least = |of: &dyn Fn(usize) -> f64| of(0).min(of(1));
@@ -156,7 +158,7 @@ fn limits(task: &Task, to: V) -> (f64, f64) {
     (least(&|k| share(k, joint(k).velocity)), least(&|k| share(k, joint(k).acceleration)))
 }
 
-/// Whether the arm meets nothing until it picks: at the start, on its way, and where it waits.
+/// Returns true if the arm touches nothing until it picks: at the start, during the motion, and while it waits.
 fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
     let (velocity, acceleration) = limits(task, to);
     let ramp = (velocity / acceleration).min(lasts / 2.0);
@@ -188,7 +190,7 @@ fn is_free(task: &Task, to: V, [departs, lasts, moment]: [f64; 3]) -> bool {
     })
 }
 
-/// An object that never comes within reach, and a task that cannot be done even if nothing moves.
+/// An object that never comes within reach, and a task that is infeasible even without moving obstacles.
 #[test]
 fn what_is_proven_of_tasks_among_what_moves() {
     let mut task = single_pick(0);
@@ -198,7 +200,7 @@ fn what_is_proven_of_tasks_among_what_moves() {
     let answer = plan(&task, &Options::default(), &mut |_| ());
     let Outcome::Infeasible(why) = &answer.verdict else { panic!("{:?}", answer.verdict) };
     assert!(why.reasons[0].contains("\"bottle\" is never within the arm's reach"), "{:?}", why.reasons);
-    // It passes within reach, but not then.
+    // It passes within reach, but not at that time.
     task.objects[0].course = Some(Course::conveyor([1.0, -3.0], [0.0, 0.5]).expect("a course"));
     let found = plan(&task, &Options::default(), &mut |_| ());
     assert_eq!(found.verdict, TaskVerdict::Found(()));

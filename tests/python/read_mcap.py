@@ -2,9 +2,9 @@
 
     read_mcap.py RESULT.json RESULT.mcap
 
-The messages are decoded by the definitions in the file alone. Positions and velocities of the planned joints must be the same
-doubles, times the same nanoseconds; other joints stand still, and there are no accelerations. The links' frames turn as the joints
-do, and each has a surface and points. Exit code 0 if all of it agrees.
+It decodes the messages only by the definitions in the file. Positions and velocities of the planned joints must be the same
+doubles, and times the same nanoseconds. Other joints must not move, and there must be no accelerations. The links' frames must
+turn with the joints, and each must have a surface and points. The exit code is 0 if everything agrees.
 """
 
 import json
@@ -17,7 +17,7 @@ from mcap_ros2.decoder import DecoderFactory
 
 
 def nanoseconds(time):
-    """A Time or Duration message as a number."""
+    """Converts a Time or Duration message to a number."""
     assert 0 <= time.nanosec < 10**9, time
     return time.sec * 10**9 + time.nanosec
 
@@ -29,13 +29,13 @@ def same(what, found, expected):
 
 
 def turn(orientation):
-    """The angle of a rotation about z, radians."""
+    """Returns the angle of a rotation about z, in radians."""
     same("axis", [orientation.x, orientation.y], [0.0, 0.0])
     return 2 * math.atan2(orientation.z, orientation.w)
 
 
 def same_scene(messages, result, times):
-    """Compares what there is to see; returns it in words."""
+    """Compares the pictures of the motion; returns a description."""
     frames = defaultdict(dict)
     for name, message, moved in messages["/tf"]:
         same("type", name, "tf2_msgs/msg/TFMessage")

@@ -1,4 +1,4 @@
-"""Holds the torques of results to what Pinocchio makes of the same URDF: inverse dynamics by its recursive Newton-Euler algorithm.
+"""Compares the torques of results with Pinocchio for the same URDF: inverse dynamics by its recursive Newton-Euler algorithm.
 
     python tests/python/torques.py ROBOT.urdf RESULT.json ...
 """
@@ -14,7 +14,7 @@ ROUNDING = 1e-9
 
 
 def torques(model, joints, trajectory):
-    """Of the joints, at each sample; all other joints stand at zero."""
+    """Returns the torques of the joints at each sample; all other joints are at zero."""
     data = model.createData()
     of = [model.joints[model.getJointId(name)] for name in joints]
     for rows in zip(trajectory["position"], trajectory["velocity"], trajectory["acceleration"]):

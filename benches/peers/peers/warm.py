@@ -48,7 +48,7 @@ def table(settings: Settings, problems: dict[str, Problem], verdicts: Verdicts, 
 
 def _answers(settings: Settings, table: Table, problem: Problem) -> dict[str, list[Answer]]:
     runs = settings.choose(30, 6)
-    # What they say where there is no path another table shows.
+    # Another table shows their answers if there is no path.
     names = ["RRTConnect", "RRT*", "BIT*"] if problem.name in FEASIBLE else []
     peers = [Ompl(f"OMPL {name}", settings, name) for name in names]
     answers: dict[str, list[Answer]] = {}

@@ -1,4 +1,4 @@
-//! The live page with the program inside: no server, threads or files, and no way to interrupt work.
+//! The live page with the program inside: no server, threads or files, and work cannot be interrupted.
 
 use super::{Desk, Files, Host, Message, Reply, Request, Spent};
 use cplan_interrupt::Interrupt;

@@ -1,4 +1,4 @@
-//! Contours of C-obstacles, kept from one answer to the next: of all obstacles one or two have changed.
+//! Contours of C-obstacles, cached between answers, because only one or two obstacles have changed.
 
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Arm, Heights, Obstacle, Scene, Workspace};
@@ -50,7 +50,7 @@ impl Contours {
             known.found(obstacles)
         };
         let missing: Vec<usize> = (0..obstacles.len()).filter(|&k| found[k].is_none()).collect();
-        // Nothing is borrowed while it works, which may be stopped at any time.
+        // Nothing is borrowed during the computation, which can be interrupted at any time.
         let mut made = traced(scene, &missing).into_iter();
         let entries: Vec<Entry> = found.into_iter().filter_map(|entry| entry.or_else(|| made.next())).collect();
         let numbered = |(number, entry): (usize, &Entry)| {

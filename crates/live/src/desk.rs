@@ -1,4 +1,4 @@
-//! What one page works on: a text, changed as the page says, and what comes of it.
+//! The session of one page: a text, edited by the page, and the answers to its requests.
 
 use super::Host;
 use super::blocked;
@@ -22,45 +22,45 @@ use std::cell::Cell;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Time for a plan while something is dragged. What is shown then, with or without a plan, takes a little longer: all in all
-/// a page is to follow ten times a second.
+/// Time for a plan during a drag. Drawing the picture, with or without a plan, takes a little longer. In total, a page
+/// should be updated ten times per second.
 const DRAG_TIME: Duration = Duration::from_millis(60);
 
-/// Places on the way for which no plan is tried, after one that was not made in time.
+/// Number of requests during a drag for which no plan is tried, after a plan that was not finished in time.
 const UNTRIED: u32 = 7;
 
-/// Time for the obstacles alone, once the time for a plan is up: as much again, but no less and no more than this.
+/// Time for the picture without a plan, when the time for the plan is up: as much again, but within these limits.
 const SHOW_TIME: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(5)];
 
-/// Bisections towards a place that the tip does not reach.
+/// Number of bisection steps towards a place that the tip does not reach.
 const BISECTIONS: usize = 24;
 
-/// What of the time for a request is gone already. Where work that takes too long can only be ended together with all that the
-/// program remembers, the rest of the request is done by the next one.
+/// The stages of a request whose time is up already. Some hosts can stop slow work only by ending the program with all
+/// its state; a new instance then does the rest of the request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Spent {
-    /// None of it.
+    /// No stage: do everything.
     #[default]
     Nothing,
-    /// That for a plan: what there is to see is shown without.
+    /// The time for the plan: show the picture without a plan.
     Plan,
-    /// All of it.
+    /// The time for everything.
     All,
 }
 
-/// The time that is left, from now on.
+/// The remaining time, from now on.
 struct Left {
-    /// For a plan while something is dragged.
+    /// Time for a plan during a drag.
     drag: Duration,
-    /// For a plan.
+    /// Time for a plan.
     plan: Duration,
-    /// For a plan and what is shown in place of it.
+    /// Time for a plan and for the picture that is shown instead.
     show: Duration,
 }
 
 impl Spent {
-    /// What is left where a plan may take `time`.
+    /// Returns the remaining time if a plan may take `time`.
     fn left(self, time: Duration) -> Left {
         let show = time.clamp(SHOW_TIME[0], SHOW_TIME[1]);
         match self {
@@ -71,11 +71,11 @@ impl Spent {
     }
 }
 
-/// A page's text and what it says.
+/// A page's text and its content.
 pub struct Desk {
-    /// What the program was started with.
+    /// Initial state of the program.
     own: Arc<Host>,
-    /// What the page began with.
+    /// Initial state of the page.
     host: Arc<Host>,
     /// Number of the text.
     base: u64,
@@ -85,14 +85,14 @@ pub struct Desk {
     pace: Pace,
 }
 
-/// Whether plans keep up with what is dragged. Those that do not would only keep the rest of the page waiting.
+/// A record of whether plans keep up with a drag. Plans that do not would only delay the rest of the page.
 #[derive(Default)]
 struct Pace {
     untried: Cell<u32>,
 }
 
 impl Pace {
-    /// Plans, unless it is of no use to try.
+    /// Plans, unless recent plans were too slow.
     fn tries<T>(&self, plan: impl FnOnce() -> Result<T, Interrupted>) -> Option<Result<T, Interrupted>> {
         if self.untried.get() > 0 {
             self.untried.update(|left| left - 1);
@@ -107,7 +107,7 @@ impl Pace {
 }
 
 impl Desk {
-    /// A page that has just been opened: the host's own world.
+    /// Creates the session of a new page, with the host's own world.
     #[must_use]
     pub fn new(host: Arc<Host>) -> Self {
         let (document, scene) = (host.document.clone(), host.scene.clone());
@@ -122,17 +122,17 @@ impl Desk {
         }
     }
 
-    /// Goes on with the text that a page works on, which has this number.
+    /// Continues with the text that a page works on, and its number.
     ///
     /// # Errors
-    /// In words, with the place.
+    /// The reason, with the place.
     pub fn hold(&mut self, base: u64, text: &str) -> Result<(), String> {
         let (document, scene) = self.host.read(text)?;
         (self.base, self.document, self.scene) = (base, document, scene);
         Ok(())
     }
 
-    /// Does what the page asks, and tells what comes of it.
+    /// Handles a request, and passes the messages for the page to `tell`.
     pub fn take(&mut self, request: &Request, interrupt: &Interrupt, spent: Spent, tell: &mut dyn FnMut(Message)) {
         let mut reply = |reply: Reply| tell(Message::from(&reply));
         match request {
@@ -149,7 +149,7 @@ impl Desk {
         }
     }
 
-    /// The world, for the page to change, or to begin with.
+    /// Returns the message with the world; `begins` is true for a world that was opened, and not loaded as a text.
     pub fn world(&self, id: u64, begins: bool) -> Reply {
         let arm = self.scene.scene.arm();
         let names = self.scene.scene.workspace().obstacles.iter().map(|obstacle| obstacle.name.clone());
@@ -182,10 +182,10 @@ impl Desk {
         }))
     }
 
-    /// Begins anew, with what the page brings along or with what the program was started with.
+    /// Starts again, with the files of the page or with the program's initial ones.
     ///
     /// # Errors
-    /// In words, with the place.
+    /// The reason, with the place.
     fn open(&mut self, files: Option<&Files>, spent: Spent) -> Result<(), String> {
         let own = Arc::clone(&self.own);
         let host = match files {
@@ -200,7 +200,7 @@ impl Desk {
         Ok(())
     }
 
-    /// Takes another text, if it is a world, and plans in it.
+    /// Loads another text, if it is a world, and plans in it.
     fn load(
         &mut self,
         id: u64,
@@ -209,7 +209,7 @@ impl Desk {
         (interrupt, spent): (&Interrupt, Spent),
         tell: &mut dyn FnMut(Reply),
     ) {
-        // Newer requests do not stop it: they may speak of what it loads.
+        // Newer requests do not stop it, because they may refer to the text that it loads.
         let limited = Interrupt::new().by(Instant::now() + spent.left(self.host.time).plan);
         let read = limited.run(|| self.host.read(text)).unwrap_or_else(|_| Err(time_up(self.host.time)));
         match read {
@@ -225,7 +225,7 @@ impl Desk {
         }
     }
 
-    /// Plans, and tells what came of it; nothing if it was stopped.
+    /// Plans, and reports the answer; reports nothing if it was interrupted.
     fn plan(&self, ask: &Ask, interrupt: &Interrupt, spent: Spent, tell: &mut dyn FnMut(Reply)) {
         let begun = Instant::now();
         let id = ask.id;
@@ -239,7 +239,8 @@ impl Desk {
         }
     }
 
-    /// The answer, unless it was stopped. Tells the configuration space before it looks for a path, which may take long.
+    /// Returns the answer, unless it was interrupted. Reports the configuration space before it searches a path, which
+    /// can take long.
     fn answer(
         &self,
         ask: &Ask,
@@ -261,7 +262,7 @@ impl Desk {
         };
         let source = self.host.world.with_text(text.as_str());
         let limited = interrupt.clone().by(begun + left.plan);
-        // What is shown in place of an answer must not take much longer than that did.
+        // A picture that replaces an answer must not take much longer than the answer would have.
         let showing = interrupt.clone().by(begun + left.show);
         let late = || Ok(late(self.host.time));
         let loaded = match showing.run(|| self.scene.edited(&self.host.urdf, source)) {
@@ -340,10 +341,10 @@ impl Desk {
         }
     }
 
-    /// The result as a file: its name and content.
+    /// Returns the result as a file: its name and content.
     ///
     /// # Errors
-    /// In words.
+    /// The reason, for display.
     fn download(
         &self,
         ask: &Ask,
@@ -366,7 +367,7 @@ impl Desk {
         }
     }
 
-    /// The world that the page shows.
+    /// Returns the text of the world that the page shows.
     fn text(&self, ask: &Ask) -> Result<String, String> {
         if ask.base != self.base {
             return Err(format!("the page speaks of world {}, this is world {}", ask.base, self.base));
@@ -378,7 +379,7 @@ impl Desk {
         }
     }
 
-    /// Joint values of the start.
+    /// Returns the joint values of the start.
     fn begin(&self, start: Option<Begin>) -> Option<Pair> {
         Some(match start? {
             Begin::Joints { joints } => joints,
@@ -387,12 +388,12 @@ impl Desk {
     }
 }
 
-/// What is said when the time is up.
+/// Returns the answer if the time is up.
 fn late(limit: Duration) -> AnswerReply {
     AnswerReply { verdict: Some("unknown"), reason: Some(time_up(limit)), ..AnswerReply::default() }
 }
 
-/// What to say where the time is up; nothing where something newer was asked.
+/// Calls `late` if the time is up. Returns the interruption if there is a newer request.
 fn or_late<T>(stopped: Interrupted, late: impl FnOnce() -> Result<T, Interrupted>) -> Result<T, Interrupted> {
     if stopped == Interrupted::TimeUp { late() } else { Err(stopped) }
 }
@@ -401,8 +402,8 @@ fn time_up(limit: Duration) -> String {
     format!("not decided within {} s", limit.as_secs_f64())
 }
 
-/// The IK solution within the limits that puts the tip at a place and is nearest to some configuration; where it does not reach
-/// that far, as far as it can on the straight way from where the tip is then.
+/// Returns the IK solution within the limits that puts the tip at a place and is nearest to `near`. If there is none,
+/// it follows the straight line from the current place of the tip as far as the tip can follow.
 fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
     let reached = |tip: Point| nearest_ik_solution(arm, tip, near);
     if let Some(q) = reached(tip) {

@@ -1,4 +1,4 @@
-//! A world's text, changed as the page says: comments, names, heights and all that the page does not know stay.
+//! A world's text, edited as the page requests: comments, names, heights and all unknown keys stay.
 
 use super::protocol::{Begin, End, Form, MOST_CORNERS, MOST_OBSTACLES, Pair, Piece, State};
 use std::collections::BTreeSet;
@@ -22,7 +22,7 @@ impl Document {
         &self.text
     }
 
-    /// Files that the text names.
+    /// Returns the files that the text names.
     pub fn files(&self) -> BTreeSet<String> {
         let map = self.toml.get("map").and_then(Item::as_table_like);
         let of_map = ["file", "preferences"].into_iter().filter_map(|key| map?.get(key)?.as_str());
@@ -55,7 +55,7 @@ impl Document {
         pair(goal.get("joints")).map(End::Joints).or_else(|| pair(goal.get("tip")).map(End::Tip))
     }
 
-    /// Shapes of the obstacles that the page can change, in order.
+    /// Returns the shapes of the obstacles that the page can change, in order.
     pub fn forms(&self) -> Vec<Option<Form>> {
         self.by_motion().unwrap_or_default().0.iter().map(form).collect()
     }
@@ -161,7 +161,7 @@ fn put(table: &mut Table, key: &str, item: Item) {
     }
 }
 
-/// Writes `key = [a, b]` as all that the table `name` says. Whether that is a change.
+/// Writes `key = [a, b]` as the only content of the table `name`. Returns true if this is a change.
 fn change_place(toml: &mut DocumentMut, name: &str, key: &str, [a, b]: Pair) -> bool {
     let other = if key == "joints" { "tip" } else { "joints" };
     let now = toml.get(name).and_then(Item::as_table_like);
@@ -363,7 +363,7 @@ image = \"map.yaml\"
         assert_eq!(pair(again.toml["goal"].get("tip")), Some([1.0, 2.0]));
     }
 
-    /// The page's numbers count static obstacles. Moving ones stay unchanged.
+    /// The page's numbers count only static obstacles. Moving ones stay unchanged.
     #[test]
     fn what_moves_is_no_obstacle_of_the_page() {
         let cart = "[[obstacle]]\ncircle = { center = [0, 0], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n";

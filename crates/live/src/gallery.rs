@@ -1,4 +1,4 @@
-//! Worlds and puzzles that a page has to open.
+//! Worlds and puzzles that a page can open.
 
 use super::Files;
 use serde::Serialize;
@@ -23,9 +23,9 @@ struct Puzzle {
     text: &'static str,
     verdict: &'static str,
     free: Free,
-    /// No path may be shorter: proven.
+    /// Proven lower bound on the length that a solution must reach.
     length: Option<f64>,
-    /// The clearance asked for has to be this or more, metres.
+    /// Clearance that a solution must set at least, in metres.
     clearance: Option<f64>,
 }
 

@@ -1,7 +1,7 @@
-//! The page's menus: which options the planners have, and what each can be.
+//! The page's menus: the options of each planner, and their values.
 //!
-//! Names, values and defaults are those of the command line's grammar. What is not chosen is not sent, so that the page's
-//! defaults cannot be others than the program's.
+//! Names, values and defaults are those of the command line's grammar. A default is not sent, so the page cannot have
+//! other defaults than the program.
 
 use super::options::Options;
 use super::protocol::{OptionReply, PlannerReply};
@@ -12,16 +12,16 @@ use cplan_engine::{FIRST_CELLS, GridSpace, Method, Planner};
 use cplan_options::Named;
 use cplan_roadmaps::Prm;
 
-/// An option with a menu of its own. All others can be typed.
+/// An option with its own menu. The user can type all others.
 struct Choice {
     name: &'static str,
     label: &'static str,
-    /// Values of an option that takes any number, to choose from, with what they are called; all that the grammar lists
-    /// otherwise.
+    /// Values and labels to choose from, for an option that takes any number. If empty, the values that the grammar
+    /// lists.
     numbers: &'static [(&'static str, &'static str)],
-    /// What holds where the option is not given, if the grammar does not say.
+    /// Returns the default, if the grammar does not state it.
     standard: fn(Method) -> Option<String>,
-    /// Whether the option is of use to the planner, which may take it and do nothing with it.
+    /// Returns true if the planner uses the option. A planner may accept an option and ignore it.
     is_for: fn(Method) -> bool,
 }
 
@@ -78,7 +78,7 @@ const CHOICES: [Choice; 8] = [
     },
 ];
 
-/// Cells of fields are square in joint space unless their number is given.
+/// Returns the default of `--cells`. Cells of fields are square in joint space unless their number is given.
 fn cells(planner: Method) -> Option<String> {
     match Planner::named(planner) {
         Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => Some(cells.to_string()),
@@ -91,14 +91,14 @@ fn word(value: impl Named) -> Option<String> {
     Some(value.word().to_owned())
 }
 
-/// Every planner with its menus.
+/// Returns every planner with its menus.
 pub fn planners() -> Vec<PlannerReply> {
     let grammar = Options::grammar();
     let menus = |planner: Method| CHOICES.iter().filter_map(|choice| menu(&grammar, planner, choice)).collect();
     Method::ALL.into_iter().map(|planner| PlannerReply { name: planner.name(), options: menus(planner) }).collect()
 }
 
-/// The menu of an option: the values that the planner takes. None if it takes none.
+/// Returns the menu of an option with the values that the planner accepts; `None` if it accepts none of them.
 fn menu(grammar: &Command, planner: Method, choice: &Choice) -> Option<OptionReply> {
     let argument = grammar.get_arguments().find(|argument| argument.get_long() == Some(choice.name))?;
     let name = format!("--{}", choice.name);

@@ -5,10 +5,10 @@ use cplan_core::model::Scene;
 use cplan_engine::Method;
 use cplan_options::{MotionArgs, PlannerArgs, word};
 
-/// The finest trajectory that a page asks for, seconds: it is drawn, and sent to a browser.
+/// Shortest period of a trajectory that a page may request, in seconds, because it is drawn and sent to a browser.
 const SHORTEST_PERIOD: f64 = 1e-3;
 
-/// A planner and what is asked of it.
+/// A planner and its options.
 #[derive(Debug)]
 pub struct Options {
     options: cplan_engine::Options,
@@ -26,19 +26,19 @@ struct Grammar {
 }
 
 impl Options {
-    /// The grammar, for menus.
+    /// Returns the grammar, for menus.
     pub fn grammar() -> Command {
         Grammar::command()
     }
 
-    /// Reads `PLANNER OPTIONS`.
+    /// Parses `PLANNER OPTIONS`.
     ///
     /// # Errors
-    /// What is wrong with it, in one line.
+    /// The reason, in one line.
     pub fn parse(text: &str) -> Result<Self, String> {
         let grammar = Grammar::try_parse_from(text.split_whitespace()).map_err(|error| {
             let text = error.to_string();
-            // Up to the usage, which is that of a command line.
+            // The error without the usage, which describes a command line.
             let lines: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
             let line = lines.join(" ");
             line.strip_prefix("error: ").unwrap_or(&line).to_owned()
@@ -58,10 +58,10 @@ impl Options {
         Ok(Self { options })
     }
 
-    /// For planning in a scene.
+    /// Returns the options for planning in a scene.
     ///
     /// # Errors
-    /// A field that follows preferences of the world, which has none.
+    /// The field needs preferences, and the world has none.
     pub fn within(&self, scene: &Scene) -> Result<&cplan_engine::Options, String> {
         self.options.planner.lack(&scene.workspace().preferences).map_or(Ok(&self.options), Err)
     }

@@ -238,9 +238,10 @@ pub struct WorldReply {
     pub planners: Vec<&'static str>,
     /// The options of each planner, for the page's menus.
     pub menus: Vec<PlannerReply>,
-    /// Planner and options to begin with; none with a world that was loaded.
+    /// Initial planner and options; `None` with a world that was loaded.
     pub options: Option<String>,
-    /// The arm, for a link that holds it with the world; none with a world that was loaded, and where either names files beside it.
+    /// The arm, for a link that contains it with the world; `None` with a world that was loaded, and if either names
+    /// other files.
     pub urdf: Option<String>,
     /// The current text of the world file.
     pub toml: String,
@@ -285,7 +286,7 @@ pub struct JointReply {
     pub name: String,
     /// `rad` or `m`.
     pub unit: &'static str,
-    /// Least and greatest value; none for one that turns without end.
+    /// Least and greatest value; `None` for a continuous joint.
     pub limits: Option<Pair>,
 }
 
@@ -305,7 +306,7 @@ pub struct AnswerReply {
     pub about: Option<About>,
     /// Configurations of the start or the goal that are not free.
     pub blocked: Vec<BlockedReply>,
-    /// `found`, `infeasible` or `unknown`; none with an error, and where the plan is not done.
+    /// `found`, `infeasible` or `unknown`; `None` with an error, and if the plan is not finished.
     pub verdict: Option<&'static str>,
     /// True if the whole motion is proven free.
     pub certified: bool,
@@ -317,7 +318,7 @@ pub struct AnswerReply {
     pub start: Option<Pair>,
     /// Configurations that fulfil the goal.
     pub goals: Vec<Pair>,
-    /// The world as text; of final answers.
+    /// The world as text, in final answers.
     pub toml: Option<String>,
     /// The drawing; `None` without a scene.
     pub view: Option<Box<RawValue>>,
@@ -329,7 +330,7 @@ pub struct AnswerReply {
 pub enum About {
     /// Planner and options.
     Options,
-    /// Obstacles and all else of the world.
+    /// Obstacles and everything else in the world.
     World,
     /// The start.
     Start,
@@ -353,7 +354,7 @@ pub struct HitReply {
     pub link: usize,
     /// The obstacle, as the world counts them.
     pub obstacle: usize,
-    /// Distance, metres; negative where they meet.
+    /// Distance, metres; negative if they overlap.
     pub distance: f64,
 }
 

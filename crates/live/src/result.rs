@@ -56,7 +56,7 @@ fn picture<'a>(
     Picture { title, goals, c_obstacles, ..Picture::new(scene, start) }
 }
 
-/// Describes the arm in one line, so that a page keeps its lines during a drag.
+/// Describes the arm in one line. The page keeps the same number of lines during a drag.
 fn arm_of(scene: &Scene) -> String {
     let [first, second] = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
     format!("{} arm, joints {first} and {second}", scene.arm().kind())

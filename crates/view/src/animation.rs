@@ -1,21 +1,23 @@
-//! A view in motion: first how the planner came to its answer, then what the arm does.
+//! The animation of a view: first how the planner found its answer, then the motion of the arm.
 
 use super::figure::Figure;
 use super::legend;
 use super::page;
 use super::view::View;
 
-/// Time between two pictures, in hundredths of a second: nearly 17 a second.
+/// Time between two pictures, in hundredths of a second: nearly 17 pictures per second.
 pub const DELAY: u16 = 6;
 
-/// Shortest and longest time in which the motion is shown, seconds: what is shorter is slowed down.
+/// Shortest and longest time in which the motion is shown, in seconds. Shorter motions are slowed down, longer ones
+/// sped up.
 const MOTION: [f64; 2] = [2.0, 3.5];
 
-/// How long the end of a phase, and of all, is to be seen, hundredths of a second.
+/// Time for which the last picture of a phase (`REST`) and the last picture of all (`END`) are shown, in hundredths of
+/// a second.
 const REST: u16 = 36;
 const END: u16 = 200;
 
-/// A moment, and how long it is shown, in hundredths of a second.
+/// A moment of the animation, and the time for which it is shown, in hundredths of a second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
     what: What,
@@ -24,15 +26,15 @@ pub struct Moment {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum What {
-    /// A phase of the planner's run, and how much of it has been shown.
+    /// A phase of the planner's run, and the fraction of it that has been shown.
     Thinking(usize, f64),
-    /// A time of the motion.
+    /// A time of the motion, in seconds.
     Moving(f64),
-    /// All at rest.
+    /// The whole view, at rest.
     Still,
 }
 
-/// The moments of a view, one after the other; the last one is the view as it is.
+/// Returns the moments of a view, in order. The last one shows the complete view.
 #[must_use]
 pub fn moments(view: &View) -> Vec<Moment> {
     let mut moments = Vec::new();
@@ -52,7 +54,7 @@ pub fn moments(view: &View) -> Vec<Moment> {
     moments
 }
 
-/// The picture of a moment.
+/// Draws the picture of a moment.
 #[must_use]
 pub fn figure(view: &View, moment: Moment) -> Figure {
     let shown = match moment.what {

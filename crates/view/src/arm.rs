@@ -1,4 +1,4 @@
-//! The arm in one configuration, with what it carries.
+//! The arm in one configuration, with its payload.
 
 use super::axes::Frame;
 use super::color::{self, ACCENT, BARRED, GREY, INK, PALE, Rgb, WHITE};
@@ -8,7 +8,7 @@ use super::view::PayloadView;
 use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 
-/// How a pose is drawn.
+/// Colours and lines of a pose.
 pub struct Look {
     fill: Rgb,
     line: Rgb,
@@ -17,18 +17,18 @@ pub struct Look {
     joints: bool,
 }
 
-/// Where the motion begins.
+/// The arm at the start of the motion.
 pub const START: Look = Look { fill: WHITE, line: INK, width: 1.4, opacity: 0.9, joints: true };
-/// Where it ends.
+/// The arm at the goal.
 pub const GOAL: Look = Look { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true };
-/// Where it would end, but cannot.
+/// The arm at a goal that it cannot reach.
 pub const UNREACHED: Look = Look { fill: WHITE, line: BARRED, width: 1.2, opacity: 0.6, joints: false };
-/// Where it is.
+/// The arm at its current configuration.
 pub const NOW: Look = Look { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true };
-/// On the way.
+/// The arm at a configuration along the path.
 pub const GHOST: Look = Look { fill: color::GHOST, line: GREY, width: 0.8, opacity: 0.7, joints: false };
 
-/// The arm at `q`: its own outline, and above it what it carries in the colour of the object.
+/// Draws the arm at `q`: its own outline, and above it the payload in the colour of the object.
 #[must_use]
 pub fn items(frame: &Frame, arm: &Arm, payload: Option<&PayloadView>, q: Configuration, look: &Look) -> Vec<Item> {
     let body = Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity);

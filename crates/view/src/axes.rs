@@ -1,4 +1,4 @@
-//! Coordinate frames: from values to the page, with ticks.
+//! Coordinate frames: they map values to places on the page, and draw ticks.
 
 use super::color::{FAINT, GREY, INK, PALE};
 use super::figure::{Anchor, Item, Rect, Spot, Step, Style, label as text, upwards};
@@ -6,19 +6,19 @@ use super::figure::{Anchor, Item, Rect, Spot, Step, Style, label as text, upward
 /// Lower and upper value along an axis.
 pub type Range = (f64, f64);
 
-/// What an axis measures.
+/// Unit of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// Metres.
     Meters,
-    /// Radians; each number has its degree sign.
+    /// Radians, written in degrees with the degree sign.
     Degrees,
 }
 
-/// A rectangle of the page with values along its sides; `y` goes up.
+/// A rectangle of the page with values along its sides; `y` increases upwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// Where it is on the page.
+    /// Rectangle on the page.
     pub rect: Rect,
     /// Values along the lower side.
     pub x: Range,
@@ -26,19 +26,20 @@ pub struct Frame {
     pub y: Range,
 }
 
-/// A range of positive, finite length: an empty or broken one is widened about its middle.
+/// Returns a range of positive, finite length: an empty range is widened about its middle, one that is not finite is
+/// replaced.
 fn sound((lower, upper): Range) -> Range {
     if !(lower.is_finite() && upper.is_finite()) {
         return (-1.0, 1.0);
     }
-    // A millimetre, or the twentieth part of a degree: less makes labels of many digits and tells nothing.
+    // A millimetre, or a twentieth of a degree. Shorter ranges make long labels without any use.
     let least = f64::max(1e-3, 1e-9 * lower.abs().max(upper.abs()));
     if upper - lower >= least { (lower, upper) } else { (lower - least / 2.0, lower + least / 2.0) }
 }
 
 impl Frame {
-    /// The largest frame in `area` that shows just these ranges; with `equal_scale` in the upper middle of the area,
-    /// with the same scale along both axes.
+    /// Returns the largest frame in `area` that shows exactly these ranges. With `equal_scale`, both axes have the same
+    /// scale, and the frame lies in the upper middle of the area.
     #[must_use]
     pub fn fitted(area: Rect, x: Range, y: Range, equal_scale: bool) -> Self {
         let (x, y) = (sound(x), sound(y));
@@ -52,7 +53,7 @@ impl Frame {
         Self { rect, x, y }
     }
 
-    /// The frame that fills `area` with the same scale along both axes and shows at least these ranges.
+    /// Returns the frame that fills `area` with the same scale along both axes, and shows at least these ranges.
     #[must_use]
     pub fn filling(area: Rect, x: Range, y: Range) -> Self {
         let (x, y) = (sound(x), sound(y));
@@ -64,7 +65,7 @@ impl Frame {
         Self { rect: area, x: about(x, area.width), y: about(y, area.height) }
     }
 
-    /// Place of the point `(x, y)`.
+    /// Returns the place of the point `(x, y)` on the page.
     #[must_use]
     pub fn at(&self, x: f64, y: f64) -> Spot {
         let Rect { width, height, .. } = self.rect;
@@ -74,13 +75,13 @@ impl Frame {
         ]
     }
 
-    /// Pixels per unit along the lower side.
+    /// Returns the number of pixels per unit along the lower side.
     #[must_use]
     pub fn scale(&self) -> f64 {
         self.rect.width / (self.x.1 - self.x.0)
     }
 
-    /// Light lines across the frame at the ticks; drawn below everything.
+    /// Draws light lines across the frame at the ticks; they belong below everything else.
     #[must_use]
     pub fn grid(&self, units: [Unit; 2]) -> Vec<Item> {
         let pen = Style::line(FAINT, 1.0);
@@ -96,8 +97,8 @@ impl Frame {
         upright.chain(level).collect()
     }
 
-    /// Sides, ticks and titles; drawn above everything. A side that is a seam, where the space continues on the
-    /// opposite side, is dashed.
+    /// Draws sides, ticks and titles; they belong above everything else. A side is dashed if it is a seam, where the
+    /// space continues on the opposite side.
     #[must_use]
     pub fn border(&self, units: [Unit; 2], titles: [String; 2], seams: [bool; 2]) -> Vec<Item> {
         let mut items = self.sides(seams);
@@ -106,7 +107,7 @@ impl Frame {
         items
     }
 
-    /// The sides alone.
+    /// Draws only the sides.
     #[must_use]
     pub fn sides(&self, seams: [bool; 2]) -> Vec<Item> {
         let Rect { x: left, y: top, .. } = self.rect;
@@ -124,7 +125,7 @@ impl Frame {
         ]
     }
 
-    /// Marks at the ticks, with values along the axes that are to have them.
+    /// Draws marks at the ticks, with values along the axes for which `values` is true.
     #[must_use]
     pub fn tick_marks(&self, units: [Unit; 2], values: [bool; 2]) -> Vec<Item> {
         let (left, bottom) = (self.rect.x, self.rect.bottom());
@@ -144,8 +145,8 @@ impl Frame {
         items
     }
 
-    /// Titles of the axes in the middle of the sides of `around`, beyond the values at the ticks: of this frame, or of
-    /// several beside and below each other.
+    /// Draws the titles of the axes in the middle of the sides of `around`, outside of the values at the ticks.
+    /// `around` is the rectangle of this frame, or of several frames that share their titles.
     #[must_use]
     pub fn titles(&self, around: Rect, units: [Unit; 2], [x_title, y_title]: [String; 2]) -> [Item; 2] {
         let [_, y_ticks] = self.ticks(units);
@@ -165,7 +166,7 @@ impl Frame {
     }
 }
 
-/// Round values in the range with their labels: at most `at_most`, but more where that would leave less than two.
+/// Returns round values in the range with their labels: at most `at_most`, or more if fewer than two would remain.
 fn ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
     let few = sparse_ticks(range, unit, at_most.max(2));
     if few.len() >= 2 { few } else { sparse_ticks(range, unit, 2 * at_most.max(2)) }
@@ -183,7 +184,7 @@ fn sparse_ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> 
         Unit::Meters => decimal_step(least),
         Unit::Degrees => degree_step(least),
     };
-    // Half a per mille of a step: a limit that is a round number but for rounding still gets its tick.
+    // Half a per mille of a step, so that a limit gets its tick although rounding moved it slightly off a round number.
     let slack = 5e-4;
     let (first, last) = ((lower / step - slack).ceil(), (upper / step + slack).floor());
     let decimals = (-step.log10()).ceil().clamp(0.0, 9.0) as usize;
@@ -202,13 +203,13 @@ fn label(value: f64, decimals: usize) -> String {
     if value < 0.0 && !is_zero { format!("\u{2212}{text}") } else { text }
 }
 
-/// The least of 1, 2, 5 times a power of ten that is not below `least`.
+/// Returns the smallest number of the form 1, 2 or 5 times a power of ten that is not below `least`.
 fn decimal_step(least: f64) -> f64 {
     let power = 10_f64.powf(least.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|m| m * power).find(|&s| s >= least * (1.0 - 1e-9)).unwrap_or(10.0 * power)
 }
 
-/// The least step in degrees that divides a turn, or is made of turns, and is not below `least`.
+/// Returns the smallest step in degrees that divides a turn, or is a multiple of a turn, and is not below `least`.
 fn degree_step(least: f64) -> f64 {
     const STEPS: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
     if least < 0.5 {

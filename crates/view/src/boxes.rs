@@ -1,4 +1,4 @@
-//! Boxes of configurations: what a subdivision is made of, and what a proof consists of.
+//! Boxes of configurations: those of a subdivision, and those of a proof.
 
 use super::axes::Frame;
 use super::color::{EDGE, FREE, MIXED, PROOF, WHITE};
@@ -7,7 +7,7 @@ use super::legend::{Key, Sign};
 use super::view::Chain;
 use cplan_core::space::Configuration;
 
-/// Boxes narrower than this have no sides drawn, pixels: the lines would hide all else.
+/// Boxes narrower than this are drawn without sides, in pixels. The lines would hide everything else.
 const NARROW: f64 = 2.0;
 
 fn rect([lower, upper]: [Configuration; 2], frame: &Frame) -> Rect {
@@ -19,7 +19,7 @@ fn surface(boxes: &Chain, frame: &Frame, style: Style) -> Item {
     Item::Outline(boxes.pairs().flat_map(|b| rectangle(rect(b, frame))).collect(), style)
 }
 
-/// Free and undecided boxes, as surfaces.
+/// Draws free and undecided boxes as surfaces.
 #[must_use]
 pub fn surfaces(free: &Chain, mixed: [&Chain; 2], frame: &Frame) -> Vec<Item> {
     let [mixed, rest] = mixed;
@@ -27,29 +27,29 @@ pub fn surfaces(free: &Chain, mixed: [&Chain; 2], frame: &Frame) -> Vec<Item> {
     all.map(|(boxes, color)| surface(boxes, frame, Style::fill(color))).into()
 }
 
-/// The sides of boxes.
+/// Draws the sides of boxes.
 #[must_use]
 pub fn sides(boxes: &Chain, frame: &Frame) -> Item {
     let rects = boxes.pairs().map(|b| rect(b, frame)).filter(|r| r.width >= NARROW && r.height >= NARROW);
     Item::Outline(rects.flat_map(rectangle).collect(), Style::line(EDGE, 0.5))
 }
 
-/// Legend of a subdivision.
+/// Returns the legend of a subdivision.
 #[must_use]
 pub fn keys() -> Vec<Key> {
     vec![(Sign::Swatch(FREE), "free boxes".to_owned()), (Sign::Swatch(MIXED), "undecided boxes".to_owned())]
 }
 
-/// From one line of a hatch to the next, along the page's horizontal; pixels.
+/// Horizontal distance between neighbouring lines of a hatch, in pixels.
 const HATCH: f64 = 7.0;
 
-/// The boxes of a proof, over the C-obstacles: hatched, as nothing else is.
+/// Draws the boxes of a proof over the C-obstacles. They are hatched, and nothing else is.
 #[must_use]
 pub fn proof(boxes: &Chain, frame: &Frame) -> Vec<Item> {
     hatched(&boxes.pairs().map(|b| rect(b, frame)).collect::<Vec<_>>())
 }
 
-/// Rectangles with their sides and a hatch, on paper of a kind, so that it shows on any ground.
+/// Draws hatched rectangles with their sides. A translucent ground below the hatch keeps it visible over any colour.
 pub fn hatched(rects: &[Rect]) -> Vec<Item> {
     let sides: Vec<Step> = rects.iter().copied().flat_map(rectangle).collect();
     let lines: Vec<Step> = rects.iter().copied().flat_map(hatch).collect();
@@ -60,9 +60,10 @@ pub fn hatched(rects: &[Rect]) -> Vec<Item> {
     ]
 }
 
-/// Lines that rise to the right, cut to a rectangle. They are the same lines for all rectangles: hatches of neighbours go on.
+/// Returns lines that rise to the right, cut to a rectangle. The lines are the same for all rectangles, so that the
+/// hatches of neighbours fit together.
 fn hatch(rect: Rect) -> Vec<Step> {
-    // Each line is where x + y is a multiple of the distance.
+    // On each line, x + y is a multiple of the distance.
     let (least, greatest) = (rect.x + rect.y, rect.right() + rect.bottom());
     let lines = (least / HATCH).ceil() as i64..=(greatest / HATCH).floor() as i64;
     let line = |k: i64| {
@@ -73,7 +74,7 @@ fn hatch(rect: Rect) -> Vec<Step> {
     lines.flat_map(line).collect()
 }
 
-/// Legend of a proof.
+/// Returns the legend of a proof.
 #[must_use]
 pub fn proof_key() -> Key {
     (Sign::Hatched, "proof: separating boxes".to_owned())
@@ -93,7 +94,7 @@ mod tests {
         assert_eq!(style.pen.map(|pen| pen.color), Some(PROOF));
     }
 
-    /// A place is on the hatch of a rectangle just if it is in the rectangle and on one of the lines.
+    /// A place is on the hatch of a rectangle exactly if it is in the rectangle and on one of the lines.
     #[test]
     fn a_hatch_fills_its_rectangle_and_goes_on_in_the_next() {
         for rect in [[3.0, 40.0, 31.0, 22.0], [34.0, 40.0, 2.0, 22.0], [0.0, 0.0, 7.0, 90.0]] {
@@ -108,7 +109,7 @@ mod tests {
                 }
                 length += (b[0] - a[0]).hypot(b[1] - a[1]);
             }
-            // As much as there is between lines that lie so far apart, but for one at each end.
+            // The expected total length for lines at this distance, up to one line at each end.
             let expected = width * height / (HATCH / std::f64::consts::SQRT_2);
             assert!((length - expected).abs() < 2.0 * width.min(height) + HATCH, "{length} for {expected}");
         }

@@ -1,4 +1,4 @@
-//! The channel of a decomposition, and the points that paths through its middle lead by.
+//! The channel of a cell decomposition, and the points that paths through its middle visit.
 
 use super::chart::Chart;
 use super::color::{CHANNEL, EDGE, INK, WHITE};
@@ -6,22 +6,23 @@ use super::figure::{Anchor, Item, Rect, Spot, Style, label, text_width};
 use super::legend::{Key, Sign};
 use super::view::Chain;
 
-/// Cells that are narrower than this have finer sides, pixels: those of all together would make a moire.
+/// Cells narrower than this are drawn with finer sides, in pixels. With normal sides, many such cells would make a
+/// moiré pattern.
 const NARROW: f64 = 5.0;
-/// Radius of a point, pixels.
+/// Radius of a point, in pixels.
 const RADIUS: f64 = 3.0;
-/// Height of the names of points, pixels.
+/// Height of the names of points, in pixels.
 const SIZE: f64 = 11.0;
-/// Cells of a channel up to which its points have names.
+/// Largest number of cells in a channel whose points have names.
 const NAMED: usize = 24;
 
-/// The surface of the channel.
+/// Draws the surface of the channel.
 pub fn surface(cells: &[Chain], channel: &[usize], chart: &Chart) -> Item {
     let steps = channel.iter().filter_map(|&i| cells.get(i)).flat_map(|cell| chart.polygon(cell)).collect();
     Item::Outline(steps, Style::fill(CHANNEL).faded(0.75))
 }
 
-/// The sides of all cells, and those of the channel over them.
+/// Draws the sides of all cells, and those of the channel over them.
 pub fn sides(cells: &[Chain], channel: &[usize], chart: &Chart) -> Vec<Item> {
     let of = |cells: &[&Chain]| cells.iter().flat_map(|cell| chart.polygon(cell)).collect();
     let (wide, narrow): (Vec<&Chain>, Vec<&Chain>) = cells.iter().partition(|cell| is_wide(cell, chart));
@@ -40,7 +41,8 @@ fn is_wide(Chain(corners): &Chain, chart: &Chart) -> bool {
     high - low >= NARROW
 }
 
-/// Centres (discs) and middles of doors (rings), `C1`, `Q1`, `C2` and so on; names of few, where they cover nothing that is marked.
+/// Draws centres of cells (discs) and middles of portals (rings), named `C1`, `Q1`, `C2` and so on. If there are only a
+/// few, they have names where these cover no marker.
 pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
     let places = |points: &Chain| points.0.iter().map(|&q| chart.place(q)).collect::<Vec<Spot>>();
     let (centers, middles) = (places(centers), places(middles));
@@ -86,12 +88,12 @@ fn within(place: &Rect, page: &Rect) -> bool {
     place.x >= page.x && place.right() <= page.right() && place.y >= page.y && place.bottom() <= page.bottom()
 }
 
-/// Where a point of the legend is drawn.
+/// Draws a point for the legend.
 pub fn sign(at: Spot, is_middle: bool) -> Item {
     if is_middle { ring(at) } else { disc(at) }
 }
 
-/// The names of the points.
+/// Returns the legend of the points.
 pub fn keys([centers, middles]: [&Chain; 2]) -> Vec<Key> {
     let center = (!centers.is_empty()).then(|| (Sign::Point { middle: false }, "centres of cells (C)".to_owned()));
     let middle = (!middles.is_empty()).then(|| (Sign::Point { middle: true }, "middles of doors (Q)".to_owned()));

@@ -8,26 +8,26 @@ use cplan_core::model::{Arm, Joint};
 use cplan_core::space::{Configuration, Topology};
 use cplan_geometry::cross;
 
-/// Ratio of the ranges of two joints of one kind up to which both are drawn to one scale.
+/// Largest ratio of the ranges of two joints of one kind with which both axes have the same scale.
 const ONE_SCALE: f64 = 2.2;
 
 /// The whole joint space of an arm in a frame of the page.
 #[derive(Debug, Clone, Copy)]
 pub struct Chart {
-    /// Where it is.
+    /// Frame on the page.
     pub frame: Frame,
-    /// What the axes measure.
+    /// Units of the axes.
     pub units: [Unit; 2],
-    /// How each joint's values go round, if they do.
+    /// Topology of the joint space: which joints wrap around.
     pub topology: Topology,
-    /// Where paths repeat: across seams.
+    /// Window in which paths are repeated across seams.
     pub paths: Window,
-    /// Where obstacles repeat.
+    /// Window in which obstacles are repeated.
     pub obstacles: Window,
 }
 
 impl Chart {
-    /// The chart in this part of the page.
+    /// Creates the chart in this part of the page.
     #[must_use]
     pub fn new(arm: &Arm, area: Rect) -> Self {
         let topology = arm.topology();
@@ -35,32 +35,32 @@ impl Chart {
         let units = units(arm);
         let frame = Frame::fitted(area, ranges[0], ranges[1], one_scale(arm).is_some());
         let paths = Window { ranges, repeats: topology.ranges.map(|axis| axis.is_circle()) };
-        // A turning link meets an obstacle again after each turn, limits or not.
+        // A revolute link meets an obstacle again after each turn, whether or not it has limits.
         let obstacles = Window { ranges, repeats: units.map(|u| u == Unit::Degrees) };
         Self { frame, units, topology, paths, obstacles }
     }
 
-    /// Sides where the space continues on the opposite side.
+    /// Returns for each axis whether its sides are seams, where the space continues on the opposite side.
     #[must_use]
     pub fn seams(&self) -> [bool; 2] {
         self.paths.repeats
     }
 
-    /// Where a configuration is.
+    /// Returns the place of a configuration on the page.
     #[must_use]
     pub fn place(&self, q: Configuration) -> Spot {
         let q = self.topology.wrap(q);
         self.frame.at(q[0], q[1])
     }
 
-    /// A path, cut at the seams.
+    /// Returns the outline of a path, cut at the seams.
     #[must_use]
     pub fn outline(&self, path: &[Configuration]) -> Vec<Step> {
         let pieces = self.paths.pieces(path);
         pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| self.frame.at(q[0], q[1])), false)).collect()
     }
 
-    /// A closed outline with its copies, where it repeats as paths do.
+    /// Returns a closed outline with its copies, repeated as paths are.
     #[must_use]
     pub fn polygon(&self, Chain(corners): &Chain) -> Vec<Step> {
         self.copies(corners, &self.paths)
@@ -71,14 +71,15 @@ impl Chart {
         window.shifts(corners).into_iter().flat_map(copy).collect()
     }
 
-    /// Contours with their copies as one outline; in a style whose pen lies below they look like their union.
+    /// Returns contours with their copies as one outline. With a style whose pen lies below the fill, they look like
+    /// their union.
     #[must_use]
     pub fn c_obstacle<'a>(&self, contours: impl Iterator<Item = &'a ContourView>, style: Style) -> Item {
         let mut steps = Vec::new();
         for Chain(contour) in contours.map(|c| &c.contour) {
             let twice: f64 = (0..contour.len()).map(|i| cross(contour[i], contour[(i + 1) % contour.len()])).sum();
             let mut ordered = contour.clone();
-            // The non-zero rule unites contours of one orientation only.
+            // The non-zero rule unites only contours of the same orientation.
             if twice < 0.0 {
                 ordered.reverse();
             }
@@ -88,12 +89,12 @@ impl Chart {
     }
 }
 
-/// What the axes measure.
+/// Returns the units of the axes.
 fn units(arm: &Arm) -> [Unit; 2] {
     [0, 1].map(|k| if arm.joints[k].joint_type.is_revolute() { Unit::Degrees } else { Unit::Meters })
 }
 
-/// The ratio of height to width of the whole joint space if both axes are drawn to one scale.
+/// Returns the ratio of height to width of the whole joint space if both axes have the same scale.
 #[must_use]
 pub fn one_scale(arm: &Arm) -> Option<f64> {
     let [width, height] = arm.topology().ranges.map(|axis| axis.extent());
@@ -101,7 +102,7 @@ pub fn one_scale(arm: &Arm) -> Option<f64> {
     (first == second && width <= ONE_SCALE * height && height <= ONE_SCALE * width).then(|| height / width)
 }
 
-/// Titles of the axes.
+/// Returns the titles of the axes.
 #[must_use]
 pub fn titles(arm: &Arm) -> [String; 2] {
     [0, 1].map(|k| title(&arm.joints[k]))

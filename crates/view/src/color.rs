@@ -1,6 +1,6 @@
 //! Colours that colour-blind readers can tell apart.
 
-/// A colour, sRGB.
+/// A colour in sRGB.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rgb(pub u8, pub u8, pub u8);
 
@@ -12,13 +12,13 @@ impl Rgb {
         Rgb(mix(self.0, other.0), mix(self.1, other.1), mix(self.2, other.2))
     }
 
-    /// The same colour, this part of the way to white.
+    /// Returns this colour mixed with `part` (0 to 1) of white.
     #[must_use]
     pub fn lighter(self, part: f64) -> Rgb {
         self.mixed(WHITE, part)
     }
 
-    /// The same colour, this part of the way to black.
+    /// Returns this colour mixed with `part` (0 to 1) of black.
     #[must_use]
     pub fn darker(self, part: f64) -> Rgb {
         self.mixed(Rgb(0, 0, 0), part)
@@ -33,38 +33,38 @@ impl std::fmt::Display for Rgb {
 
 /// The colour of the paper.
 pub const WHITE: Rgb = Rgb(255, 255, 255);
-/// Text, path and arm.
+/// Text, paths and the arm.
 pub const INK: Rgb = Rgb(0x22, 0x26, 0x2b);
-/// For text that is less important.
+/// Less important text.
 pub const GREY: Rgb = Rgb(0x5c, 0x63, 0x6b);
-/// What is there for orientation: the reach, ticks.
+/// Marks for orientation: the reach, ticks.
 pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
-/// What bars the way, and what is out of reach.
+/// Blocking obstacles, and goals out of reach.
 pub const BARRED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
-/// Proofs: of no obstacle, and of no path.
+/// Boxes of proofs that there is no path.
 pub const PROOF: Rgb = Rgb(0xd9, 0x5f, 0x02);
-/// What moves.
+/// The arm at its current configuration, and lines of steepest ascent.
 pub const ACCENT: Rgb = Rgb(0x00, 0x72, 0xb2);
-/// For lines of the grid behind a chart.
+/// Grid lines behind a chart.
 pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
-/// The arm on its way.
+/// The arm along its path.
 pub const GHOST: Rgb = Rgb(0xd8, 0xdc, 0xe1);
 /// Edges of roadmaps, sides of cells.
 pub const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
-/// Cells that the way leads through: a yellow that no obstacle has.
+/// Cells of the channel: a yellow that no obstacle has.
 pub const CHANNEL: Rgb = Rgb(0xff, 0xf0, 0x70);
 /// Boxes of free configurations.
 pub const FREE: Rgb = Rgb(0xd3, 0xee, 0xda);
-/// Boxes of which nothing is known: grey, which no obstacle is.
+/// Undecided boxes: grey, which no obstacle is.
 pub const MIXED: Rgb = Rgb(0xae, 0xb3, 0xbb);
-/// Links of the robot that stand still.
+/// Fixed links of the robot.
 pub const ROBOT: Rgb = Rgb(0x8a, 0x90, 0x98);
 /// Regions that fields avoid.
 pub const AVOIDED: Rgb = Rgb(0xc4, 0x6a, 0x1d);
 /// Regions that fields prefer.
 pub const PREFERRED: Rgb = Rgb(0x2b, 0x7a, 0x78);
 
-/// The colours that mean something, by the names that the style of pages has for them.
+/// The colours with a meaning, by their names in the style sheet of pages.
 pub const TINTS: [(&str, Rgb); 15] = [
     ("ink", INK),
     ("paper", WHITE),
@@ -83,14 +83,15 @@ pub const TINTS: [(&str, Rgb); 15] = [
     ("preferred", PREFERRED),
 ];
 
-/// The name of a colour that means something, or the colour.
+/// Returns the name of a colour that has a meaning, and otherwise the colour itself.
 #[must_use]
 pub fn tint(color: Rgb) -> String {
     let named = TINTS.iter().find(|(_, tint)| *tint == color);
     named.map_or_else(|| color.to_string(), |(name, _)| (*name).to_owned())
 }
 
-/// Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), neighbours in the list far apart.
+/// Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), ordered so that neighbours in the list differ
+/// strongly.
 const MUTED: [Rgb; 9] = [
     Rgb(0x88, 0xcc, 0xee),
     Rgb(0xcc, 0x66, 0x77),
@@ -103,8 +104,8 @@ const MUTED: [Rgb; 9] = [
     Rgb(0x11, 0x77, 0x33),
 ];
 
-/// The colour of obstacle `index`. Nine hues; further rounds through them alternate between paler and deeper, so that
-/// 63 obstacles differ before the list begins again.
+/// Returns the colour of obstacle `index`. There are nine hues. Further rounds through them alternate between paler and
+/// deeper colours, so that 63 obstacles differ before the list begins again.
 #[must_use]
 pub fn obstacle(index: usize) -> Rgb {
     let hue = MUTED[index % MUTED.len()];
@@ -119,8 +120,9 @@ pub fn obstacle(index: usize) -> Rgb {
     }
 }
 
-/// Colour and dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008). The dashes
-/// keep paths apart that lie on top of each other; further rounds through the colours have other dashes, so that 36 paths differ.
+/// Returns colour and dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008). Dashes
+/// distinguish paths that lie on top of each other. Further rounds through the colours have other dashes, so that 36
+/// paths differ.
 #[must_use]
 pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     const COLORS: [Rgb; 6] = [
@@ -135,8 +137,8 @@ pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     (COLORS[index % COLORS.len()], DASHES[(index + index / COLORS.len()) % DASHES.len()])
 }
 
-/// A perceptually uniform scale for `value` from 0 (light) to 1 (dark): seaborn's "mako" without its darkest third,
-/// reversed, so that a dark path stays legible on it.
+/// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale: seaborn's "mako" without
+/// its darkest third, reversed, so that a dark path stays legible on it.
 #[must_use]
 pub fn scale(value: f64) -> Rgb {
     const STOPS: [Rgb; 8] = [
@@ -158,7 +160,7 @@ pub fn scale(value: f64) -> Rgb {
 mod tests {
     use super::*;
 
-    /// Relative luminance (WCAG), to measure with something else than the mixing code.
+    /// Relative luminance (WCAG), a measure that is independent of the mixing code.
     fn luminance(c: Rgb) -> f64 {
         let linear = |v: u8| {
             let v = f64::from(v) / 255.0;
@@ -184,7 +186,8 @@ mod tests {
         assert_eq!(obstacle(63), obstacle(0));
     }
 
-    /// As they are drawn in configuration spaces: one of them was all but the channel's.
+    /// Compares with the paler colours of configuration spaces, where one obstacle once nearly had the colour of the
+    /// channel.
     #[test]
     fn no_obstacle_has_the_colour_of_the_channel() {
         for index in 0..63 {
@@ -210,7 +213,7 @@ mod tests {
         };
         assert!(contrast(FREE, MIXED) >= 1.6, "{}", contrast(FREE, MIXED));
         assert!(contrast(MIXED, WHITE) >= 1.6);
-        // The outline of a ghost.
+        // The outline of a pose along the path.
         assert!(contrast(GREY.lighter(0.3), WHITE) >= 3.0);
     }
 

@@ -1,23 +1,23 @@
-//! Copies of shapes and paths by whole turns, cut to the part of joint space that is shown.
+//! Copies of shapes and paths by whole turns, cut to the visible part of joint space.
 
 use super::axes::Range;
 use cplan_core::space::Configuration;
 use std::f64::consts::TAU;
 
-/// Copies beyond this number are left out: in a panel of some 500 pixels a turn would be half a pixel wide.
+/// Largest number of copies. With more turns in a panel of some 500 pixels, one turn would be half a pixel wide.
 const MOST_TURNS: f64 = 1000.0;
 
-/// The part of joint space that is shown, and along which axes things repeat.
+/// The visible part of joint space, and the axes along which its content repeats.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
     /// Lower and upper value of each axis.
     pub ranges: [Range; 2],
-    /// Whether values that differ by whole turns look alike.
+    /// For each axis, true if values that differ by whole turns look alike.
     pub repeats: [bool; 2],
 }
 
 impl Window {
-    /// All shifts by whole turns that bring a part of the box around `points` into the window.
+    /// Returns all shifts by whole turns that bring a part of the box around `points` into the window.
     #[must_use]
     pub fn shifts<'a>(&self, points: impl IntoIterator<Item = &'a Configuration>) -> Vec<Configuration> {
         let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
@@ -44,7 +44,7 @@ impl Window {
         (0..=count).map(|k| (first + k as f64) * TAU).collect()
     }
 
-    /// The polyline and its copies, cut at the sides of the window; no piece leaves it. `O(copies * corners)`.
+    /// Returns the polyline and its copies, cut at the sides of the window; no piece leaves it. `O(copies * corners)`.
     #[must_use]
     pub fn pieces(&self, polyline: &[Configuration]) -> Vec<Vec<Configuration>> {
         let mut all = Vec::new();
@@ -72,7 +72,7 @@ impl Window {
         all
     }
 
-    /// The parameters between which the segment lies within the window (Liang and Barsky 1984).
+    /// Returns the parameters between which the segment lies within the window (Liang and Barsky 1984).
     fn inside(&self, a: Configuration, b: Configuration) -> Option<(f64, f64)> {
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
         for k in 0..2 {
@@ -91,7 +91,7 @@ impl Window {
         (from <= to).then_some((from, to))
     }
 
-    /// Removes what rounding left outside.
+    /// Moves a configuration into the window, if rounding left it slightly outside.
     fn clamp(&self, q: Configuration) -> Configuration {
         let [x, y] = self.ranges;
         Configuration::new(q[0].max(x.0).min(x.1), q[1].max(y.0).min(y.1))
@@ -151,8 +151,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(200))]
 
-        /// Walks along the path, wraps every point by itself, and asks whether the pieces hold it; nothing is lost and
-        /// nothing is added, since the lengths agree.
+        /// Walks along the path, wraps every point, and checks that the pieces contain it. Since the lengths agree as
+        /// well, nothing is lost and nothing is added.
         #[test]
         fn pieces_are_the_wrapped_path(
             corners in prop::collection::vec((-12.0..12.0f64, -12.0..12.0f64), 2..8),
@@ -180,7 +180,7 @@ mod tests {
             }
             let drawn: f64 = pieces.iter().flat_map(|p| p.windows(2)).map(|w| (w[1] - w[0]).norm()).sum();
             let step: f64 = path.windows(2).map(|w| (w[1] - w[0]).norm() / f64::from(n)).fold(0.0, f64::max);
-            // Sampling errs by up to a step at each of the few crossings of a side.
+            // Sampling is wrong by at most one step at each of the few crossings of a side.
             prop_assert!((drawn - length).abs() <= 16.0 * path.len() as f64 * step, "{drawn} drawn of {length}");
         }
     }

@@ -1,4 +1,4 @@
-//! A configuration space.
+//! A panel with a configuration space.
 
 use super::axes::Frame;
 use super::chart::{self, Chart};
@@ -8,13 +8,13 @@ use super::shapes::DASH;
 use super::view::{ContourView, NameView, PanelView, View, WorldView};
 use super::{boxes, labels, page, preferences, reach, stuck, tags, trace};
 
-/// The pen for goals along a segment.
+/// Pen for goals along a segment.
 const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
 
-/// How wide the markers of start and goals are, pixels.
+/// Width of the markers of start and goals, in pixels.
 const MARKER: f64 = 16.0;
 
-/// The panel in this part of the page, with room for a scale of colours to the right of it.
+/// Draws the panel in this part of the page, with room for a scale of colours to the right of it.
 #[must_use]
 pub fn panel(view: &View, panel: &PanelView, area: Rect) -> Vec<Item> {
     let chart = Chart::new(&view.arm, area);
@@ -24,7 +24,7 @@ pub fn panel(view: &View, panel: &PanelView, area: Rect) -> Vec<Item> {
     items
 }
 
-/// All but values and titles of the axes.
+/// Draws everything except values and titles of the axes.
 #[must_use]
 pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let frame = &chart.frame;
@@ -49,7 +49,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
     items.extend(world.scale.iter().flat_map(|scale| trace::color_bar(scale, &frame.rect)));
-    // Where paths were found, the goals that none of them reached are hollow.
+    // Goals that none of the paths reached are hollow, if there are paths.
     let mut numbers = Vec::new();
     for (q, number, reached) in view.ends(panel) {
         items.extend(goal_marker(chart.place(q), reached));
@@ -68,7 +68,8 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     items
 }
 
-/// What is blocked; of the obstacles that link 2 may reach into in one of the worlds, what they would else block is dashed.
+/// Draws the C-obstacles. If link 2 may reach into an obstacle in one of the worlds, the part that is therefore free is
+/// dashed.
 fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     let (mut dashed, mut solid) = (Vec::new(), Vec::new());
     for (number, obstacle) in worlds[0].obstacles.iter().enumerate() {
@@ -82,7 +83,8 @@ fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     dashed
 }
 
-/// What is blocked by what moves, now; while nothing does, also where it stops, dashed.
+/// Draws the C-obstacles of moving obstacles at the current time. In a still picture, it also draws them at each stop,
+/// dashed.
 fn in_time(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
     let mut items = Vec::new();
     for (number, mover) in world.movers.iter().enumerate() {
@@ -98,32 +100,32 @@ fn in_time(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
     items
 }
 
-/// Names within the C-obstacles; numbers of many.
+/// Draws names within the C-obstacles, or numbers if there are many.
 fn names(world: &WorldView, frame: &Frame, markers: Vec<Rect>) -> Vec<Item> {
     let room = frame.rect.width * frame.rect.height;
     let name = |name: &NameView| (world.called(name.obstacle), frame.at(name.at[0], name.at[1]), name.area * room);
     labels::inside(&frame.rect, markers, world.names.iter().map(name))
 }
 
-/// How a C-obstacle is drawn.
+/// Returns the style of a C-obstacle.
 fn blocked(color: Rgb) -> Style {
     let style = Style::line(color.darker(0.25), 2.0).filled(color.lighter(0.35)).faded(0.85);
     Style { pen_below: true, ..style }
 }
 
-/// How that of an obstacle is drawn that link 2 may reach into.
+/// Returns the style of the C-obstacle of an obstacle that link 2 may reach into.
 fn passable(color: Rgb) -> Style {
     let style = Style::line(color.darker(0.25), 2.6).dashed(DASH).filled(color.lighter(0.85)).faded(0.85);
     Style { pen_below: true, ..style }
 }
 
-/// Where the motion begins: a ring, in which there is room for where the arm is.
+/// Draws the start of a motion: a ring, which leaves room for the arm's current configuration.
 #[must_use]
 pub fn start_marker(at: Spot) -> Vec<Item> {
     vec![Item::Disc(at, 9.5, Style::fill(WHITE).faded(0.85)), Item::Disc(at, 7.0, Style::line(INK, 2.2).filled(WHITE))]
 }
 
-/// Where it ends: a diamond, hollow if no path ended there.
+/// Draws the goal of a motion: a diamond, hollow if no path ended there.
 #[must_use]
 pub fn goal_marker([x, y]: Spot, reached: bool) -> Vec<Item> {
     let diamond = |r: f64| {

@@ -1,4 +1,4 @@
-//! The page that plays an exploration: what is known and seen in the workspace, and the configuration space growing.
+//! The page that plays an exploration: the known and seen parts of the workspace, and the growing configuration space.
 
 use super::view::sealed;
 use cplan_core::model::{Scene, Sensor};
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 const STYLE: &str = include_str!("assets/exploration.css");
 const CODE: &str = include_str!("assets/exploration.js");
 
-/// An exploration as one self-contained file of HTML; `timed`, with how long its decisions took.
+/// Returns an exploration as one self-contained HTML file; `timed` adds the time that its decisions took.
 #[must_use]
 pub fn exploration_page(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> String {
     sealed(title, STYLE, "exploration", &data(title, scene, sensor, done, timed).to_string(), CODE)
@@ -67,12 +67,12 @@ fn data(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: 
     })
 }
 
-/// Corners and radius of a shape.
+/// Returns corners and radius of a shape.
 fn outline(shape: &Convex) -> Value {
     json!([shape.core().iter().map(|p| [short(p.x), short(p.y)]).collect::<Vec<_>>(), short(shape.radius())])
 }
 
-/// Tenths of a millimetre.
+/// Rounds to tenths of a millimetre.
 fn short(value: f64) -> f64 {
     (1e4 * value).round() / 1e4
 }

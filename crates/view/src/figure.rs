@@ -1,31 +1,31 @@
-//! The neutral figure: what is drawn where, without a file format.
+//! The neutral figure: items and their places on the page, without a file format.
 
 use super::color::Rgb;
 
 /// A place on the page: pixels from the left and from the top.
 pub type Spot = [f64; 2];
 
-/// A rectangle of the page, pixels.
+/// A rectangle of the page, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rect {
-    /// The left side's distance from the left edge of the page.
+    /// Distance of the left side from the left edge of the page.
     pub x: f64,
-    /// The upper side's distance from the top of the page.
+    /// Distance of the upper side from the top of the page.
     pub y: f64,
-    /// From the left side to the right one.
+    /// Distance between the left and the right side.
     pub width: f64,
-    /// From the upper side to the lower one.
+    /// Distance between the upper and the lower side.
     pub height: f64,
 }
 
 impl Rect {
-    /// The right side's distance from the left edge of the page.
+    /// Returns the distance of the right side from the left edge of the page.
     #[must_use]
     pub fn right(&self) -> f64 {
         self.x + self.width
     }
 
-    /// The lower side's distance from the top of the page.
+    /// Returns the distance of the lower side from the top of the page.
     #[must_use]
     pub fn bottom(&self) -> f64 {
         self.y + self.height
@@ -37,52 +37,52 @@ impl Rect {
 pub enum Step {
     /// Begins a new piece.
     Move(Spot),
-    /// Straight on to a place.
+    /// A straight line to a place.
     Line(Spot),
-    /// On a circle of this radius, by half a turn at most, counter-clockwise as seen on the page.
+    /// An arc of a circle with this radius to a place: at most half a turn, counter-clockwise as seen on the page.
     Arc(f64, Spot),
-    /// Back to the beginning of the piece.
+    /// Returns to the beginning of the piece.
     Close,
 }
 
-/// How a line is drawn: colour, width and dashes.
+/// Colour, width and dashes of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pen {
-    /// The colour of the line.
+    /// Colour of the line.
     pub color: Rgb,
-    /// The width of the line, pixels.
+    /// Width of the line, in pixels.
     pub width: f64,
     /// Lengths of dashes and gaps in turn; empty for a solid line.
     pub dash: &'static [f64],
 }
 
-/// How an outline is drawn: filled by the non-zero rule, then stroked, and the whole made transparent.
+/// Style of an outline: it is filled by the non-zero rule, then stroked, and the result is made transparent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Style {
     /// Colour of the inside.
     pub fill: Option<Rgb>,
     /// Pen of the outline.
     pub pen: Option<Pen>,
-    /// Stroke first and fill over it, so that of overlapping pieces only the common outline shows.
+    /// True to stroke first and to fill over it, so that only the common outline of overlapping pieces shows.
     pub pen_below: bool,
-    /// 0 is invisible, 1 opaque.
+    /// Opacity: 0 is invisible, 1 is opaque.
     pub opacity: f64,
 }
 
 impl Style {
-    /// An opaque line.
+    /// Returns the style of an opaque line.
     #[must_use]
     pub fn line(color: Rgb, width: f64) -> Self {
         Self { fill: None, pen: Some(Pen { color, width, dash: &[] }), pen_below: false, opacity: 1.0 }
     }
 
-    /// An opaque surface without outline.
+    /// Returns the style of an opaque surface without outline.
     #[must_use]
     pub fn fill(color: Rgb) -> Self {
         Self { fill: Some(color), pen: None, pen_below: false, opacity: 1.0 }
     }
 
-    /// The same with dashes.
+    /// Returns this style with dashes.
     #[must_use]
     pub fn dashed(mut self, dash: &'static [f64]) -> Self {
         if let Some(pen) = &mut self.pen {
@@ -91,14 +91,14 @@ impl Style {
         self
     }
 
-    /// The same with another inside.
+    /// Returns this style with another fill.
     #[must_use]
     pub fn filled(mut self, color: Rgb) -> Self {
         self.fill = Some(color);
         self
     }
 
-    /// The same with another opacity.
+    /// Returns this style with another opacity.
     #[must_use]
     pub fn faded(mut self, opacity: f64) -> Self {
         self.opacity = opacity;
@@ -106,7 +106,7 @@ impl Style {
     }
 }
 
-/// Which point of a text its place names.
+/// The point of a text that lies at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
     /// Left end of the baseline.
@@ -120,21 +120,21 @@ pub enum Anchor {
 /// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
-    /// The place at which the text is anchored.
+    /// Place at which the text is anchored.
     pub at: Spot,
-    /// What, any characters.
+    /// The text; any characters are allowed.
     pub text: String,
-    /// Height of the font, pixels.
+    /// Height of the font, in pixels.
     pub size: f64,
-    /// Which point of the text is `at`.
+    /// Point of the text that lies at `at`.
     pub anchor: Anchor,
-    /// Whether it reads upwards, as beside a vertical axis.
+    /// True if the text reads upwards, as beside a vertical axis.
     pub upwards: bool,
-    /// The colour of the letters.
+    /// Colour of the letters.
     pub color: Rgb,
 }
 
-/// Something that is drawn on the page.
+/// An item of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Item {
     /// Lines and surfaces.
@@ -143,7 +143,7 @@ pub enum Item {
     Disc(Spot, f64, Style),
     /// A line of text.
     Text(Label),
-    /// Items of which only the part within the rectangle shows.
+    /// Items that are cut to the rectangle.
     Clip(Rect, Vec<Item>),
     /// A rectangle of coloured cells.
     Raster(Raster),
@@ -152,29 +152,29 @@ pub enum Item {
 /// Cells in columns from left to right, each from the bottom up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Raster {
-    /// Where the cells are.
+    /// Rectangle that the cells fill.
     pub rect: Rect,
-    /// Number of columns, number of cells in each.
+    /// Number of columns, and number of cells in each.
     pub cells: [usize; 2],
-    /// The colours in use.
+    /// Colours in use.
     pub palette: Vec<Rgb>,
-    /// For every cell an index into the palette, or nothing.
+    /// Index into the palette for each cell, or `None` for no colour.
     pub levels: Vec<Option<usize>>,
 }
 
 /// A page; later items cover earlier ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// The page's width, pixels.
+    /// Width of the page, in pixels.
     pub width: f64,
-    /// The page's height, pixels.
+    /// Height of the page, in pixels.
     pub height: f64,
-    /// In drawing order.
+    /// Items in drawing order.
     pub items: Vec<Item>,
 }
 
-/// The outline of an open (or closed) chain of spots; spots nearer than a quarter of a pixel to the one before are
-/// left out, which no one can see and which keeps files small.
+/// Returns the outline of an open (or closed) chain of spots. It skips spots nearer than a quarter of a pixel to the
+/// one before: nobody can see them, and files stay small.
 #[must_use]
 pub fn chain(spots: impl IntoIterator<Item = Spot>, closed: bool) -> Vec<Step> {
     const INVISIBLE: f64 = 0.25;
@@ -202,19 +202,19 @@ pub fn chain(spots: impl IntoIterator<Item = Spot>, closed: bool) -> Vec<Step> {
     steps
 }
 
-/// A text that reads to the right.
+/// Creates a text that reads to the right.
 #[must_use]
 pub fn label(at: Spot, text: impl Into<String>, size: f64, anchor: Anchor, color: Rgb) -> Item {
     Item::Text(Label { at, text: text.into(), size, anchor, upwards: false, color })
 }
 
-/// A text that reads upwards, about its middle.
+/// Creates a text that reads upwards, centred at its place.
 #[must_use]
 pub fn upwards(at: Spot, text: impl Into<String>, size: f64, color: Rgb) -> Item {
     Item::Text(Label { at, text: text.into(), size, anchor: Anchor::Middle, upwards: true, color })
 }
 
-/// The outline of a rectangle.
+/// Returns the outline of a rectangle.
 #[must_use]
 pub fn rectangle(rect: Rect) -> Vec<Step> {
     vec![
@@ -226,8 +226,8 @@ pub fn rectangle(rect: Rect) -> Vec<Step> {
     ]
 }
 
-/// About how wide a text is, pixels: viewers choose their fonts, so typical advances (in units of the font's height)
-/// must do.
+/// Estimates the width of a text in pixels. Viewers choose their fonts, so it uses typical advances (in units of the
+/// font's height).
 #[must_use]
 pub fn text_width(text: &str, size: f64) -> f64 {
     let advance = |c: char| match c {
@@ -241,7 +241,7 @@ pub fn text_width(text: &str, size: f64) -> f64 {
     text.chars().map(advance).sum::<f64>() * size
 }
 
-/// The text, or its beginning and an ellipsis if it is wider than `width` pixels.
+/// Returns the text, or its beginning and an ellipsis if it is wider than `width` pixels.
 #[must_use]
 pub fn shortened(text: &str, size: f64, width: f64) -> String {
     if text_width(text, size) <= width {

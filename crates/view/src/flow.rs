@@ -1,4 +1,4 @@
-//! Lines of a field in pictures.
+//! The lines of a field in pictures.
 
 use super::chart::Chart;
 use super::color::{self, ACCENT, PALE};
@@ -6,15 +6,15 @@ use super::figure::{Item, Pen, Spot, Step, Style, chain};
 use super::legend::{Key, Sign};
 use super::view::{Chain, LevelView};
 
-/// What pictures show of a field.
+/// The lines of a field that pictures show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FieldLines {
     /// Lines of equal potential.
     #[default]
     Equipotentials,
-    /// Lines of steepest ascent, with an arrow each.
+    /// Lines of steepest ascent, each with an arrow.
     Flow,
-    /// Both.
+    /// Both kinds of lines.
     Both,
 }
 
@@ -27,7 +27,7 @@ impl FieldLines {
         self != Self::Equipotentials
     }
 
-    /// The meaning of the lines.
+    /// Returns the legend of the lines.
     pub fn keys(self) -> Vec<Key> {
         let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });
         let levels = self.has_levels().then(|| (line(color::scale(0.5)), "equipotentials".to_owned()));
@@ -35,7 +35,7 @@ impl FieldLines {
         levels.into_iter().chain(flow).collect()
     }
 
-    /// The lines of a field.
+    /// Draws the lines of a field.
     pub fn items(self, levels: &[LevelView], flow: &[Chain], chart: &Chart) -> Vec<Item> {
         let line = |Chain(line): &Chain| chain(line.iter().map(|q| chart.frame.at(q[0], q[1])), false);
         let mut items = Vec::new();
@@ -52,7 +52,7 @@ impl FieldLines {
     }
 }
 
-/// A head a little after the beginning of a line of flow.
+/// Returns an arrow head a little after the beginning of a line of steepest ascent.
 fn arrow(Chain(line): &Chain, chart: &Chart) -> Vec<Step> {
     let Some(at) = line.len().checked_sub(2).map(|last| last.min(3)) else { return Vec::new() };
     let [a, b]: [Spot; 2] = [line[at], line[at + 1]].map(|q| chart.frame.at(q[0], q[1]));

@@ -6,13 +6,14 @@ use super::figure::{Anchor, Item, Spot, Step, Style, label};
 use super::view::FrameView;
 use cplan_geometry::{Vector, perpendicular};
 
-/// Length of an axis that lies in the plane, pixels.
+/// Length of an axis that lies in the plane, in pixels.
 const LENGTH: f64 = 52.0;
-/// Axes with a shorter shadow in the plane, as a share of their length, are drawn as if they stood on it.
+/// Axes whose projection onto the plane is a smaller fraction of their length than this are drawn as perpendicular to
+/// the plane.
 const STANDING: f64 = 0.1;
 const LETTERS: [&str; 3] = ["x", "y", "z"];
 
-/// Axes, letters and names.
+/// Draws axes, letters and names.
 #[must_use]
 pub fn items(panel: &Frame, frames: &[FrameView]) -> Vec<Item> {
     frames.iter().flat_map(|frame| one(panel, frame)).collect()
@@ -23,7 +24,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
     let mut items = Vec::new();
     for (k, &[u, v, w]) in frame.axes.iter().enumerate() {
         let (color, _) = color::path(k);
-        // The page's y goes down.
+        // The page's y axis points down.
         let shadow = Vector::new(u, -v);
         let text = |at: Spot| label(at, LETTERS[k], 14.0, Anchor::Middle, color);
         if shadow.norm() < STANDING {
@@ -43,7 +44,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
     items
 }
 
-/// An arrow seen from its point (a dot) or from its feathers (a cross), in a circle.
+/// Draws an axis perpendicular to the plane: in a circle, the point of an arrow (a dot) or its feathers (a cross).
 fn standing(at: Spot, towards: bool, pen: Style) -> Vec<Item> {
     const RADIUS: f64 = 7.0;
     let ring = Item::Disc(at, RADIUS, pen.filled(WHITE));

@@ -1,7 +1,8 @@
-//! Figures one after the other, as an animated GIF.
+//! A sequence of figures as an animated GIF.
 //!
-//! What two figures have in common is rasterised once, in layers that are laid over one another; of each picture only the part that has
-//! changed is written. All share one palette: the colours that are there the most, so that flat ones stay as they are.
+//! The items that two figures share are rasterised once, as layers that are laid over one another. Of each picture,
+//! only the part that has changed is written. All pictures share one palette of the most frequent colours, so that flat
+//! colours stay unchanged.
 
 use super::DrawError;
 use super::figure::{Figure, Item, Rect};
@@ -13,17 +14,17 @@ use resvg::tiny_skia::{Pixmap, PixmapPaint, Transform};
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-/// Colours of the palette; one more stands for what stays as it is.
+/// Number of colours in the palette. One more index (`SAME`) marks unchanged pixels.
 const COLORS: usize = 255;
 const SAME: u8 = COLORS as u8;
 
-/// Colours nearer than this are not told apart: the sum of squares over the channels, of 255 each.
+/// Colours nearer than this are merged, as the sum of the squared differences of the three channels (0 to 255).
 const ALIKE: i32 = 48;
 
-/// Layers that are kept, in case the next picture has them, too.
+/// Number of layers that are kept in case the next picture has them, too.
 const KEPT: usize = 8;
 
-/// So many items further a difference between two figures is taken to end, at most.
+/// Largest number of items by which a difference between two figures is assumed to shift the rest.
 const AHEAD: usize = 12;
 
 type Color = [u8; 3];
@@ -32,11 +33,11 @@ type Color = [u8; 3];
 struct Patch {
     place: [usize; 4],
     pixels: Vec<Color>,
-    /// Hundredths of a second.
+    /// Time for which it is shown, in hundredths of a second.
     delay: u16,
 }
 
-/// An animated GIF, `width` pixels wide, which is played over and over; `done` hears after each figure.
+/// Writes an endlessly repeated animated GIF, `width` pixels wide; calls `done` after each figure.
 pub fn write(
     figures: impl Iterator<Item = (Figure, u16)>,
     width: f64,
@@ -61,7 +62,7 @@ pub fn write(
     encode(&patches, size).map_err(|error| DrawError::Gif(error.to_string()))
 }
 
-/// An SVG document, `width` pixels wide, as a GIF that does not move.
+/// Writes an SVG document as a GIF with a single picture, `width` pixels wide.
 pub fn still(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
     let picture = Rasteriser::new().wide(svg, width)?;
     let size = [picture.width(), picture.height()].map(|side| side as usize);
@@ -69,12 +70,12 @@ pub fn still(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
     encode(&[cut(&pixels, size, [0, 0, size[0], size[1]], 0)], size).map_err(|error| DrawError::Gif(error.to_string()))
 }
 
-/// Of a picture on paper.
+/// Returns the colours of an opaque picture.
 fn colors(picture: &Pixmap) -> Vec<Color> {
     picture.pixels().iter().map(|p| [p.red(), p.green(), p.blue()]).collect()
 }
 
-/// The smallest rectangle in which two pictures differ; all where there was none before.
+/// Returns the smallest rectangle in which two pictures differ; the whole picture if there was none before.
 fn changed(before: Option<&[Color]>, now: &[Color], [width, height]: [usize; 2]) -> Option<[usize; 4]> {
     let Some(before) = before else { return Some([0, 0, width, height]) };
     let differs = |y: usize| before[y * width..][..width] != now[y * width..][..width];
@@ -92,7 +93,7 @@ fn cut(pixels: &[Color], [width, _]: [usize; 2], place: [usize; 4], delay: u16) 
     Patch { place, pixels: rows.collect(), delay }
 }
 
-/// Draws figures, and remembers what the last ones had in common.
+/// A painter that reuses the layers that the previous figures share.
 struct Painter {
     rasteriser: Rasteriser,
     width: f64,
@@ -100,7 +101,7 @@ struct Painter {
     layers: Vec<(Vec<Unit>, Pixmap)>,
 }
 
-/// An item, and what it is cut to.
+/// An item, and the rectangle to which it is cut.
 #[derive(Clone, PartialEq)]
 struct Unit {
     within: Option<Rect>,
@@ -108,7 +109,7 @@ struct Unit {
 }
 
 impl Painter {
-    /// The figure on white.
+    /// Draws the figure on white.
     fn paint(&mut self, figure: &Figure) -> Result<Pixmap, DrawError> {
         let units = units(figure);
         let mut picture = blank([figure.width, figure.height], self.width / figure.width)?;
@@ -132,7 +133,7 @@ impl Painter {
         Ok(picture)
     }
 
-    /// Some items on nothing.
+    /// Draws some items on a transparent ground.
     fn layer(&self, figure: &Figure, run: &[Unit]) -> Result<Pixmap, DrawError> {
         let chunks = run.chunk_by(|a, b| a.within == b.within);
         let items = chunks.flat_map(|chunk| {
@@ -144,7 +145,7 @@ impl Painter {
     }
 }
 
-/// All items by themselves.
+/// Splits a figure into its single items.
 fn units(figure: &Figure) -> Vec<Unit> {
     let mut units = Vec::new();
     for item in &figure.items {
@@ -158,7 +159,8 @@ fn units(figure: &Figure) -> Vec<Unit> {
     units
 }
 
-/// Where runs of items end that were there before, one after the other, and of those that were not; and which are which.
+/// Splits the items into runs that the previous figure had and runs that it had not. Returns the end of each run, and
+/// true for the former.
 fn runs(before: &[Unit], now: &[Unit]) -> Vec<(usize, bool)> {
     let same = before.iter().zip(now).take_while(|(a, b)| a == b).count();
     let (old, new) = (&before[same..], &now[same..]);
@@ -191,14 +193,14 @@ fn distance(a: Color, b: Color) -> i32 {
     (0..3).map(|k| (i32::from(a[k]) - i32::from(b[k])).pow(2)).sum()
 }
 
-/// The colours that are there the most, none of them alike.
+/// Returns the most frequent colours, without similar ones.
 fn palette(patches: &[Patch]) -> Vec<Color> {
     let mut counts: HashMap<Color, usize> = HashMap::new();
     for color in patches.iter().flat_map(|patch| &patch.pixels) {
         *counts.entry(*color).or_default() += 1;
     }
     let mut colors: Vec<(usize, Color)> = counts.into_iter().map(|(color, count)| (count, color)).collect();
-    // By number, and of equals by the colour: the table itself has no order.
+    // By number, and by the colour for equal numbers, since the map has no defined order.
     colors.sort_unstable_by_key(|&(count, color)| (std::cmp::Reverse(count), color));
     let mut palette: Vec<Color> = Vec::new();
     for (_, color) in colors {

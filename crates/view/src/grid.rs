@@ -7,31 +7,31 @@ use super::figure::{Anchor, Item, Rect, label, shortened};
 use super::view::{PanelView, View};
 use cplan_core::model::Arm;
 
-/// Between columns, for the values at their ends, and between rows, for the titles; pixels.
+/// Gap between columns, for the values at their ends, and between rows, for the titles; in pixels.
 const GAP: [f64; 2] = [40.0, 36.0];
-/// Greatest height of two panels one below the other, pixels.
+/// Greatest height of two panels one below the other, in pixels.
 const STACKED: f64 = 640.0;
 /// Ratio of height to width of a panel whose axes have different scales.
 const PROPORTION: f64 = 0.8;
 
-/// Where the panels are.
+/// The arrangement of the panels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
     /// Number of panels.
     count: usize,
     columns: usize,
-    /// Width and height of a panel, pixels.
+    /// Width and height of a panel, in pixels.
     size: [f64; 2],
     width: f64,
 }
 
 impl Grid {
-    /// As many columns as keep the panels legible in this width.
+    /// Chooses a number of columns with which the panels stay legible in this width.
     #[must_use]
     pub fn new(count: usize, arm: &Arm, width: f64) -> Self {
         let proportion = chart::one_scale(arm).unwrap_or(PROPORTION).clamp(0.5, 1.2);
         let room = |columns: usize| (width - GAP[0] * (columns - 1) as f64) / columns as f64;
-        // Two low ones are wider one below the other.
+        // Two low panels become wider if one is below the other.
         let below = ((STACKED - GAP[1]) / 2.0 / proportion).min(room(1));
         let (columns, side) = match count {
             0..=1 => (1, room(1).min(530.0)),
@@ -42,7 +42,7 @@ impl Grid {
         Self { count, columns, size: [side, side * proportion], width }
     }
 
-    /// Of the panels, from the upper side of the first to the lower side of the last, pixels.
+    /// Returns the height of all panels, from the upper side of the first to the lower side of the last, in pixels.
     #[must_use]
     pub fn height(&self) -> f64 {
         let rows = self.count.div_ceil(self.columns) as f64;
@@ -57,7 +57,8 @@ impl Grid {
         Rect { x, y: top + row * (height + GAP[1]), width, height }
     }
 
-    /// Draws the panels; values stand at the left and at the lowest of each column, titles of the axes once.
+    /// Draws the panels. Values appear only at the left and at the lowest panel of each column, titles of the axes only
+    /// once.
     #[must_use]
     pub fn items(&self, view: &View, panels: &[&PanelView], left_out: usize, corner: [f64; 2]) -> Vec<Item> {
         let arm = &view.arm;
@@ -84,10 +85,10 @@ impl Grid {
     }
 }
 
-/// Above a frame.
+/// Draws the title above a frame.
 fn title(text: &str, frame: Rect) -> Item {
     const SIZE: f64 = 14.0;
-    // Somewhat wider than the frame: less than half of what lies between neighbours on each side.
+    // Somewhat wider than the frame: on each side by less than half of the gap between neighbours.
     let text = shortened(text, SIZE, frame.width + 24.0);
     label([frame.x + frame.width / 2.0, frame.y - 9.0], text, SIZE, Anchor::Middle, INK)
 }

@@ -1,4 +1,4 @@
-//! Names on what they belong to or, where that is smaller, beside it; none over another.
+//! Names on their shapes, or beside shapes that are smaller; no name covers another.
 
 use super::axes::Frame;
 use super::color::{INK, WHITE};
@@ -9,24 +9,24 @@ use cplan_core::model::Shape;
 use cplan_geometry::Convex;
 
 const SIZE: f64 = 12.0;
-/// Widest name, pixels.
+/// Greatest width of a name, in pixels.
 const WIDEST: f64 = 160.0;
-/// Height of a name's box, and its distance from what it stands beside, pixels.
+/// Height of a name's box, and its distance (`GAP`) from the shape beside it, in pixels.
 const LINE: f64 = 15.0;
 const GAP: f64 = 4.0;
-/// What of a wall its name belongs to, pixels.
+/// Side of the square in a wall's middle that its name refers to, in pixels.
 const WALL: f64 = 10.0;
-/// Part of what is named that its name may cover.
+/// Largest fraction of a named area that its name may cover.
 const COVERED: f64 = 0.5;
 
-/// Where a name may stand: on what it belongs to, then above, below, beside and at the corners of it.
+/// Possible positions of a name: on its shape, then above, below, to the sides and at the corners of it.
 const SIDES: [Spot; 9] =
     [[0.0, 0.0], [0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
-/// A name, and what it belongs to.
+/// A name, and the box of the shape that it names.
 pub type Named = (String, Rect);
 
-/// The names within `page`, as far as there is room: what comes first chooses first.
+/// Draws the names within `page`, as far as there is room. Earlier names choose their places first.
 #[must_use]
 pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
     let mut taken: Vec<Rect> = Vec::new();
@@ -41,7 +41,7 @@ pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
             about([middle[0] + away[0], middle[1] + away[1]], size)
         });
         let is_free = |b: &Rect| is_free(b, &taken, page);
-        // Of what is large a part may be hidden rather than all of what is small.
+        // It is better to hide a part of a large shape than all of a small one.
         let share = |b: &Rect, other: &Rect| overlap(b, other) / (other.width * other.height).max(LINE * LINE);
         let hidden = |b: &Rect| {
             let others = names.iter().map(|(_, place)| place).filter(|place| *place != of);
@@ -54,8 +54,8 @@ pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
     items
 }
 
-/// Names about spots, each with the area of what it names, square pixels; those that would cover that, another, or one of the
-/// `markers`, are left out.
+/// Draws names centred at spots, each with the area of the named shape in square pixels. It leaves out a name that
+/// would cover its shape, another name, or one of the `markers`.
 #[must_use]
 pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (String, Spot, f64)>) -> Vec<Item> {
     let mut taken = markers;
@@ -72,7 +72,8 @@ pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (
     items
 }
 
-/// What the name of a shape belongs to: all of it, or the middle of a wall's longest stretch.
+/// Returns the box that the name of a shape refers to: of the whole shape, or in the middle of a wall's longest
+/// stretch.
 pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = &'a Convex>) -> Rect {
     if let Shape::Polyline(points) = shape {
         let longest = points.windows(2).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));
@@ -85,12 +86,12 @@ pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = 
     Rect { x: left, y: top, width: right - left, height: bottom - top }
 }
 
-/// A rectangle of this size about a spot.
+/// Returns a rectangle of this size about a spot.
 pub fn about([x, y]: Spot, [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
-/// Room for the name of what ends at a spot and comes from another: beyond it.
+/// Returns the box for a name beyond `tip`, as seen from `from`.
 pub fn beyond(name: &str, tip: Spot, from: Spot) -> Rect {
     let away = [tip[0] - from[0], tip[1] - from[1]];
     let length = away[0].hypot(away[1]).max(f64::MIN_POSITIVE);
@@ -98,7 +99,7 @@ pub fn beyond(name: &str, tip: Spot, from: Spot) -> Rect {
     about([0, 1].map(|k| tip[k] + away[k] / length * (size[k] / 2.0 + 2.0 * GAP)), size)
 }
 
-/// The same box, within the page.
+/// Moves the box into the page.
 fn pushed(place: Rect, page: &Rect) -> Rect {
     let x = place.x.min(page.right() - place.width).max(page.x);
     let y = place.y.min(page.bottom() - place.height).max(page.y);

@@ -1,4 +1,4 @@
-//! What the signs mean.
+//! The legend: the meaning of the signs.
 
 use super::color::{self, BARRED, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
@@ -7,65 +7,65 @@ use super::view::{NAMED, ObstacleView, PathView, TraceView, View};
 use super::{boxes, channel, cspace, preferences, reach, shapes, stuck, trace};
 use serde::Serialize;
 
-/// Height of a row, pixels.
+/// Height of a row, in pixels.
 pub const ROW: f64 = 21.0;
 const SIZE: f64 = 13.0;
 const SIGN: f64 = 26.0;
 const GAP: f64 = 26.0;
 
-/// What stands before a name.
+/// The sign before a name.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Sign {
-    /// Where the motion begins.
+    /// The start of the motion.
     Start,
-    /// Where it ends.
+    /// The goal of the motion.
     Goal,
-    /// Where it would end.
+    /// A goal that is not reached.
     Unreached,
     /// A piece of line, drawn with this pen.
     Line(Pen),
     /// A small square of this colour.
     Swatch(Rgb),
-    /// The same in a colour of the scale, from 0 to 1.
+    /// A small square in a colour of the scale, from 0 to 1.
     Shade(f64),
     /// A dashed outline.
     Dashed(Rgb),
     /// The hatch of a proof.
     Hatched,
-    /// A point of a channel: the middle of a door, or the centre of a cell.
+    /// A point of a channel: the middle of a portal, or the centre of a cell.
     Point {
-        /// Whether it is the middle of a door.
+        /// True for the middle of a portal.
         middle: bool,
     },
 }
 
-/// A sign and what it means.
+/// A sign and its meaning.
 pub type Key = (Sign, String);
 
-/// A key as pages read it.
+/// A key in the document for pages.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KeyView {
     sign: &'static str,
-    /// That of a line or a square: its name, if it means something, or `#rrggbb`.
+    /// Colour of a line or a square: its name, if it has a meaning, or `#rrggbb`.
     #[serde(skip_serializing_if = "Option::is_none")]
     color: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     width: Option<f64>,
     #[serde(skip_serializing_if = "<[f64]>::is_empty")]
     dash: &'static [f64],
-    /// Of a colour of the scale.
+    /// Place on the scale of colours, from 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     part: Option<f64>,
     text: String,
-    /// Of which layers it is: those of a page can be hidden. None of what is always there.
+    /// Layers to which the key belongs; a page can hide them. Empty for items that are always visible.
     #[serde(skip_serializing_if = "<[&str]>::is_empty")]
     layers: &'static [&'static str],
-    /// Whether it is there only while it is told how the planner came to it.
+    /// True if it is shown only while the page plays how the planner found its answer.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     think: bool,
 }
 
-/// A key, and the layers that it is of.
+/// A key, and the layers to which it belongs.
 type Layered = (Key, &'static [&'static str]);
 
 impl KeyView {
@@ -94,13 +94,13 @@ impl KeyView {
     }
 }
 
-/// Everything that a picture needs explained.
+/// Returns the legend of a picture.
 #[must_use]
 pub fn keys(view: &View) -> Vec<Key> {
     all(view, true).into_iter().map(|(key, _)| key).collect()
 }
 
-/// Everything that a page needs explained, which shows one world after the other, and not all that pictures do.
+/// Returns the legend of a page, which shows one world after the other, and fewer items than pictures.
 #[must_use]
 pub fn on_pages(view: &View) -> Vec<KeyView> {
     let mut keys: Vec<KeyView> = all(view, false).into_iter().map(|key| KeyView::new(key, false)).collect();
@@ -114,7 +114,7 @@ pub fn on_pages(view: &View) -> Vec<KeyView> {
     keys
 }
 
-/// What a planner saw.
+/// Returns the legend of a planner's trace.
 fn of_trace(seen: &TraceView, lines: FieldLines) -> Vec<Layered> {
     let layers: &[&str] = match seen {
         TraceView::Roadmap { .. } => &["roadmap"],
@@ -159,14 +159,14 @@ fn all(view: &View, still: bool) -> Vec<Layered> {
     keys
 }
 
-/// Obstacles by their colours, unless they are too many.
+/// Returns the legend of the obstacles by their colours, unless there are too many.
 #[must_use]
 pub fn obstacles<'a>(shown: impl Iterator<Item = &'a ObstacleView> + Clone) -> Vec<Key> {
     let count = shown.clone().count();
     shown.filter(|_| count <= NAMED).map(|o| (Sign::Swatch(o.color), o.name.clone())).collect()
 }
 
-/// Paths by their names; those of a task by whether something is carried.
+/// Returns the legend of the paths: by their names, or for a task with and without a payload.
 fn paths(view: &View) -> Vec<Key> {
     let named = |path: &PathView, name: &str| (Sign::Line(path.pen()), name.to_owned());
     if view.is_task() {
@@ -190,7 +190,7 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
     let mut rows: Vec<Vec<Key>> = vec![Vec::new()];
     let mut used = 0.0;
     for (sign, name) in keys {
-        // Names of paths hold what planners were asked for.
+        // Names of paths include the options of their planners.
         let share = if let Sign::Line(_) = sign { 3.0 } else { 5.0 };
         let key = (sign, shortened(&name, SIZE, room / share));
         let needed = width(&key) + GAP;
@@ -206,7 +206,7 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
     rows
 }
 
-/// The rows, centred about `middle`, the first of them below `top`.
+/// Draws the rows, centred about `middle`, the first of them below `top`.
 #[must_use]
 pub fn items(rows: &[Vec<Key>], middle: f64, top: f64) -> Vec<Item> {
     let mut items = Vec::new();

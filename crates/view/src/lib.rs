@@ -1,4 +1,4 @@
-//! Pictures and pages: pure functions of results, by way of one description of what there is to see.
+//! Pictures and pages: pure functions of results, via one common description of the content.
 //!
 //! ```text
 //! Picture (one motion), TaskPicture -> View -> Figure -> SVG -> PNG
@@ -6,12 +6,13 @@
 //!                                     \-> JSON -> HTML
 //! ```
 //!
-//! Two panels side by side: left the workspace in metres with the arm at the start, at the goal and on its way, and the
-//! trace of its tip; right the configuration space in degrees or metres, with the C-obstacles in the colours of their
-//! obstacles and their names in them, the path and what the planner saw; proofs are hatched, as nothing else is. The
-//! picture of a task has a configuration space for each payload state. What is drawn, from where and in which colour stands
-//! in the [`View`]; the figure is where that is on the page, and knows no file format. The same view is the same file, byte
-//! for byte.
+//! A picture has two panels side by side. The left one is the workspace in metres: the arm at the start, at the goal
+//! and along its path, and the trace of its tip. The right one is the configuration space in degrees or metres: the
+//! C-obstacles in the colours of their obstacles and with their names, the path, and the planner's trace; only proofs
+//! are hatched. The picture of a task has a configuration space for each payload state.
+//!
+//! The [`View`] determines the content and its colours. The figure places it on the page, and knows no file format. The
+//! same view always gives the same file, byte for byte.
 
 pub mod output;
 mod animation;
@@ -54,10 +55,10 @@ pub use obstacles::{extent, obstacles, still_page};
 pub use stuck::Stuck;
 pub use view::{AxesFrame, Moments, Picture, TaskPicture, View, drawing, page, shell};
 
-/// Why there is no picture.
+/// The reason why there is no picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DrawError {
-    /// The size is no size.
+    /// The size is not usable.
     #[error("a picture at {0} pixels a unit would be empty, or more than 16384 pixels wide")]
     Scale(f64),
     /// The SVG document could not be read back.
@@ -71,20 +72,21 @@ pub enum DrawError {
     Gif(String),
 }
 
-/// The view as an SVG document, 1400 pixels wide; 720 high, but for tasks that need more.
+/// Returns the view as an SVG document, 1400 pixels wide and 720 high; pictures of tasks can be higher.
 #[must_use]
 pub fn svg(view: &View) -> String {
     svg_writer::write(&page::compose(view))
 }
 
-/// The view in motion, as SVG documents and how long each is to be seen, in hundredths of a second: how the planner came to its answer,
-/// where the view knows it, then what the arm does. The last one is [`svg()`].
+/// Returns the animation of a view: SVG documents, each with the time for which it is shown, in hundredths of a second.
+/// It shows how the planner found its answer, if the view contains a replay, and then the motion of the arm. The last
+/// document is [`svg()`].
 pub fn moving(view: &View) -> impl Iterator<Item = (String, u16)> {
     let moments = animation::moments(view).into_iter();
     moments.map(|moment| (svg_writer::write(&animation::figure(view, moment)), moment.delay))
 }
 
-/// An SVG document as a PNG file, of its size times `scale`.
+/// Returns an SVG document as a PNG file, `scale` pixels per unit.
 ///
 /// # Errors
 /// [`DrawError::Scale`] if the scale is not a positive number of a sensible size.
@@ -93,11 +95,11 @@ pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
     png_writer::write(svg, scale)
 }
 
-/// The view in motion, as an animated GIF of this width: how the planner came to its answer, where the view knows it, and what the arm
-/// does. `progress` hears how many of how many pictures are done.
+/// Returns the animation of a view as a GIF of this width: how the planner found its answer, if the view contains a
+/// replay, and then the motion of the arm. `progress` receives the number of finished pictures and the number of all.
 ///
 /// # Errors
-/// [`DrawError::Scale`] if the width is none of a picture.
+/// [`DrawError::Scale`] if the width is not usable.
 #[cfg(feature = "png")]
 pub fn gif(view: &View, width: f64, progress: &mut dyn FnMut(usize, usize)) -> Result<Vec<u8>, DrawError> {
     let moments = animation::moments(view);
@@ -109,10 +111,10 @@ pub fn gif(view: &View, width: f64, progress: &mut dyn FnMut(usize, usize)) -> R
     })
 }
 
-/// An SVG document as a GIF of a single picture of this width.
+/// Returns an SVG document as a GIF with a single picture of this width.
 ///
 /// # Errors
-/// As [`gif()`].
+/// Same as for [`gif()`].
 #[cfg(feature = "png")]
 pub fn still_gif(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
     gif_writer::still(svg, width)

@@ -1,4 +1,4 @@
-//! Obstacles alone, before there is an arm.
+//! Pictures of obstacles alone, without an arm.
 
 use super::axes::{Frame, Range, Unit};
 use super::color;
@@ -9,11 +9,11 @@ use super::{labels, page, shapes, svg_writer};
 use cplan_core::model::Obstacle;
 use cplan_text::markup;
 
-/// Share of the extent that is left free on each side.
+/// Fraction of the extent that is left free on each side.
 const MARGIN: f64 = 0.04;
 
-/// Obstacles as an SVG document, the largest drawn first, each named where there is room. Those of a group, as `groups` says for each,
-/// share a colour. The first line is the title.
+/// Draws obstacles as an SVG document, the largest first, each with its name if there is room. Obstacles of the same
+/// group share a colour; `groups` has the group of each. The first line is the title.
 #[must_use]
 pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> String {
     let mut known: Vec<&str> = Vec::new();
@@ -46,11 +46,11 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> S
     }))
 }
 
-/// More colours than this are not explained.
+/// Largest number of colours that the legend explains.
 const MOST_KEYS: usize = 32;
-/// More obstacles than this are not named: nobody could tell whose the names are.
+/// Largest number of obstacles with names. With more of them, nobody could assign the names.
 const MOST_NAMES: usize = 200;
-/// Names on their obstacles or beside them.
+/// Draws names on their obstacles or beside them.
 fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
     if obstacles.len() > MOST_NAMES {
         return Vec::new();
@@ -59,13 +59,13 @@ fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
     labels::items(&frame.rect, &obstacles.iter().map(named).collect::<Vec<_>>())
 }
 
-/// Least and greatest coordinates of obstacles.
+/// Returns least and greatest coordinates of obstacles.
 #[must_use]
 pub fn extent(obstacles: &[Obstacle]) -> [Range; 2] {
     around(obstacles.iter().flat_map(|obstacle| &obstacle.pieces))
 }
 
-/// A page that shows an SVG document.
+/// Returns a page that shows an SVG document.
 #[must_use]
 pub fn still_page(title: &str, svg: &str) -> String {
     let title = markup(title);

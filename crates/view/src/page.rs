@@ -7,40 +7,40 @@ use super::legend::{self, Key};
 use super::view::{PanelView, View};
 use super::{cspace, steps, workspace};
 
-/// Width of every picture, pixels.
+/// Width of every picture, in pixels.
 const WIDTH: f64 = 1400.0;
-/// Height of pictures of one motion, and least height of all, pixels.
+/// Height of pictures of one motion, and least height of all pictures, in pixels.
 const HEIGHT: f64 = 720.0;
-/// Beside everything, pixels.
+/// Margin on all sides, in pixels.
 const MARGIN: f64 = 28.0;
-/// Below panels, for values and titles of their axes and the space to what follows, pixels.
+/// Space below panels, in pixels: values and titles of their axes, and the distance to the next item.
 const AXES: f64 = 58.0;
 
-/// The columns; as high as there is room.
+/// The columns; their height depends on the available room.
 const LEFT: Rect = Rect { x: 84.0, y: 0.0, width: 570.0, height: 0.0 };
 const RIGHT: Rect = Rect { x: 760.0, y: 0.0, width: 612.0, height: 0.0 };
-/// Beside a single configuration space stands a scale of colours.
+/// Column of a single configuration space, with room for a scale of colours beside it.
 const SCALED: Rect = Rect { x: 770.0, y: 0.0, width: 530.0, height: 0.0 };
-/// Least and greatest height of the workspace of a task, pixels.
+/// Least and greatest height of the workspace of a task, in pixels.
 const WORKSPACE: [f64; 2] = [520.0, 640.0];
-/// More payload states than this are not shown, but for the one in which a step fails: the page would be longer than
-/// anyone reads.
+/// Largest number of payload states that are shown, in addition to the one in which a step fails. With more of them,
+/// the page would be too long to read.
 const MOST: usize = 24;
 
-/// The whole page of a view.
+/// Composes the whole page of a view.
 #[must_use]
 pub fn compose(view: &View) -> Figure {
     explained(view, legend::keys(view))
 }
 
-/// The same with another legend: that of all pictures that follow each other, so that nothing jumps.
+/// Composes the page with another legend. All pictures of an animation have the same legend, so that nothing jumps.
 #[must_use]
 pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     let mut items = titles(&view.title, &view.status, WIDTH);
     let lines = 18.0 * view.title.len().max(1) as f64;
     let keys = legend::layout(keys, WIDTH - 2.0 * MARGIN);
     let height = match &view.still.panels[..] {
-        // The workspace takes the whole page.
+        // Without configuration spaces, the workspace takes the whole page.
         [] => {
             let top = 44.0 + lines;
             let width = WIDTH - LEFT.x - MARGIN;
@@ -62,7 +62,8 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     Figure { width: WIDTH, height, items }
 }
 
-/// A page with a single panel, and a legend below. The panel has the aspect that it is given, height by width, as far as a page has room.
+/// Composes a page with a single panel and a legend below it. The panel has this aspect, height by width, as far as
+/// there is room.
 #[must_use]
 pub fn alone(title: &[String], keys: Vec<Key>, aspect: f64, panel: impl FnOnce(Rect) -> Vec<Item>) -> Figure {
     const HEIGHTS: [f64; 2] = [300.0, 960.0];
@@ -80,7 +81,7 @@ pub fn alone(title: &[String], keys: Vec<Key>, aspect: f64, panel: impl FnOnce(R
     Figure { width, height: below + legend::ROW * keys.len() as f64 + 14.0, items }
 }
 
-/// The workspace, a configuration space for each payload state, and the steps; returns the height of the page.
+/// Draws the workspace, a configuration space for each payload state, and the steps; returns the height of the page.
 fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &mut Vec<Item>) -> f64 {
     let going = panels.iter().filter(|panel| panel.fails.is_none());
     let left_out = going.clone().count().saturating_sub(MOST);
@@ -101,17 +102,17 @@ fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &
     height
 }
 
-/// Where things are, pixels.
+/// Places of the parts of a page, in pixels.
 struct Layout {
     workspace: Rect,
-    /// The list of steps; as high as it needs.
+    /// Place of the list of steps; its height depends on the list.
     list: Rect,
-    /// Of the page.
+    /// Height of the page.
     height: f64,
 }
 
-/// The list of steps stands below the workspace, or below the configuration spaces (`grid` pixels high) where the page
-/// becomes less high by that.
+/// Places the list of steps below the workspace or below the configuration spaces (`grid` pixels high), whichever makes
+/// the page lower.
 fn layout(top: f64, grid: f64, list: f64, legend: f64) -> Layout {
     let list = AXES + list;
     let [below_workspace, below_grid] = [grid.max(WORKSPACE[0] + list), WORKSPACE[0].max(grid + list)];
@@ -124,8 +125,8 @@ fn layout(top: f64, grid: f64, list: f64, legend: f64) -> Layout {
     Layout { workspace, list, height }
 }
 
-/// Lines, visible on any ground by the broad pale one under each. Those come first, so that no line hides in the gaps of
-/// another's dashes.
+/// Draws lines, each over a broad pale one that makes it visible on any ground. The pale ones come first, so that they
+/// hide no line in the gaps of another's dashes.
 pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
     let (mut halos, mut lines) = (Vec::new(), Vec::new());
     for (steps, pen) in outlines {
@@ -140,7 +141,7 @@ fn heading(column: Rect, y: f64, text: &str) -> Item {
     label([column.x + column.width / 2.0, y], text, 16.0, Anchor::Middle, INK)
 }
 
-/// The title and the lines below it, and the status in the opposite corner.
+/// Draws the title and the lines below it, and the status in the opposite corner.
 fn titles(lines: &[String], status: &str, width: f64) -> Vec<Item> {
     let mut items = Vec::new();
     let status_width = text_width(status, 18.0);

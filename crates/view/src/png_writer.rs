@@ -1,4 +1,4 @@
-//! SVG to pixels, and to PNG.
+//! SVG documents as pixels, and as PNG.
 
 use super::DrawError;
 use resvg::tiny_skia::{Pixmap, Transform};
@@ -6,15 +6,15 @@ use resvg::usvg::fontdb::Database;
 use resvg::usvg::{Options, Tree};
 use std::sync::Arc;
 
-/// Greatest side of a picture, pixels: what a 16-bit format can take, and 1 GB at most.
+/// Greatest side of a picture, in pixels: this fits a 16-bit format, and needs at most 1 GB.
 const LARGEST: f64 = 16_384.0;
 
-/// Makes pixels of SVG documents. Text is set in Ubuntu Light, which is part of the program: no font of the machine is asked
-/// for, so that pictures look alike everywhere.
+/// A converter of SVG documents to pixels. It uses the font Ubuntu Light, which is part of the program. It ignores the
+/// fonts of the machine, so that pictures look alike everywhere.
 pub struct Rasteriser(Options<'static>);
 
 impl Rasteriser {
-    /// With its font.
+    /// Creates a rasteriser with its font.
     pub fn new() -> Self {
         let mut options = Options { font_family: "Ubuntu".to_owned(), ..Options::default() };
         let fonts = Arc::make_mut(&mut options.fontdb);
@@ -26,12 +26,12 @@ impl Rasteriser {
         Self(options)
     }
 
-    /// The pixels of a document, `scale` a unit.
+    /// Returns the pixels of a document, `scale` pixels per unit.
     pub fn pixels(&self, svg: &str, scale: f64) -> Result<Pixmap, DrawError> {
         drawn(&self.tree(svg)?, scale)
     }
 
-    /// The same, so many pixels wide.
+    /// Returns the pixels of a document, `width` pixels wide.
     pub fn wide(&self, svg: &str, width: f64) -> Result<Pixmap, DrawError> {
         let tree = self.tree(svg)?;
         drawn(&tree, width / f64::from(tree.size().width()))
@@ -48,7 +48,7 @@ fn drawn(tree: &Tree, scale: f64) -> Result<Pixmap, DrawError> {
     Ok(pixels)
 }
 
-/// Pixels of which none is set, for so many units.
+/// Returns an empty picture of this size in units, `scale` pixels per unit.
 pub fn blank(units: [f64; 2], scale: f64) -> Result<Pixmap, DrawError> {
     let [width, height] = units.map(|side| side * scale);
     let fits = |side: f64| side.is_finite() && (1.0..=LARGEST).contains(&side);
@@ -56,7 +56,7 @@ pub fn blank(units: [f64; 2], scale: f64) -> Result<Pixmap, DrawError> {
     size.flatten().ok_or(DrawError::Scale(scale))
 }
 
-/// Rasterises an SVG document, `scale` pixels a unit.
+/// Rasterises an SVG document, `scale` pixels per unit.
 pub fn write(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
     Rasteriser::new().pixels(svg, scale)?.encode_png().map_err(|e| DrawError::Png(e.to_string()))
 }

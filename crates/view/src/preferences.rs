@@ -1,4 +1,4 @@
-//! Regions that fields prefer or avoid: dashed, since one may pass.
+//! Regions that fields prefer or avoid: dashed, since the arm may pass through them.
 
 use super::axes::Frame;
 use super::chart::Chart;
@@ -9,20 +9,20 @@ use super::view::RegionView;
 
 const DASH: &[f64] = &[7.0, 4.0];
 
-/// Those of the workspace.
+/// Draws the regions of the workspace.
 #[must_use]
 pub fn in_workspace(regions: &[RegionView], frame: &Frame) -> Vec<Item> {
     let corners = |region: &RegionView| chain(region.corners.0.iter().map(|p| frame.at(p[0], p[1])), true);
     regions.iter().filter(|region| !region.joints).map(|region| item(region, corners(region))).collect()
 }
 
-/// Those of the configuration space, with their copies on circles.
+/// Draws the regions of the configuration space, with their copies on circles.
 #[must_use]
 pub fn in_cspace(regions: &[RegionView], chart: &Chart) -> Vec<Item> {
     regions.iter().filter(|region| region.joints).map(|r| item(r, chart.polygon(&r.corners))).collect()
 }
 
-/// What the dashes mean.
+/// Returns the legend of the regions.
 #[must_use]
 pub fn keys(regions: &[RegionView]) -> Vec<Key> {
     let line = |color| Sign::Line(Pen { color, width: 1.4, dash: DASH });

@@ -1,4 +1,4 @@
-//! Where the tip can get: cells of the workspace, and the solutions in the configuration space.
+//! Reachable places of the tip: cells of the workspace, and their IK solutions in the configuration space.
 
 use super::axes::Frame;
 use super::chart::Chart;
@@ -9,7 +9,7 @@ use super::view::{Chain, Grain};
 use cplan_engine::{Access, Reach, Solution};
 use serde::Serialize;
 
-/// With one solution, with several, proven that none can be reached, blocked, unknown.
+/// Colour and meaning of each kind of cell: one solution, several, proven unreachable, blocked, unknown.
 const LOOKS: [(Rgb, &str); 5] = [
     (Rgb(0xb5, 0xd9, 0xc2), "the tip can get there, one way"),
     (Rgb(0x5f, 0xae, 0x83), "with several solutions"),
@@ -28,7 +28,7 @@ fn look(access: Access, count: usize) -> usize {
     }
 }
 
-/// The cells of the workspace.
+/// Draws the cells of the workspace.
 #[must_use]
 pub fn in_workspace(reach: &Reach, frame: &Frame) -> Item {
     let [columns, rows] = reach.size;
@@ -43,7 +43,7 @@ pub fn in_workspace(reach: &Reach, frame: &Frame) -> Item {
     Item::Raster(Raster { rect, cells: reach.size, palette: LOOKS.map(|(color, _)| color).to_vec(), levels })
 }
 
-/// The solutions that are free, as dots.
+/// Draws the free IK solutions as dots.
 #[must_use]
 pub fn in_cspace(reach: &Reach, chart: &Chart) -> Vec<Item> {
     let dot = |solution: &Solution| {
@@ -57,18 +57,18 @@ fn free(reach: &Reach) -> impl Iterator<Item = &Solution> {
     reach.places.iter().flatten().filter(|solution| solution.access != Access::Blocked)
 }
 
-/// What pages draw.
+/// The reachable places in the document for pages.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReachView {
-    /// Least coordinates of the first cell, metres.
+    /// Least coordinates of the first cell, in metres.
     corner: [f64; 2],
-    /// Side of the cells, metres.
+    /// Side of the cells, in metres.
     cell: f64,
-    /// Cells along x, and along y.
+    /// Number of cells along x, and along y.
     size: [usize; 2],
-    /// Of each kind of cell the colour, and the solutions that are free and that it stands for in the configuration space.
+    /// Colour and free IK solutions of each kind of cell.
     kinds: Vec<KindView>,
-    /// The kind of each cell, row by row from below; a dot where the tip is out of reach.
+    /// The kind of each cell, row by row from below; a dot if the cell is out of reach.
     cells: String,
 }
 
@@ -98,7 +98,7 @@ impl ReachView {
     }
 }
 
-/// What the colours mean.
+/// Returns the legend of the cells.
 #[must_use]
 pub fn keys(reach: &Reach) -> Vec<Key> {
     let is_there = |which: &usize| reach.best().any(|(_, access, count)| look(access, count) == *which);

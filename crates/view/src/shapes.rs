@@ -6,10 +6,10 @@ use super::view::ObstacleView;
 use cplan_core::model::Shape;
 use cplan_geometry::{Convex, Point, Vector};
 
-/// Dashes of what is not there yet, or lets something pass.
+/// Dashes for objects that are not there yet, and for obstacles that links may enter.
 pub const DASH: &[f64] = &[5.0, 3.0];
 
-/// An obstacle where it is.
+/// Draws an obstacle at its pose.
 #[must_use]
 pub fn solid(frame: &Frame, obstacle: &ObstacleView) -> Item {
     let color = obstacle.color;
@@ -17,14 +17,14 @@ pub fn solid(frame: &Frame, obstacle: &ObstacleView) -> Item {
     item(frame, obstacle, style, Style::line(color.darker(0.1), 3.0))
 }
 
-/// An object where it is going to be.
+/// Draws an object at its future pose.
 #[must_use]
 pub fn dashed(frame: &Frame, object: &ObstacleView) -> Item {
     let line = Style::line(object.color.darker(0.25), 1.6).dashed(DASH);
     item(frame, object, line.filled(object.color.lighter(0.85)).faded(0.9), line)
 }
 
-/// The outline of an obstacle, drawn with this pen.
+/// Draws the outline of an obstacle with this pen.
 #[must_use]
 pub fn marked(frame: &Frame, obstacle: &ObstacleView, pen: Style) -> Item {
     item(frame, obstacle, pen, pen)
@@ -41,14 +41,14 @@ fn item(frame: &Frame, obstacle: &ObstacleView, surface: Style, wall: Style) -> 
     }
 }
 
-/// Pieces as one surface.
+/// Draws pieces as one surface.
 #[must_use]
 pub fn union(frame: &Frame, pieces: impl IntoIterator<Item = Convex>, style: Style) -> Item {
     let steps = pieces.into_iter().flat_map(|piece| outline(frame, &piece)).collect();
     Item::Outline(steps, Style { pen_below: true, ..style })
 }
 
-/// Outline of a rounded convex polygon: its sides moved outwards, joined by arcs.
+/// Returns the outline of a rounded convex polygon: its sides moved outwards, joined by arcs.
 #[must_use]
 pub fn outline(frame: &Frame, shape: &Convex) -> Vec<Step> {
     let (core, r) = (shape.core(), shape.radius());
@@ -119,9 +119,9 @@ mod tests {
                     Step::Close => {}
                 }
             }
-            // Counter-clockwise as seen is clockwise where y points down.
+            // Counter-clockwise on the page is clockwise in coordinates whose y axis points down.
             let found = (-twice / 2.0 + arcs) / frame.scale().powi(2);
-            // The arc sine loses half the digits at half a turn.
+            // The arc sine loses half of the digits at half a turn.
             assert!((found - shape.area()).abs() < 1e-7, "{n} corners, radius {r}: {found} for {}", shape.area());
         }
     }

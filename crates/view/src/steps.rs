@@ -1,13 +1,13 @@
-//! What is done, step by step.
+//! The list of the steps of a task.
 
 use super::figure::{Anchor, Item, Rect, label, shortened, text_width};
 use super::view::Row;
 
-/// Height of a row, pixels.
+/// Height of a row, in pixels.
 pub const ROW: f64 = 19.0;
 const SIZE: f64 = 13.0;
 
-/// The list in the upper part of `area`.
+/// Draws the list in the upper part of `area`.
 #[must_use]
 pub fn items(rows: &[Row], area: Rect) -> Vec<Item> {
     let mut items = Vec::new();

@@ -1,4 +1,4 @@
-//! What is in the way of a motion that is not there, and where it gets stuck.
+//! The blocking obstacles of a motion that does not exist, and the configuration where it gets stuck.
 
 use super::arm::{self, UNREACHED};
 use super::axes::Frame;
@@ -12,28 +12,28 @@ use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 use serde::{Serialize, Serializer};
 
-/// Dashes of what is in the way.
+/// Dashes of blocking obstacles.
 const DASH: &[f64] = &[7.0, 3.0];
 
-/// Width of its outline.
+/// Width of their outlines, in pixels.
 const WIDTH: f64 = 3.0;
 
-/// What is in the way, and where it is narrowest.
+/// The blocking obstacles, and the narrowest place.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Stuck {
-    /// Numbers of the obstacles.
+    /// Numbers of the blocking obstacles.
     pub blockers: Vec<usize>,
-    /// Where the arm gets stuck: the configuration, and the place in the plane.
+    /// The configuration where the arm gets stuck, and the place in the plane.
     #[serde(serialize_with = "pair", skip_serializing_if = "Option::is_none")]
     pub at: Option<(Configuration, Point)>,
 }
 
-/// The configuration and the place, as pages read them.
+/// Serialises the configuration and the place for pages.
 fn pair<S: Serializer>(at: &Option<(Configuration, Point)>, serializer: S) -> Result<S::Ok, S::Error> {
     at.map(|(q, p)| [[q[0], q[1]], [p.x, p.y]]).serialize(serializer)
 }
 
-/// The blockers' outlines, the arm where it gets stuck, and the place.
+/// Draws the outlines of the blocking obstacles, the arm where it gets stuck, and the place.
 #[must_use]
 pub fn in_workspace(stuck: &Stuck, view: &View, frame: &Frame) -> Vec<Item> {
     let world = view.first_world();
@@ -46,13 +46,13 @@ pub fn in_workspace(stuck: &Stuck, view: &View, frame: &Frame) -> Vec<Item> {
     items
 }
 
-/// The configuration where it gets stuck.
+/// Draws the configuration where the arm gets stuck.
 #[must_use]
 pub fn in_cspace(stuck: &Stuck, chart: &Chart) -> Vec<Item> {
     stuck.at.iter().flat_map(|(at, _)| cross(chart.place(*at))).collect()
 }
 
-/// What the marks mean.
+/// Returns the legend of the marks.
 #[must_use]
 pub fn keys(stuck: &Stuck) -> Vec<Key> {
     let blocking = (!stuck.blockers.is_empty()).then(|| (Sign::Dashed(BARRED), "in the way".to_owned()));
@@ -67,7 +67,7 @@ fn pen() -> Style {
     Style::line(BARRED, WIDTH).dashed(DASH)
 }
 
-/// A cross on white.
+/// Draws a cross on white.
 fn cross([x, y]: Spot) -> Vec<Item> {
     let strokes = |r: f64| {
         vec![

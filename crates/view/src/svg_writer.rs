@@ -5,21 +5,21 @@ use ::svg::Document;
 use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text};
 use std::fmt::Write;
 
-/// The PNG writer brings the first; viewers take what they have.
+/// The PNG writer has the first of these fonts; viewers take the first one that they have.
 const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
 
-/// Pixels beyond which coordinates are cut off. Nothing that far is visible, and single-precision viewers stay exact
-/// to a tenth of a pixel up to here.
+/// Limit of coordinates, in pixels. Nothing that far away is visible, and up to here viewers with single precision stay
+/// exact to a tenth of a pixel.
 const FAR: f64 = 1e6;
 
-/// The figure as an SVG document. Deterministic to the byte; coordinates have two decimals.
+/// Writes the figure as an SVG document. The result is deterministic to the byte; coordinates have two decimals.
 #[must_use]
 pub fn write(figure: &Figure) -> String {
     let ground = Rectangle::new().set("width", number(figure.width)).set("height", number(figure.height));
     document(figure, Group::new().add(ground.set("fill", "#ffffff")))
 }
 
-/// The same without paper.
+/// Writes the figure without a background.
 #[cfg(feature = "png")]
 #[must_use]
 pub fn layer(figure: &Figure) -> String {
@@ -79,7 +79,7 @@ fn rectangle(rect: &Rect) -> Rectangle {
         .set("height", number(rect.height))
 }
 
-/// Two decimals at most, no trailing zeros, no negative zero.
+/// Formats a number: at most two decimals, no trailing zeros, no negative zero.
 fn number(value: f64) -> String {
     let cut = value.clamp(-FAR, FAR);
     let text = format!("{cut:.2}");
@@ -122,7 +122,7 @@ fn attributes(style: &Style) -> Vec<(&'static str, String)> {
 }
 
 fn text(label: &Label) -> Text {
-    // Characters that XML 1.0 forbids even when escaped.
+    // XML 1.0 forbids some characters even when escaped.
     let clean: String = label.text.chars().map(|c| if is_xml(c) { c } else { '\u{fffd}' }).collect();
     let [x, y] = label.at.map(number);
     let mut text = Text::new(clean).set("font-size", number(label.size)).set("fill", label.color.to_string()).set(
@@ -143,8 +143,8 @@ fn is_xml(c: char) -> bool {
     !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
 }
 
-/// One path a colour, in units of cells, of rectangles: runs of equal colour in a column, merged with equal runs in
-/// the columns that follow. Without smoothing, or seams would show between them.
+/// Writes one path of rectangles per colour, in units of cells: runs of equal colour in a column, merged with equal
+/// runs in the following columns. Smoothing is off, because it would show seams between the rectangles.
 fn cells(raster: &Raster) -> Group {
     let [columns, rows] = raster.cells;
     let mut paths = vec![String::new(); raster.palette.len()];
@@ -168,7 +168,7 @@ fn cells(raster: &Raster) -> Group {
                 taken[i * rows + begin..i * rows + j].fill(true);
             }
             let (w, h) = (end - i, j - begin);
-            // Cells go up, pages go down: row j begins at rows - j from the top.
+            // Cells are numbered upwards, but y points down on pages: row j begins at rows - j from the top.
             let _ = write!(paths[level], "M{i} {}h{w}v-{h}h-{w}z", rows - begin);
         }
     }
@@ -214,7 +214,7 @@ mod tests {
         assert_eq!(text.text().map(str::trim), Some("<a & \"b\">\u{fffd}"));
     }
 
-    /// Paints the rectangles back and compares with the cells.
+    /// Paints the rectangles and compares the result with the cells.
     #[test]
     fn raster_rectangles_cover_each_cell_once() {
         let [columns, rows] = [7_usize, 5];

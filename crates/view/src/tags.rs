@@ -1,39 +1,40 @@
-//! Numbers beside places, none over another where there is room.
+//! Numbers beside places; where there is room, none covers another.
 
 use super::color::{INK, WHITE};
 use super::figure::{Anchor, Item, Rect, Spot, Style, label, rectangle, shortened, text_width};
 use super::view::ranges;
 
 const SIZE: f64 = 12.0;
-/// Widest text, pixels.
+/// Greatest width of a text, in pixels.
 const WIDEST: f64 = 96.0;
-/// Height of a line, pixels.
+/// Height of a line, in pixels.
 const LINE: f64 = 15.0;
-/// Places nearer than this, pixels, share a number's box.
+/// Places nearer than this share a number's box, in pixels.
 const NEAR: f64 = 4.0;
-/// From the middle of a place to the nearest side of its number's box, pixels: room for the marker at the place.
+/// Distance from the middle of a place to the nearest side of its number's box, in pixels: room for the marker at the
+/// place.
 const GAP: f64 = 9.0;
 
-/// Where the box lies as seen from its place, the favourite first.
+/// Directions from a place to its box, the favourite first.
 const SIDES: [[f64; 2]; 8] =
     [[1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// Gaps to choose from, in units of the least, and what the wider costs, as the others in square pixels of a covered
-/// shape: less than hiding one.
+/// Possible gaps as multiples of [`GAP`], and the extra cost of each. All costs are in square pixels of covered shapes;
+/// the wider gap costs less than covering a number or a place.
 const RINGS: [(f64, f64); 2] = [(1.0, 0.0), (2.6, 12.0)];
-/// What each side costs more than the one before: enough for numbers in a row to stand alike.
+/// Extra cost of each side compared with the one before. It suffices to place the numbers in a row alike.
 const ORDER: f64 = 1.0;
-/// What it costs to cover a number or a place.
+/// Cost of covering a number or a place.
 const HIDING: f64 = 8.0;
-/// What it costs to cover a spot of a line; these are some pixels apart.
+/// Cost of covering a spot of a line; the spots are some pixels apart.
 const LINE_SPOT: f64 = 4.0;
 
 /// Steps that end at one place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tag {
-    /// The place at which the steps end.
+    /// Place at which the steps end.
     pub at: Spot,
-    /// Their numbers, each once.
+    /// Numbers of the steps, each once.
     pub numbers: Vec<usize>,
 }
 
@@ -46,8 +47,8 @@ pub fn add(tags: &mut Vec<Tag>, at: Spot, number: usize) {
     }
 }
 
-/// The numbers in boxes, each on the side of its place where it covers least of the others, of the places, of what lies
-/// outside, and then of the `shapes` and of lines through the `spots`.
+/// Draws the numbers in boxes. Each box lies on the side of its place where it covers the least: first other numbers,
+/// places and the page's border, then the `shapes` and lines through the `spots`.
 #[must_use]
 pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[Spot]) -> Vec<Item> {
     let mut taken: Vec<Rect> = tags.iter().map(|tag| around(tag.at, [8.0, 8.0])).collect();
@@ -57,7 +58,7 @@ pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[Spot]) -> Vec
         let size = [text_width(&text, SIZE) + 6.0, LINE];
         let boxes = RINGS.iter().flat_map(|&(ring, extra)| {
             SIDES.iter().zip(0..).map(move |(side, index)| {
-                // Diagonal boxes come nearer: their corner is what faces the place.
+                // Diagonal boxes may come nearer, because only their corner faces the place.
                 let gap = ring * if side[0] != 0.0 && side[1] != 0.0 { 0.6 * GAP } else { GAP };
                 let middle = [0, 1].map(|k| tag.at[k] + side[k] * (size[k] / 2.0 + gap));
                 (around(middle, size), extra + ORDER * f64::from(index))
@@ -83,7 +84,7 @@ fn around([x, y]: Spot, [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
-/// The common area, square pixels.
+/// Returns the common area in square pixels.
 pub fn overlap(a: &Rect, b: &Rect) -> f64 {
     let width = a.right().min(b.right()) - a.x.max(b.x);
     let height = a.bottom().min(b.bottom()) - a.y.max(b.y);

@@ -1,4 +1,4 @@
-//! What the planner saw on its way.
+//! The planner's trace: the part of the configuration space that it examined.
 
 use super::chart::Chart;
 use super::color::{self, ACCENT, CHANNEL, EDGE, GREY, INK, Rgb};
@@ -8,13 +8,13 @@ use super::legend::{Key, Sign};
 use super::view::{Chain, LEVELS, ScaleView, TraceView, Waves};
 use super::{boxes, channel, wave_numbers};
 
-/// Colours of a wavefront; each stands for some of its levels.
+/// Number of colours of a wavefront; each stands for some of its levels.
 const SHADES: usize = 32;
 
-/// Part of white in the colours of surfaces, on which lines must stay legible.
+/// Fraction of white in the colours of surfaces, on which lines must stay legible.
 const SOFT: f64 = 0.22;
 
-/// What lies under the C-obstacles: surfaces.
+/// Draws the surfaces, which lie under the C-obstacles.
 #[must_use]
 pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
@@ -27,7 +27,7 @@ pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     }
 }
 
-/// What lies over the C-obstacles: lines and numbers; of a field these lines.
+/// Draws lines and numbers, which lie over the C-obstacles; for a field, these kinds of lines.
 #[must_use]
 pub fn above(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<Item> {
     match trace {
@@ -50,7 +50,7 @@ pub fn above(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<I
     }
 }
 
-/// What lies over the path: the points that it may lead by.
+/// Draws the points that the path may visit, which lie over the path.
 #[must_use]
 pub fn over_path(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
@@ -64,14 +64,14 @@ fn edges(lines: &Chain, chart: &Chart) -> Item {
     Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.6))
 }
 
-/// Where a search came, the earlier the darker.
+/// Draws the places that a search expanded; earlier ones are darker.
 fn places(expanded: &Chain, chart: &Chart) -> impl Iterator<Item = Item> {
     let last = expanded.0.len().saturating_sub(1).max(1) as f64;
     let shade = move |k: usize| color::scale(k as f64 / last);
     expanded.0.iter().enumerate().map(move |(k, &q)| Item::Disc(chart.place(q), 2.2, Style::fill(shade(k)).faded(0.8)))
 }
 
-/// Legend of the trace; of a field with these lines.
+/// Returns the legend of the trace; for a field, with these kinds of lines.
 #[must_use]
 pub fn keys(trace: &TraceView, field_lines: FieldLines) -> Vec<Key> {
     let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });
@@ -97,13 +97,13 @@ pub fn keys(trace: &TraceView, field_lines: FieldLines) -> Vec<Key> {
     }
 }
 
-/// What the colours of a search's places mean.
+/// Returns the legend of the colours of expanded places.
 fn order(expanded: &Chain) -> Vec<Key> {
     let key = |part, text: &str| (Sign::Shade(part), text.to_owned());
     if expanded.is_empty() { Vec::new() } else { vec![key(0.0, "expanded first"), key(1.0, "expanded last")] }
 }
 
-/// The scale of colours, to the right of the frame.
+/// Draws the scale of colours, to the right of the frame.
 #[must_use]
 pub fn color_bar(scale: &ScaleView, frame: &Rect) -> Vec<Item> {
     let ScaleView { title, ends: [top, bottom], soft } = scale;

@@ -1,20 +1,21 @@
-//! Numbers of a wave, written into its cells.
+//! Numbers of a wavefront, written into its cells.
 
 use super::color::{INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Step, Style, label, text_width};
 use super::view::{LEVELS, Waves};
 
-/// The smallest digits that can be read, pixels.
+/// Smallest legible height of digits, in pixels.
 const SMALLEST: f64 = 5.0;
-/// The greatest ones.
+/// Greatest height of digits, in pixels.
 const GREATEST: f64 = 13.0;
-/// Share of a cell's width and height that digits take in its corner, beside a path through the middles of cells; in small cells they
-/// take the whole.
+/// Fraction of a cell's width and height that digits take in its corner, beside a path through the middles of cells. In
+/// small cells they take the whole cell.
 const CORNER: [f64; 2] = [0.42, 0.38];
-/// From this level on cells are so dark that digits are white.
+/// From this level on, cells are so dark that digits are white.
 const DARK: usize = LEVELS * 3 / 5;
 
-/// The sides of cells and the number of each that the wave came to; nothing of fine grids, and where digits would be too small to read.
+/// Draws the sides of cells and the number of each cell that the wave reached. It draws nothing for fine grids, and if
+/// the digits would be too small to read.
 pub fn items(waves: &Waves, frame: &Rect) -> Vec<Item> {
     let Some(longest) = waves.numbers.iter().flatten().max() else { return Vec::new() };
     let [columns, rows] = waves.blocks;

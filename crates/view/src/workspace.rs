@@ -1,4 +1,4 @@
-//! The workspace, with the arm in it and all that takes place.
+//! The workspace, with the arm and everything in it.
 
 use super::arm::{self, GHOST, GOAL, NOW, START, UNREACHED};
 use super::axes::{Frame, Unit};
@@ -12,7 +12,7 @@ use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, cross};
 use nalgebra::Vector3;
 
-/// The panel in this part of the page, which it fills.
+/// Draws the panel, which fills this part of the page.
 #[must_use]
 pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let View { arm, frame: [x, y], still, .. } = view;
@@ -55,7 +55,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     items
 }
 
-/// What moves, where it is now; while nothing does, also where it goes, dashed.
+/// Draws moving obstacles at their current poses. In a still picture, it also draws their trajectories, dashed.
 fn movers(view: &View, frame: &Frame) -> Vec<Item> {
     let (movers, mut items) = (&view.world_now().movers, Vec::new());
     if let (None, Some(duration)) = (view.still.now, view.duration()) {
@@ -71,13 +71,13 @@ fn movers(view: &View, frame: &Frame) -> Vec<Item> {
     items
 }
 
-/// Which of the arms is which, and the names of obstacles, or numbers of many.
+/// Returns the names of the arm's poses and of the obstacles, or numbers if there are many.
 fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let arm = |name: &str, q: [f64; 2]| {
         let [tip, elbow] = [view.arm.tip_at(q.into()), view.arm.elbow_at(q[0])].map(|p| frame.at(p.x, p.y));
         (name.to_owned(), labels::beyond(name, tip, elbow))
     };
-    // An arm that goes nowhere needs no name.
+    // An arm that does not move needs no name.
     let ends = view.still.end.map(|(q, _)| [arm("goal", q), arm("start", view.start)]);
     let arms = ends.into_iter().flatten();
     let world = view.first_world();
@@ -88,7 +88,7 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
     arms.chain(obstacles).chain(movers).collect()
 }
 
-/// A dot where each step ends, or was to end, with its number.
+/// Draws a dot with the step's number at each place where a step ends or should have ended.
 fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[Spot]) -> Vec<Item> {
     let (mut items, mut tags) = (Vec::new(), Vec::new());
     for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
@@ -102,7 +102,7 @@ fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[Spot]) -> Vec<It
     items
 }
 
-/// Where a step of an outline leads.
+/// Returns the end of a step of an outline.
 fn end(step: &Step) -> Option<Spot> {
     match *step {
         Step::Move(spot) | Step::Line(spot) | Step::Arc(_, spot) => Some(spot),
@@ -110,14 +110,14 @@ fn end(step: &Step) -> Option<Spot> {
     }
 }
 
-/// The box around an obstacle that lies somewhere, on the page.
+/// Returns the box around a placed obstacle on the page.
 fn on_page(frame: &Frame, obstacle: &ObstacleView) -> Rect {
     let [x, y] = around(obstacle.own());
     let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
     Rect { x: left, y: top, width: right - left, height: bottom - top }
 }
 
-/// Says so if obstacles lie outside the panel.
+/// Returns a note if obstacles lie outside the panel.
 fn hidden_note<'a>(frame: &Frame, obstacles: impl Iterator<Item = &'a ObstacleView>) -> Option<Item> {
     let outside = |o: &&ObstacleView| {
         let [x, y] = around(o.own());
@@ -132,7 +132,7 @@ fn hidden_note<'a>(frame: &Frame, obstacles: impl Iterator<Item = &'a ObstacleVi
     Some(label(at, text, 13.0, Anchor::Start, GREY))
 }
 
-/// What lies below everything: grid and reach.
+/// Draws the lowest layer: grid and reach.
 fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
     let mut items = frame.grid([Unit::Meters; 2]);
     let reach = Style::line(PALE, 1.0).dashed(&[2.0, 4.0]);
@@ -140,7 +140,7 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
     items
 }
 
-/// The plane's coordinates are named after the root frame's axes if they run along them.
+/// Returns the titles of the plane's coordinates: the names of the root frame's axes, if they run along these.
 pub fn titles(plane: &Plane) -> [String; 2] {
     const ALONG: f64 = 0.9999;
     let name = |v: Vector3<f64>, other: &str| {
@@ -150,8 +150,8 @@ pub fn titles(plane: &Plane) -> [String; 2] {
     [name(plane.u, "u"), name(plane.v, "v")]
 }
 
-/// The region that the tip can never leave: within the greatest distance from the base if joint 1 turns, else the
-/// places that the slides reach, grown by the reach of a turning second link.
+/// Returns the region that the tip can never leave. If joint 1 is revolute, it is the disc with the greatest distance
+/// from the base; otherwise the places that the slides reach, grown by the reach of a revolute second link.
 pub fn reach_shape(arm: &Arm) -> Convex {
     let topology = arm.topology();
     let [first, second] = topology.ranges.map(|axis| axis.domain());
@@ -177,9 +177,9 @@ pub fn reach_shape(arm: &Arm) -> Convex {
     }
 }
 
-/// Where the tip goes: straight joint motions are curves here, so they are followed in small steps.
+/// Returns the path of the tip. Straight motions in joint space are curves here, so it samples them in small steps.
 fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
-    /// Radians; a chord of such an arc is off by 2e-5 of the reach at most, a hundredth of a pixel.
+    /// Step in radians. A chord of such an arc is off by at most 2e-5 of the reach, a hundredth of a pixel.
     const STEP: f64 = 0.0125;
     const MOST: f64 = 2000.0;
     let turns = [0, 1].map(|k| arm.joints[k].joint_type.is_revolute());

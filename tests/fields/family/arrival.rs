@@ -1,9 +1,9 @@
 //! Directions in which paths of oriented fields arrive, against the closed form for open space.
 //!
-//! In the open the field is `exp(-e <v, x> / 2) K0(e r / 2)`, with `x` the place seen from the goal, `r` its distance and
-//! `e` the drift a cell. Far from the goal its lines are parabolas about the goal with their axis along `v`; so the path
-//! turns towards `v`, and has done so when it arrives if `e (r - <v, x>)` is well above 1 where it starts. Straight behind the goal,
-//! where that is 0, it comes against `v`.
+//! Without obstacles, the field is `exp(-e <v, x> / 2) K0(e r / 2)`. Here `x` is the place relative to the goal, `r`
+//! its distance, and `e` the drift per cell. Far from the goal, its lines are parabolas about the goal with their axis
+//! along `v`. So the path turns towards `v`. It arrives along `v` if `e (r - <v, x>)` is well above 1 at the start.
+//! Straight behind the goal, where that is 0, it arrives against `v`.
 
 use super::planner::{found, grid, planner, run, scene};
 use cplan::cspace::ZonedGrid;
@@ -11,10 +11,10 @@ use cplan::field::{Difference, Direction, Lines, Order, Relaxation};
 use cplan::planner::EquationChoice;
 use std::f64::consts::PI;
 
-/// Cells along each axis, half a cell more than to the middle: the walls are far away.
+/// Number of cells along each axis. The distance from the middle to the walls is half a cell more, which is far enough.
 const N: usize = 81;
 
-/// The path seen from the goal, cells.
+/// Returns the path relative to the goal, in cells.
 fn path(direction: f64, epsilon: f64, from: [i64; 2]) -> Vec<[f64; 2]> {
     let zoned = ZonedGrid::new(grid([N, N], [false; 2], vec![false; N * N]), &scene(Vec::new()));
     let middle = (N / 2) as i64;
@@ -31,11 +31,11 @@ fn path(direction: f64, epsilon: f64, from: [i64; 2]) -> Vec<[f64; 2]> {
     points.iter().map(|p| [p[0] - goal[0], p[1] - goal[1]]).collect()
 }
 
-/// Where a path comes within a distance of the goal, as an angle seen from there.
+/// Returns the angle, as seen from the goal, at which a path comes within a distance of it.
 fn bearing(path: &[[f64; 2]], distance: f64) -> f64 {
     let far = path.iter().rposition(|p| p[0].hypot(p[1]) >= distance).expect("it starts farther away");
     let (a, b) = (path[far], path[far + 1]);
-    // The piece is cut finely: distances along it are not linear.
+    // The piece is sampled finely, because distances along it are not linear.
     let on = (0..=1000).map(|k| f64::from(k) / 1000.0).map(|t| [0, 1].map(|k| a[k] + t * (b[k] - a[k])));
     let at = on.min_by(|p, q| {
         let off = |p: &[f64; 2]| (p[0].hypot(p[1]) - distance).abs();
@@ -44,17 +44,17 @@ fn bearing(path: &[[f64; 2]], distance: f64) -> f64 {
     at.map_or(f64::NAN, |p| p[1].atan2(p[0]))
 }
 
-/// The direction in which a path arrives, over its last cell and a half.
+/// Returns the direction in which a path arrives, over its last one and a half cells.
 fn arrival(direction: f64, epsilon: f64, from: [i64; 2]) -> f64 {
     bearing(&path(direction, epsilon, from), 1.5) + PI
 }
 
-/// Size of the turn from one direction to another.
+/// Returns the size of the turn from one direction to another.
 fn apart(a: f64, b: f64) -> f64 {
     ((a - b + PI).rem_euclid(2.0 * PI) - PI).abs()
 }
 
-/// `K1(x) / K0(x)`, by the integrals of `exp(-x cosh t) cosh(n t)`.
+/// Returns `K1(x) / K0(x)`, by the integrals of `exp(-x cosh t) cosh(n t)`.
 fn ratio(x: f64) -> f64 {
     let step = 1e-3;
     let terms = (0..12_000).map(|k| (f64::from(k) + 0.5) * step).map(|t| ((-x * (t.cosh() - 1.0)).exp(), t.cosh()));
@@ -62,8 +62,8 @@ fn ratio(x: f64) -> f64 {
     k1 / k0
 }
 
-/// The same bearing in the open: along a line the angle `f` between `x` and `v` changes by `sin f / (cos f + K1/K0)` for each
-/// factor `1 / e` of the distance.
+/// Returns the bearing in open space. Along a line, the angle `f` between `x` and `v` changes by `sin f / (cos f +
+/// K1/K0)` for each factor `1 / e` of the distance.
 fn expected(direction: f64, epsilon: f64, from: [i64; 2], distance: f64) -> f64 {
     let [x, y] = from.map(|k| k as f64);
     let (r, at) = (x.hypot(y), y.atan2(x));
@@ -104,7 +104,7 @@ fn paths_arrive_along_the_drift_unless_they_start_behind_the_goal() {
     assert!(along >= 12 && others >= 2, "{along} {others}");
 }
 
-/// The start of docs/fields.md that contradicts "arrives along v", and some that bear it out.
+/// The start in docs/fields.md whose path does not arrive along `v`, and some whose paths do.
 #[test]
 fn on_their_way_paths_bear_from_the_goal_as_the_closed_form_has_it() {
     for (degrees, from) in [(180, [-7, -3]), (225, [-7, -3]), (0, [-7, -3]), (90, [-12, 0]), (0, [4, 12]), (0, [8, 4])]

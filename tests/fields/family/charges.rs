@@ -1,5 +1,5 @@
-//! Repulsion by all obstacle cells together, and figure 3.4 of the sources: four times the charge cures a trap, then keeps
-//! the robot from the goal.
+//! Repulsion by all obstacle cells together, and figure 3.4 of the sources: four times the charge opens a trap, and
+//! then keeps the robot from the goal.
 
 use crate::common::placed;
 use cplan::cspace::{Grid, Proves, ZonedGrid};
@@ -22,7 +22,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
 proptest! {
     #![proptest_config(cplan_cases::cases(60))]
 
-    /// Term by term: the short way round circles, with a frame of one cell beyond high limits.
+    /// Term by term: circles by the shorter direction, and a frame of one cell beyond high limits.
     #[test]
     fn the_sum_is_that_over_all_obstacle_cells(
         (rows, columns, blocked) in (1..9_usize, 1..9_usize).prop_flat_map(|(rows, columns)| {
@@ -74,7 +74,7 @@ proptest! {
     }
 }
 
-/// A room with walls, a trap that opens towards the start, and a goal between two blocks.
+/// Returns a room with walls, a trap that opens towards the start, and a goal between two blocks.
 fn room(gap: &str) -> (ZonedGrid, Query) {
     let mut rows: Vec<String> = vec![".".repeat(44); 40];
     for (i, row) in rows.iter_mut().enumerate() {
@@ -111,7 +111,7 @@ fn outcome(charge: f64, gap: &str) -> Proposal {
     planner.query(&space, &(), &query).outcome
 }
 
-/// Between the side walls.
+/// Returns true between the side walls of the trap.
 fn is_in_trap([i, j]: [f64; 2]) -> bool {
     (8.0..16.0).contains(&i) && (20.0..24.0).contains(&j)
 }
@@ -129,13 +129,13 @@ fn four_times_the_charge_cures_the_trap_and_then_keeps_the_robot_from_the_goal()
     const OPEN: &str = "................";
     const NARROW: &str = "#######..#######";
     let q = 0.8;
-    // Attraction leads into the trap, whose bottom holds it back.
+    // Attraction leads into the trap, and its bottom stops the path.
     let [i, j] = trapped_at(&outcome(q, OPEN));
     assert!(is_in_trap([i, j]), "({i}, {j}) is not in the trap");
-    // Four times as strong, its walls keep the robot out.
+    // With four times the charge, its walls keep the robot out.
     let Proposal::Found(path) = outcome(4.0 * q, OPEN) else { panic!("{:?}", outcome(4.0 * q, OPEN)) };
     assert!(!path.waypoints().iter().any(|q| is_in_trap([q[0], q[1]])));
-    // But where the goal lies between obstacles, they hide it.
+    // But if the goal lies between obstacles, their repulsion makes it unreachable.
     let [i, j] = trapped_at(&outcome(4.0 * q, NARROW));
     assert!(!is_in_trap([i, j]) && (i - 35.5).hypot(j - 22.5) > 2.0, "({i}, {j}) is in the trap, or at the goal");
 }

@@ -1,5 +1,5 @@
-//! How relaxations converge: rates against closed forms for empty rectangles, solutions by elimination against dense ones and the
-//! harmonic potential, samples against relaxations that end earlier.
+//! Convergence of relaxations: rates against closed forms for empty rectangles, solutions by elimination against dense
+//! ones and the harmonic potential, samples against relaxations that end earlier.
 
 use super::direct;
 use super::promises::{monotone, random_domain};
@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 const ROWS: Order = Order::Lines(Scan::ROWS);
 
-/// A rectangle of free cells among obstacles of 0: what there is to relax is the error alone, 1 everywhere at first.
+/// Returns a rectangle of free cells among obstacles of value 0. Its field is the error alone, initially 1 everywhere.
 fn empty(cells: [usize; 2]) -> Domain {
     let levels = Levels { free: 1.0, ..Levels::PROBABILITY };
     Domain::new(cells, vec![Cell::Free; cells[0] * cells[1]], [Boundary::High; 2], levels)
@@ -23,8 +23,9 @@ fn oriented(epsilon: f64, difference: Difference) -> Equation {
     Equation::Oriented { direction: Direction::of([1.0, 0.0]).unwrap(), epsilon, difference }
 }
 
-/// The spectral radius of Jacobi's relaxation. Its eigenvectors are products of sines and powers; along each axis the eigenvalue is
-/// twice the root of the product of opposite weights times a cosine, over the sum of all weights.
+/// Returns the spectral radius of Jacobi's relaxation. Its eigenvectors are products of sines and powers. Along each
+/// axis, the eigenvalue is twice the root of the product of opposite weights times a cosine, over the sum of all
+/// weights.
 fn jacobi_rate(cells: [usize; 2], equation: &Equation) -> f64 {
     let [a, b] = cells.map(|n| (PI / (n + 1) as f64).cos());
     match equation {
@@ -63,12 +64,12 @@ fn rates_in_empty_rectangles_are_the_closed_forms() {
             let close = |measured: f64, known: f64, within: f64| {
                 assert!((measured - known).abs() < within, "{cells:?} {equation:?}: {measured} instead of {known}");
             };
-            // Of some fifty sweeps the last half has not quite settled.
+            // The last half of some fifty sweeps has not quite converged.
             close(rate(Relaxation::JACOBI), jacobi, 1e-2);
             close(rate(Relaxation::weighted_jacobi(0.8)), 0.2 + 0.8 * jacobi, 1e-2);
             close(rate(Relaxation::gauss_seidel(ROWS)), jacobi * jacobi, 1e-2);
             close(rate(Relaxation::gauss_seidel(Order::RedBlack)), jacobi * jacobi, 1e-2);
-            // Young 1954. At the best factor the error falls like k (w - 1)^k: a little slower.
+            // Young 1954. With the best factor, the error falls like k (w - 1)^k: slightly more slowly.
             let best = 2.0 / (1.0 + (1.0 - jacobi * jacobi).sqrt());
             for order in [ROWS, Order::RedBlack] {
                 let measured = rate(Relaxation::sor(Factor::Given(best), order));
@@ -122,11 +123,12 @@ fn the_scan_is_best_at_the_theoretical_factor() {
     assert!(before.len() > 12 && before.windows(2).all(|w| w[0] > w[1]), "{before:?}");
     let after: Vec<usize> = scan.points.iter().filter(|p| p.at > theory + 0.02).map(|p| p.sweeps).collect();
     assert!(after.len() > 3 && after.windows(2).all(|w| w[0] < w[1]), "{after:?}");
-    // Neither scan is any other relaxation than the one that it says.
+    // Each scan has the results of its own relaxation.
     let gauss_seidel = measured.courses.iter().find(|c| c.relaxation == Relaxation::gauss_seidel(ROWS)).unwrap();
     assert_eq!((scan.points[0].at, scan.points[0].sweeps), (1.0, gauss_seidel.trace.sweeps));
     assert!(measured.strengths.iter().all(|s| s.points[0].sweeps == gauss_seidel.trace.sweeps));
-    // Jacobi's eigenvalues lie between minus the rate and the rate: a weight above 2 / (1 + rate) diverges, the best is 1 or just below.
+    // Jacobi's eigenvalues lie between minus the rate and the rate. A weight above 2 / (1 + rate) diverges; the best is
+    // 1 or just below.
     let weights = &measured.weights[0];
     let jacobi = measured.courses.iter().find(|c| c.relaxation == Relaxation::JACOBI).unwrap();
     let at_one = weights.points.iter().find(|point| point.at == 1.0).unwrap();
@@ -141,7 +143,7 @@ fn the_scan_is_best_at_the_theoretical_factor() {
 
 #[test]
 fn elimination_finds_the_harmonic_potential() {
-    // Rooms with doors, on a cylinder: rows go round.
+    // Rooms with doors, on a cylinder: rows wrap around.
     let n = 36;
     let blocked: Vec<bool> = (0..n * n)
         .map(|cell| {
@@ -175,7 +177,7 @@ fn elimination_finds_the_harmonic_potential() {
     assert!(compared > 500, "{compared}");
 }
 
-/// Any relaxation, over-relaxation too.
+/// Generates any relaxation, also with over-relaxation.
 fn relaxation() -> impl Strategy<Value = Relaxation> {
     prop_oneof![
         Just(Relaxation::JACOBI),
@@ -216,7 +218,7 @@ proptest! {
         let until = |sweeps| relax(&domain, &equation, &relaxation, &never(sweeps)).unwrap();
         prop_assert_eq!(run.sweeps, until(last).sweeps());
         prop_assert_eq!(run.ending == Ending::Converged, until(last).converged());
-        // Where there are two stages, the first can be cut off alone.
+        // If there are two stages, the first can be cut off alone.
         for sample in run.samples.iter().filter(|sample| sample.stage == 0) {
             let stage = if exact.is_some() { equation.clone() } else { Equation::Harmonic };
             let at = |sweeps| relax(&domain, &stage, &relaxation, &never(sweeps)).unwrap().values;
@@ -233,7 +235,7 @@ proptest! {
                 prop_assert!((error - far(&new) / far(&domain.start())).abs() < 1e-12);
             }
         }
-        // Without over-relaxation no sweep makes the greatest error greater.
+        // Without over-relaxation, no sweep increases the greatest error.
         let errors: Vec<f64> = run.samples.iter().filter_map(|sample| sample.error).collect();
         if relaxation.factor(domain.cells()) <= 1.0 {
             prop_assert!(errors.windows(2).all(|w| w[1] <= w[0] * (1.0 + 1e-12) + 1e-15), "{:?}", errors);

@@ -1,9 +1,9 @@
-//! Direct solutions by dense LU. Shares nothing with the library but the types that say what is asked.
+//! Direct solutions by dense LU. The code shares nothing with the library except the types that state the problem.
 
 use cplan::field::{Boundary, Cell, Difference, Domain, Equation, Levels};
 use nalgebra::{DMatrix, DVector};
 
-/// A domain drawn in text: `#` obstacle, `G` goal; rows of text are rows of the domain.
+/// Parses a domain drawn in text: `#` obstacle, `G` goal; rows of text are rows of the domain.
 pub fn drawn(text: &str, boundaries: [Boundary; 2], levels: Levels) -> Domain {
     let rows: Vec<&str> = text.split_whitespace().collect();
     let kinds = rows.iter().flat_map(|row| {
@@ -16,7 +16,7 @@ pub fn drawn(text: &str, boundaries: [Boundary; 2], levels: Levels) -> Domain {
     Domain::new([rows.len(), rows[0].len()], kinds.collect(), boundaries, levels)
 }
 
-/// What is found one step from a cell along an axis.
+/// The neighbour of a cell along an axis.
 #[derive(Clone, Copy, PartialEq)]
 enum There {
     Cell(usize),
@@ -24,7 +24,7 @@ enum There {
     Same,
 }
 
-/// One step from `cell` along `axis`, forwards or backwards.
+/// Returns the neighbour of `cell` along `axis`, forwards or backwards.
 fn there(domain: &Domain, cell: usize, axis: usize, step: i64) -> There {
     let [rows, columns] = domain.cells().map(|n| n as i64);
     let mut at = [cell as i64 / columns, cell as i64 % columns];
@@ -40,7 +40,7 @@ fn there(domain: &Domain, cell: usize, axis: usize, step: i64) -> There {
     There::Cell((at[0] * columns + at[1]) as usize)
 }
 
-/// The value there, among `values`.
+/// Returns the value of a neighbour, among `values`.
 fn value(domain: &Domain, values: &[f64], cell: usize, axis: usize, step: i64) -> f64 {
     match there(domain, cell, axis, step) {
         There::Cell(next) => values[next],
@@ -94,7 +94,7 @@ fn solve(domain: &Domain, drift: impl Fn(usize) -> [f64; 2], difference: Differe
     matrix.lu().solve(&right).expect("the equations determine the field").as_slice().to_vec()
 }
 
-/// The gradient of the published field (obstacles high), normalised.
+/// Returns the gradient of the published field (obstacles high), normalised.
 fn uphill(domain: &Domain, values: &[f64], cell: usize) -> [f64; 2] {
     let sign = if domain.levels().obstacle > domain.levels().goal { 0.5 } else { -0.5 };
     let slope =
@@ -104,7 +104,7 @@ fn uphill(domain: &Domain, values: &[f64], cell: usize) -> [f64; 2] {
     if length == 0.0 { slope } else { slope.map(|x| x / length) }
 }
 
-/// What the altered preferences ask of a cell, as the literature writes it: for obstacles high.
+/// Returns the equation of the altered preferences for a cell, as in the literature, with obstacles high.
 pub fn altered(domain: &Domain, published: &[f64], epsilon: &[f64], cell: usize) -> f64 {
     let [west, east] = [-1, 1].map(|step| value(domain, published, cell, 1, step));
     let [south, north] = [-1, 1].map(|step| value(domain, published, cell, 0, step));
@@ -116,7 +116,7 @@ pub fn altered(domain: &Domain, published: &[f64], epsilon: &[f64], cell: usize)
     h + epsilon[cell] / sum * d
 }
 
-/// The field that the equation describes.
+/// Returns the field that the equation describes.
 pub fn solution(domain: &Domain, equation: &Equation) -> Vec<f64> {
     match equation {
         Equation::Harmonic => solve(domain, |_| [0.0; 2], Difference::Central),
@@ -131,7 +131,7 @@ pub fn solution(domain: &Domain, equation: &Equation) -> Vec<f64> {
             solve(domain, |cell| v(cell).map(|v| epsilon[cell] * v), *difference)
         }
         Equation::AlteredPreference { epsilon } => {
-            // Whatever the levels, in the published ones, by the slow way: all cells at once.
+            // For any levels: solves in the published ones, by the slow method with all cells at once.
             let Levels { obstacle, goal, free } = domain.levels();
             let published = Levels::PUBLISHED;
             let same = Domain::new(domain.cells(), domain.kinds().to_vec(), domain.boundaries(), published)

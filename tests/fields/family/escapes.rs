@@ -1,4 +1,4 @@
-//! Ways out of the local minima of attraction and repulsion.
+//! Escapes from the local minima of attraction and repulsion.
 
 use super::khatib::u_trap;
 use super::planner::{drawn, found, grid, reason, run, scene};
@@ -23,7 +23,8 @@ fn escaped(run: &Run) -> (&'static str, usize, usize) {
     }
 }
 
-/// Every point of a path, densely, is in a free cell; on a side between two either may be the free one.
+/// Samples a path densely, and checks that every point is in a free cell. On a side between two cells, either may be
+/// the free one.
 fn stays_free(grid: &Grid, run: &Run) {
     for (a, b) in found(run).segments() {
         for k in 0..=40 {
@@ -45,7 +46,7 @@ fn a_wave_and_a_walk_lead_out_of_the_u_and_say_so() {
         stays_free(&zoned.grid, &out);
         assert_eq!(found(&out).goal(), zoned.grid.center(goal));
         let (how, minima, moves) = escaped(&out);
-        // Out of the U are seven cells at the least, and back along its side.
+        // The path leaves the U over at least seven cells, and comes back along its side.
         assert!(
             how == escape.description() && minima >= 1 && moves >= 10,
             "{escape:?}: {minima} minima, {moves} moves"
@@ -76,7 +77,7 @@ fn a_way_that_meets_no_minimum_is_the_same_and_nothing_is_said() {
 proptest! {
     #![proptest_config(cplan_cases::cases(150))]
 
-    /// With a wave the planner finds a path exactly if the cells have one, on circles, too.
+    /// With a wave, the planner finds a path exactly if the cells have one, also on circles.
     #[test]
     fn with_a_wave_the_goal_is_found_wherever_it_is_connected(
         rows in 2..14_usize, columns in 2..14_usize, circles in any::<[bool; 2]>(), density in 0.0..0.5_f64,

@@ -1,4 +1,4 @@
-//! Attraction and repulsion: their laws, their traps, and that these are told.
+//! Attraction and repulsion: their laws, their traps, and the reports of traps.
 
 use super::planner::drawn;
 use cplan::cspace::{Grid, Proves};
@@ -8,7 +8,7 @@ use cplan::space::{Configuration, JointRange, Topology};
 const ATTRACTIONS: [Attraction; 2] = [Attraction::Constant(1.5), Attraction::Linear(0.7)];
 const REPULSIONS: [Repulsion; 2] = [Repulsion::Ranged { gain: 2.0, range: 3.0 }, Repulsion::InverseSquare(2.0)];
 
-/// A trap that is open on the left, with a start in it and a goal to the right of it.
+/// Returns a trap that is open on the left, with a start in it and a goal to the right of it.
 pub fn u_trap() -> (Grid, usize, usize) {
     let text = "
         ....................
@@ -44,7 +44,7 @@ fn forces_are_the_slopes_of_their_potentials() {
     assert_eq!(REPULSIONS.map(|law| law.potential(f64::INFINITY)), [0.0, 0.0]);
 }
 
-/// The potential of a cell from the distances to all blocked cells.
+/// Returns the potential of a cell from the distances to all blocked cells.
 fn potential(grid: &Grid, laws: &Khatib, goal: usize, cell: usize) -> f64 {
     let distance = |other: usize| (grid.center(cell) - grid.center(other)).norm();
     let obstacle = (0..grid.blocked.len()).filter(|&c| grid.blocked[c]).map(distance).fold(f64::INFINITY, f64::min);

@@ -1,4 +1,4 @@
-//! The planner for any field.
+//! The planner for all fields.
 
 use crate::common::{placed, rr};
 use cplan::cspace::{Grid, Proves, ZonedGrid};
@@ -22,7 +22,7 @@ pub fn scene(preferences: Vec<Preference>) -> Scene {
     placed(rr([JointRange::Interval { lower: -3.0, upper: 3.0 }; 2]), workspace)
 }
 
-/// Cells of width 1; `#` is blocked.
+/// Parses cells of width 1; `#` is blocked.
 pub fn drawn(text: &str) -> Grid {
     let rows: Vec<&str> = text.split_whitespace().collect();
     let cells = [rows.len(), rows[0].len()];
@@ -63,7 +63,7 @@ pub fn found(run: &Run) -> &Path {
     }
 }
 
-/// Whether a cell about `q` is free; on a side between two either may be.
+/// Returns true if a cell at `q` is free; on a side between two cells, either may be.
 fn is_free(grid: &Grid, q: Configuration) -> bool {
     let beside = |d: [f64; 2]| {
         let p = q + Configuration::new(d[0] * 1e-7 * grid.step()[0], d[1] * 1e-7 * grid.step()[1]);
@@ -95,7 +95,7 @@ fn equations() -> Vec<EquationChoice> {
 proptest! {
     #![proptest_config(cplan_cases::cases(150))]
 
-    /// Every field finds a path exactly where the wave does, through free cells.
+    /// Every field finds a path exactly if the wave does, and its path visits only free cells.
     #[test]
     fn every_field_answers_as_the_wave_does(
         (cells, blocked, start, goal) in (2..10_usize, 2..10_usize).prop_flat_map(|(rows, columns)| {
@@ -148,7 +148,7 @@ fn the_direction_decides_on_which_side_of_an_obstacle_to_pass() {
 
 #[test]
 fn a_positive_preference_keeps_out_of_a_region_and_a_negative_one_draws_in() {
-    // Two ways round a block; the region lies on one of them.
+    // Two routes round a block; the region lies on one of them.
     let text = "...........\n".repeat(3) + &"...#####...\n".repeat(5) + &"...........\n".repeat(3);
     let corners = [(2.0, 0.0), (9.0, 0.0), (9.0, 3.0), (2.0, 3.0)].map(|(x, y)| Point::new(x, y));
     for choice in [
@@ -192,10 +192,11 @@ fn a_field_that_is_not_finished_says_so() {
         };
         FieldPlanner { field, limits: Limits::High, escape: None, path: PathKind::Own }
     };
-    // After three sweeps nobody ten cells away has heard of the goal.
+    // After three sweeps, the goal has not influenced a cell ten cells away.
     let early = run(hasty(3), &zoned, 99, 0);
     assert!(reason(&early).starts_with("the field is not converged after 3 sweeps: "), "{:?}", early.outcome);
-    // After thirty all have, and the field leads to the goal. It is not the one that was asked for all the same.
+    // After thirty sweeps it has influenced all cells, and the field leads to the goal. But it is not the converged
+    // field.
     let late = run(hasty(30), &zoned, 99, 0);
     assert!(
         reason(&late).starts_with("the field is not converged after 30 sweeps: allow more sweeps"),

@@ -55,7 +55,7 @@ fn equations(domain: &Domain) -> Vec<Equation> {
             Equation::Preference { epsilon: epsilon.clone(), difference },
         ]);
     }
-    // More drift than central differences bear.
+    // More drift than central differences allow.
     equations.push(Equation::Oriented { direction, epsilon: 5.0, difference: Difference::Upwind });
     equations
 }
@@ -101,7 +101,7 @@ fn every_combination_converges_to_the_direct_solution_or_is_reported_as_divergen
         }
     }
     assert_eq!(converged + diverged.len(), 12 * 9 * 22);
-    // A factor that suits Laplace's equation does not suit a strong drift that goes round and round.
+    // A factor that is good for Laplace's equation is bad for a strong drift around circles.
     let expected = |(equation, relaxation, boundaries): &(Equation, Relaxation, [Boundary; 2])| {
         let strong = matches!(equation, Equation::Oriented { epsilon: 5.0, .. });
         let formula = matches!(relaxation.scheme, Scheme::Successive { factor: Factor::Formula, .. });

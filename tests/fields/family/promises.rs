@@ -1,4 +1,4 @@
-//! What is promised on random grids: the maximum principle, and that the goals are the only minima.
+//! Guarantees on random grids: the maximum principle, and that the goals are the only minima.
 
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Lines, Measure, Neighbor, Order,
@@ -10,7 +10,8 @@ use super::direct::drawn;
 
 const BOUNDARIES: [Boundary; 3] = [Boundary::High, Boundary::Reflecting, Boundary::Periodic];
 
-/// Up to 8 x 8 cells with one goal at least; cells that are not connected with one count as obstacles.
+/// Generates domains of up to 8 x 8 cells with at least one goal. Cells that are not connected with a goal become
+/// obstacles.
 pub fn random_domain() -> impl Strategy<Value = Domain> {
     let shape = (1..9_usize, 1..9_usize, 0.0..0.6_f64);
     shape.prop_flat_map(|(rows, columns, density)| {
@@ -34,7 +35,7 @@ pub fn random_domain() -> impl Strategy<Value = Domain> {
     })
 }
 
-/// Cells that are connected with a goal, by repeated passes.
+/// Returns the cells that are connected with a goal, by repeated passes.
 fn flood(domain: &Domain, goal: usize) -> Vec<bool> {
     let [rows, columns] = domain.cells();
     let mut reached = vec![false; rows * columns];
@@ -56,7 +57,7 @@ fn flood(domain: &Domain, goal: usize) -> Vec<bool> {
     reached
 }
 
-/// A monotone equation. Drifts are so small that no difference of values within 8 cells drowns in rounding.
+/// Generates a monotone equation. Drifts are so small that no difference of values within 8 cells is lost in rounding.
 pub fn monotone(n: usize) -> impl Strategy<Value = Equation> {
     let difference = prop_oneof![Just(Difference::Central), Just(Difference::Upwind)];
     let vector = [-1.0..1.0_f64, -1.0..1.0_f64];
@@ -75,7 +76,7 @@ pub fn monotone(n: usize) -> impl Strategy<Value = Equation> {
     ]
 }
 
-/// Relaxations without over-relaxation: for these the promises hold at any time.
+/// Generates relaxations without over-relaxation, for which the guarantees hold at any time.
 fn cautious() -> impl Strategy<Value = Relaxation> {
     prop_oneof![
         Just(Relaxation::JACOBI),
@@ -114,7 +115,8 @@ proptest! {
         let stopping = Stopping { measure: Measure::GreatestChange, below: 1e-15, max_sweeps: 30_000 };
         let field = relax(&domain, &equation, &relaxation, &stopping).unwrap();
         for (cell, kind) in domain.kinds().iter().enumerate() {
-            // What goals and reflecting limits shut in has no wall to go away from: there the only field is constant.
+            // Cells enclosed by goals and reflecting limits have no obstacle to lead away from. The only field there is
+            // constant.
             let shut_in = (field.values[cell] - domain.levels().goal).abs() < 1e-9;
             if *kind == Cell::Free && !shut_in {
                 let way = descend(&domain, &field.values, cell);
@@ -124,15 +126,16 @@ proptest! {
     }
 }
 
-/// Whether a way comes to a goal, or ends where a neighbour is level up to rounding: reflecting limits can make a field
-/// exactly level about a cell, and whether the computed values are so, too, or the last bit makes a minimum of it, is chance.
+/// Returns true if a path reaches a goal, or ends beside a cell whose value is equal up to rounding. Reflecting limits
+/// can make a field exactly level about a cell. Whether the computed values are then level too, or have a minimum by
+/// their last bit, is chance.
 fn leads(domain: &Domain, values: &[f64], way: &Result<Vec<usize>, Stuck>) -> bool {
     let Err(stuck) = way else { return true };
     let level = |neighbor: Neighbor| matches!(neighbor, Neighbor::Cell(n) if (values[n] - stuck.value).abs() < 1e-14);
     domain.boundaries().contains(&Boundary::Reflecting) && domain.neighbors(stuck.cell).into_iter().any(level)
 }
 
-/// Found by the property above: level about the cell in the last row, but for rounding.
+/// Found by the property above: level about the cell in the last row, except for rounding.
 #[test]
 fn a_field_that_rounding_keeps_from_being_level_is_told() {
     let domain = drawn("G...\n...#\n....\n.#..", [Boundary::Reflecting; 2], Levels::PUBLISHED);
@@ -156,7 +159,7 @@ fn a_field_that_is_level_about_a_corner_is_crossed() {
     assert!(field.values.iter().zip(sevenths).all(|(value, expected)| (7.0 * value - expected).abs() < 1e-12));
     let way = descend(&domain, &sevenths.map(|value| value / 7.0), 0).unwrap();
     assert_eq!(way, [0, 3, 4, 7, 8]);
-    // What has the value of obstacles, or of goals, is not crossed; nor is a minimum.
+    // Cells with the value of obstacles, or of goals, are not crossed; nor is a minimum.
     let at = |values: [f64; 9]| descend(&domain, &values, 0).unwrap_err();
     let zeros = [0.0, 0.0, 0.0, 0.0, 0.2, 0.3, 0.0, 0.3, 1.0];
     assert_eq!(at(zeros), Stuck { cell: 0, value: 0.0, flat: true });

@@ -81,7 +81,8 @@ fn fields_on_cells_that_are_not_square_are_the_direct_solutions() {
     }
 }
 
-/// A room twice as long as it is wide, by square cells and by as many cells along both sides.
+/// Compares two grids of a room whose length is twice its width: one with square cells, and one with the same number of
+/// cells along both sides.
 #[test]
 fn cells_of_any_sides_give_the_field_of_the_room() {
     let room = |cells: [usize; 2], beta: f64| {
@@ -89,7 +90,7 @@ fn cells_of_any_sides_give_the_field_of_the_room() {
         let kinds = (0..cells[0] * cells[1]).map(|cell| if goal(cell) { Cell::Goal } else { Cell::Free });
         let domain = Domain::new(cells, kinds.collect(), [Boundary::High; 2], Levels::PROBABILITY).with_beta(beta);
         let values = eliminated(&domain, &Equation::Harmonic).unwrap();
-        // Three quarters along, in the middle: the mean of the cells about it.
+        // At three quarters of the length, in the middle: the mean of the cells about it.
         let (i, j) = (cells[0] * 3 / 4, cells[1] / 2);
         let around = [[i, j], [i - 1, j], [i, j - 1], [i - 1, j - 1]].map(|[i, j]| values[i * cells[1] + j]);
         (around.iter().sum::<f64>() / 4.0).ln()

@@ -1,10 +1,10 @@
-//! What is measured in a sweep, and where robots have influence: small cases by hand.
+//! Measures of a sweep, and areas of influence of robots: small cases by hand.
 
 use super::direct::drawn;
 use cplan::field::{Boundary, Equation, Influence, Levels, Measure, Relaxation, Stopping, around, relax};
 
-/// The measure after each of the first sweeps on `#.G`, walled above and below, where the one free cell goes half of the
-/// way to 3/4 in each.
+/// Returns the measure after each of the first sweeps on `#.G`, walled above and below. In each sweep, the one free
+/// cell moves half of the remaining distance to 3/4.
 fn measures(measure: Measure) -> Vec<f64> {
     let domain = drawn("#.G", [Boundary::High; 2], Levels::PUBLISHED);
     let relaxation = Relaxation::weighted_jacobi(0.5);

@@ -1,5 +1,5 @@
-//! Regions among obstacles of more pieces than are traced one by one: noisy walls, walks and spikes. What they show
-//! as free is held to distances that brute force finds between the arm's rectangles and every single piece.
+//! Regions among obstacles with more pieces than are traced one by one: noisy walls, walks and spikes. Free places are
+//! compared with distances that brute force finds between the arm's rectangles and every single piece.
 
 use crate::common::{placed, q, rr, wall};
 use cplan::cspace::{Regions, regions, traced_pairs};
@@ -9,10 +9,10 @@ use cplan::space::{Configuration, JointRange};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-/// Pieces of an obstacle that are traced as they are at most; more are covered.
+/// Largest number of pieces of an obstacle that are traced one by one; others are covered by larger shapes.
 const PLAIN: usize = 512;
 
-/// Numbers in `[0, 1)`, the `k`-th of a choice (SplitMix64).
+/// Returns a number in `[0, 1)`, the `k`-th of a choice (SplitMix64).
 fn dice(choice: u64, k: usize) -> f64 {
     let z = choice.wrapping_add((k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -22,14 +22,14 @@ fn dice(choice: u64, k: usize) -> f64 {
 
 const CENTER: Point = Point::new(1.2, 0.3);
 
-/// A polyline of so many points that goes about at random, or up and down in a noisy zigzag.
+/// Returns a polyline of `count` points: a random walk, or a noisy zigzag.
 fn polyline(choice: u64, count: usize, walks: bool) -> Obstacle {
     let mut at = CENTER;
     let step = |k: usize| Vector::new(dice(choice, 2 * k) - 0.5, dice(choice, 2 * k + 1) - 0.5);
     let points: Vec<Point> = (0..count)
         .map(|k| {
             if walks {
-                // Within a square, in which it crosses itself again and again.
+                // Within a square, in which it crosses itself many times.
                 at += step(k) * 0.03;
                 at = at.sup(&(CENTER - Vector::repeat(0.2))).inf(&(CENTER + Vector::repeat(0.2)));
                 at
@@ -43,7 +43,7 @@ fn polyline(choice: u64, count: usize, walks: bool) -> Obstacle {
     Obstacle { name: "wall".into(), shape: Shape::Polyline(points), pieces, heights: Heights::ALL }
 }
 
-/// A polygon with corners in so many directions, each at a distance of its own.
+/// Returns a polygon with corners in `count` directions, each at a different distance.
 fn spiky(choice: u64, count: usize) -> Obstacle {
     let corner = |k: usize| {
         let (sin, cos) = (k as f64 / count as f64 * TAU).sin_cos();
@@ -84,10 +84,10 @@ fn sides(ring: &[Point]) -> impl Iterator<Item = [Point; 2]> + Clone + '_ {
     (0..ring.len()).map(move |i| [ring[i], ring[(i + 1) % ring.len()]])
 }
 
-/// The distance of two convex outlines, 0 where they meet; by their corners and sides.
+/// Returns the distance of two convex outlines, 0 if they meet, by their corners and sides.
 fn apart(a: &[Point], b: &[Point]) -> f64 {
     let holds = |ring: &[Point], p: Point| ring.len() > 2 && sides(ring).all(|[u, v]| cross(v - u, p - u) >= 0.0);
-    // Sides that touch or overlap have an end at no distance from the other.
+    // Sides that touch or overlap have an end at distance 0 from the other.
     let beside = |[u, v]: [Point; 2], [p, q]: [Point; 2]| cross(v - u, p - u) * cross(v - u, q - u) < 0.0;
     let crossing = sides(a).any(|s| sides(b).any(|t| beside(s, t) && beside(t, s)));
     if crossing || holds(a, b[0]) || holds(b, a[0]) {
@@ -100,7 +100,7 @@ fn apart(a: &[Point], b: &[Point]) -> f64 {
     one_way(a, b).min(one_way(b, a))
 }
 
-/// The least distance of the two bars from all pieces.
+/// Returns the least distance of the two bars from all pieces.
 fn clearance(scene: &Scene, at: Configuration) -> f64 {
     let bar = |length: f64| [(0.0, -0.05), (length, -0.05), (length, 0.05), (0.0, 0.05)];
     let turned = |from: Point, angle: f64, length: f64| {
@@ -120,7 +120,7 @@ fn is_free(regions: &Regions, at: Configuration) -> bool {
 proptest! {
     #![proptest_config(cplan_cases::cases(4))]
 
-    /// Free keeps the quarter of the margin; what keeps three margins is free.
+    /// Free places keep a quarter of the margin, and places that keep three margins are free.
     #[test]
     fn what_is_shown_free_is_free_and_hardly_less(
         kind in 0..3_usize, choice in any::<u64>(), margin in prop_oneof![Just(2e-3), 2e-3..0.05f64],
@@ -146,8 +146,8 @@ proptest! {
     }
 }
 
-/// What there is to trace is set by the margin and the room there is, not by how many corners an outline has: where these fill
-/// the room, more of them leave fewer gaps between them.
+/// The number of traced shapes depends on the margin and the room, not on the number of corners. In a filled room, more
+/// corners leave fewer gaps between them.
 #[test]
 fn ten_times_the_corners_in_the_same_room_are_no_more_to_trace() {
     for kind in 0..3 {

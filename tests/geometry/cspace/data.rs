@@ -1,4 +1,5 @@
-//! Configuration spaces as data, against distances by parry2d: free is free, blocked is near, by what each says that it proves.
+//! Configuration spaces as data, against distances by parry2d: free is free, and blocked is near, by the guarantee that
+//! each states.
 
 use crate::common::dice;
 use crate::common::random::times;
@@ -11,7 +12,7 @@ use cplan::output::{CSpaces, Polygons, Values};
 use cplan::{Configuration, Problem, plan};
 use std::path::Path;
 
-/// A shipped world, planned in.
+/// Plans in a shipped world.
 fn planned(robot: &str, world: &str, planner: &str) -> (Problem, CSpaces) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (options, overrides) = read_words(&[format!("--planner={planner}")]).unwrap();
@@ -21,14 +22,14 @@ fn planned(robot: &str, world: &str, planner: &str) -> (Problem, CSpaces) {
     (problem, spaces)
 }
 
-/// The distance of the arm from an obstacle, or of its links further along the chain from a link of its own; after the obstacles those
-/// links are numbered.
+/// Returns the distance of the arm from an obstacle, or of its links further along the chain from its own link. Those
+/// links are numbered after the obstacles.
 fn distance(scene: &Scene, q: Values, number: usize) -> f64 {
     let arm = scene.arm();
     let own = number.checked_sub(scene.workspace().obstacles.len()).map(|link| &arm.self_obstacles[link]);
     let obstacle = own.map_or_else(|| &scene.workspace().obstacles[number], |own| &own.obstacle);
     let is_carried = own.is_some_and(|own| own.carrier == Carrier::FirstJoint);
-    // Joint 1 carries both.
+    // Joint 1 moves both.
     let poses = arm.poses(Configuration::from(if is_carried { [0.0, q[1]] } else { q }));
     let mut least = f64::INFINITY;
     for (link, pose) in arm.links.iter().zip(&poses).skip(usize::from(is_carried)) {
@@ -52,7 +53,7 @@ fn free(scene: &Scene, q: Values) -> f64 {
     (0..scene.workspace().obstacles.len()).map(|o| distance(scene, q, o)).fold(f64::INFINITY, f64::min)
 }
 
-/// Whether a point lies within rings, by the parity of crossings.
+/// Returns true if a point lies within rings, by the parity of crossings.
 fn within(polygons: &Polygons, [x, y]: Values) -> bool {
     let sides = polygons.iter().flatten().flat_map(|ring| ring.windows(2));
     sides
@@ -158,7 +159,7 @@ fn what_planners_saw_is_free() {
                     assert!(!grid.values[cell].is_finite(), "{planner}: a value at a blocked cell");
                 }
             }
-            // Steps to the goal fall by one from the start on.
+            // Steps to the goal decrease by one per cell from the start.
             if grid.quantity == "steps" {
                 let at = |q: Values| {
                     let [i, j] = [0, 1].map(|k| ((q[k] - grid.lower[k]) / grid.size[k]) as usize);

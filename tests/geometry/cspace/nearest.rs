@@ -1,4 +1,4 @@
-//! The nearest free configuration against a lattice of configurations, each asked for its distance to the obstacles.
+//! The nearest free configuration, against a lattice of configurations with their distances to the obstacles.
 
 use crate::common::{all_kinds, arm, disc, joint, link, obstacle, placed, q, rectangle, rr, scene, wall};
 use cplan::cspace::nearest_free;
@@ -6,13 +6,13 @@ use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene, Workspace};
 use cplan::space::{Configuration, JointRange};
 
-/// Free as a user means it: the definition, without slices.
+/// Returns true if a configuration is free by the definition, without slices.
 fn is_free(scene: &Scene, at: Configuration) -> bool {
     let clearance = scene.clearance(at);
     scene.arm().topology().contains(at) && clearance > 0.0 && clearance >= scene.workspace().clearance
 }
 
-/// Least distance from `from` to a free configuration of an `n` by `n` lattice over the domain.
+/// Returns the least distance from `from` to a free configuration of an `n` by `n` lattice over the domain.
 fn lattice(scene: &Scene, from: Configuration, n: u32) -> f64 {
     let topology = scene.arm().topology();
     let value = |axis: JointRange, i: u32| {
@@ -65,7 +65,7 @@ fn no_configuration_of_a_lattice_is_free_and_nearer() {
                     assert_eq!(found.clearance, scene.clearance(at));
                     assert!((found.distance - (at - from).norm()).abs() < 1e-12);
                     let brute = lattice(&scene, from, N);
-                    // A minimum between two slices may escape by their spacing.
+                    // A minimum between two slices may be missed by their spacing.
                     assert!(found.distance <= brute + found.spacing, "kind {which}: {} > {brute}", found.distance);
                 }
             }
@@ -74,7 +74,7 @@ fn no_configuration_of_a_lattice_is_free_and_nearer() {
     assert!(blocked > 50, "only {blocked} configurations were not free");
 }
 
-/// One bar in front of a disc: the nearest way out is a turn of joint 1 whose angle has a closed form.
+/// With one bar in front of a disc, the nearest escape is a turn of joint 1 whose angle has a closed form.
 #[test]
 fn the_way_out_has_the_known_angle() {
     let turn = JointType::Revolute { sign: 1.0 };
@@ -94,7 +94,7 @@ fn the_way_out_has_the_known_angle() {
     let found = nearest_free(&scene, q(-0.1, 0.4)).unwrap();
     assert!((found.configuration - q(-(0.3f64 / 0.8).asin(), 0.4)).norm() < 1e-7, "{}", found.configuration);
     assert!(found.clearance >= 0.1);
-    // Outside the limits, and free but for that: the limit is nearest.
+    // Outside the limits, and otherwise free: the limit is nearest.
     let found = nearest_free(&scene, q(1.0, 3.5)).unwrap();
     assert_eq!(found.configuration, q(1.0, 3.0));
 }

@@ -56,7 +56,8 @@ fn bar(length: f64, half: f64) -> Convex {
     polygon(&[(0.0, -half), (length, -half), (length, half), (0.0, half)])
 }
 
-/// Two continuous joints, bars of 1.0 and 0.8 m by 0.1 m, four convex obstacles; the one below is moved by `shift`.
+/// Returns two continuous joints, bars of 1.0 and 0.8 m by 0.1 m, and four convex obstacles, of which the lower one is
+/// moved by `shift`.
 fn torus(shift: f64) -> Scene {
     let turning = |name| joint(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle);
     let below = [(-0.21, -0.85), (-0.03, -1.20), (0.22, -1.21), (0.44, -0.93), (0.27, -0.62), (-0.09, -0.65)];
@@ -77,7 +78,7 @@ fn torus(shift: f64) -> Scene {
     placed(Arm { base: Point::origin(), ..arm }, workspace)
 }
 
-/// Corners of a regular polygon, a disc, a thin wall or a point.
+/// Generates corners of a regular polygon, a disc, a thin wall or a point.
 fn shape(size: f64) -> impl Strategy<Value = Convex> {
     (1usize..7, 0.2..1.0f64, 0.0..TAU, (-1.0..1.0f64, -1.0..1.0f64), prop_oneof![Just(0.0), 0.0..0.2f64]).prop_map(
         move |(n, scale, turn, (x, y), radius)| {
@@ -142,7 +143,7 @@ fn area(contour: &[Point]) -> f64 {
     (0..n).map(|i| cross(contour[i].coords, contour[(i + 1) % n].coords)).sum::<f64>() / 2.0
 }
 
-/// No two sides that are not neighbours cross.
+/// Returns true if no two sides cross that are not neighbours.
 fn is_simple(contour: &[Point]) -> bool {
     let n = contour.len();
     let side = |a: Point, b: Point, c: Point| cross(b - a, c - a);
@@ -154,7 +155,7 @@ fn is_simple(contour: &[Point]) -> bool {
     })
 }
 
-/// Evenly spread points of the window.
+/// Returns evenly spread points of the window.
 fn lattice(window: [(f64, f64); 2], n: usize) -> impl Iterator<Item = Configuration> {
     let at = move |k: usize, t: f64| window[k].0 + (window[k].1 - window[k].0) * t;
     (0..n).flat_map(move |i| {
@@ -162,7 +163,7 @@ fn lattice(window: [(f64, f64); 2], n: usize) -> impl Iterator<Item = Configurat
     })
 }
 
-/// Free in the regions is free in truth, and what keeps three times the margin is free in them.
+/// Checks that free places in the regions are free, and that places with three times the margin are free in them.
 fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
     let keep = scene.workspace().clearance;
     let regions = regions(scene, margin, Configuration::new(0.3, -0.8), 1);
@@ -183,7 +184,8 @@ fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// Blocked in the regions is blocked in truth, and what is too near by more than the margin is blocked in them.
+/// Checks that blocked places in the regions are blocked, and that places too near by more than the margin are blocked
+/// in them.
 fn loses_no_more_than_its_margin(scene: &Scene, regions: &Regions, margin: f64) -> Result<(), TestCaseError> {
     let keep = scene.workspace().clearance;
     prop_assert_eq!(regions.proves, Proves::Inner { margin });
@@ -206,7 +208,7 @@ fn loses_no_more_than_its_margin(scene: &Scene, regions: &Regions, margin: f64) 
     Ok(())
 }
 
-/// Two slides, of which the second carries a shape.
+/// Generates two slides; the second one carries a shape.
 fn any_gantry() -> impl Strategy<Value = Scene> {
     let slide = |name, angle: f64| {
         let direction = Vector::new(angle.cos(), angle.sin());
@@ -226,7 +228,7 @@ proptest! {
 
     #[test]
     fn what_gantries_lose_is_no_more_than_the_margin(scene in any_gantry(), margin in prop_oneof![Just(1e-4), 0.001..0.02f64]) {
-        // Of pieces and tools thinner than the margin nothing is left.
+        // Pieces and tools thinner than the margin vanish.
         if let Some(regions) = inner_regions(&scene, margin) {
             loses_no_more_than_its_margin(&scene, &regions, margin)?;
         }
@@ -250,7 +252,7 @@ proptest! {
     }
 }
 
-/// Found by the property tests: all that can hit is a thin wall across link 2 and a point, which the wall's ends touch
+/// Found by the property tests: the only shapes are a thin wall across link 2 and a point, which the wall's ends touch
 /// and leave at the same place.
 #[test]
 fn a_wall_that_meets_a_point_keeps_its_margin() {
@@ -283,12 +285,12 @@ fn free_area_converges_from_below() {
         .map(|&margin| regions(&scene, margin, Configuration::zeros(), 1).free.iter().map(Polygon::area).sum())
         .collect();
     let gains: Vec<f64> = areas.windows(2).map(|w| w[1] - w[0]).collect();
-    // The error is linear in the margin: halving it halves the gain, in about.
+    // The error is linear in the margin: halving it roughly halves the gain.
     assert!(gains.iter().all(|&g| g > 0.0), "{areas:?}");
     assert!(gains.windows(2).all(|w| w[1] < 0.75 * w[0]), "{areas:?}");
 }
 
-/// Whether one component of free space holds the start and a copy of the goal.
+/// Returns true if one component of free space contains the start and a copy of the goal.
 fn connected(scene: &Scene, margin: f64, goal: Configuration) -> bool {
     let start = Configuration::new(-0.7, 0.0);
     let regions = regions(scene, margin, start, 1);
@@ -327,7 +329,7 @@ fn a_gantry_without_margin_is_exact() {
     let slide = |name, direction| {
         joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower: -2.0, upper: 2.0 })
     };
-    // Slides 60 degrees apart, the second one turned clockwise so that the map to joint values reflects.
+    // Slides 60 degrees apart. The second one is turned clockwise, so that the map to joint values is a reflection.
     let joints = [slide("x", Vector::x()), slide("y", Vector::new(0.5, -0.75f64.sqrt()))];
     let tool = polygon(&[(-0.1, -0.1), (0.2, -0.1), (0.0, 0.15)]);
     let block = polygon(&[(0.5, 0.2), (0.9, 0.1), (1.0, 0.6), (0.6, 0.7)]);

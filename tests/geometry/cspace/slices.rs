@@ -7,7 +7,7 @@ use cplan::geometry::{
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Convex hull by the monotone chain, collinear points dropped.
+/// Returns the convex hull by the monotone chain, without collinear points.
 fn hull(mut points: Vec<(f64, f64)>) -> Vec<Point> {
     points.sort_by(|a, b| a.partial_cmp(b).unwrap());
     points.dedup();
@@ -31,7 +31,8 @@ fn hull(mut points: Vec<(f64, f64)>) -> Vec<Point> {
     all.into_iter().map(|(x, y)| Point::new(x, y)).collect()
 }
 
-/// Shapes of every kind. Half of them have corners on a coarse lattice, for parallel sides and shared distances.
+/// Generates shapes of every kind. Half of them have corners on a coarse lattice, for parallel sides and shared
+/// distances.
 fn shape(spread: f64) -> impl Strategy<Value = Convex> {
     let free = prop::collection::vec((-spread..spread, -spread..spread), 1..7);
     let lattice = prop::collection::vec((-2i32..=2, -2i32..=2), 1..7).prop_map(move |v| {

@@ -1,5 +1,5 @@
-//! Geometry in exact numbers by other methods than the library's: Cramer's rule, separating axes, gift wrapping. Generic,
-//! so that the same oracle runs in 128-bit integers, where they suffice, and in rational numbers.
+//! Geometry in exact numbers by other methods than the library's: Cramer's rule, separating axes, gift wrapping. It is
+//! generic, so that the same oracle runs in 128-bit integers, if they suffice, and in rational numbers.
 
 use cplan::geometry::Location;
 use std::cmp::Ordering;
@@ -33,13 +33,13 @@ fn sign<T: Number>(x: &T) -> Ordering {
     x.cmp(&zero(x))
 }
 
-/// Side of `c` seen from `a` to `b`: greater on the left.
+/// Returns the side of `c` as seen from `a` to `b`: greater on the left.
 pub fn side<T: Number>(a: &Pair<T>, b: &Pair<T>, c: &Pair<T>) -> Ordering {
     sign(&cross(&minus(b, a), &minus(c, a)))
 }
 
-/// Whether two closed segments meet, and whether they cross in a point interior to both: by Cramer's rule for the
-/// parameters of the common point; parallel ones by projection.
+/// Returns whether two closed segments meet, and whether they cross in a point interior to both. Uses Cramer's rule for
+/// the parameters of the common point, and projection for parallel segments.
 pub fn segments<T: Number>([a, b]: [&Pair<T>; 2], [c, d]: [&Pair<T>; 2]) -> (bool, bool) {
     let (u, v, w) = (minus(b, a), minus(d, c), minus(c, a));
     let determinant = cross(&u, &v);
@@ -73,8 +73,8 @@ fn none_of<T: Number>(v: &Pair<T>) -> T {
     zero(&v.0)
 }
 
-/// Whether two convex sets of corners meet, by separating axes: the normals of all sides and, for sets without area,
-/// the sides themselves.
+/// Returns true if two convex sets of corners meet, by separating axes: the normals of all sides and, for sets without
+/// area, the sides themselves.
 pub fn meet<T: Number>(a: &[Pair<T>], b: &[Pair<T>]) -> bool {
     let mut axes = vec![minus(&b[0], &a[0])];
     for core in [a, b] {
@@ -91,7 +91,7 @@ pub fn meet<T: Number>(a: &[Pair<T>], b: &[Pair<T>]) -> bool {
     })
 }
 
-/// Where `p` lies in the convex counter-clockwise polygon.
+/// Locates `p` in the convex counter-clockwise polygon.
 pub fn location<T: Number>(p: &Pair<T>, polygon: &[Pair<T>]) -> Location {
     let n = polygon.len();
     if !meet(std::slice::from_ref(p), polygon) {
@@ -109,8 +109,8 @@ fn left<T: Number>(polygon: &[Pair<T>], i: usize, p: &Pair<T>) -> bool {
     side(&polygon[i], &polygon[(i + 1) % polygon.len()], p) == Ordering::Greater
 }
 
-/// Indices of the corners of the convex hull, counter-clockwise from the lowest (of these the leftmost) point, by gift
-/// wrapping; of points that coincide the first.
+/// Returns indices of the corners of the convex hull, by gift wrapping. The order is counter-clockwise from the lowest
+/// (of these the leftmost) point; of coincident points, it has the first.
 pub fn hull<T: Number>(points: &[Pair<T>]) -> Vec<usize> {
     let start = (0..points.len()).min_by_key(|&i| (points[i].1.clone(), points[i].0.clone()));
     let Some(start) = start else { return Vec::new() };
@@ -122,7 +122,7 @@ pub fn hull<T: Number>(points: &[Pair<T>]) -> Vec<usize> {
             let better = |j: usize| match side(at, &points[j], p) {
                 Ordering::Less => true,
                 Ordering::Greater => false,
-                // The farthest of those in one direction.
+                // The farthest point in one direction.
                 Ordering::Equal => {
                     let (d, e) = (minus(p, at), minus(&points[j], at));
                     dot(&d, &d) > dot(&e, &e)

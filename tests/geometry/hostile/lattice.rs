@@ -1,5 +1,5 @@
-//! Points and segments on integer lattices. All differences of coordinates are a few units, the unit being one in the
-//! last place of the coordinates or far above it.
+//! Points and segments on integer lattices. All differences of coordinates are a few units. A unit is either the last
+//! place of the coordinates, or far above it.
 
 use super::exact::{self, Pair};
 use crate::common::dice;
@@ -17,12 +17,12 @@ pub const PLACES: [(i64, f64); 5] = [
     (-4, exp2(40)),
 ];
 
-/// A power of two.
+/// Returns a power of two.
 pub const fn exp2(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-/// The point of these coordinates in units, which must fit 53 bits.
+/// Returns the point with these coordinates in units, which must fit 53 bits.
 pub fn point(p: Pair<i128>, unit: f64) -> Point {
     let coordinate = |x: i128| {
         assert!(x.unsigned_abs() <= 1 << 53);
@@ -31,7 +31,7 @@ pub fn point(p: Pair<i128>, unit: f64) -> Point {
     Point::new(coordinate(p.0), coordinate(p.1))
 }
 
-/// The library's word for a side.
+/// Converts a side to the library's type.
 fn turned(side: Ordering) -> Orientation {
     match side {
         Ordering::Less => Orientation::Clockwise,
@@ -60,7 +60,7 @@ fn all_triples_of_a_lattice() {
     }
 }
 
-/// A chain of four points on one line or within a unit or two of it; coordinates of up to 52 bits.
+/// Returns a chain of four points on one line or within a unit or two of it; coordinates of up to 52 bits.
 fn chain(dice: &mut Dice) -> [Pair<i128>; 4] {
     let bits = 3 + dice.below(45);
     let most = dice.below(51 - bits).min(20);
@@ -94,7 +94,7 @@ fn two_million_triples_along_lines() {
             collinear += usize::from(expected == Orientation::Collinear);
         }
     }
-    // The attack is one: neither all nor none of them are on the line.
+    // The test is useful: some of them are on the line, and others are not.
     assert!((200_000..1_800_000).contains(&collinear), "{collinear}");
 }
 
@@ -105,7 +105,7 @@ fn a_million_pairs_of_segments_along_lines() {
     for round in 0..1_000_000 {
         let mut ends = chain(&mut dice);
         if dice.below(2) == 0 {
-            // Across the line, from one of its points or from beside it.
+            // Across the line, from one of its points or from a point beside it.
             let (p, q) = (ends[3], ends[2]);
             ends[3] = (p.0 - (p.1 - q.1) / 2, p.1 + (p.0 - q.0) / 2);
         }

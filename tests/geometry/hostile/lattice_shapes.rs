@@ -15,7 +15,7 @@ fn shape(corners: &[Corner], unit: f64) -> Shape<i128> {
     Shape::hull(&points, corners)
 }
 
-/// Even coordinates, so that points halfway are on the lattice too.
+/// Returns even coordinates, so that midpoints are also on the lattice.
 fn corners(dice: &mut Dice, reach: i64, at: Corner) -> Vec<Corner> {
     let count = 1 + dice.below(7);
     let mut even = |x: i128| x + 2 * i128::from(dice.about_zero(reach));
@@ -26,7 +26,7 @@ fn moved(corners: &[Corner], by: Corner) -> Vec<Corner> {
     corners.iter().map(|p| (p.0 + by.0, p.1 + by.1)).collect()
 }
 
-/// A polygon that touches `first` in some way.
+/// Returns a polygon that touches `first`.
 fn touching(dice: &mut Dice, first: &[Corner], reach: i64) -> Vec<Corner> {
     let n = first.len() as u64;
     let i = dice.below(n) as usize;
@@ -45,7 +45,7 @@ fn touching(dice: &mut Dice, first: &[Corner], reach: i64) -> Vec<Corner> {
         4 => first.iter().map(|p| reflected(a, p)).collect(),
         // From inside, at a vertex and along two sides.
         5 => first.iter().map(|p| ((p.0 + a.0) / 2, (p.1 + a.1) / 2)).collect(),
-        // Sides between middles of sides, and the same polygon.
+        // Sides between midpoints of sides, and the same polygon.
         6 => vec![middle, first[dice.below(n) as usize], a],
         _ => first.to_vec(),
     }
@@ -76,7 +76,7 @@ fn a_hundred_thousand_pairs_that_touch_or_miss_by_a_unit() {
     assert!((30_000..95_000).contains(&met), "{met}");
 }
 
-/// Corners in the middle of sides: the convex hull says the same.
+/// With corners in the middle of sides, the convex hull is the same.
 #[test]
 fn straight_corners_change_nothing() {
     let mut dice = dice(4);
@@ -96,7 +96,7 @@ fn straight_corners_change_nothing() {
     }
 }
 
-/// The same polygon with corners in the middle of sides.
+/// Returns the same polygon with additional corners in the middle of sides.
 fn padded(dice: &mut Dice, shape: &Shape<i128>, unit: f64) -> Shape<i128> {
     let n = shape.exact.len();
     let mut exact = Vec::new();
@@ -132,7 +132,7 @@ fn named_ways_to_touch() {
     assert!(has_area(&square));
 }
 
-/// What lies in the line of a wall, but beyond its ends, is outside.
+/// Points on the line of a wall, but beyond its ends, are outside.
 #[test]
 fn a_wall_ends_where_its_ends_are() {
     let [from, to, beyond, farther] = [0.0, 3.0, 4.0, 5.0].map(|x| Point::new(x, x));

@@ -15,7 +15,7 @@ fn exact(p: Point) -> Exact {
     (number(p.x), number(p.y))
 }
 
-/// Zero, or anything of magnitude 1e-`most` to 1e`most`.
+/// Returns zero, or any number of magnitude 1e-`most` to 1e`most`.
 fn coordinate(dice: &mut Dice, most: i32) -> f64 {
     let magnitude = 10_f64.powi(dice.about_zero(most.into()) as i32);
     let digits = match dice.below(4) {
@@ -27,7 +27,8 @@ fn coordinate(dice: &mut Dice, most: i32) -> f64 {
     if dice.below(2) == 0 { digits * magnitude } else { -digits * magnitude }
 }
 
-/// Moved by up to two units in the last place; zero stays zero, whose neighbours are not of these magnitudes.
+/// Returns a number moved by up to two units in the last place. Zero stays zero, because its neighbours do not have
+/// these magnitudes.
 fn nudged(dice: &mut Dice, x: f64) -> f64 {
     let steps = dice.about_zero(2);
     let step = |x: f64, _| {
@@ -42,7 +43,7 @@ fn nudged(dice: &mut Dice, x: f64) -> f64 {
     (0..steps.abs()).fold(x, step)
 }
 
-/// A point as good as on the line of two others.
+/// Returns a point almost on the line of two others.
 fn beside(dice: &mut Dice, a: Point, b: Point, most: i32) -> Point {
     let t = match dice.below(4) {
         0 => 0.0,
@@ -50,14 +51,14 @@ fn beside(dice: &mut Dice, a: Point, b: Point, most: i32) -> Point {
         2 => dice.about_zero(4) as f64,
         _ => coordinate(dice, 12.min(most)),
     };
-    // Where the terms cancel, a coordinate can be less than all others; such a one is 0.
+    // If the terms cancel, a coordinate can be smaller than all others; it is then replaced by 0.
     let largest = 10_f64.powi(most);
     let least = |x: f64| if x.abs() < 1.0 / largest { 0.0 } else { x.clamp(-largest, largest) };
     let p = a + (b - a) * t;
     Point::new(nudged(dice, least(p.x)), nudged(dice, least(p.y)))
 }
 
-/// Points of which some are all but on one line, or coincide.
+/// Returns points; some are almost collinear, or coincide.
 fn points<const N: usize>(dice: &mut Dice, most: i32) -> [Point; N] {
     let mut points = [Point::origin(); N];
     for i in 0..N {
@@ -75,7 +76,7 @@ fn points<const N: usize>(dice: &mut Dice, most: i32) -> [Point; N] {
     points
 }
 
-/// Compares on as many draws of four points.
+/// Compares this many draws of four points.
 fn attack_segments(seed: u64, draws: usize, most: i32) {
     let mut dice = dice(seed);
     let mut counts = [0; 3];
@@ -98,7 +99,7 @@ fn attack_segments(seed: u64, draws: usize, most: i32) {
     assert!(counts.iter().all(|n| (draws / 50..draws).contains(n)), "{counts:?}");
 }
 
-/// Compares on as many pairs of polygons.
+/// Compares this many pairs of polygons.
 fn attack_shapes(seed: u64, draws: usize, most: i32) {
     let mut dice = dice(seed);
     let mut met = 0;
@@ -127,7 +128,7 @@ fn shapes_from_1e_12_to_1e12() {
     attack_shapes(6, 400, 12);
 }
 
-/// As far as the predicates promise: products of differences neither over- nor underflow.
+/// The full range of the predicates' guarantee: products of differences neither overflow nor underflow.
 #[test]
 fn all_that_is_promised() {
     attack_segments(7, 2_000, 140);

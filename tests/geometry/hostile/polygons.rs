@@ -1,4 +1,4 @@
-//! Which lists of corners are simple polygons, and what their convex pieces are: on lattices, where corners meet sides.
+//! Simple polygons and their convex pieces, on lattices, where corners meet sides.
 
 use super::exact::{self, Pair};
 use super::lattice::{PLACES, point};
@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 
 type Corner = Pair<i128>;
 
-/// By definition: sides meet only in the corner that they share.
+/// Returns true if sides meet only in the corner that they share, which is the definition of a simple polygon.
 fn is_simple(corners: &[Corner]) -> bool {
     let n = corners.len();
     let side = |i: usize| [&corners[i % n], &corners[(i + 1) % n]];
@@ -30,7 +30,8 @@ fn twice_area(corners: &[Corner]) -> i128 {
         .sum()
 }
 
-/// Whether a side of one of two convex polygons has all of the other on its right: then their interiors are disjoint.
+/// Returns true if a side of one of two convex polygons has the other one on its right. Then their interiors are
+/// disjoint.
 fn interiors_apart(a: &[Corner], b: &[Corner]) -> bool {
     let parts = |a: &[Corner], b: &[Corner]| {
         (0..a.len()).any(|i| b.iter().all(|p| exact::side(&a[i], &a[(i + 1) % a.len()], p) != Ordering::Greater))
@@ -51,7 +52,7 @@ fn a_hundred_thousand_lists_of_corners() {
         assert_eq!(found.is_ok(), is_simple(&corners), "{corners:?}: {:?}", found.err());
         let Ok(polygon) = found else { continue };
         simple += 1;
-        // Coordinates are whole units, so back is exact.
+        // Coordinates are whole units, so the conversion back is exact.
         let whole = |p: &Point| ((p.x / unit) as i128, (p.y / unit) as i128);
         let outline: Vec<Corner> = polygon.corners().iter().map(whole).collect();
         assert_eq!(twice_area(&outline), twice_area(&corners).abs());

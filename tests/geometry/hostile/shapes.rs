@@ -1,4 +1,4 @@
-//! All that the library says of two convex shapes, compared with exact numbers.
+//! All verdicts of the library on two convex shapes, compared with exact numbers.
 
 use super::exact::{self, Number, Pair};
 use crate::common::convex;
@@ -6,7 +6,7 @@ use cplan::geometry::{Convex, Location, Point, hull, point_penetration, polygon_
 use std::cmp::Ordering;
 use std::fmt::Debug;
 
-/// A polygon as the library has it and in exact numbers, corner by corner the same.
+/// A polygon of the library, and the same corners in exact numbers.
 #[derive(Debug, Clone)]
 pub struct Shape<T> {
     pub points: Vec<Point>,
@@ -14,7 +14,7 @@ pub struct Shape<T> {
 }
 
 impl<T: Number + Debug> Shape<T> {
-    /// The convex hull, by both: they have to agree.
+    /// Computes the convex hull by both methods, which must agree.
     pub fn hull(points: &[Point], exact: &[Pair<T>]) -> Self {
         let corners = exact::hull(exact);
         let expected: Vec<Point> = corners.iter().map(|&i| points[i]).collect();
@@ -26,12 +26,12 @@ impl<T: Number + Debug> Shape<T> {
         Self { points: expected, exact: corners.iter().map(|&i| exact[i].clone()).collect() }
     }
 
-    /// The library's shape.
+    /// Returns the library's shape.
     pub fn convex(&self) -> Convex {
         convex(self.points.clone(), 0.0)
     }
 
-    /// Compares points against this polygon: the side of every line, and where they lie.
+    /// Compares points with this polygon: the side of every line, and the location.
     pub fn check_point(&self, p: Point, exact: &Pair<T>) {
         let n = self.points.len();
         let found = point_penetration(p, &self.convex());
@@ -47,7 +47,7 @@ impl<T: Number + Debug> Shape<T> {
         }
     }
 
-    /// Compares all verdicts on this polygon and another; whether they meet.
+    /// Compares all verdicts on this polygon and another. Returns true if they meet.
     pub fn check(&self, other: &Self) -> bool {
         let (a, b) = (self, other);
         let meet = exact::meet(&a.exact, &b.exact);
@@ -75,7 +75,7 @@ impl<T: Number + Debug> Shape<T> {
         let mut exact = Vec::new();
         for (q, y) in other.points.iter().zip(&other.exact) {
             for (p, x) in self.points.iter().zip(&self.exact) {
-                // One subtraction is rounded to the nearest double.
+                // One subtraction, rounded to the nearest double.
                 rounded.push(Point::from(q - p));
                 exact.push(exact::minus(y, x));
             }
@@ -90,7 +90,7 @@ impl<T: Number + Debug> Shape<T> {
     }
 }
 
-/// Pairs of sides that cross properly.
+/// Returns pairs of sides that cross properly.
 fn crossings<T: Number>(a: &[Pair<T>], b: &[Pair<T>]) -> Vec<(usize, usize)> {
     let sides = |n: usize| if n == 2 { 1 } else { n };
     let mut found = Vec::new();
@@ -106,7 +106,7 @@ fn crossings<T: Number>(a: &[Pair<T>], b: &[Pair<T>]) -> Vec<(usize, usize)> {
     found
 }
 
-/// Whether the corners turn left or go straight on everywhere, and left somewhere.
+/// Returns true if the corners turn left or are straight everywhere, and turn left somewhere.
 pub fn has_area<T: Number>(exact: &[Pair<T>]) -> bool {
     let n = exact.len();
     (0..n).any(|i| exact::side(&exact[i], &exact[(i + 1) % n], &exact[(i + 2) % n]) == Ordering::Greater)

@@ -1,4 +1,4 @@
-//! Line maps and preference files: as an independent writer wrote them, and what is refused.
+//! Line maps and preference files: as an independent program wrote them, and with errors.
 
 use super::{assert_refused, folder, problem_in, world_in};
 use crate::common::{q, wall};
@@ -21,13 +21,13 @@ fn point(x: f64, y: f64) -> Point {
     Point::new(x, y)
 }
 
-/// Whether segments are the same but for rounding.
+/// Checks that segments are equal up to rounding.
 fn assert_near(found: &[[Point; 2]], expected: &[[Point; 2]]) {
     let near = |(a, b): (&[Point; 2], &[Point; 2])| (0..2).all(|k| (a[k] - b[k]).norm() < 1e-9);
     assert!(found.len() == expected.len() && found.iter().zip(expected).all(near), "{found:?}");
 }
 
-/// The segments of all pieces, lower end first, sorted.
+/// Returns the segments of all pieces, lower end first, sorted.
 fn segments(pieces: impl Iterator<Item = [Point; 2]>) -> Vec<[[f64; 2]; 2]> {
     let mut all: Vec<[[f64; 2]; 2]> =
         pieces.map(|[a, b]| [[a.x, a.y], [b.x, b.y]]).map(|[a, b]| if a <= b { [a, b] } else { [b, a] }).collect();
@@ -62,7 +62,7 @@ proptest! {
         let sides = chains.iter().flat_map(|c| c.points.windows(2).map(|w| [w[0], w[1]]));
         let with_length = written.iter().copied().filter(|[a, b]| a != b);
         prop_assert_eq!(segments(sides), segments(with_length));
-        // A line without length is a point, of its own or on the chain that it belongs to.
+        // A line without length is a point, by itself or on its chain.
         for (i, [a, b]) in written.iter().enumerate() {
             let chain = chains.iter().find(|c| c.lines[0] <= i && i <= c.lines[1]).unwrap();
             prop_assert!(chain.points.contains(a) && chain.points.contains(b));
@@ -72,7 +72,7 @@ proptest! {
     }
 }
 
-/// Lower left and upper right corner of a rectangle for the tip.
+/// Returns the lower left and upper right corner of a rectangle for the tip.
 fn ends(preference: &Preference) -> [Point; 2] {
     let Region::Tip(polygon) = &preference.region else { panic!("{preference:?}") };
     let corners = polygon.corners();
@@ -118,13 +118,13 @@ fn goal_rectangles_are_areas_unless_the_world_has_a_goal() {
     // The upper side is nearer to the frame than the mast's radius.
     let expected = [[rim[0], rim[1]], [rim[1], rim[2]], [rim[3], rim[0]]];
     assert_near(&sides(&problem), &expected);
-    // Two goals: either will do, and a point is one.
+    // With two goals, either one is enough, and a goal can be a point.
     let two = PREFERENCES
         .replace("NumGoal: 1", "NumGoal: 2")
         .replace("1500 700 1000 900", "1500 700 1000 900\n-1200 -800 -1200 -800");
     let problem = problem_in(&files(MAP, &two, &low)).unwrap().problem;
     assert_near(&sides(&problem), &[&expected[..], &[[point(-1.2, -0.8); 2]]].concat());
-    // One of them that is blocked is left out with a note.
+    // A blocked goal among them disappears with a note.
     let walled = two.replace("-1200 -800 -1200 -800", "500 0 500 0");
     let loaded = problem_in(&files(MAP, &walled, &low)).unwrap();
     assert_near(&sides(&loaded.problem), &expected);
@@ -132,7 +132,7 @@ fn goal_rectangles_are_areas_unless_the_world_has_a_goal() {
     let own = format!("{low}[goal]\njoints = [-1.2, -0.4]\n");
     let problem = problem_in(&files(MAP, PREFERENCES, &own)).unwrap().problem;
     assert_eq!(*problem.goals(), q(-1.2, -0.4).into());
-    // A goal that is not free is shown where the world names the file.
+    // The error for a goal that is not free names the place where the world names the file.
     let walled = PREFERENCES.replace("1500 700 1000 900", "500 -400 500 400");
     assert_refused(problem_in(&files(MAP, &walled, &low)), &["world.toml: line 6", "wishes.map", "room, lines 1 to 2"]);
 }

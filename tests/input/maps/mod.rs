@@ -1,4 +1,4 @@
-//! Line maps, preference files and occupancy maps: read as written, brought to metres, planned in.
+//! Line maps, preference files and occupancy maps: read, converted to metres, and used for planning.
 
 mod lines;
 mod mutations;
@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// A folder with these files.
+/// Creates a folder with these files.
 fn folder(files: &[(&str, &[u8])]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in files {
@@ -25,17 +25,17 @@ fn robot() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("robots/room_gantry.urdf")
 }
 
-/// The world `world.toml` of a folder, with the gantry that spans a room.
+/// Reads the world `world.toml` of a folder, with the gantry that spans a room.
 fn world_in(folder: &TempDir) -> Result<World, InputError> {
     load_scene(robot(), &folder.path().join("world.toml")).map(|loaded| loaded.world)
 }
 
-/// The problem of `world.toml`.
+/// Reads the problem of `world.toml`.
 fn problem_in(folder: &TempDir) -> Result<Loaded, InputError> {
     load(robot(), &folder.path().join("world.toml"), &Overrides::default())
 }
 
-/// What was refused names all of these.
+/// Checks that the error contains all of these parts.
 fn assert_refused<T>(result: Result<T, InputError>, parts: &[&str]) {
     let Err(error) = result else { panic!("should be refused for {parts:?}") };
     let error = error.to_string();

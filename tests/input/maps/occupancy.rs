@@ -1,4 +1,4 @@
-//! Occupancy maps in the plane: obstacles against the pixels below each place, and what is refused.
+//! Occupancy maps in the plane: obstacles against the pixels below each place, and the errors.
 
 use super::{assert_refused, folder, world_in};
 use cplan::geometry::{Convex, Point};
@@ -11,7 +11,7 @@ const YAML: &str = "image: room.pgm\nresolution: 0.5\norigin: [-1.0, -2.0, 0.0]\
 const PGM: &[u8] = b"P2\n3 2\n255\n0 128 254 254 254 0\n";
 const WORLD: &str = "[[obstacle]]\nname = \"room\"\nimage = \"room.yaml\"\n";
 
-/// How far inside the counter-clockwise polygon a place lies, or outside of it (negative).
+/// Returns the depth of a place inside the counter-clockwise polygon; negative outside.
 fn depth(piece: &Convex, place: Point) -> f64 {
     let core = piece.core();
     let sides = (0..core.len()).map(|i| (core[i], core[(i + 1) % core.len()]));
@@ -41,7 +41,7 @@ proptest! {
         let folder = folder(&[("room.pgm", &picture), ("room.yaml", yaml.as_bytes())]);
         let map = OccupancyMap::read(&folder.path().join("room.yaml")).unwrap();
         let pieces = map.pieces(unknown_is_free, usize::MAX).unwrap();
-        // Places by their share of the picture's width and height, from beyond its lower left to beyond its upper right.
+        // Places by fractions of the picture's width and height, from beyond its lower left to beyond its upper right.
         let steps = 4 * width.max(height) + 3;
         for i in 0..=steps {
             for j in 0..=steps {
@@ -61,7 +61,7 @@ proptest! {
                         _ => Occupancy::Free,
                     }
                 });
-                // Places on the sides of pixels belong to both.
+                // Places on the sides of pixels belong to both pixels.
                 let off = |share: f64| (share - share.round()).abs() < 1e-9;
                 if off(u * width as f64) || off(v * height as f64) {
                     continue;
@@ -87,7 +87,7 @@ fn a_world_has_the_picture_as_one_obstacle() {
     let [obstacle] = &world.workspace.obstacles[..] else { panic!("one obstacle") };
     assert_eq!((obstacle.name.as_str(), &obstacle.shape, obstacle.heights.upper), ("room", &Shape::Pieces, 1.0));
     let area = |pieces: &[Convex]| pieces.iter().map(Convex::area).sum::<f64>();
-    // What nobody has looked at is solid unless the world says otherwise.
+    // Unknown cells are solid unless the world states otherwise.
     assert_eq!(area(&obstacle.pieces), 3.0 * 0.25);
     let world = world_in(&files(&format!("{WORLD}unknown = \"free\"\n"))).unwrap();
     let pieces = &world.workspace.obstacles[0].pieces;
@@ -156,7 +156,8 @@ fn negate_may_be_a_word_and_modes_may_be_named() {
     }
 }
 
-/// Map savers write 205 for what nobody has seen, and 0.25 beside it: unknown, also where the shades have 16 bits or light is occupied.
+/// Map savers write 205 for unseen cells, and a `free_thresh` of 0.25. The shade is unknown, also with 16 bits per
+/// pixel or if light is occupied.
 #[test]
 fn the_shade_of_unseen_cells_is_unknown_whatever_free_thresh() {
     for (picture, negate) in [
@@ -174,7 +175,7 @@ fn the_shade_of_unseen_cells_is_unknown_whatever_free_thresh() {
             assert!(notes.contains("room") && notes.contains("though free_thresh 0.25 would make it free"), "{notes}");
         }
     }
-    // By the usual thresholds it is unknown anyway.
+    // With the usual thresholds it is unknown anyway.
     let files = [("room.pgm", PGM), ("room.yaml", YAML.as_bytes()), ("world.toml", WORLD.as_bytes())];
     assert_eq!(world_in(&folder(&files)).unwrap().notes, [""; 0]);
 }

@@ -1,4 +1,4 @@
-//! Pictures as independent writers make them: greymaps byte by byte, PNG by the encoder of the crate that also decodes.
+//! Pictures from independent writers: greymaps byte by byte, PNG by the encoder of the crate that also decodes.
 
 use super::{assert_refused, folder};
 use cplan::input::{InputError, Occupancy, OccupancyMap};
@@ -8,13 +8,14 @@ use proptest::prelude::*;
 const YAML: &str =
     "image: room.bin\nresolution: 0.1\norigin: [1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
-/// The map of this picture, with occupied above 0.65 and free below 0.196.
+/// Reads the map of this picture, with occupied above 0.65 and free below 0.196.
 fn read(bytes: &[u8]) -> Result<OccupancyMap, InputError> {
     let folder = folder(&[("room.bin", bytes), ("room.yaml", YAML.as_bytes())]);
     OccupancyMap::read(&folder.path().join("room.yaml"))
 }
 
-/// What these values of `most` say: by whole numbers, where the program divides.
+/// Returns the occupancy of pixels with these values out of `most`. It compares whole numbers, while the program
+/// divides.
 fn expected(values: &[u32], most: u32) -> Vec<Occupancy> {
     let judge = |&value: &u32| {
         let dark = 1000 * u64::from(most - value);
@@ -43,7 +44,7 @@ fn greymap(width: usize, values: &[u32], most: u32, in_text: bool, comments: boo
             }
         }
     } else {
-        // A comment right behind the greatest value ends with the white space that ends the header.
+        // A comment directly after the greatest value ends with the white space that ends the header.
         bytes.extend(if comments { &b"# last\n"[..] } else { b"\n" });
         for &value in values {
             bytes.extend(if most > 255 { (value as u16).to_be_bytes().to_vec() } else { vec![value as u8] });
@@ -97,7 +98,7 @@ proptest! {
         let color = read(&encoded(width as u32, ColorType::Rgb, eight, None, bytes(3))).unwrap();
         let values: Vec<u32> = bytes(3).chunks(3).map(|b| b.iter().map(|v| u32::from(*v)).sum()).collect();
         prop_assert_eq!(color.cells, expected(&values, 3 * 255));
-        // What one can see through is unknown.
+        // Transparent pixels are unknown.
         let veiled = |mut cells: Vec<Occupancy>, opacity: Vec<u8>| {
             cells.iter_mut().zip(opacity).filter(|(_, o)| *o < 255).for_each(|(c, _)| *c = Occupancy::Unknown);
             cells
@@ -114,7 +115,7 @@ proptest! {
 #[test]
 fn pngs_of_few_bits_and_palettes() {
     use Occupancy::{Free, Occupied, Unknown};
-    // Eight pixels of a bit; a second row of none set.
+    // Eight pixels of one bit each; the second row has no bit set.
     let bits = encoded(8, ColorType::Grayscale, BitDepth::One, None, &[0b1010_0001, 0]);
     let first = [Free, Occupied, Free, Occupied, Occupied, Occupied, Occupied, Free];
     assert_eq!(read(&bits).unwrap().cells, [first, [Occupied; 8]].concat());
@@ -123,7 +124,7 @@ fn pngs_of_few_bits_and_palettes() {
     let colors = [0, 0, 0, 255, 255, 255, 128, 128, 128, 255, 255, 255];
     let palette = encoded(4, ColorType::Indexed, BitDepth::Eight, Some((&colors, &[255, 255, 255, 7])), &[0, 1, 2, 3]);
     assert_eq!(read(&palette).unwrap().cells, [Occupied, Free, Unknown, Unknown]);
-    // What a palette lacks is of no colour; bits that fill a row up are no pixels.
+    // Indices outside the palette have no colour; the fill bits of a row are not pixels.
     let two = Some((&colors[..6], &[255, 255][..]));
     let lacking = encoded(2, ColorType::Indexed, BitDepth::Two, two, &[0b0010_0000]);
     assert!(read(&lacking).unwrap_err().to_string().contains("a colour that its palette lacks"));
@@ -174,7 +175,7 @@ fn broken_pngs_are_refused() {
         assert_refused(read(&good[..length]), &["room.bin", "broken PNG", "cure"]);
     }
     assert_refused(read(b"\x89PNG\r\n"), &["broken PNG"]);
-    // The header of a picture of 2^31 - 1 by 2^31 - 1 pixels; its check sum is computed anew.
+    // The header of a picture of 2^31 - 1 by 2^31 - 1 pixels, with a new checksum.
     let mut huge = good.clone();
     huge[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);
     let sum = crc(&huge[12..29]);
@@ -182,7 +183,7 @@ fn broken_pngs_are_refused() {
     assert_refused(read(&huge), &["2147483647 x 2147483647 pixels are too many"]);
 }
 
-/// The check sum of PNG's chunks, by its definition.
+/// Returns the checksum of PNG's chunks, by its definition.
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |sum, byte| {
         (0..8).fold(sum ^ u32::from(*byte), |c, _| if c & 1 == 1 { 0xedb8_8320 ^ (c >> 1) } else { c >> 1 })

@@ -7,7 +7,7 @@ use cplan::geometry::Point;
 use cplan::input::{LineMap, Overrides, PreferenceMap, load};
 use cplan::model::{MotionProblem, Preference, Region, Shape};
 
-/// The problem of a world that names a map and a preference file by their whole paths.
+/// Reads the problem of a world that names a map and a preference file by absolute paths.
 fn problem(data: &std::path::Path, map: usize, preferences: usize, start: [f64; 2]) -> MotionProblem {
     let folder = tempfile::tempdir().unwrap();
     let world = folder.path().join("world.toml");
@@ -45,7 +45,7 @@ fn the_maps_have_the_lines_that_are_printed() {
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_gantry_finds_its_way_in_all_three() {
     let data = published("data");
-    // Map 1 with its goal in the lower left corner; maps 2 and 3 with the goal in the middle, which in map 1 is a wall.
+    // Map 1 with its goal in the lower left corner; maps 2 and 3 with the goal in the middle, where map 1 has a wall.
     for (map, preferences, start) in [(1, 1, [-9.0, 9.0]), (2, 2, [22.0, -22.0]), (3, 2, [8.0, -8.0])] {
         let problem = problem(&data, map, preferences, start);
         for method in Method::ALL {
@@ -70,8 +70,8 @@ fn there_is_no_way_out_of_a_letter() {
     }
 }
 
-/// The worlds in `workspaces/maps` have the lines and rectangles that are printed; on map 2 the source spreads its preference file over
-/// the whole map, and on map 3 two of the rectangles lie in it.
+/// The worlds in `workspaces/maps` have the printed lines and rectangles. On map 2, the source spreads its preference
+/// file over the whole map, and on map 3 two of the rectangles lie in it.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_shipped_maps_are_the_printed_ones() {

@@ -1,4 +1,4 @@
-//! Rectangles against the pixels that they stand for, and against the least number of them.
+//! Rectangles against the pixels that they cover, and against the least number of them.
 
 use cplan::input::{PixelRectangle, rectangles};
 use proptest::prelude::*;
@@ -12,8 +12,8 @@ fn of(pixels: &[Vec<bool>]) -> Vec<PixelRectangle> {
     found
 }
 
-/// The least number of rectangles that the pixels `solid` (bits, row by row) can be divided into: every rectangle whose
-/// first pixel is the first one left is tried.
+/// Returns the least number of rectangles that cover the pixels `solid` (bits, row by row) without overlap. It tries
+/// every rectangle whose first pixel is the first one left.
 fn fewest(width: usize, height: usize, solid: u32, known: &mut HashMap<u32, u32>) -> u32 {
     if solid == 0 {
         return 0;
@@ -63,7 +63,7 @@ proptest! {
 
     #[test]
     fn they_are_few(width in 3..6_usize, height in 3..6_usize, bits in any::<u32>(), more in any::<u32>()) {
-        // Two random numbers at once fill three quarters, so that there are holes.
+        // Two random numbers combined fill three quarters, so that there are holes.
         let solid = (bits | more) & ((1_u64 << (width * height)) - 1) as u32;
         let pixels: Vec<Vec<bool>> =
             (0..height).map(|y| (0..width).map(|x| solid >> (y * width + x) & 1 == 1).collect()).collect();
@@ -82,7 +82,7 @@ fn shapes_that_one_sees_at_a_glance() {
     assert_eq!(parsed(&["####", "####"]), 1);
     assert_eq!(parsed(&["#.#", ".#.", "#.#"]), 5);
     assert_eq!(parsed(&["###", "#.#", "###"]), 4);
-    // A comb is cut along its back whichever way it lies.
+    // A comb is cut along its back in every orientation.
     assert_eq!(parsed(&["#####", "#.#.#", "#.#.#"]), 4);
     assert_eq!(parsed(&["###", "#..", "###", "#..", "###"]), 4);
 }

@@ -1,4 +1,4 @@
-//! Objects and steps that are refused, with the place, what is wrong, and what to do about it.
+//! Invalid objects and steps: refused with the place, the defect, and a hint.
 
 use super::{CELL, task_of, with_world};
 use cplan::input::{Inspection, Overrides, inspect, load};
@@ -27,7 +27,7 @@ pub fn refused(world: &str, overrides: &Overrides, parts: &[&str]) {
     }
 }
 
-/// The cell with one piece of text replaced must be refused with these parts in the message.
+/// Checks that the cell with one piece of text replaced is refused with these parts in the message.
 fn bad(from: &str, to: &str, parts: &[&str]) {
     let world = healthy();
     assert!(world.contains(from), "{from}");
@@ -213,7 +213,7 @@ fn an_orientation_is_that_of_the_last_place() {
     let once = "angle = 1.5 }\n";
     let world = healthy().replace(once, &format!("{once}{again}"));
     assert!(task_of(&world, &Overrides::default()).is_ok());
-    // Without a wrist the first turn fails; were it not there, the second would be none.
+    // Without a wrist, the first turn would fail. Without that turn, the second place needs no turn.
     let still = world.replace("wrist = { velocity = 6.0, acceleration = 60.0 }", "").replace(", angle = 1.5", "");
     assert!(task_of(&still, &Overrides::default()).is_ok());
 }
@@ -246,20 +246,20 @@ fn what_the_arm_cannot_do() {
     ] {
         bad(from, to, parts);
     }
-    // A grasp off the origin of a rigid payload whose orientation is unknown may or may not be in reach.
+    // A grasp off the origin of a rigid payload with unknown orientation may or may not be within reach.
     let far = healthy()
         .replace("at = [0.5, 1.5]", "at = [0.0, 1.81]")
         .replace("pick = \"part\"", "pick = \"part\"\ngrasp = [0.02, 0]");
     assert!(task_of(&far, &Overrides::default()).is_ok());
-    // No clearance is kept from what it rests on.
+    // The clearance does not apply to supports.
     let clearance = Overrides { clearance: Some(0.02), ..Overrides::default() };
     assert!(task_of(&healthy(), &clearance).is_ok());
-    // Each step is named once, whatever its repetitions.
+    // Each step is reported once, regardless of repetitions.
     let many =
         healthy().replace("[[obstacle]]", "[task]\nrepeat = 50\n[[obstacle]]").replace("[0.1, 0.2]", "[0.1, 3.2]");
     let error = task_of(&many, &Overrides::default()).unwrap_err();
     assert_eq!(error.diagnostics().len(), 1, "{error}");
-    // A pick of what lies out of reach follows from the place.
+    // A pick of an unreachable object is a consequence of its place.
     let repeated = many.replace("3.2", "0.2").replace("renew = true\n", "").replace("[0.5, 1.5]", "[2.5, 1.5]");
     let error = task_of(&repeated, &Overrides::default()).unwrap_err();
     assert_eq!(error.diagnostics().len(), 1, "{error}");

@@ -1,4 +1,4 @@
-//! The world file's objects and steps, read into a task.
+//! Objects and steps of the world file, read into a task.
 
 use cplan::geometry::Point;
 use cplan::input::{InputError, LoadedTask, Overrides, load, load_scene};
@@ -11,7 +11,7 @@ mod errors;
 mod pallets;
 mod written_out;
 
-/// Objects, and where the arm starts; steps follow.
+/// Objects and the start of the arm; steps follow.
 const CELL: &str = r#"name = "cell"
 [robot]
 wrist = { velocity = 6.0, acceleration = 60.0 }
@@ -53,7 +53,7 @@ fn task(steps: &str) -> LoadedTask {
     task_of(&format!("{CELL}{steps}"), &Overrides::default()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The steps in words, `number.cycle: what`; groups in brackets.
+/// Returns the steps in words, `number.cycle: action`, with groups in brackets.
 fn in_words(loaded: &LoadedTask) -> Vec<String> {
     let objects = &loaded.task.objects;
     let step = |s: &Step| format!("{}.{}: {}", s.number, s.cycle, s.action.describe(objects));

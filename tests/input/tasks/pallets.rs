@@ -1,4 +1,4 @@
-//! Places in rows and columns, with objects on them, and what moves them all.
+//! Places in rows and columns, objects on them, and frames that move all of them.
 
 use super::errors::refused;
 use super::{in_words, task_of};
@@ -37,7 +37,7 @@ grasp = [0.01, 0.0]
 
 const TRANSFER: &str = "[[step]]\ntransfer = { objects = \"part\", to = \"tray\" }\ndwell = 0.5\nspeed = 0.5\n";
 
-/// The world with one piece of text replaced must be refused with these parts in the message.
+/// Checks that the world with one piece of text replaced is refused with these parts in the message.
 fn bad(world: &str, from: &str, to: &str, parts: &[&str]) {
     assert!(world.contains(from), "{from}");
     refused(&world.replacen(from, to, 1), &Overrides::default(), &[&["world.toml: line ", "^"], parts].concat());

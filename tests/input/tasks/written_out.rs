@@ -1,4 +1,4 @@
-//! Random nests of groups against a plain expansion; and worlds that have been damaged, which must not end the program.
+//! Random nested groups against a plain expansion; damaged worlds, which must not crash the program.
 
 use super::{CELL, in_words, task_of};
 use cplan::input::{LoadedTask, Overrides};
@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 #[derive(Debug, Clone)]
 enum Node {
-    /// Picks the part or the cup and places it.
+    /// A pick of the part or the cup, and a place.
     Pair(bool),
     Move,
     Group(usize, Vec<Node>),
@@ -33,7 +33,7 @@ fn toml(nodes: &[Node]) -> String {
     format!("[{}]", nodes.iter().map(of).collect::<Vec<_>>().join(", "))
 }
 
-/// Whether the part, which is renewed, is among what is picked.
+/// Returns true if the group picks the part, which is renewed.
 fn picks_part(node: &Node) -> bool {
     match node {
         Node::Pair(part) => *part,
@@ -50,7 +50,7 @@ fn length(node: &Node) -> usize {
     }
 }
 
-/// The steps as words, without cycles; the first has the number `first`.
+/// Returns the steps as words, without cycles; the first has the number `first`.
 fn expanded(nodes: &[Node], first: usize) -> Vec<(Option<usize>, String)> {
     let mut words = Vec::new();
     let mut number = first;
@@ -75,7 +75,7 @@ fn expanded(nodes: &[Node], first: usize) -> Vec<(Option<usize>, String)> {
     words
 }
 
-/// What a task promises: numbers that are valid, places after picks, nothing renewed that is carried.
+/// Checks the guarantees of a task: valid numbers, places after picks, and that no carried object is renewed.
 fn assert_sound(loaded: &LoadedTask) {
     let task = &loaded.task;
     let mut carried = None;
@@ -110,7 +110,7 @@ fn assert_sound(loaded: &LoadedTask) {
     }
 }
 
-/// Lines to mix: what belongs to objects, steps and groups, right and wrong.
+/// Lines to mix: lines of objects, steps and groups, right and wrong.
 const LINES: &[&str] = &[
     "[[step]]",
     "[[step]]",

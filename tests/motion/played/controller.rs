@@ -1,8 +1,10 @@
-//! How ROS 2's `joint_trajectory_controller` moves between the points of a message, after its `trajectory.cpp`
-//! (`interpolate_between_points`): lines through positions, cubics where both points have velocities, quintics where both have
-//! accelerations. Times are those of the message, whole nanoseconds. Shares no code with the library.
+//! The interpolation of ROS 2's `joint_trajectory_controller` between the points of a message, after its
+//! `trajectory.cpp` (`interpolate_between_points`): lines through positions, cubics if both points have velocities,
+//! quintics if both have accelerations. Times are those of the message, in whole nanoseconds. The code shares nothing
+//! with the library.
 
-/// A message's points: of each its time, and one list each of positions, velocities and accelerations that may be empty.
+/// The points of a message: the time of each, and its lists of positions, velocities and accelerations, which may be
+/// empty.
 #[derive(Debug, Clone, Default)]
 pub struct Message {
     pub joints: Vec<String>,
@@ -11,12 +13,12 @@ pub struct Message {
     pub points: Vec<[Vec<f64>; 3]>,
 }
 
-/// Seconds between two points.
+/// Returns the seconds between two points.
 pub fn seconds(from: u64, to: u64) -> f64 {
     (to - from) as f64 * 1e-9
 }
 
-/// Position, velocity and acceleration of a joint, `t` seconds after point `k`.
+/// Returns position, velocity and acceleration of a joint, `t` seconds after point `k`.
 pub fn played(message: &Message, k: usize, joint: usize, t: f64) -> [f64; 3] {
     let duration = seconds(message.since[k], message.since[k + 1]);
     let [a, b] = [&message.points[k], &message.points[k + 1]];

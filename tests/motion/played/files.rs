@@ -1,9 +1,10 @@
-//! The program's files as their readers see them, by readers that share no code with the writers.
+//! The program's files, read by readers that share no code with the writers.
 
 use super::controller::Message;
 use serde_json::Value;
 
-/// The message of a YAML file; its names by a reader of YAML, its points line by line, which is faster for long ones.
+/// Reads the message of a YAML file: its names by a YAML library, its points line by line, which is faster for long
+/// ones.
 pub fn yaml(text: &str) -> Message {
     let (head, body) = text.split_once("\npoints:\n").expect("points");
     let head: Value = serde_saphyr::from_str(head).expect("YAML");
@@ -29,7 +30,7 @@ pub fn yaml(text: &str) -> Message {
     message
 }
 
-/// A table as somebody would turn it into a message: the joints that it has columns of.
+/// Converts a table to a message with the joints of its columns, as a user would.
 pub fn csv(text: &str) -> Message {
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
@@ -47,14 +48,14 @@ pub fn csv(text: &str) -> Message {
     message
 }
 
-/// The messages on `/joint_trajectory` of a recording, each with the nanosecond at which it begins.
+/// Returns the messages on `/joint_trajectory` of a recording, each with the nanosecond at which it begins.
 #[cfg(feature = "mcap")]
 pub fn mcap(file: &[u8]) -> Vec<(u64, Message)> {
     let (_, motions) = crate::mcap::read(file);
     motions.into_iter().map(|m| (m.log, Message { joints: m.joints, since: m.since, points: m.points })).collect()
 }
 
-/// The states of a recording: nanosecond, names and positions.
+/// Returns the states of a recording: nanosecond, names and positions.
 #[cfg(feature = "mcap")]
 pub fn states(file: &[u8]) -> Vec<(u64, Vec<String>, Vec<f64>)> {
     crate::mcap::read(file).0.into_iter().map(|state| (state.stamp, state.joints, state.position)).collect()

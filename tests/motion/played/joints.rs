@@ -1,10 +1,11 @@
-//! Which joints files name, and accelerations where they are asked for.
+//! The joints that files name, and accelerations on request.
 
 use super::{Certified, Run, files, judge, root};
 use cplan::input::load_scene;
 use std::path::Path;
 
-/// A two-link arm on a rail that is held, with a gripper whose fingers follow each other and a fan that follows the elbow.
+/// A two-link arm on a rail that is held, with a gripper whose fingers follow each other and a fan that follows the
+/// elbow.
 const ROBOT: &str = r#"<robot name="rig">
   <link name="base"/>
   <joint name="fan" type="continuous"><parent link="base"/><child link="blades"/><axis xyz="0 0 1"/>
@@ -47,7 +48,7 @@ fn messages_name_every_movable_joint_of_the_robot() {
     assert_eq!(message.joints, ["fan", "rail", "shoulder", "elbow", "left", "right"]);
     for [position, velocity, acceleration] in &message.points {
         let (shoulder, elbow) = (position[2], position[3]);
-        // What is held stands where the world holds it, and mimics follow their rule.
+        // A held joint stays at its value in the world, and mimicking joints follow their rule.
         assert_eq!(position[..], [-2.0 * elbow + 0.25, 0.5, shoulder, elbow, 0.03, -0.03]);
         assert_eq!(velocity[..], [-2.0 * velocity[3] + 0.0, 0.0, velocity[2], velocity[3], 0.0, 0.0]);
         assert!(acceleration.is_empty());
@@ -61,7 +62,7 @@ fn messages_name_every_movable_joint_of_the_robot() {
         assert_eq!(states.len(), message.points.len());
         assert!(states.iter().all(|(_, names, position)| *names == message.joints && position.len() == 6));
     }
-    // Tables stay with the two.
+    // Tables contain only the two planned joints.
     assert!(run.text("csv").starts_with("time,shoulder,elbow,shoulder_velocity,elbow_velocity\n"));
 }
 

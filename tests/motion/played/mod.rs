@@ -1,4 +1,5 @@
-//! What a controller makes of our files, by its own formula: the certified motion, within all limits, still where it stands.
+//! Our files as a controller interpolates them, by its own formula: the certified motion, within all limits, at rest
+//! where it stops.
 
 mod controller;
 mod files;
@@ -12,14 +13,15 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Share of a limit by which a played motion may exceed it, as in `cplan verify`: rounding of doubles over a millisecond.
+/// Fraction of a limit by which a played motion may exceed it, as in `cplan verify`: rounding of doubles over a
+/// millisecond.
 const OVER: f64 = 1e-6;
 
-/// By how much a played motion may be off the one in the result, radians or metres: the hair about blends that the
-/// certificate covers, for radii of at most one, and rounding.
+/// Largest distance of a played motion from the one in the result, in radians or metres: the tolerance about blends
+/// that the certificate covers, for radii of at most one, and rounding.
 const OFF: f64 = 1e-6;
 
-/// What the program writes, and `verify` reads.
+/// Formats that the program writes and `verify` reads.
 #[cfg(feature = "mcap")]
 pub const FORMATS: [&str; 4] = ["json", "csv", "yaml", "mcap"];
 #[cfg(not(feature = "mcap"))]
@@ -37,7 +39,7 @@ pub fn root(file: &str) -> PathBuf {
 }
 
 impl Run {
-    /// Plans and writes `plan.json` and the like.
+    /// Plans and writes `plan.json` and the other files.
     pub fn of(robot: &Path, world: &Path, options: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
@@ -62,7 +64,7 @@ impl Run {
         serde_json::from_str(&self.text("json")).unwrap()
     }
 
-    /// The exit code of `verify` on one of the files, and what it says.
+    /// Returns the exit code and the output of `verify` for one of the files.
     pub fn verified(&self, robot: &Path, world: &Path, format: &str) -> (i32, String) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
         command.current_dir(self.folder.path()).arg("verify").args([robot, world]).arg(format!("plan.{format}"));
@@ -71,7 +73,7 @@ impl Run {
     }
 }
 
-/// The motion of a result as its `interpolation` says.
+/// The motion of a result, interpolated as its `interpolation` states.
 pub struct Certified {
     time: Vec<f64>,
     position: Vec<[f64; 2]>,
@@ -91,12 +93,12 @@ impl Certified {
         }
     }
 
-    /// Whether both joints stand still from sample `k` to the next.
+    /// Returns true if both joints are at rest from sample `k` to the next.
     fn stands(&self, k: usize) -> bool {
         self.position[k] == self.position[k + 1] && [self.velocity[k], self.velocity[k + 1]] == [[0.0; 2]; 2]
     }
 
-    /// The sample at or before a time.
+    /// Returns the sample at or before a time.
     fn before(&self, time: f64) -> usize {
         self.time.partition_point(|t| *t <= time + 1e-10).saturating_sub(1).min(self.time.len().saturating_sub(2))
     }
@@ -116,7 +118,7 @@ impl Certified {
     }
 }
 
-/// What a played motion came to: shares of the limits, and how far it is off the certified one.
+/// Extreme values of a played motion: fractions of the limits, and the distance from the certified motion.
 #[derive(Debug, Default, Clone, Copy)]
 pub struct Extremes {
     pub velocity: f64,
@@ -125,7 +127,8 @@ pub struct Extremes {
     pub dwells: usize,
 }
 
-/// Plays a message that begins at a time of the certified motion, densely, and asserts all that a certificate promises.
+/// Plays a message that begins at a time of the certified motion, densely, and asserts everything that a certificate
+/// guarantees.
 pub fn judge(what: &str, message: &Message, begin: u64, certified: &Certified, joints: &[Joint; 2]) -> Extremes {
     let mut found = Extremes::default();
     for (k, joint) in joints.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Tools that are lowered at picks and places, and wrists that turn: in the time, the certificate and the files.
+//! Tools that are lowered at picks and places, and wrists that turn: in the duration, the certificate and the files.
 
 use super::controller::{Message, played, seconds};
 use super::{Run, files, root};
@@ -45,7 +45,7 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
-/// Where a joint is at a time of a message, by the controller's formula: position and velocity.
+/// Returns position and velocity of a joint at a time of a message, by the controller's formula.
 fn at(message: &Message, joint: &str, time: f64) -> [f64; 2] {
     let named = message.joints.iter().position(|name| name == joint).unwrap();
     let k = message.since.partition_point(|since| seconds(0, *since) <= time).max(1) - 1;
@@ -60,7 +60,7 @@ fn a_stroke_takes_its_time_in_the_task_and_in_its_bound() {
     assert_eq!(verified.expect("done").0, 0);
     let (without, _) = planned(&CELL.replace("STROKE", ""), &[]);
     let (with, without) = (with.json(), without.json());
-    // Two ways down and two up: 0.12 m at 5 m/s2, whose top speed of 1 m/s is not reached.
+    // Two strokes down and two up: 0.12 m at 5 m/s2, whose top speed of 1 m/s is not reached.
     let way = 2.0 * (0.12_f64 / 5.0).sqrt();
     for key in ["duration", "lower_bound"] {
         let more = number(&with[key]) - number(&without[key]);
@@ -75,7 +75,7 @@ fn a_stroke_takes_its_time_in_the_task_and_in_its_bound() {
         let turn = step["turn"].get("seconds").map_or(0.0, number);
         let [arrival, end] = ["arrival", "end"].map(|key| number(&step[key]));
         assert!((end - arrival - wait - turn - 2.0 * way).abs() < 1e-8);
-        // The gripper works while the tool is down; what turns at a place does so before.
+        // The gripper works while the tool is down; a turn at a place comes before.
         let before = if event["event"] == "release" { turn } else { 0.0 };
         assert!((number(&event["time"]) - arrival - before - way).abs() < 1e-8, "{event}");
     }
@@ -114,7 +114,7 @@ fn the_quill_goes_down_at_picks_and_places_and_nowhere_else() {
     );
     #[cfg(feature = "mcap")]
     {
-        // One message a step, each from rest to rest with its own stroke.
+        // One message per step, each from rest to rest with its own stroke.
         let messages = files::mcap(&run.bytes("mcap"));
         assert_eq!(messages.len(), 3);
         for (begin, message) in &messages[..2] {
@@ -145,16 +145,17 @@ fn the_wrist_keeps_what_is_carried_level_and_turns_it() {
         assert!((level(time) - held).abs() < 1e-6, "turned by {} at {time}", level(time) - held);
     }
     let picked = &result["steps"][0];
-    // From its own orientation, 0, to that of its place, before or after the carrying.
+    // From its initial orientation, 0, to that of its place, before or after the carrying motion.
     let turned = level(number(&result["events"][1]["time"])) - level(number(&result["events"][0]["time"]));
     assert!((turned - 1.0).abs() < 1e-6, "{turned}: {picked}");
-    // With an empty hand it goes back to its rest.
+    // With an empty hand, it returns to its rest position.
     assert!(at(&message, "axis_4", number(&result["duration"]))[0].abs() < 1e-9);
 }
 
 #[test]
 fn what_the_lowered_tool_would_hit_is_seen() {
-    // Beside the place, below all that travels, nearer than the flange is wide, which comes down to 0.06 m.
+    // Beside the place, below everything that travels, and nearer than the width of the flange, which comes down to
+    // 0.06 m.
     let post =
         "[[obstacle]]\nname = \"stub\"\ncircle = { center = [0.35, -0.155], radius = 0.003 }\nheight = [0.0, 0.1]\n";
     let world = format!("{CELL}{post}").replace(", angle = 1.0", "");
@@ -165,7 +166,7 @@ fn what_the_lowered_tool_would_hit_is_seen() {
     assert!(reasons.contains("while the tool is lowered") && reasons.contains("stub"), "{reasons}");
 }
 
-/// The reasons of the step that fails.
+/// Returns the reasons of the step that fails.
 fn run_json(world: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("world.toml");
@@ -198,7 +199,7 @@ fn strokes_that_cannot_be_are_refused() {
     for part in ["accelerations cannot be written", "the tool's joint \"axis_3\"", "--joints planned"] {
         assert!(run.code == 1 && run.errors.contains(part), "{part}: {}", run.errors);
     }
-    // The two planned joints alone have none that jump.
+    // For the two planned joints alone, no acceleration jumps.
     let (run, _) =
         planned(&CELL.replace("STROKE", STROKE), &["--accelerations", "--jerk", "300,300", "--joints", "planned"]);
     assert_eq!(run.code, 0, "{}", run.errors);

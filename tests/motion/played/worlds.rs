@@ -7,12 +7,12 @@ use cplan::input::load_scene;
 use cplan::model::Joint;
 use std::path::{Path, PathBuf};
 
-/// The joints of a robot in a world.
+/// Returns the joints of a robot in a world.
 fn joints(robot: &Path, world: &Path) -> [Joint; 2] {
     load_scene(robot, world).unwrap().scene.into_parts().0.joints
 }
 
-/// All formats of a run against its JSON.
+/// Compares all formats of a run with its JSON.
 fn judge_all(what: &str, run: &Run, joints: &[Joint; 2]) -> Extremes {
     let certified = Certified::of(&run.json());
     let mut all = Extremes::default();
@@ -30,7 +30,7 @@ fn judge_all(what: &str, run: &Run, joints: &[Joint; 2]) -> Extremes {
         for (begin, message) in files::mcap(&file) {
             note(judge(&format!("{what}, MCAP"), &message, begin, &certified, joints));
         }
-        // States are of the motion; times increase.
+        // States belong to the motion, and times increase.
         let mut before = None;
         for (stamp, names, position) in files::states(&file) {
             assert!(before.replace(stamp).is_none_or(|before| before < stamp), "{what}: two states at {stamp} ns");
@@ -44,7 +44,7 @@ fn judge_all(what: &str, run: &Run, joints: &[Joint; 2]) -> Extremes {
     all
 }
 
-/// Shipped worlds with the robots they are for.
+/// Returns shipped worlds with their robots.
 fn shipped() -> Vec<[PathBuf; 2]> {
     let text = std::fs::read_to_string(root("workspaces/suite.toml")).unwrap();
     let manifest: toml::Table = text.parse().unwrap();
@@ -53,7 +53,7 @@ fn shipped() -> Vec<[PathBuf; 2]> {
     problems.iter().map(|problem| [file(problem, "robot"), file(problem, "world")]).collect()
 }
 
-/// Names of a world's objects.
+/// Returns the names of a world's objects.
 fn objects(world: &Path) -> Vec<String> {
     let world: toml::Table = std::fs::read_to_string(world).unwrap().parse().unwrap();
     let objects = world["object"].as_array().unwrap().iter().enumerate();
@@ -113,7 +113,8 @@ fn what_a_controller_plays_of_every_shipped_task_is_certified() {
         dwells += judge_all(&name, &run, &joints(&robot, &world)).dwells;
         let (code, said) = run.verified(&robot, &world, "json");
         assert_eq!(code, 0, "{name}: {said}");
-        // Without the steps it is one motion among objects where they lie at first, which is said; nothing else is met.
+        // Without the steps, the file is one motion among objects at their initial places. The output says so, and the
+        // motion touches nothing else.
         let objects = objects(&world);
         for format in FORMATS.into_iter().filter(|format| *format != "json") {
             let (code, said) = run.verified(&robot, &world, format);
@@ -164,7 +165,7 @@ fn what_a_controller_plays_in_random_worlds_is_certified() {
     );
 }
 
-/// Discs around the arm, and limits from weak to strong.
+/// Returns a world of discs around the arm, and limits from weak to strong.
 fn world(dice: &mut Dice) -> String {
     let [v1, v2] = [0, 1].map(|_| 10f64.powf(dice.within(-0.5, 0.8)));
     let [a1, a2] = [0, 1].map(|_| 10f64.powf(dice.within(0.0, 1.6)));

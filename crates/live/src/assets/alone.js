@@ -1,13 +1,13 @@
-// The program within the page: a worker that answers as a server does, behind what looks like a WebSocket.
+// The program within the page: a worker that answers as a server does, behind the interface of a WebSocket.
 'use strict';
 
-/** Time that what is under way still has once something newer is asked, milliseconds. */
+/** Time that a request in progress still has when a newer one arrives, in milliseconds. */
 const GRACE = 120;
-/** Requests that may wait at a time; of plans only the latest waits. */
+/** Largest number of waiting requests; of plans only the latest waits. */
 const MOST_WAITING = 8;
 
 class Alone {
-  /** The program, compiled once for the page. */
+  /** Returns the program, compiled once for the page. */
   static get module() {
     Alone.compiled ??= (async () => {
       const packed = Uint8Array.from(atob(document.getElementById('program').textContent), (letter) => letter.codePointAt(0));
@@ -22,7 +22,7 @@ class Alone {
     return Alone.address;
   }
 
-  /** `limit` is asked for the time that a plan may take, seconds. */
+  /** `limit` returns the time that a plan may take, in seconds. */
   constructor(limit) {
     this.limit = limit;
     this.waiting = [];
@@ -43,7 +43,7 @@ class Alone {
     this.onopen();
   }
 
-  /** A worker with what is open. */
+  /** Starts a worker with the open world. */
   start() {
     this.worker = new Worker(Alone.script);
     this.worker.onmessage = ({ data }) => this.hear(data);
@@ -51,7 +51,7 @@ class Alone {
     this.worker.postMessage({ module: this.module, open: this.open });
   }
 
-  /** Ends the worker, and what it is at. */
+  /** Ends the worker and its current request. */
   end() {
     if (!this.worker) return;
     this.worker.onmessage = null;
@@ -85,7 +85,10 @@ class Alone {
     this.hurry();
   }
 
-  /** Ends what is under way for something newer, unless it is over soon; but texts are read, since what is newer may speak of them. */
+  /**
+   * Ends the request in progress in favour of a newer one, unless it finishes soon. A text is always read, because
+   * newer requests may refer to it.
+   */
   hurry() {
     const { running } = this;
     if (!running || !this.waiting.length || running.do === 'open' || (running.do === 'load' && !running.isRead) || running.isLate) return;

@@ -1,4 +1,4 @@
-// The controls: what can be added, the planner and its options, files.
+// The controls: buttons that add something, the planner and its options, files.
 'use strict';
 
 const FILES = [
@@ -6,11 +6,11 @@ const FILES = [
   ['svg', 'picture (.svg)'], ['png', 'picture (.png)'], ['html', 'page (.html)'],
 ];
 
-/** Entries of a menu: values and what they are called, in this order. */
+/** Returns entries of a menu from pairs of value and label, in this order. */
 const entries = (pairs) => pairs.map(([value, text]) => element('option', { value }, text));
 
 class Controls {
-  /** `live` is what the buttons call: see there. */
+  /** `live` is the page that the buttons act on. */
   constructor(live) {
     this.live = live;
     const button = (text, label, action) => element('button', { type: 'button', class: 'button', 'aria-label': label, title: label, onclick: action }, text);
@@ -46,7 +46,7 @@ class Controls {
     this.world = this.textPart(button);
   }
 
-  /** The world as text. */
+  /** Creates the part with the world as text. */
   textPart(button) {
     const { live } = this;
     this.text = element('textarea', {
@@ -65,7 +65,7 @@ class Controls {
     );
   }
 
-  /** Buttons for files, which are always at hand. */
+  /** Creates the buttons for files, which are always visible. */
   filePart() {
     const { live } = this;
     const button = (text, action, label) => element('button', { type: 'button', class: 'button', title: label, onclick: action }, text);
@@ -86,7 +86,7 @@ class Controls {
     if (file) this.live.load(await file.text(), true);
   }
 
-  /** Shows the world's text, unless somebody types there. */
+  /** Shows the world's text, unless the user is typing there. */
   type(text) {
     if (this.isTyped && this.text.value !== this.shownText) return;
     this.isTyped = false;
@@ -98,13 +98,13 @@ class Controls {
     this.remarks.textContent = text;
   }
 
-  /** Marks the options that are typed as wrong, or not. */
+  /** Marks the typed options as wrong, or removes the mark. */
   complain(isWrong) {
     if (isWrong) this.more.setAttribute('aria-invalid', 'true');
     else this.more.removeAttribute('aria-invalid');
   }
 
-  /** Follows another world. */
+  /** Shows another world. */
   use(world, scene) {
     this.planners = world.menus;
     this.planner.replaceChildren(...entries(this.planners.map(({ name }) => [name, name])));
@@ -119,7 +119,7 @@ class Controls {
     this.clearance.value = String(+(scene.clearance * 1000).toFixed(3));
   }
 
-  /** Takes planner and options apart into the controls. */
+  /** Distributes planner and options over the controls. */
   read(text) {
     const [planner, ...words] = text.split(/\s+/);
     this.planner.value = planner;
@@ -141,12 +141,12 @@ class Controls {
     this.offer(chosen);
   }
 
-  /** Menus that the chosen planner has. */
+  /** Returns the menus of the chosen planner. */
   get options() {
     return this.planners.find(({ name }) => name === this.planner.value)?.options ?? [];
   }
 
-  /** Makes the planner's menus. What is not chosen is left to the program: that entry sends nothing. Numbers ascend. */
+  /** Creates the planner's menus. The entry for the default sends nothing, so that the program chooses. Numbers ascend. */
   offer(chosen) {
     this.selects = this.options.map(({ name, label, standard, values }) => {
       const size = Number.parseFloat(standard);
@@ -159,13 +159,13 @@ class Controls {
     this.menus.replaceChildren(...this.selects.map(([, , label]) => label));
   }
 
-  /** Planner and options as on the command line. */
+  /** Returns planner and options as on the command line. */
   get words() {
     const chosen = this.selects.flatMap(([name, { value }]) => (value === '' ? [] : [name, value]));
     return [this.planner.value, ...chosen, ...this.more.value.trim().split(/\s+/).filter(Boolean)].join(' ');
   }
 
-  /** Plans with what is chosen now; with another planner its own menus come up, with what was chosen in others of that name. */
+  /** Plans with the current choices. Another planner shows its own menus; those with the same names keep their values. */
   replan(isOther = false) {
     if (isOther) this.offer(new Map(this.selects.map(([name, { value }]) => [name, value])));
     this.show();
@@ -176,7 +176,7 @@ class Controls {
     this.command.textContent = `cplan ROBOT.urdf WORLD.toml --planner ${this.words}`;
   }
 
-  // What is selected.
+  // Selection.
 
   choose(value) {
     const [kind, index] = value.split(' ');
@@ -184,7 +184,7 @@ class Controls {
     this.live.editor.focus();
   }
 
-  /** Follows the editor. */
+  /** Updates the controls after a change in the editor. */
   follow() {
     const { scene, selection } = this.live.editor;
     if (!scene) return;

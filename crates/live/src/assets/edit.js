@@ -1,24 +1,25 @@
-// Moving things: by pointer in both panels, and by keys.
+// Editing: by pointer in both panels, and by keys.
 'use strict';
 
-/** How near a pointer has to be, pixels: a mouse, a finger. */
+/** Distance within which a pointer takes something, in pixels: a mouse, a pen, a finger. */
 const GRASP = { mouse: 9, pen: 12, touch: 20 };
-/** Time between the taps of a double tap, milliseconds. */
+/** Longest time between the taps of a double tap, in milliseconds. */
 const DOUBLE = 350;
 
-/** Room for the name of a thing on each side of it, pixels. */
+/** Room for the name of a shape on each side of it, in pixels. */
 const NAME = 18;
 
 class Editor {
   /**
-   * `changed(final)` is called when the scene has changed; `selected()` when something else is selected; `used(panel)` when a
-   * panel is. `configurations()` are the start and goals of the last answer, `blocked()` those that are not free, each with what is
-   * in the way; `isDrawn(obstacle)` says whether an obstacle is seen where it is.
+   * `changed(final)` is called when the scene has changed, `selected()` when the selection has changed, and
+   * `used(panel)` when a panel is used. `configurations()` returns the start and goals of the last answer; `blocked()`
+   * those that are not free, each with the obstacles in contact. `isDrawn(obstacle)` returns whether an obstacle is
+   * drawn at its current place.
    */
   constructor(view, { changed, selected, used, configurations, blocked, isDrawn }) {
     Object.assign(this, { view, changed, selected, used, configurations, blocked, isDrawn });
     this.scene = null;
-    /** What is selected: { kind: 'obstacle', index, corner } | { kind: 'start' } | { kind: 'goal' }. */
+    /** Selection: { kind: 'obstacle', index, corner } | { kind: 'start' } | { kind: 'goal' }. */
     this.selection = null;
     this.held = null;
     view.tool = {
@@ -28,9 +29,9 @@ class Editor {
       tap: (panel) => this.tap(panel),
       grasps: (panel, value, event) => Boolean(this.reached(panel, value, event)),
     };
-    /** Whether nothing was ever dragged in this browser: what can be says so. */
+    /** True if nothing was ever dragged in this browser. The page then marks items that can be dragged. */
     this.isNew = !Keep.hasDragged();
-    /** When a finger last tapped without moving anything. */
+    /** The last tap of a finger that moved nothing. */
     this.tapped = { at: -Infinity };
     const { workspace, cspace } = view.panels;
     workspace.overlays.push((context, panel) => this.drawWorkspace(context, panel));
@@ -55,7 +56,7 @@ class Editor {
     for (const panel of Object.values(this.view.panels)) panel.draw();
   }
 
-  /** Keys go to the workspace. */
+  /** Directs keys to the workspace. */
   focus() {
     this.view.panels.workspace.canvas.focus({ preventScroll: true });
   }
@@ -64,7 +65,7 @@ class Editor {
     return this.selection?.kind === 'obstacle' ? this.scene.obstacles[this.selection.index] : null;
   }
 
-  // Where things are.
+  // Places.
 
   get arm() {
     return this.view.model.arm;
@@ -79,7 +80,7 @@ class Editor {
     return goal?.joints ?? this.view.ends()[0] ?? this.configurations().goals[0];
   }
 
-  /** The tip at the start, and the place that it is to go to. */
+  /** Returns the tip at the start and at the goal. */
   get tips() {
     const { start, goal, arm } = this;
     const target = this.scene.goal?.tip ?? (goal ? Geometry.tipAt(arm, goal) : null);
@@ -88,7 +89,7 @@ class Editor {
 
   // The pointer.
 
-  /** What a pointer at a place of the workspace would take. */
+  /** Returns the item that a pointer at a place of the workspace would take. */
   find(panel, value, event) {
     const near = GRASP[event.pointerType] ?? GRASP.mouse;
     const reach = near / panel.pixels;
@@ -111,7 +112,7 @@ class Editor {
     return null;
   }
 
-  /** The same in the configuration space. */
+  /** Returns the item that a pointer would take in the configuration space. */
   findConfiguration(panel, event) {
     const near = 1.5 * (GRASP[event.pointerType] ?? GRASP.mouse);
     const [x, y] = panel.spot(event);
@@ -120,7 +121,7 @@ class Editor {
     return is(this.start) ? { kind: 'start' } : null;
   }
 
-  /** What a pointer in one of the panels would take. */
+  /** Returns the item that a pointer in one of the panels would take. */
   reached(panel, value, event) {
     if (!this.scene || this.scene.world.has_steps) return null;
     return panel === this.view.panels.workspace ? this.find(panel, value, event) : this.findConfiguration(panel, event);
@@ -144,7 +145,7 @@ class Editor {
     return true;
   }
 
-  /** A click or tap on nothing. */
+  /** Handles a click or tap on nothing. */
   tap(panel) {
     if (panel === this.view.panels.workspace && this.selection) this.select(null);
   }
@@ -176,7 +177,7 @@ class Editor {
     return true;
   }
 
-  /** Two taps of a finger are a double click, which browsers do not make of what begins on a handle. */
+  /** Detects two taps of a finger as a double click. Browsers do not report one if it begins on a handle. */
   tapTwice(panel, value) {
     const now = performance.now();
     const isSecond = now - this.tapped.at < DOUBLE && panel === this.view.panels.workspace;
@@ -184,7 +185,7 @@ class Editor {
     if (isSecond) this.insertCorner(value, panel);
   }
 
-  /** Puts what is held to a place. */
+  /** Moves the grasped item to a place. */
   place(value) {
     const { kind, index, corner, shape, from, panel } = this.held;
     const inWorkspace = panel === this.view.panels.workspace;
@@ -222,7 +223,7 @@ class Editor {
 
   // Buttons and keys.
 
-  /** A place for something new that leaves start and goal free and meets no obstacle, if there is one. */
+  /** Returns a place for a new obstacle that leaves start and goal free and touches no other one, if there is one. */
   room(make) {
     const { reach } = this.scene.world;
     const { base, links } = this.arm;
@@ -254,7 +255,7 @@ class Editor {
     };
     const index = this.scene.add(kind === 'polygon' ? 'block' : kind === 'circle' ? 'disc' : 'wall', this.room(makers[kind]));
     this.select({ kind: 'obstacle', index, corner: null });
-    // Arrow keys move it, Delete deletes it.
+    // Arrow keys move the new obstacle, and Delete removes it.
     this.focus();
     this.changed(true);
   }
@@ -275,7 +276,7 @@ class Editor {
     this.changed(true);
   }
 
-  /** Deletes the corner that is selected, else the obstacle. */
+  /** Deletes the selected corner, or the selected obstacle. */
   remove() {
     const { obstacle, selection } = this;
     if (!obstacle) return;
@@ -308,7 +309,7 @@ class Editor {
     event.stopPropagation();
   }
 
-  /** Arrow keys: five millimetres for an arm of a metre, half a degree. */
+  /** Handles arrow keys: they move by five millimetres for an arm of a metre, or by half a degree. */
   nudge([dx, dy], times, panel) {
     const { kind, index, corner } = this.selection;
     const inWorkspace = panel === this.view.panels.workspace;
@@ -363,7 +364,7 @@ class Editor {
     if (this.isNew) this.invite(context, panel);
   }
 
-  /** On the first visit the goal and an obstacle say that they can be dragged. */
+  /** Marks the goal and an obstacle as draggable, on the first visit. */
   invite(context, panel) {
     const { goal, start } = this.tips;
     const obstacle = this.scene.obstacles.find(({ shape }) => shape)?.shape;
@@ -372,14 +373,14 @@ class Editor {
     const around = (places) => {
       const spots = places.map((place) => panel.at(place));
       const [[x, right], [y, bottom]] = [0, 1].map((k) => [Math.min(...spots.map((spot) => spot[k])), Math.max(...spots.map((spot) => spot[k]))]);
-      // Beyond their names.
+      // With room for the names.
       return { x: x - NAME, y: y - NAME, width: right - x + 2 * NAME, height: bottom - y + 2 * NAME };
     };
     const names = [goal && around([goal]), ends && around(ends)].filter(Boolean).map((of) => ['drag me', of]);
     Labels.beside(context, panel, names, [goal, start].filter(Boolean).map((tip) => panel.at(tip)));
   }
 
-  /** Configurations that are not free: the links that hit something red, and what they hit. */
+  /** Draws configurations that are not free: links in contact in red, and the obstacles that they touch. */
   drawBlocked(context, panel) {
     const { theme } = panel;
     const { world } = this.view;
@@ -394,7 +395,7 @@ class Editor {
     }
   }
 
-  /** Where an obstacle is that the picture shows elsewhere, or not at all. */
+  /** Draws the outline of an obstacle that the picture shows elsewhere, or not at all. */
   drawOutline(context, panel, shape) {
     context.beginPath();
     if (shape.circle) rounded(context, panel, { core: shape.circle.center, radius: shape.circle.radius });
@@ -435,7 +436,7 @@ class Editor {
     context.stroke();
   }
 
-  /** A configuration that is not free: a cross in a ring. */
+  /** Draws a configuration that is not free: a cross in a ring. */
   drawBarred(context, panel, [x, y]) {
     for (const [width, color] of [[6, panel.theme.paper], [3, panel.theme.barred]]) {
       [context.lineWidth, context.strokeStyle] = [width, color];

@@ -1,7 +1,7 @@
-// What can be opened, worlds and puzzles, and links that hold a world.
+// The gallery: worlds and puzzles to open, and links that contain a world.
 'use strict';
 
-/** Text in an address, packed: deflated, in letters that an address may have. */
+/** Packed text in an address: deflated, and written with letters that an address may contain. */
 const Packed = {
   async through(stream, bytes) {
     return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
@@ -19,19 +19,19 @@ const Packed = {
   },
 };
 
-/** What a puzzle allows to change, and whether the end is reached. */
+/** The rules of puzzles: the allowed changes, and the test of a solution. */
 const Puzzles = {
-  /** Whether two shapes differ by where they are alone. */
+  /** Returns true if two shapes differ only by a translation. */
   moved(a, b) {
     const points = (shape) => (shape?.circle ? [shape.circle.center] : Shapes.corners(shape) ?? []);
     const [from, to] = [points(a), points(b)];
     if (from.length !== to.length || a?.circle?.radius !== b?.circle?.radius) return false;
     const [dx, dy] = from.length ? [0, 1].map((k) => to[0][k] - from[0][k]) : [0, 0];
-    // Places are rounded, each by itself.
+    // Each coordinate is rounded separately.
     return from.every(([x, y], i) => Math.hypot(to[i][0] - x - dx, to[i][1] - y - dy) < 5e-4);
   },
 
-  /** What was changed against the rules, in words; none for nothing. */
+  /** Describes a change against the rules; `null` if there is none. */
   fault({ free }, scene) {
     const first = JSON.parse(scene.first);
     const same = (key) => JSON.stringify(first[key]) === JSON.stringify(scene[key]);
@@ -44,7 +44,7 @@ const Puzzles = {
     return obstacles.every(({ shape }, i) => Puzzles.moved(first.obstacles[i].shape, shape)) ? null : 'Obstacles may be moved, not reshaped.';
   },
 
-  /** Whether an answer is the end. */
+  /** Returns true if an answer solves the puzzle. */
   isSolved({ verdict, length, clearance }, answered, scene) {
     if (answered.error || answered.verdict !== verdict) return false;
     if (length && !(answered.figures.lower_bound >= length)) return false;
@@ -55,7 +55,7 @@ const Puzzles = {
 class Gallery {
   constructor(live) {
     const { alone, robots, choices } = JSON.parse(document.getElementById('gallery').textContent);
-    /** What the page began with: its own files, where the program is within it; else a server has them. */
+    /** Initial files of the page, if the program is inside it; otherwise `null`, and the server has them. */
     [this.files, this.seconds] = alone ?? [null, null];
     Object.assign(this, { live, robots, choices, choice: null });
     const groups = [['worlds', (one) => !one.puzzle], ['puzzles', (one) => one.puzzle]].map(([label, isOf]) => (
@@ -72,30 +72,30 @@ class Gallery {
     });
   }
 
-  /** Whether the program is within the page. */
+  /** Returns true if the program is inside the page. */
   get isAlone() {
     return Boolean(this.files);
   }
 
-  /** A line to the program. */
+  /** Opens a connection to the program. */
   dial() {
     return this.isAlone ? new Alone(() => this.seconds) : Link.server();
   }
 
-  /** Opens what the address names. */
+  /** Opens the world that the address names. */
   async open() {
     const { live } = this;
     live.keepEdits();
     const { socket } = live.link;
     const { hash } = location;
     const files = await this.read();
-    // Whatever came in between opens by itself.
+    // If the address or the connection has changed in the meantime, that change opens a world itself.
     if (hash !== location.hash || socket !== live.link.socket || !live.link.isUp) return;
     live.link.open(files);
     live.mark();
   }
 
-  /** Files of the address: a choice by its name, or those packed in it; else what the page began with. */
+  /** Returns the files of the address: a choice by its name, or files packed in it; otherwise the initial files. */
   async read() {
     const [, name] = /^#(.*)$/.exec(location.hash) ?? [];
     Object.assign(this, { hasMoved: this.name !== undefined && this.name !== (name ?? ''), name: name ?? '', fault: null, isSolved: false, isOwn: false });
@@ -111,24 +111,24 @@ class Gallery {
     }
   }
 
-  /** What the page began with. */
+  /** Returns the initial files. */
   own() {
     this.isOwn = true;
     return this.files;
   }
 
-  /** The same, where the address names nothing that could be opened. */
+  /** Returns the initial files with a remark, if the world in the address cannot be opened. */
   instead() {
     this.live.remark('The address holds no world that can be read: this is the page\u2019s own.');
     return this.own();
   }
 
-  /** Another world, by the name of a choice. */
+  /** Opens another world by its name. */
   go(name) {
     location.hash = name;
   }
 
-  /** The address of what is seen, into the clipboard, or into the address bar where there is none. */
+  /** Copies an address of the current world to the clipboard, or writes it into the address bar if there is no clipboard. */
   async link() {
     const { toml, words, first: { urdf } } = this.live;
     const packed = `#w=${await Packed.write(JSON.stringify({ urdf, world: toml, options: words }))}`;
@@ -142,7 +142,7 @@ class Gallery {
     }
   }
 
-  /** Says what is to be done, and whether it is. */
+  /** Shows the task of the puzzle, and whether it is solved. */
   say() {
     const isWhole = Boolean(this.live.first?.urdf);
     this.copy.disabled = !isWhole || !this.live.isCurrent;

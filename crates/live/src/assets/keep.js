@@ -1,16 +1,16 @@
-// Edits kept by the browser: they outlive a reload of the page and the end of the server.
+// Edits kept by the browser: they survive a reload of the page and the end of the server.
 'use strict';
 
-/** Worlds whose edits are kept; the oldest go first. */
+/** Largest number of worlds whose edits are kept; the oldest are dropped first. */
 const MOST_KEPT = 8;
-/** Steps of undo that are kept with them. */
+/** Largest number of undo steps that are kept with each world. */
 const MOST_STEPS = 20;
 
 const Keep = (() => {
   const PREFIX = 'cplan edits ';
   const DRAGGED = 'cplan dragged';
 
-  /** Of this window first, then of any. Browsers may refuse both. */
+  /** Returns the store of this window first, then that of all windows. Browsers may refuse both. */
   function stores() {
     try {
       return [window.sessionStorage, window.localStorage];
@@ -19,7 +19,7 @@ const Keep = (() => {
     }
   }
 
-  /** Of two worlds the names differ: FNV-1a, twice. */
+  /** Returns a different name for each world: FNV-1a, twice. */
   function name(origin) {
     const hash = (seed) => {
       let h = seed;
@@ -42,7 +42,7 @@ const Keep = (() => {
     names.sort((a, b) => age(b) - age(a)).slice(MOST_KEPT).forEach((key) => store.removeItem(key));
   }
 
-  /** Keeps the edits of the world that a program began with. */
+  /** Keeps the edits of an initial world. */
   function write(origin, record) {
     const dated = { at: Date.now(), ...record };
     const tries = [
@@ -56,20 +56,20 @@ const Keep = (() => {
           tidy(store);
           break;
         } catch {
-          // There is no room for so much.
+          // There is not enough room.
         }
       }
     }
   }
 
-  /** The edits of the world that a program began with; none for none. */
+  /** Returns the edits of an initial world, or `null`. */
   function read(origin) {
     for (const store of stores()) {
       try {
         const record = JSON.parse(store.getItem(name(origin)));
         if (record) return record;
       } catch {
-        // Somebody else's.
+        // The entry is not one of ours.
       }
     }
     return null;
@@ -85,7 +85,10 @@ const Keep = (() => {
     }
   }
 
-  /** Whether anything was ever dragged here, so that nobody needs to be told that it can be; for who keeps nothing it is as if. */
+  /**
+   * Returns true if anything was ever dragged in this browser. Also true if the browser keeps nothing, so that the
+   * marks do not reappear each time.
+   */
   function hasDragged() {
     try {
       return window.localStorage.getItem(DRAGGED) !== null;
@@ -98,7 +101,7 @@ const Keep = (() => {
     try {
       window.localStorage.setItem(DRAGGED, '1');
     } catch {
-      // Then it is said again.
+      // Then the marks appear again.
     }
   }
 

@@ -1,31 +1,34 @@
-// The connection: one request under way at a time, the latest state next.
+// The connection: one request in progress at a time, then the latest state.
 'use strict';
 
-/** First and longest pause before the next attempt to connect, milliseconds. */
+/** Shortest and longest pause before the next attempt to connect, in milliseconds. */
 const PAUSES = [250, 4000];
 
 class Link {
-  /** The line to the server that the page came from. */
+  /** Opens a connection to the server that the page came from. */
   static server() {
     return new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live`);
   }
 
   /**
-   * `dial` makes a line; `hear` is called with each message, `file` with the head and content of each file, `state` when the line is
-   * up or down. Whoever hears that it is up opens something.
+   * `dial` opens a connection. `hear` is called with each message, `file` with the head and content of each file, and
+   * `state` when the connection opens or closes. The handler of an open connection has to open a world.
    */
   constructor({ dial, hear, file, state }) {
     Object.assign(this, { dial, hear, file, state });
     this.id = 0;
-    /** The request whose answer is awaited: its number, what it is (open, plan, load, download), whether it is final, and what it is about. */
+    /**
+     * The request in progress: its number, its kind (open, plan, load, download), whether it is final, and the state
+     * that it is about.
+     */
     this.awaited = null;
-    /** What is to be asked next: a function that makes the request, and whether it is final. */
+    /** The next request: a function that makes it, and whether it is final. */
     this.next = null;
-    /** Whether a plan was dropped for something that may leave the world as it is. */
+    /** True if a plan was dropped for a request that may leave the world unchanged. */
     this.owed = false;
     this.pause = PAUSES[0];
     this.connect();
-    // Whoever comes back to the page does not wait for the end of a pause.
+    // A user who comes back to the page does not have to wait for the end of a pause.
     for (const [target, name] of [[window, 'online'], [window, 'focus'], [document, 'visibilitychange']]) {
       target.addEventListener(name, () => !document.hidden && this.retry());
     }
@@ -49,7 +52,7 @@ class Link {
     this.socket = socket;
   }
 
-  /** Tries to connect now rather than later. */
+  /** Tries to connect immediately. */
   retry() {
     if (this.socket.readyState === WebSocket.CLOSED) this.connect();
   }
@@ -58,7 +61,10 @@ class Link {
     return this.socket.readyState === WebSocket.OPEN;
   }
 
-  /** Asks for a plan of what `make` returns when its turn comes (and what that is about, for the answer); what waited before is forgotten. */
+  /**
+   * Requests a plan of the state that `make` returns when its turn comes, together with a description of it for the
+   * answer. It replaces a waiting request.
+   */
   plan(make, final) {
     if (!this.isUp) return;
     this.next = { make, final: final || (this.next?.final ?? false) };
@@ -68,8 +74,9 @@ class Link {
   pump() {
     if (!this.next || !this.isUp) return;
     const { awaited } = this;
-    // What is opened or loaded has to be there first. On the way from place to place the server answers as soon as it can: to ask
-    // before it has would only stop it. What the user stopped at is asked at once; so is whatever follows something left.
+    // Wait until a world has been opened or loaded. During a drag, the server answers as fast as it can, and a new
+    // request before its answer would only interrupt it. A final state is requested at once, and so is any state after
+    // a final one.
     if (awaited?.kind === 'open' || awaited?.kind === 'load') return;
     if (awaited && !this.next.final && !awaited.final) return;
     const { make, final } = this.next;
@@ -83,7 +90,7 @@ class Link {
     return { id: this.id, final, ...body };
   }
 
-  /** Begins with these files, or with what the program was started with. */
+  /** Opens a world from these files, or the program's initial world. */
   open(files) {
     this.id += 1;
     this.next = null;
@@ -91,7 +98,7 @@ class Link {
     this.owed = false;
   }
 
-  /** Takes another text for the world. */
+  /** Loads another text as the world. */
   load(text, options) {
     this.id += 1;
     this.owed ||= Boolean(this.next);
@@ -116,17 +123,17 @@ class Link {
     const isLast = message.kind === 'failed' || message.done;
     const { awaited } = this;
     const isAwaited = Boolean(awaited && (message.id === awaited.id || message.id === 0));
-    // Of what was open before nobody wants to hear any more.
+    // Answers about the previous world are not relevant any more.
     if (awaited?.kind === 'open' && !isAwaited) return;
-    // Once a text is loaded, what follows is its plan.
+    // After a text has been loaded, its plan follows.
     if (isAwaited && message.kind === 'world' && awaited.kind === 'load') Object.assign(awaited, { kind: 'plan' });
     else if (isAwaited && (isLast || message.kind === 'world')) this.awaited = null;
-    // The next plan is made while this one is drawn.
+    // The server makes the next plan while this one is drawn.
     this.pump();
     this.hear(message, { ...awaited, isAwaited });
   }
 
-  /** A file: four bytes tell the length of its head. */
+  /** Handles a file: its first four bytes are the length of its head. */
   content(data) {
     const length = new DataView(data).getUint32(0);
     const head = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));

@@ -1,13 +1,16 @@
-// The live page: a world that is moved by hand, and the plan that follows.
+// The live page: the user edits a world, and its plan follows.
 'use strict';
 
-/** A positive number of a few digits, rounded by `Math.floor` or `Math.ceil`, so that what is proven of it is proven of what is shown. */
+/**
+ * Formats a positive number with a few digits. `Math.floor` or `Math.ceil` as `round` makes sure that a proven bound
+ * also holds for the displayed number.
+ */
 const roundedSafely = (value, digits, round) => {
   const unit = 10 ** (Math.floor(Math.log10(value)) + 1 - digits);
   return value > 0 ? String(+(round(value / unit) * unit).toPrecision(digits)) : '0';
 };
 
-/** Time after which a plan that is awaited makes the picture pale, milliseconds. */
+/** Time of waiting for a plan after which the picture turns pale, in milliseconds. */
 const NOTICED = 150;
 
 class Live {
@@ -19,16 +22,16 @@ class Live {
       element('button', { type: 'button', class: 'button', onclick: () => this.link.retry() }, 'Try now'),
     );
     root.append(this.waiting, this.line);
-    /** Times at which answers came while something moved. */
+    /** Times of the answers during a drag. */
     this.beats = [];
-    /** Number of what the page shows: each change makes it larger. */
+    /** Number of the page's current state. Each change increases it. */
     this.edition = 1;
-    /** What the picture is the answer to: the edition, whether all is known of it, how it ended. None while there is no line. */
+    /** The answer in the picture: the edition, whether it is complete, and its outcome. `null` if there is no connection. */
     this.shown = null;
     this.notices = new Notices();
-    /** For whoever watches the page from outside. */
+    /** State for scripts that observe the page, such as tests. */
     this.answered = { id: 0, verdict: null, certified: false, final: false, error: null };
-    /** What can be opened, and how. */
+    /** Worlds to open. */
     this.gallery = new Gallery(this);
     this.link = new Link({
       dial: () => this.gallery.dial(),
@@ -39,14 +42,14 @@ class Live {
     window.addEventListener('pagehide', () => this.keepEdits());
   }
 
-  /** Answers a second, while something is dragged. */
+  /** Returns the number of answers per second during a drag. */
   get updatesPerSecond() {
     const now = performance.now();
     this.beats = this.beats.filter((beat) => now - beat < 1000);
     return this.beats.length;
   }
 
-  // What the page is made of, once there is something to show.
+  // Elements of the page. They are built with the first answer.
 
   build(model) {
     this.waiting.remove();
@@ -83,7 +86,7 @@ class Live {
 
   key(event) {
     if (event.target.matches?.('textarea, input:not([type=checkbox]):not([type=range])')) return;
-    // What is selected can be deleted wherever the focus is.
+    // The selected obstacle can be deleted regardless of the focus.
     if ((event.key === 'Delete' || event.key === 'Backspace') && this.editor.obstacle) {
       event.preventDefault();
       this.editor.remove();
@@ -96,7 +99,7 @@ class Live {
     this.turn(key === 'y' || event.shiftKey ? 'redo' : 'undo');
   }
 
-  /** Begins anew with a world, or with what was kept of edits of it. */
+  /** Starts with a world, or with the edits of it that were kept. */
   begin(record = null) {
     this.scene = new Scene(this.world);
     if (record) this.scene.restore(record);
@@ -105,7 +108,7 @@ class Live {
     if (this.view) this.dress();
   }
 
-  /** Puts the world into the controls. */
+  /** Shows the world in the controls. */
   dress() {
     this.controls.use(this.world, this.scene);
     this.controls.type(this.world.toml);
@@ -113,9 +116,9 @@ class Live {
     for (const place of ['picture', 'options', 'text', 'files']) this.notices.say(place, null);
   }
 
-  // Edits that outlive the page and the server.
+  // Edits that survive the page and the server.
 
-  /** What is to be kept: the text that the edits are changes of, and the edits. */
+  /** Returns the record to keep: the text that the edits refer to, and the edits. */
   get record() {
     return { text: this.world.toml, words: this.words, ...this.scene.record };
   }
@@ -127,7 +130,7 @@ class Live {
     else Keep.forget(this.origin);
   }
 
-  /** What was opened, on a line that is new or by another address. */
+  /** Handles an opened world, after a new connection or for another address. */
   greeted(world) {
     const origin = `${world.robot}\n${world.toml}`;
     if (origin !== this.origin) {
@@ -139,13 +142,13 @@ class Live {
       if (record) this.remark('Your edits of last time are back.');
       else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
     } else if (this.scene) {
-      // What was edited while there was no line is sent now.
+      // Send edits that were made without a connection.
       this.continued = true;
       this.takeUp(world, this.record);
     }
   }
 
-  /** Goes on with edits of a world that the server begins with, or has to be given. */
+  /** Continues with edits of the server's initial world, or loads the edited text. */
   takeUp(world, record) {
     if (record && record.text !== world.toml) {
       this.restoring = record;
@@ -157,7 +160,7 @@ class Live {
     this.plan(true);
   }
 
-  /** Takes a world of the server's for the one that the page changes. */
+  /** Uses a world of the server as the one that the page changes. */
   adopt(world, record) {
     this.world = world;
     this.toml = world.toml;
@@ -171,13 +174,13 @@ class Live {
     this.begin(record);
   }
 
-  /** Says something by the way, beside the files. */
+  /** Shows a remark beside the files. */
   remark(text) {
     this.remarked = text;
     this.controls?.remark(text);
   }
 
-  // From the server.
+  // Messages from the server.
 
   hear(message, about) {
     if (message.kind === 'world') this.takeWorld(message);
@@ -199,7 +202,7 @@ class Live {
     const record = this.restoring;
     this.restoring = null;
     this.adopt(world, record);
-    // The plan that follows is that of the text.
+    // The plan that follows is that of the loaded text.
     if (this.link.awaited?.id === world.id) Object.assign(this.link.awaited, this.about);
     if (record) this.plan(true);
     this.notices.say('text', null);
@@ -207,7 +210,7 @@ class Live {
     if (!record) this.keepEdits();
   }
 
-  /** What was asked is not done; the page keeps what it has. */
+  /** Handles a failed request; the page keeps its state. */
   fail({ id, error }, about) {
     this.answered = { ...this.answered, id, error };
     if (about.kind === 'open' && !this.gallery.isOwn) {
@@ -216,7 +219,7 @@ class Live {
     }
     if (about.kind === 'load') {
       if (this.restoring) {
-        // What was kept is of no use to this server.
+        // This server cannot use the edits that were kept.
         this.restoring = null;
         this.adopt(this.fallback, null);
         this.remark('Your edits of last time cannot be used any more.');
@@ -230,7 +233,7 @@ class Live {
     if (this.link.owed) this.plan(true);
   }
 
-  /** The configuration space before its plan, which takes long. */
+  /** Shows the configuration space before the plan, if that takes long. */
   preview(message, about) {
     this.draw(message, about.shapes);
   }
@@ -264,21 +267,21 @@ class Live {
     this.sum(message);
   }
 
-  /** How a plan ended, for the badge: certified only where the server says so of all of it. */
+  /** Returns the outcome for the badge: certified only if the server says so of the whole motion. */
   static ending({ verdict, certified, view }) {
     if (verdict === 'found' && certified) return { ending: 'found', status: view?.status ?? 'found, certified' };
     if (verdict === 'infeasible') return { ending: 'infeasible', status: view?.status ?? 'no path: proven' };
     return { ending: 'unknown', status: 'unknown' };
   }
 
-  /** What is wrong, in a word or two. */
+  /** Describes an error in a word or two. */
   static trouble({ about, blocked }) {
     const places = { start: 'start', goal: 'goal' };
     if (places[about]) return blocked?.some(({ hits }) => hits.length) ? `${places[about]} blocked` : `${places[about]} not possible`;
     return 'not planned';
   }
 
-  /** Says what is wrong with a plan, at one of two places. */
+  /** Shows the error of a plan at one of two places. */
   troubled(place, error) {
     for (const one of ['picture', 'options']) this.notices.say(one, one === place ? error : null);
     this.controls?.complain(place === 'options' && Boolean(error));
@@ -291,13 +294,13 @@ class Live {
     if (message.view) this.drawn = shapes;
   }
 
-  /** Takes an answer for what is seen. */
+  /** Makes an answer the visible one. */
   take(message) {
     if (message.start) {
-      // Where the start is blocked nothing is said of the goals: they are where they were.
+      // With a blocked start, the answer has no goals, and the previous ones remain.
       const goals = message.about === 'start' ? this.places?.goals ?? [] : message.goals;
       this.places = { start: message.start, goals };
-      // Where the tip was dragged to, the arm is now.
+      // After a drag, the start is the configuration that the tip was dragged to.
       const { scene } = this;
       if (scene?.start?.tip && message.final && message.done && !this.editor?.held) {
         scene.start = { joints: message.start };
@@ -312,7 +315,7 @@ class Live {
     if (!this.view) this.build(message.view);
     else {
       const light = !message.final || !message.done;
-      // What holds for places along the way only would jump: facts come when all of them are known.
+      // Facts of intermediate states would jump. They are updated only when all of them are known.
       if (!message.view.facts.length) message.view.facts = this.view.model.facts;
       this.view.light = light;
       this.root.classList.toggle('light', light);
@@ -321,7 +324,7 @@ class Live {
     this.controls.follow();
   }
 
-  /** The figures, in a line. */
+  /** Shows the figures in a line. */
   sum({ figures, reason, final, verdict, certified, error }) {
     if (!this.figures) return;
     if (error) {
@@ -348,7 +351,7 @@ class Live {
 
   lineIs(isUp) {
     this.isUp = isUp;
-    // Whatever answers next may be another server.
+    // The next connection may be to another server.
     this.shown = null;
     clearTimeout(this.soon);
     this.latest = null;
@@ -360,14 +363,14 @@ class Live {
     this.mark();
   }
 
-  // What can be said of what is seen.
+  // State of the picture.
 
-  /** Whether the picture is the last word on what the page shows now. */
+  /** Returns true if the picture shows the final answer for the current state. */
   get isCurrent() {
     return Boolean(this.isUp && this.shown?.final && this.shown.edition === this.edition && !['open', 'load'].includes(this.link.awaited?.kind) && !this.restoring);
   }
 
-  /** The badge: colour and words. */
+  /** Returns colour and text of the badge. */
   get badge() {
     if (!this.isUp) return ['unknown', 'no connection'];
     if (!this.isCurrent) return ['waiting', 'planning\u2026'];
@@ -375,7 +378,7 @@ class Live {
     return error ? ['infeasible', error] : [ending, status];
   }
 
-  /** Says what holds, at once; what is seen goes pale a little later, so as not to flicker. */
+  /** Updates the badge at once. An outdated picture turns pale only after a while, so that it does not flicker. */
   mark() {
     if (!this.view) return;
     clearTimeout(this.late);
@@ -385,7 +388,7 @@ class Live {
     const { isCurrent } = this;
     classList.toggle('known', isCurrent && !this.shown.error);
     classList.toggle('lost', !this.isUp);
-    // What follows the hand is up to date but for the places that are on their way.
+    // During a drag, the picture is up to date except for requests in progress.
     const isFollowing = Boolean(this.isUp && this.editor.held && this.updatesPerSecond);
     classList.toggle('following', isFollowing);
     const isBehind = !isCurrent && !isFollowing;
@@ -398,9 +401,9 @@ class Live {
     else show(isBehind);
   }
 
-  // To the server.
+  // Requests to the server.
 
-  /** What an answer to what is asked now is about. */
+  /** Returns the state that an answer to a request made now is about. */
   get about() {
     return { edition: this.edition, shapes: new Set(this.scene.obstacles.map(({ shape }) => shape)) };
   }
@@ -422,13 +425,13 @@ class Live {
       this.scene.settle();
       this.keepEdits();
     }
-    // Whoever goes on has left a text or file that did not do.
+    // The user continues, so a text or file with errors is no longer relevant.
     for (const place of ['text', 'files']) this.notices.say(place, null);
     this.controls.follow();
     this.plan(final);
   }
 
-  /** Other options. */
+  /** Sets other options. */
   choose(words) {
     if (words === this.words) return;
     this.words = words;
@@ -437,7 +440,7 @@ class Live {
     this.plan(true);
   }
 
-  /** Keeps that far from obstacles, metres. */
+  /** Sets the clearance to keep, in metres. */
   keep(clearance) {
     this.scene.clearance = clearance;
     this.changed(true);
@@ -453,7 +456,7 @@ class Live {
     this.plan(true);
   }
 
-  /** Takes a text for the world; from a file or from the page. */
+  /** Loads a text as the world, from a file or from the page. */
   load(text, opened = false) {
     this.opened = opened;
     this.remark('');
@@ -465,7 +468,7 @@ class Live {
     this.mark();
   }
 
-  /** Back to what the program was started with: a step like any other, unless another text has been loaded. */
+  /** Returns to the program's initial world. This step can be undone, unless another text has been loaded. */
   reset() {
     this.remark('');
     if (this.world.toml !== this.first.toml) {

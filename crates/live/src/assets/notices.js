@@ -1,4 +1,5 @@
-// What is wrong, said where one looks: on the picture, beside the options, the text or the files; gone once it is cured.
+// Problems, shown where the user looks: on the picture, or beside the options, the text or the files. They disappear
+// when they are solved.
 'use strict';
 
 class Notices {
@@ -8,14 +9,14 @@ class Notices {
     this.places = Object.fromEntries(['picture', 'options', 'text', 'files'].map((name) => [name, alert(name)]));
   }
 
-  /** Says it at a place; nothing for nothing. */
+  /** Shows a text at a place; an empty one removes it. */
   say(place, text) {
     const notice = this.places[place];
     notice.hidden = !text;
     if (notice.textContent !== (text ?? '')) notice.textContent = text ?? '';
   }
 
-  /** Puts what is said of the picture over this panel. */
+  /** Moves the notice of the picture over this panel. */
   over(panel) {
     const figure = panel.canvas.parentElement;
     const { picture } = this.places;

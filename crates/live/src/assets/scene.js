@@ -1,12 +1,12 @@
-// What the page can change of a world: obstacles, start, goal, clearance; with a way back.
+// The editable parts of a world: obstacles, start, goal, clearance; with undo.
 'use strict';
 
-/** Places are kept to a tenth of a millimetre, angles to a ten-thousandth of a radian. */
+/** Rounds places to a tenth of a millimetre, angles to a ten-thousandth of a radian. */
 const rounded4 = (x) => Math.round(x * 1e4) / 1e4;
 const roundedPoint = (p) => p.map(rounded4);
 
 class Scene {
-  /** From the server's words. */
+  /** Creates the scene from the server's message. */
   constructor(world) {
     this.world = world;
     this.obstacles = world.obstacles.map(({ name, ...shape }, from) => ({ from, name, shape: Object.keys(shape).length ? shape : null }));
@@ -24,28 +24,28 @@ class Scene {
     return JSON.stringify({ obstacles, start, goal, clearance });
   }
 
-  /** What is to be kept of it. */
+  /** Returns the record to keep. */
   get record() {
     const { kept, past, future } = this;
     return { scene: kept, past, future };
   }
 
-  /** Takes up what was kept. */
+  /** Restores a record that was kept. */
   restore({ scene, past, future }) {
     Object.assign(this, { kept: scene, past, future }, JSON.parse(scene));
   }
 
-  /** Whether anything differs from the text. */
+  /** Returns true if anything differs from the text. */
   get isChanged() {
     return this.kept !== this.first;
   }
 
-  /** As the text has it. */
+  /** Returns to the state of the text. */
   reset() {
     Object.assign(this, JSON.parse(this.first));
   }
 
-  /** Takes note of what the user has stopped at. Whether it differs from what was there before. */
+  /** Adds the current state to the history. Returns true if it differs from the previous one. */
   settle() {
     const now = this.snapshot();
     if (now === this.kept) return false;
@@ -56,7 +56,7 @@ class Scene {
     return true;
   }
 
-  /** One step back, or forth. */
+  /** Goes one step back or forward. */
   turn(from, to) {
     if (!from.length) return false;
     to.push(this.kept);
@@ -73,13 +73,13 @@ class Scene {
     return this.turn(this.future, this.past);
   }
 
-  /** What the server is asked about. */
+  /** Returns the state in a request. */
   request() {
     const piece = ({ from, name, shape }) => ({ from, ...(from === null ? { name } : {}), ...(shape ?? {}) });
     return { obstacles: this.obstacles.map(piece), start: this.start, goal: this.goal, clearance: this.clearance };
   }
 
-  /** A name that no obstacle has. */
+  /** Returns a name that no obstacle has. */
   name(kind) {
     const taken = new Set(this.obstacles.map((obstacle) => obstacle.name));
     let number = 1;
@@ -96,7 +96,7 @@ class Scene {
 const Shapes = {
   corners: (shape) => shape?.polygon ?? shape?.polyline ?? null,
 
-  /** The shape moved as a whole. */
+  /** Returns the shape, moved as a whole. */
   moved(shape, by) {
     const move = ([x, y]) => roundedPoint([x + by[0], y + by[1]]);
     if (shape.circle) return { circle: { ...shape.circle, center: move(shape.circle.center) } };
@@ -104,12 +104,12 @@ const Shapes = {
     return { polyline: shape.polyline.map(move) };
   },
 
-  /** With corners in place of its own. */
+  /** Returns the shape with other corners. */
   cornered(shape, corners) {
     return shape.polygon ? { polygon: corners } : { polyline: corners };
   },
 
-  /** The sides, as pairs of numbers of corners. */
+  /** Returns the sides, as pairs of indices of corners. */
   sides(shape) {
     const n = Shapes.corners(shape).length;
     return Array.from({ length: shape.polygon ? n : n - 1 }, (_, i) => [i, (i + 1) % n]);
@@ -128,14 +128,14 @@ const Shapes = {
     return { distance: Math.hypot(px - ax - t * dx, py - ay - t * dy), at: [ax + t * dx, ay + t * dy] };
   },
 
-  /** The side nearest to a point. */
+  /** Returns the side nearest to a point. */
   nearestSide(shape, p) {
     const corners = Shapes.corners(shape);
     const sides = Shapes.sides(shape).map(([a, b]) => ({ after: a, ...Shapes.toSide(p, corners[a], corners[b]) }));
     return sides.reduce((best, side) => (side.distance < best.distance ? side : best));
   },
 
-  /** Whether a point is in the shape, or no farther from it than `near`. */
+  /** Returns true if a point is in the shape, or not farther from it than `near`. */
   holds(shape, p, near) {
     if (shape.circle) return Math.hypot(p[0] - shape.circle.center[0], p[1] - shape.circle.center[1]) <= shape.circle.radius + near;
     if (Shapes.nearestSide(shape, p).distance <= near) return true;
@@ -147,7 +147,7 @@ const Shapes = {
     return Shapes.sides(shape).reduce(odd, false);
   },
 
-  /** The shape as the contact tests have it, roughly: as its corners' pieces. */
+  /** Returns the shape for the contact tests, roughly: as pieces of its outline. */
   pieces(shape) {
     if (shape.circle) return [{ core: shape.circle.center, radius: shape.circle.radius }];
     const corners = Shapes.corners(shape);

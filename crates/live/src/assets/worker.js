@@ -1,12 +1,12 @@
-// The worker in which the page's own program runs: orders in, messages out. What takes too long ends the instance, and another one
-// goes on where it was.
+// The worker in which the page's own program runs: it receives orders and posts messages. Work that takes too long ends
+// the instance, and another one continues with the same state.
 'use strict';
 
-/** What is thrown where work is to stop. */
+/** Exception that stops work. */
 const STOPPED = Symbol('stopped');
 const FAULT = 'the planner failed on this world: that is an error of cplan\u2019s, and the page goes on';
 
-/** The module, the order that opens the world, the instance, and what the last panic said. */
+/** The module, the order that opens the world, the instance, and the message of the last panic. */
 const program = { module: null, open: null, exports: null, panic: null };
 
 function begin() {
@@ -26,7 +26,7 @@ function begin() {
   order(program.open);
 }
 
-/** A message to the page. Of a world the text is kept: another instance goes on with it. */
+/** Posts a message to the page. Keeps the text of a world, so that another instance can continue with it. */
 function tell(data) {
   if (data.startsWith('{"kind":"world"')) {
     const { base, toml, id } = JSON.parse(data);
@@ -44,7 +44,7 @@ function order(what) {
   program.exports.take();
 }
 
-/** Does what the page asks: as a whole, or what is left of it once the time for one part and another is up. */
+/** Handles a request of the page: completely, or, when the time for a plan or for everything is up, the rest of it. */
 function take(request) {
   let asked = request;
   for (const spent of ['nothing', 'plan', 'all']) {
@@ -61,7 +61,7 @@ function take(request) {
         return;
       }
     }
-    // The text is taken: what is left is its plan.
+    // The text has been loaded; its plan remains.
     if (request.do === 'load' && program.told === request.id) {
       asked = { do: 'plan', id: request.id, base: program.open.held.base, final: true, state: null, options: request.options };
     }

@@ -1,4 +1,5 @@
-//! The server: one page, its parts, and its WebSocket; nothing else, and to nobody who was led here by another page.
+//! The server: one page, its parts, and its WebSocket, and nothing else. It refuses requests that come from other
+//! pages.
 
 use super::{Server, socket};
 use axum::Router;
@@ -58,12 +59,12 @@ pub async fn serve(listener: TcpListener, server: Arc<Server>) {
         let stream = match listener.accept().await {
             Ok((stream, _)) => stream,
             Err(_) => {
-                // Too many open files, or a client that is gone already.
+                // Too many open files, or a client that has disconnected already.
                 tokio::time::sleep(Duration::from_millis(50)).await;
                 continue;
             }
         };
-        // Small messages to and fro: nothing is gained by waiting for more.
+        // Messages are small and go in both directions, so waiting for more data gains nothing.
         let _ = stream.set_nodelay(true);
         let service = TowerToHyperService::new(router.clone());
         tokio::spawn(async move {

@@ -8,7 +8,7 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 /// Requests that may wait at a time; of plans only the latest waits.
 const MOST_WAITING: usize = 8;
 
-/// Between the connection that puts requests in and the worker that takes them out.
+/// A mailbox between the connection that adds requests and the worker that takes them.
 #[derive(Default)]
 pub struct Mailbox {
     inside: Mutex<Inside>,
@@ -25,7 +25,7 @@ struct Inside {
 
 impl Mailbox {
     fn inside(&self) -> MutexGuard<'_, Inside> {
-        // A panic while it is held leaves nothing half done.
+        // A panic while the lock is held leaves the state consistent.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -47,7 +47,7 @@ impl Mailbox {
         true
     }
 
-    /// Waits for the next request, and says how it will be stopped; none once the box is closed.
+    /// Waits for the next request, and returns it with its interrupt; `None` once the mailbox is closed.
     pub fn take(&self) -> Option<(Request, Interrupt)> {
         let mut inside = self.inside();
         inside.running = None;
@@ -57,7 +57,7 @@ impl Mailbox {
             }
             if let Some(request) = inside.waiting.pop_front() {
                 let interrupt = Interrupt::new();
-                // What waits behind it is newer.
+                // There is a newer request already.
                 if !inside.waiting.is_empty() {
                     interrupt.set();
                 }

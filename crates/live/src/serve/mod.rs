@@ -50,7 +50,7 @@ pub fn run(listener: TcpListener, host: Host) -> std::io::Result<()> {
     served
 }
 
-/// Waits for Ctrl-C, or to be asked to end.
+/// Waits for Ctrl-C, or for a termination signal.
 async fn told_to_stop() -> std::io::Result<()> {
     #[cfg(unix)]
     {

@@ -37,7 +37,7 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
         let mailbox = Arc::clone(&mailbox);
         thread::Builder::new().name("planner".into()).stack_size(STACK).spawn(move || {
             work(&mailbox, host, &send);
-            // The next page may come when the work is over, not when the connection is.
+            // A new page may open when the work is finished, not when the connection is closed.
             drop(permit);
         })
     };
@@ -99,7 +99,7 @@ fn failed(id: u64, error: String) -> Message {
 
 /// Handles the page's requests in sequence until its mailbox is closed.
 fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
-    // A page that is gone closes the mailbox, too.
+    // The mailbox is also closed when the page is gone.
     let tell = |message: Message| drop(send.blocking_send(message));
     let mut desk = Desk::new(host);
     while let Some((request, interrupt)) = mailbox.take() {

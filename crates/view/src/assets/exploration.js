@@ -13,11 +13,11 @@ const count = data.frames.length;
 const size = data.map.size;
 const cells = size[0] * size[1];
 const occupied = new Set(data.occupied);
-// When a cell became known: -1 with the arm, the number of a reading, or never.
+// Reading with which a cell became known: -1 for the start of the arm, or `count + 1` for never.
 const since = new Int32Array(cells).fill(count + 1);
 data.surroundings.forEach((cell) => { since[cell] = -1; });
 data.frames.forEach((frame, k) => frame.new.forEach((cell) => { since[cell] = k; }));
-// After how many readings a configuration was free.
+// Number of readings after which a configuration was known to be free.
 const opened = new Int32Array(data.grid[0] * data.grid[1]).fill(count + 1);
 data.opened.forEach(([readings, list]) => list.forEach((cell) => { opened[cell] = readings; }));
 
@@ -59,7 +59,7 @@ const polygon = (context, points) => {
   context.closePath();
 };
 
-// A rounded convex polygon: filled, and its border drawn as broad as it is round.
+// Draws a rounded convex polygon: filled, with a border twice as wide as its radius.
 const rounded = (context, [points, radius], place, scale) => {
   const at = points.map(place);
   if (at.length === 1) {
@@ -94,7 +94,7 @@ const drawWorkspace = (at) => {
     if (since[index] > at) continue;
     const kind = occupied.has(index) ? 1 : since[index] === at ? 2 : 0;
     context.fillStyle = fills[kind];
-    // A hair more, lest seams show.
+    // Slightly larger, to hide seams.
     context.fillRect(x0 + (index % size[0]) * side, y0 + Math.floor(index / size[0]) * side, side + 0.5, side + 0.5);
   }
   context.globalAlpha = 0.35;
@@ -191,7 +191,7 @@ const known = new Array(count).fill(0);
 since.forEach((reading) => { if (reading <= count) known[Math.max(reading, 0)] += 1; });
 for (let k = 1; k < count; k += 1) known[k] += known[k - 1];
 
-// Where each decision was made on the way, and how long it took; empty unless that was asked for.
+// Place of each decision on the path, and its time; empty unless times were requested.
 const decisions = (data.decisions_ms || []).map((time, k) => {
   const reading = Math.max(data.opened[k + 1][0] - 1, 0);
   return [data.frames[reading].length, time];

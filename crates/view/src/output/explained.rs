@@ -1,4 +1,4 @@
-//! An explanation for people: in words, and as a picture.
+//! An explanation for people, in words and as a picture.
 
 use super::picture::{contours, title_of};
 use super::summary::{Line, configuration, goal_lines, laid_out};
@@ -11,10 +11,10 @@ use cplan_engine::explain::{
 };
 use cplan_text::{at_least, at_most, fixed, listed, nonzero, percent, short};
 
-/// How many times as long an explanation that was stopped is advised to take.
+/// Factor by which more time is suggested for an explanation that was stopped.
 const MORE_TIME: f64 = 12.0;
 
-/// The verdict first, then why.
+/// Returns the verdict, and then the reasons.
 #[must_use]
 pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
     let scene = explanation.question.scene();
@@ -30,7 +30,7 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
     format!("{}\n{}", title_of(scene), laid_out(&lines))
 }
 
-/// What pictures and pages of it show.
+/// Returns the content of its pictures and pages.
 #[must_use]
 pub fn view(explanation: &Explanation) -> View {
     let question = &explanation.question;
@@ -63,7 +63,7 @@ pub fn view(explanation: &Explanation) -> View {
     view
 }
 
-/// The answer in a sentence.
+/// Returns the answer in a sentence.
 fn verdict(explanation: &Explanation) -> String {
     let scene = explanation.question.scene();
     match &explanation.outcome {
@@ -81,7 +81,7 @@ fn verdict(explanation: &Explanation) -> String {
     }
 }
 
-/// That the time was up before all was looked at, and how to have more of it.
+/// Returns a note if the time was up too early, with the option for more time.
 fn stopped(explanation: &Explanation) -> Option<String> {
     let limit = explanation.question.time_limit().filter(|_| explanation.is_stopped)?.as_secs_f64();
     let more = short((MORE_TIME * limit).max(TIME_LIMIT.as_secs_f64()));
@@ -92,7 +92,7 @@ fn counted_makes(n: usize) -> String {
     if n == 1 { "one thing makes".into() } else { format!("{n} things each make") }
 }
 
-/// What there is to say, by name.
+/// Returns the facts, by name.
 fn facts(explanation: &Explanation) -> Vec<Line> {
     let scene = explanation.question.scene();
     match &explanation.outcome {
@@ -158,7 +158,7 @@ fn infeasible(scene: &Scene, closed: &Closed) -> Vec<Line> {
     lines
 }
 
-/// What is wrong with a start or goal, and the nearest that is not.
+/// Describes the defects of a start or goal, and the nearest free configuration.
 fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
     let arm = scene.arm();
     let key = if blocked.end == End::Start { "bad start" } else { "bad goal" };
@@ -178,7 +178,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
     lines
 }
 
-/// How far a tip goal is out of reach.
+/// Describes how far a tip goal is out of reach.
 fn misses(scene: &Scene, out: &OutOfReach) -> String {
     let OutOfReach { tip, nearest, at } = out;
     format!(
@@ -192,7 +192,7 @@ fn misses(scene: &Scene, out: &OutOfReach) -> String {
     )
 }
 
-/// A change in words.
+/// Describes a change.
 fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
     let Change { element, cure, among, by } = change;
     let (what, unit) = (element.describe(scene), element.unit(scene.arm()));
@@ -212,7 +212,7 @@ fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
     format!("{how} {open} {unit} opens a way (certified), by {shut} {unit} does not (proven){nothing_else}")
 }
 
-/// A bottleneck in words.
+/// Describes a bottleneck.
 fn stuck(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let clearance = scene.workspace().clearance;
     let lacking = bottleneck.lacking(clearance);

@@ -10,7 +10,7 @@ use cplan_motion::{Format, FormatError, WriteError, write_whole};
 use std::path::Path;
 use thiserror::Error;
 
-/// What a file of a plan holds.
+/// The content of a plan's file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileFormat {
     /// The result, or the motion alone.
@@ -21,34 +21,35 @@ pub enum FileFormat {
     Picture(PictureFormat),
 }
 
-/// Why a file is not written.
+/// The reason why a file is not written.
 #[derive(Debug, Error)]
 pub enum SaveError {
-    /// The extension is that of no picture that this program can draw.
+    /// The extension does not name a picture format of this program.
     #[error(transparent)]
     Picture(#[from] PictureFormatError),
-    /// The extension tells no format.
+    /// The extension does not name a format.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// The picture cannot be plan.
+    /// The picture cannot be made.
     #[error(transparent)]
     Draw(#[from] DrawError),
     /// The file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The format holds nothing but a trajectory, or a grid, and there is none.
+    /// The plan has no trajectory or grid, and the format contains nothing else.
     #[error("{file} is not written: there is no {content} to put into it")]
     Empty {
         /// The name as given.
         file: String,
-        /// What the format holds.
+        /// Content of the format.
         content: &'static str,
     },
 }
 
 impl FileFormat {
-    /// The format that a file's extension stands for: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.gif`, `.html` or `.geojson`; but
-    /// `cspace.json`, `cspace.csv` and what ends in `.cspace.json` or `.cspace.csv` is the configuration space.
+    /// Returns the format of a file's extension: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.gif`, `.html` or
+    /// `.geojson`. The names `cspace.json` and `cspace.csv`, and those that end in `.cspace.json` or `.cspace.csv`,
+    /// stand for the configuration space.
     ///
     /// # Errors
     /// Any other extension, and those that this build of the program does not have.
@@ -64,11 +65,11 @@ impl FileFormat {
     }
 }
 
-/// The plan as a file of this format holds it; none if the format holds nothing but a trajectory, or a grid, and there is none. All
-/// except MCAP, PNG and GIF are text in UTF-8.
+/// Returns the plan as a file of this format. Returns `None` if the format contains only a trajectory or a grid, and
+/// the plan has neither. All formats except MCAP, PNG and GIF are text in UTF-8.
 ///
 /// # Errors
-/// A picture that cannot be made of pixels.
+/// A picture that cannot be rendered.
 pub fn bytes(plan: &Plan, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
     match format {
         #[cfg(feature = "mcap")]
@@ -80,7 +81,8 @@ pub fn bytes(plan: &Plan, format: FileFormat) -> Result<Option<Vec<u8>>, DrawErr
     }
 }
 
-/// Writes the plan into a file, whole or not at all; the extension says what it holds, see [`FileFormat::from_path`].
+/// Writes the plan into a file, completely or not at all. The extension chooses the content, see
+/// [`FileFormat::from_path`].
 ///
 /// # Errors
 /// An unknown extension, a missing trajectory or grid, a picture that cannot be made, I/O.

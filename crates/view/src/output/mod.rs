@@ -35,11 +35,11 @@ pub trait PlanOutput {
     #[must_use]
     fn cspaces(&self) -> CSpaces;
 
-    /// Returns the plan as a file of this format, or nothing if the format holds only a trajectory or a grid, and the plan has neither.
-    /// All formats except MCAP, PNG and GIF are text in UTF-8.
+    /// Returns the plan as a file of this format, or `None` if the format holds only a trajectory or a grid, and the
+    /// plan has neither. All formats except MCAP, PNG and GIF are text in UTF-8.
     ///
     /// # Errors
-    /// A picture that cannot be made of pixels.
+    /// A picture that cannot be rendered.
     fn bytes(&self, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError>;
 
     /// Writes the plan into a file, whole or not at all. The extension chooses the format, see [`FileFormat::from_path`].
@@ -52,7 +52,7 @@ pub trait PlanOutput {
     #[must_use]
     fn view(&self) -> View;
 
-    /// Returns the same with a replay of the planner, for pictures and pages that play.
+    /// Returns the view with a replay of the planner, for pictures and pages that play.
     #[must_use]
     fn view_with_replay(&self) -> View;
 

@@ -10,7 +10,7 @@ use cplan_engine::{Answer, Bound, MotionPlan, Plan, Space, Timing, Verdict, Wait
 use cplan_motion::Fastest;
 use cplan_text::{at_least, counted, percent};
 
-/// What the planner found and did; start and goals.
+/// Returns the result, the planner's run, start and goals.
 pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
     let (scene, arm) = (plan.problem.scene(), whole.arm());
     let moving = match scene.workspace().movers.len() {
@@ -71,7 +71,7 @@ fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
     lines
 }
 
-/// How many cells there are, if they are not those that were asked for.
+/// Returns the number of cells, if it differs from the requested one.
 fn cells(whole: &Plan, answer: &Answer) -> Option<Line> {
     let Space::Grid(grid) = &answer.space else { return None };
     let asked = whole.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
@@ -79,7 +79,7 @@ fn cells(whole: &Plan, answer: &Answer) -> Option<Line> {
     Some(("cells", format!("{used}: {asked} show no certified path")))
 }
 
-/// What became of the attempt among exact polygons.
+/// Describes the result of the attempt among exact polygons.
 fn exact(whole: &Plan, answer: &Answer) -> Option<Line> {
     let Space::Regions(_) = &answer.space else { return None };
     let is_found = matches!(answer.verdict, Verdict::Found(_));
@@ -97,13 +97,14 @@ fn exact(whole: &Plan, answer: &Answer) -> Option<Line> {
     })
 }
 
-/// Boxes that are looked at for each decision on what is in the way: what takes more is left to `cplan explain`.
+/// Number of boxes that are examined for each decision about blocking obstacles. `cplan explain` does what takes more.
 const BOXES: usize = 500;
 
-/// Among more pairs of shapes the decisions may take seconds.
+/// Largest number of pairs of shapes; with more of them, the decisions can take seconds.
 const FEW_PAIRS: usize = 1000;
 
-/// What is in the way, if there is no motion and that is soon told: some milliseconds. `cplan explain` has more to say.
+/// Returns the blocking obstacles if there is no motion, and if finding them takes only some milliseconds. `cplan
+/// explain` reports more.
 pub(super) fn blocked_by(plan: &MotionPlan) -> Option<Line> {
     let (proof, scene) = (plan.answer.verdict.proof()?, plan.problem.scene());
     let is_small = scene.pairs().len() <= FEW_PAIRS;
@@ -112,7 +113,7 @@ pub(super) fn blocked_by(plan: &MotionPlan) -> Option<Line> {
     Some(("blocked by", told.unwrap_or_else(|| "what `cplan explain` tells".into())))
 }
 
-/// What the motion keeps, and where it comes nearest.
+/// Describes the clearance of the motion, and the nearest place.
 fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
     match curve.nearest() {
         Some(nearest) => format!(
@@ -125,7 +126,7 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
     }
 }
 
-/// How the motion gets by what moves.
+/// Describes how the motion avoids moving obstacles.
 pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
     let Timing { obstacles, ways, waits, clearance, free_until } = timing;
     let kept = clearance
@@ -142,7 +143,7 @@ pub(super) fn among_movers(arm: &Arm, timing: &Timing) -> Vec<Line> {
     lines
 }
 
-/// What becomes of the path's corners, if it has any.
+/// Describes the treatment of the path's corners, if it has any.
 fn corners(curve: &CertifiedCurve) -> String {
     let radii = curve.radii();
     let corners = radii.len().saturating_sub(2);
@@ -157,14 +158,14 @@ fn corners(curve: &CertifiedCurve) -> String {
     }
 }
 
-/// How near the motion is to the fastest.
+/// Describes how near the motion is to the fastest.
 fn least_time(fastest: &Fastest) -> String {
     let Fastest { lower_bound, gap, .. } = *fastest;
     let longer = gap.map_or_else(String::new, |gap| format!(", so at most {} longer than the fastest", percent(gap)));
     format!("proven: no motion takes less than {} s{longer}", at_least(lower_bound, 3))
 }
 
-/// How near the path is to the optimum.
+/// Describes how near the path is to the optimum.
 fn optimum(bound: &Bound) -> String {
     let Bound { metric, lower, upper } = *bound;
     let measure = match metric {

@@ -17,23 +17,23 @@ pub enum PictureFormat {
     /// Pixels.
     #[cfg(feature = "png")]
     Png,
-    /// Pixels in motion.
+    /// Animated pixels.
     #[cfg(feature = "png")]
     Gif,
     /// A page with both spaces, in which the arm can be moved.
     Html,
 }
 
-/// Why a file's name does not tell a format of pictures.
+/// The reason why a file's name does not name a picture format.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PictureFormatError {
-    /// The extension is none of ours.
+    /// The extension is unknown.
     #[error("{file}: a picture's name must end in .svg, .png, .gif or .html")]
     Unknown {
         /// The name as given.
         file: String,
     },
-    /// The format is one that this build of the program does not have.
+    /// This build of the program does not have the format.
     #[error("{file}: this program was built without pixels (feature png); use .svg or .html")]
     WithoutPng {
         /// The name as given.
@@ -49,11 +49,11 @@ const PNG_SCALE: f64 = 2.0;
 #[cfg(feature = "png")]
 const GIF_WIDTH: f64 = 960.0;
 
-/// Share of the arm's reach by which contours of C-obstacles may deviate in pictures: less than a pixel.
+/// Largest deviation of C-obstacle contours in pictures, as a fraction of the arm's reach: less than a pixel.
 pub(super) const PICTURE_TOLERANCE: f64 = 1e-3;
 
 impl PictureFormat {
-    /// The format that a picture's extension stands for; upper and lower case are the same.
+    /// Returns the format of a picture's extension, in upper or lower case.
     ///
     /// # Errors
     /// Any other extension than `.svg`, `.png`, `.gif` and `.html`, and `.png` and `.gif` without the feature `png`.
@@ -73,7 +73,7 @@ impl PictureFormat {
         }
     }
 
-    /// Whether it has time, so that it can show how the planner came to its answer: then the view is better one with a replay
+    /// Returns true if the format can show how the planner found its answer. A view for it should have a replay
     /// (`PlanOutput::view_with_replay`).
     #[must_use]
     pub fn plays(self) -> bool {
@@ -87,18 +87,19 @@ impl PictureFormat {
         }
     }
 
-    /// The file's content.
+    /// Returns the file's content.
     ///
     /// # Errors
-    /// A picture that cannot be plan of pixels.
+    /// A picture that cannot be rendered.
     pub fn bytes(self, view: &View) -> Result<Vec<u8>, DrawError> {
         self.bytes_with(view, &mut |_, _| ())
     }
 
-    /// The same; `progress` hears how many of how many pictures of a picture in motion are done.
+    /// Returns the file's content. `progress` receives the number of finished pictures of an animation, and the number
+    /// of all.
     ///
     /// # Errors
-    /// As [`PictureFormat::bytes`].
+    /// Same as for [`PictureFormat::bytes`].
     #[cfg_attr(not(feature = "png"), expect(unused_variables, reason = "nothing moves without pixels"))]
     pub fn bytes_with(self, view: &View, progress: &mut dyn FnMut(usize, usize)) -> Result<Vec<u8>, DrawError> {
         match self {
@@ -108,10 +109,10 @@ impl PictureFormat {
         }
     }
 
-    /// The same of anything that can be an SVG document and a page; as a GIF it is a single picture.
+    /// Returns the file's content for anything that can be an SVG document and a page; as a GIF it is a single picture.
     ///
     /// # Errors
-    /// A picture that cannot be plan of pixels.
+    /// A picture that cannot be rendered.
     pub fn bytes_of(self, svg: impl FnOnce() -> String, page: impl FnOnce() -> String) -> Result<Vec<u8>, DrawError> {
         Ok(match self {
             Self::Svg => svg().into_bytes(),
@@ -124,25 +125,25 @@ impl PictureFormat {
     }
 }
 
-/// What pictures and pages of it show.
+/// Returns the content of its pictures and pages.
 #[must_use]
 pub fn view(plan: &Plan) -> View {
     view_with(plan, contours_of(plan.options()))
 }
 
-/// The same with how the planner came to its answer, for pictures and pages that play.
+/// Returns the view with a replay of the planner, for pictures and pages that play.
 #[must_use]
 pub fn view_with_replay(plan: &Plan) -> View {
     replayed(plan, view(plan))
 }
 
-/// A view of it with how the planner came to its answer.
+/// Adds a replay of the planner to a view.
 pub fn replayed(plan: &Plan, view: View) -> View {
     let view = if let Some(replay) = plan.replay() { view.with_replay(&replay) } else { view };
     if let Some(replay) = plan.task_replay() { view.with_task_replay(&replay) } else { view }
 }
 
-/// The same where somebody knows the contours of the C-obstacles of single motions.
+/// Returns the view with contours from `contours`, which returns the C-obstacles of single motions.
 #[must_use]
 pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -> View {
     match plan.made() {
@@ -181,7 +182,7 @@ fn motion_view(plan: &Plan, made: &MotionPlan, contours: &[CObstacle]) -> View {
     })
 }
 
-/// What a picture of a task shows.
+/// Returns the content of the picture of a task.
 fn task_picture<'a>(plan: &'a Plan, made: &'a TaskPlan) -> TaskPicture<'a> {
     let (TaskPlan { task, answer }, report) = (made, plan.report());
     let steps = counted(answer.legs.len(), "step");
@@ -205,7 +206,7 @@ fn task_picture<'a>(plan: &'a Plan, made: &'a TaskPlan) -> TaskPicture<'a> {
     }
 }
 
-/// A verdict in a word or two.
+/// Returns a verdict in a word or two.
 #[must_use]
 pub fn status(verdict: &Verdict) -> &'static str {
     match verdict {
@@ -215,12 +216,12 @@ pub fn status(verdict: &Verdict) -> &'static str {
     }
 }
 
-/// How far from obstacles a motion is known to stay.
+/// Describes the proven distance of a motion from obstacles.
 fn kept(clearance: Option<f64>) -> String {
     clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {} m", at_least(c, 6)))
 }
 
-/// Workspace and robot, as a title.
+/// Returns a title from workspace and robot.
 #[must_use]
 pub fn title_of(scene: &Scene) -> String {
     match scene.workspace().name.as_str() {
@@ -229,10 +230,10 @@ pub fn title_of(scene: &Scene) -> String {
     }
 }
 
-/// Times of a motion at which C-obstacles of what moves are drawn, at the most.
+/// Largest number of times of a motion at which C-obstacles of moving obstacles are drawn.
 const MOST_MOMENTS: usize = 60;
 
-/// C-obstacles of what moves, some times a second, so many at the most.
+/// Returns C-obstacles of moving obstacles, some times per second, at most at this many times.
 fn contours_in_time(scene: &Scene, [from, to]: [f64; 2], most: usize) -> Moments {
     if scene.workspace().movers.is_empty() {
         return Vec::new();
@@ -250,17 +251,17 @@ fn contours_in_time(scene: &Scene, [from, to]: [f64; 2], most: usize) -> Moments
     (0..=count as usize).map(|k| moment(k as f64)).collect()
 }
 
-/// How the C-obstacles of a plan are traced for its pictures.
+/// Returns the function that traces the C-obstacles of a plan for its pictures.
 fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
     if options.planner.is_exact() { exact_contours } else { contours }
 }
 
-/// Exact C-obstacles for pictures, where the arm has any.
+/// Returns exact C-obstacles for pictures, if the arm has any.
 fn exact_contours(scene: &Scene) -> Vec<CObstacle> {
     exact_c_obstacles(scene).map_or_else(|| contours(scene), |(exact, _)| exact)
 }
 
-/// C-obstacles for pictures.
+/// Returns C-obstacles for pictures.
 #[must_use]
 pub fn contours(scene: &Scene) -> Vec<CObstacle> {
     let tolerance = PICTURE_TOLERANCE * scene.arm().reach();

@@ -1,4 +1,4 @@
-//! What a recording of a plan shows: the arm's links, obstacles and objects, and where they are when.
+//! The scene of a recording: the arm's links, obstacles and objects, and their places over time.
 
 use crate::color::{GREY, INK, Rgb, obstacle as obstacle_color};
 use cplan_core::model::{Arm, Mover, Obstacle, Part, Workspace};
@@ -8,11 +8,11 @@ use cplan_engine::{Kind, Plan, TaskPlan};
 use cplan_geometry::Pose;
 use cplan_motion::{Body, Solid, Stage};
 
-/// Numbers of bodies: the workspace, both links, then objects.
+/// Number of the first link (`LINKS`) and of the first object (`OBJECTS`) among the bodies. The workspace has number 0.
 const LINKS: usize = 1;
 const OBJECTS: usize = 3;
 
-/// What there is to see while the motion runs; none where there is no motion.
+/// Returns the bodies and their poses during the motion; `None` if there is no motion.
 pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     let (arm, report) = (plan.arm(), plan.report());
     let trajectory = report.trajectory.as_ref()?;
@@ -27,7 +27,7 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
         size: arm.reach(),
     };
     for (number, link) in arm.links.iter().enumerate() {
-        // A payload is a body of its own.
+        // A payload is a separate body.
         let parts = match plan.made() {
             Kind::Motion(made) => made.problem.scene().own_parts(number),
             Kind::Task(_) => &link.parts,
@@ -50,7 +50,7 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     Some(stage)
 }
 
-/// What moves, at each of these times.
+/// Adds moving obstacles, with a pose for each of these times.
 fn with_movers(stage: &mut Stage, workspace: &Workspace, times: &[f64]) {
     for (number, Mover { obstacle, course }) in workspace.movers.iter().enumerate() {
         let solid = lying((workspace.obstacles.len() + number, obstacle));
@@ -60,7 +60,7 @@ fn with_movers(stage: &mut Stage, workspace: &Workspace, times: &[f64]) {
     }
 }
 
-/// Objects lie, or move as is told at these times, are carried, and lie again.
+/// Adds objects: they lie or move at these times, are carried, and lie again.
 fn with_objects(stage: &mut Stage, arm: &Arm, plan: &TaskPlan, times: &[f64]) {
     let TaskPlan { task, answer } = plan;
     for (number, object) in task.objects.iter().enumerate() {

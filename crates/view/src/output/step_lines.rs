@@ -1,25 +1,25 @@
-//! A line a step, for people.
+//! The steps of a task for people, one line per step.
 
 use cplan_text::{INDENT, counted, wrapped};
 
-/// Characters of a line: as many as fit a terminal of 80 beside the summary's first column.
+/// Width of a line in characters, so that it fits a terminal of 80 beside the summary's first column.
 const WIDTH: usize = 80 - INDENT;
 
-/// Repetitions of a step that are shown; of the others only how many there are.
+/// Number of repetitions of a step that are shown; of the others only the number is shown.
 const SHOWN_CYCLES: usize = 3;
 
 /// A step of a task, for people.
 pub struct StepLine {
     /// Number of the repetition, from 1.
     pub cycle: usize,
-    /// True if it is shown in late repetitions, too.
+    /// True if the step is also shown in late repetitions.
     pub matters: bool,
-    /// Its line in four columns.
+    /// The line in four columns.
     pub columns: [String; 4],
 }
 
-/// The lines; runs of later cycles in one each. Where a table of all columns is too wide, what is carried and the motion stand below what
-/// is done.
+/// Returns the lines, with one line for each run of later cycles. If a table of all columns is too wide, payload and
+/// motion are in the line below the action.
 pub fn step_lines(steps: &[StepLine]) -> Vec<String> {
     let shown = |step: &StepLine| step.matters || step.cycle <= SHOWN_CYCLES;
     let width = |k: usize| {

@@ -1,4 +1,4 @@
-//! The summary for people.
+//! The summary of a plan for people.
 
 use super::{motion_summary, task_summary};
 use cplan_core::model::{Arm, Joint};
@@ -8,13 +8,13 @@ use cplan_motion::Trajectory;
 use cplan_text::{Columns, first_lines};
 use std::time::Duration;
 
-/// Both joints' values by name.
+/// Returns the values of both joints by name.
 pub fn configuration(arm: &Arm, q: Configuration) -> String {
     let [a, b] = &arm.joints;
     format!("{} {}, {} {}", a.name, a.shown(q[0]), b.name, b.shown(q[1]))
 }
 
-/// Both joints' values along a segment by name: of a joint that moves all along it, from where to where.
+/// Returns the values of both joints along a segment by name; for a joint that moves along it, both ends.
 pub fn segment(arm: &Arm, segment: &Segment) -> String {
     let [from, to] = segment.ends();
     let shown = |k: usize| {
@@ -27,13 +27,13 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
     format!("{}, {}", shown(0), shown(1))
 }
 
-/// A line for each goal, as long as they are few.
+/// Returns a line for each goal, if there are only a few.
 pub(super) fn goal_lines(arm: &Arm, goals: &GoalSet) -> Vec<Line> {
     let lines = goals.pieces().iter().map(|goal| segment(arm, goal)).collect();
     first_lines(lines, |more| format!("and {more} more")).into_iter().map(|line| ("goal", line)).collect()
 }
 
-/// A joint's range.
+/// Returns the range of a joint.
 pub fn range(joint: &Joint) -> String {
     match joint.range {
         JointRange::Circle => "continuous".into(),
@@ -41,8 +41,8 @@ pub fn range(joint: &Joint) -> String {
     }
 }
 
-/// The result in some ten lines for people, the verdict first, with the files that were written and the stages, in milliseconds, that came after planning; and, if that is asked
-/// for, how the robot was read.
+/// Returns the result in some ten lines for people, the verdict first. It includes the written files, and the stages
+/// after planning in milliseconds. On request, it also describes how the robot was read.
 #[must_use]
 pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
     let Told { found: mut lines, asked } = told(plan);
@@ -62,7 +62,7 @@ pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Durat
     laid_out(&lines)
 }
 
-/// What a page says of it: outcome and arm.
+/// Returns the facts for a page: outcome and arm.
 pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
     let lines = told(plan).found.into_iter().chain(arm_lines(plan.arm()));
     lines.map(|(key, text)| [key.to_owned(), text]).collect()
@@ -75,25 +75,25 @@ fn told(plan: &Plan) -> Told {
     }
 }
 
-/// Lines that a single motion and a task have for themselves.
+/// The lines of a summary that are specific to a single motion or a task.
 pub(super) struct Told {
-    /// What was found, which a page says, too: the verdict first.
+    /// Lines about the result, which a page shows, too: the verdict first.
     pub found: Vec<Line>,
-    /// What was asked.
+    /// Lines about the problem.
     pub asked: Vec<Line>,
 }
 
-/// A line of the summary: its key, empty if it goes on with what the line before is about, and its text.
+/// A line of the summary: its key, empty if the line continues the one before, and its text.
 pub type Line = (&'static str, String);
 
-/// The arm and its joints.
+/// Describes the arm and its joints.
 fn arm_lines(arm: &Arm) -> Vec<Line> {
     let mut lines = vec![("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name))];
     let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits);
     for (k, joint) in arm.joints.iter().enumerate() {
         let unit = joint.unit();
         let mut speeds = format!("at most {} {unit}/s", joint.velocity);
-        // What takes the place of an acceleration is no wish of anybody's.
+        // An assumed acceleration was not chosen by the user.
         if dynamics.is_none_or(|dynamics| !dynamics.assumed[k]) {
             speeds += &format!(", {} {unit}/s2", joint.acceleration);
         }
@@ -104,7 +104,7 @@ fn arm_lines(arm: &Arm) -> Vec<Line> {
     lines
 }
 
-/// The greatest torques of a motion that keeps within the joints' efforts.
+/// Describes the greatest torques of a motion that keeps within the joints' efforts.
 pub(super) fn torque(arm: &Arm, trajectory: &Trajectory) -> Option<Line> {
     let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;
     let joint = |k: usize| {
@@ -115,19 +115,19 @@ pub(super) fn torque(arm: &Arm, trajectory: &Trajectory) -> Option<Line> {
     Some(("torque", format!("at most {}, {}", joint(0), joint(1))))
 }
 
-/// The field that was asked for.
+/// Describes the requested field.
 pub(super) fn field(options: &Options) -> Option<Line> {
     options.planner.field().map(|field| ("field", field.to_string()))
 }
 
-/// Lines in two columns.
+/// Returns lines in two columns.
 pub fn laid_out(lines: &[Line]) -> String {
     let mut columns = Columns::default();
     lines.iter().for_each(|(key, line)| columns.add(key, line));
     columns.into_text()
 }
 
-/// A title, or words for none.
+/// Returns a title, or a text for an empty one.
 pub(super) fn non_empty(name: &str) -> &str {
     if name.is_empty() { "(no name)" } else { name }
 }

@@ -8,7 +8,7 @@ use cplan_engine::task::{Leg, TaskAnswer};
 use cplan_engine::{Plan, Report, TaskPlan};
 use cplan_text::{at_least, counted, nonzero, percent};
 
-/// What came of the steps; start and steps.
+/// Returns the result of the steps, and start and steps.
 pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
     let (TaskPlan { task, answer }, report) = (plan, whole.report());
     let moving = match (task.workspace.movers.len(), task.moving_at_first().count()) {
@@ -30,14 +30,14 @@ pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
     Told { found, asked }
 }
 
-/// A line a step, those of later cycles in one.
+/// Returns one line per step, with later cycles merged.
 fn steps(task: &Task, answer: &TaskAnswer) -> Vec<String> {
     let repeated = answer.legs.iter().any(|leg| leg.step.cycle > 1);
     let line = |leg: &Leg| StepLine { cycle: leg.step.cycle, matters: false, columns: row(task, leg, repeated) };
     step_lines(&answer.legs.iter().map(line).collect::<Vec<_>>())
 }
 
-/// Number, action, what is carried, and the motion of a step.
+/// Returns number, action, payload and motion of a step.
 fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
     let objects = &task.objects;
     let cycle = if repeated { format!(" (cycle {})", leg.step.cycle) } else { String::new() };
@@ -52,7 +52,7 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
     [number, leg.step.action.describe(objects), carried, format!("{seconds:.3} s{turn}, {clearance}")]
 }
 
-/// The verdict, and what is proven of the time, or why it fails.
+/// Returns the verdict, and the proven bound on the time or the reasons of a failure.
 fn outcome(arm: &Arm, answer: &TaskAnswer, report: &Report) -> Vec<Line> {
     let count = counted(answer.legs.len(), "step");
     let figures = report.task.as_ref();
@@ -89,13 +89,13 @@ fn outcome(arm: &Arm, answer: &TaskAnswer, report: &Report) -> Vec<Line> {
     lines
 }
 
-/// What is kept all the time, and in which step it comes nearest.
+/// Returns the clearance of the whole task, and the step in which it is least.
 fn clearance(answer: &TaskAnswer, report: &Report) -> Option<Line> {
     report.trajectory.as_ref()?;
     let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
     let (step, cycle) = (least.step.number, least.step.cycle);
     let cycle = if cycle > 1 { format!(" of cycle {cycle}") } else { String::new() };
-    // Pictures count steps as they are done.
+    // Pictures number steps in the order of their execution.
     let is_in_order = answer.legs.is_sorted_by_key(|leg| (leg.step.cycle, leg.step.number));
     let file = if is_in_order { "" } else { " of the file" };
     let curve = &least.timed.curve;

@@ -1,4 +1,4 @@
-//! The arm: enough of it to put it into any configuration.
+//! The arm in the document: all data needed to place it in any configuration.
 
 use super::numbers::{Grain, ShapeView};
 use crate::{chart, workspace};
@@ -8,21 +8,21 @@ use serde::{Serialize, Serializer};
 #[derive(Serialize)]
 struct JointView<'a> {
     name: &'a str,
-    /// `rad` or `m`.
+    /// Unit: `rad` or `m`.
     unit: &'static str,
-    /// +1 or -1 of one that turns.
+    /// Sign of a revolute joint: +1 or -1.
     #[serde(skip_serializing_if = "Option::is_none")]
     sign: Option<f64>,
-    /// Direction of one that slides.
+    /// Direction of a prismatic joint.
     #[serde(skip_serializing_if = "Option::is_none")]
     direction: Option<[f64; 2]>,
-    /// Least and greatest value shown.
+    /// Least and greatest value that is shown.
     domain: [f64; 2],
-    /// Whether the ends of the domain are one.
+    /// True if both ends of the domain are the same value.
     circle: bool,
     velocity: f64,
     acceleration: f64,
-    /// The effort, where motions keep within it.
+    /// Effort limit, if motions keep within it.
     #[serde(skip_serializing_if = "Option::is_none")]
     torque: Option<f64>,
 }
@@ -40,25 +40,25 @@ struct PartView<'a> {
     shape: ShapeView,
 }
 
-/// See [`Arm`] for the kinematics.
+/// The arm in the document; see [`Arm`] for the kinematics.
 #[derive(Serialize)]
 struct ArmView<'a> {
     name: &'a str,
     kind: &'static str,
     joints: [JointView<'a>; 2],
-    /// Whether both axes of the configuration space have one scale.
+    /// True if both axes of the configuration space have the same scale.
     one_scale: bool,
     links: [LinkView<'a>; 2],
     base: [f64; 2],
     offset: [f64; 2],
     tip: [f64; 2],
-    /// What the tip can never leave.
+    /// Region that the tip can never leave.
     reach: ShapeView,
     /// Names of the plane's coordinates.
     plane: [String; 2],
 }
 
-/// A scene's arm, empty-handed.
+/// Returns a scene's arm without its payload.
 #[must_use]
 pub fn empty_handed(scene: &Scene, grain: Grain) -> Arm {
     let mut arm = scene.arm().clone();
@@ -69,7 +69,7 @@ pub fn empty_handed(scene: &Scene, grain: Grain) -> Arm {
     arm
 }
 
-/// What a page has to know of an arm.
+/// Serialises an arm for pages.
 pub fn document<'a, S: Serializer>(arm: &'a Arm, serializer: S) -> Result<S::Ok, S::Error> {
     let link = |k: usize| {
         let part = |part: &'a Part| PartView { body: &part.body, shape: ShapeView(part.shape.clone()) };
@@ -90,7 +90,7 @@ pub fn document<'a, S: Serializer>(arm: &'a Arm, serializer: S) -> Result<S::Ok,
     document.serialize(serializer)
 }
 
-/// Unrounded: what comes of these numbers is multiplied and added up.
+/// Returns a joint for pages. Its numbers are not rounded, because pages multiply and add them.
 fn joint(arm: &Arm, k: usize) -> JointView<'_> {
     let joint = &arm.joints[k];
     let (sign, direction) = match joint.joint_type {

@@ -1,17 +1,18 @@
-//! What of the workspace is shown.
+//! The visible part of the workspace.
 
 use crate::axes::Range;
 use cplan_core::model::Scene;
 use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point, Pose};
 
-/// Configurations along each axis from which the extent of the arm's motion is read.
+/// Number of samples along each axis from which the extent of the arm's motion is taken.
 const SAMPLES: usize = 17;
 
-/// Least and greatest coordinates of all that the arm can sweep, and of the obstacles what is not much farther away.
+/// Returns least and greatest coordinates of everything that the arm can sweep, and of the obstacles that are not much
+/// farther away.
 #[must_use]
 pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
-    /// Part of the swept extent up to which the panel grows for the sake of obstacles.
+    /// Fraction of the swept extent by which the panel may grow to include obstacles.
     const NEARBY: f64 = 0.25;
     const MARGIN: f64 = 0.04;
     let swept = swept(scene, shown);
@@ -27,7 +28,7 @@ pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     sides.map(|(lower, upper)| (lower - MARGIN * size, upper + MARGIN * size))
 }
 
-/// The box around the arm in a sample of its configurations, which are dense enough for a picture.
+/// Returns the box around the arm in a sample of its configurations, dense enough for a picture.
 fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     let arm = scene.arm();
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
@@ -57,7 +58,7 @@ fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     bounds
 }
 
-/// The box around shapes; turned inside out if there are none.
+/// Returns the box around shapes; turned inside out for an empty list.
 #[must_use]
 pub fn around<'a>(shapes: impl IntoIterator<Item = &'a Convex>) -> [Range; 2] {
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];

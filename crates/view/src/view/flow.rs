@@ -1,24 +1,24 @@
-//! Lines of steepest ascent through a field, from places all over it.
+//! Lines of steepest ascent through a field, from starting points all over it.
 
 use super::isolines::Samples;
 use cplan_core::space::Topology;
 
-/// Places along each axis from which lines begin.
+/// Number of starting points along each axis.
 const BEGINNINGS: usize = 16;
 /// Length of a step, in cells.
 const STEP: f64 = 0.5;
-/// The least one: on a ridge long steps lead down its other side, short ones along it.
+/// Length of the shortest step, in cells. On a ridge, long steps lead down its other side; short ones follow it.
 const SHORT_STEP: f64 = 0.03;
-/// Steps of a line at the most, in widths of the grid: lines that wind for longer add nothing to see.
+/// Greatest length of a line, in widths of the grid. Lines that wind for longer add nothing to the picture.
 const WIDTHS: f64 = 4.0;
-/// Every so many steps a point of the line is kept.
+/// One of this many points of a line is kept.
 const KEPT: usize = 4;
 
 /// A point in units of cells.
 type Spot = [f64; 2];
 
-/// Lines of steepest ascent, as polylines; they end at the goal, at a local maximum, or where there is no value. On a
-/// circle they may leave the domain by less than a cell; there they end, for the seam to be visible.
+/// Returns lines of steepest ascent as polylines. They end at the goal, at a local maximum, or at a place without a
+/// value. On a circle they may leave the domain by less than a cell; they end there, so that the seam stays visible.
 #[must_use]
 pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     let size = [samples.x.len(), samples.y.len()];
@@ -37,7 +37,7 @@ pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     lines.filter(|line| line.len() > 2).map(|line| line.into_iter().map(clamp).collect()).collect()
 }
 
-/// First and last place along each axis at which there are values; none where there are none.
+/// Returns the first and the last index along each axis with a value; `None` if there are no values.
 fn extent(samples: &Samples) -> Option<[[usize; 2]; 2]> {
     let columns = samples.y.len();
     let known = || samples.values.iter().enumerate().filter(|(_, value)| value.is_finite()).map(|(at, _)| at);
@@ -57,7 +57,7 @@ fn line(samples: &Samples, begin: Spot) -> Vec<[f64; 2]> {
         if taken % KEPT == 0 {
             points.push(place(samples, at));
         }
-        // On a plateau or at the top no step leads up.
+        // On a plateau or at a maximum, no step leads up.
         let Some(next) = (loop {
             let middle = [0, 1].map(|k| at[k] + length / 2.0 * direction[k]);
             let along = slope(samples, middle).map_or(direction, |(_, middle)| middle);
@@ -76,7 +76,8 @@ fn line(samples: &Samples, begin: Spot) -> Vec<[f64; 2]> {
     points
 }
 
-/// Value and direction of ascent of the bilinear interpolation; none outside, at walls and where the field is flat.
+/// Returns value and direction of ascent of the bilinear interpolation; `None` outside, at obstacles, and where the
+/// field is flat.
 fn slope(samples: &Samples, at: Spot) -> Option<(f64, Spot)> {
     let [(i, u), (j, v)] = [(at[0], samples.x.len()), (at[1], samples.y.len())].map(|(x, n)| {
         let below = x.floor().clamp(0.0, (n - 2) as f64);
@@ -95,7 +96,7 @@ fn slope(samples: &Samples, at: Spot) -> Option<(f64, Spot)> {
     (length > 0.0).then(|| (here, along.map(|x| x / length)))
 }
 
-/// Coordinates of a spot.
+/// Returns the coordinates of a spot.
 fn place(samples: &Samples, at: Spot) -> [f64; 2] {
     let along = |axis: &[f64], x: f64| {
         let below = (x.floor().max(0.0) as usize).min(axis.len() - 2);
@@ -119,7 +120,7 @@ mod tests {
         Samples { x: axis.clone(), y: axis, values }
     }
 
-    /// Towards a peak, lines are rays: the angle about it stays what it is.
+    /// Near a maximum, the lines are rays: the angle about the maximum stays constant.
     #[test]
     fn lines_run_straight_to_a_peak() {
         let peak = [0.3, -0.2];

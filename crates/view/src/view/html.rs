@@ -1,4 +1,4 @@
-//! The file around a view.
+//! The HTML file around a view.
 
 use super::View;
 use crate::color::TINTS;
@@ -6,7 +6,7 @@ use cplan_text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
 
-/// What draws a view, in the order in which one part needs the other.
+/// Code that draws a view. Each part needs only the parts before it.
 const CODE: [&str; 11] = [
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
@@ -21,40 +21,41 @@ const CODE: [&str; 11] = [
     include_str!("assets/view.js"),
 ];
 
-/// What shows the view that lies in the page.
+/// Code that shows the view in the page.
 const PLAN: &str = include_str!("assets/plan.js");
 
-/// The colours of pictures, as the style's variables; it has others for the dark.
+/// Returns the colours of pictures as variables of the style sheet, which has other colours for dark mode.
 fn colors() -> String {
     let variables: String = TINTS.iter().map(|(name, color)| format!(" --{name}: {color};")).collect();
     format!(":root {{{variables} }}\n")
 }
 
-/// The view as one self-contained file of HTML.
+/// Returns the view as one self-contained HTML file.
 #[must_use]
 pub fn page(view: &View) -> String {
     let title = view.title.first().map_or("cplan", String::as_str);
     sealed(title, "", "view", &view.json(), &(drawing() + PLAN))
 }
 
-/// What draws a view: code that a page's own may follow.
+/// Returns the code that draws a view; a page's own code can follow it.
 #[must_use]
 pub fn drawing() -> String {
     CODE.concat()
 }
 
-/// A self-contained page, which loads nothing, and may not: `json` stands in the element `id`, where `code` finds it.
+/// Returns a self-contained page that loads nothing, and is not allowed to. `json` is in the element `id`, where `code`
+/// finds it.
 #[must_use]
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
     let policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
-    // Within a script only the less-than sign could end it.
+    // Within a script, only the less-than sign could end it.
     let data = json.replace('<', "\\u003c");
     shell(title, &policy, style, &format!("<script id=\"{id}\" type=\"application/json\">{data}</script>\n"), code)
 }
 
-/// A page that its code draws within `main`: its title, what else stands in its head, styles of its own, what stands before the
-/// code, and the code.
+/// Returns a page that its code draws within `main`. The arguments are its title, further elements of its head, its own
+/// styles, the elements before the code, and the code.
 #[must_use]
 pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
     let title = markup(title);

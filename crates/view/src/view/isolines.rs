@@ -9,7 +9,7 @@ pub struct Samples {
     pub x: Vec<f64>,
     /// Second coordinates, ascending.
     pub y: Vec<f64>,
-    /// Values, all of the first `x` first; not finite where there is none.
+    /// Values, ordered by `x` and then by `y`; not finite where the field has no value.
     pub values: Vec<f64>,
 }
 
@@ -18,9 +18,9 @@ impl Samples {
         self.values[i * self.y.len() + j]
     }
 
-    /// The polylines on which the linearly interpolated values equal `level` (marching squares: Lorensen and Cline
-    /// 1987 in two dimensions). A closed line ends where it begins. Squares with a corner without value hold none.
-    /// `O(n log n)` in the squares.
+    /// Returns the polylines on which the linearly interpolated values equal `level` (marching squares: Lorensen and
+    /// Cline 1987, in two dimensions). A closed line ends at its first point. Squares with a corner without value
+    /// contain no line. `O(n log n)` in the squares.
     #[must_use]
     pub fn isolines(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let mut next: BTreeMap<Side, Vec<Side>> = BTreeMap::new();
@@ -33,7 +33,7 @@ impl Samples {
             }
         }
         let mut lines = Vec::new();
-        // Open lines first, from an end; what is left then are loops.
+        // Open lines first, each from an end. The remaining lines are then loops.
         let ends: Vec<Side> = next.iter().filter(|(_, to)| to.len() == 1).map(|(side, _)| *side).collect();
         for begin in ends {
             lines.extend(self.walk(begin, &mut next, level));
@@ -45,7 +45,7 @@ impl Samples {
         lines
     }
 
-    /// Follows a line from `begin` to its end, and takes it away.
+    /// Follows a line from `begin` to its end, and removes it from `next`.
     fn walk(&self, begin: Side, next: &mut BTreeMap<Side, Vec<Side>>, level: f64) -> Option<Vec<[f64; 2]>> {
         let mut line = vec![self.crossing(begin, level)];
         let mut at = begin;
@@ -61,7 +61,8 @@ impl Samples {
         (line.len() > 1).then_some(line)
     }
 
-    /// The sides of square `(i, j)` that the line joins. In a saddle the mean decides which corners belong together.
+    /// Returns pairs of sides of square `(i, j)` that the line connects. In a saddle, the mean decides which corners
+    /// belong together.
     fn crossings(&self, i: usize, j: usize, level: f64) -> Vec<(Side, Side)> {
         let corners = [self.value(i, j), self.value(i + 1, j), self.value(i + 1, j + 1), self.value(i, j + 1)];
         if !corners.iter().all(|v| v.is_finite()) {
@@ -88,7 +89,7 @@ impl Samples {
     }
 }
 
-/// The side of a square that leaves crossing `(i, j)` upwards, or to the right.
+/// A side of a square that starts at crossing `(i, j)`: upwards if the third value is true, otherwise to the right.
 type Side = (usize, usize, bool);
 
 #[cfg(test)]
@@ -133,7 +134,7 @@ mod tests {
         assert!(Samples { x: vec![], y: vec![], values: vec![] }.isolines(0.0).is_empty());
     }
 
-    /// Each side that the level crosses is visited once by all lines together (twice at the seam of a loop).
+    /// All lines together visit each side that the level crosses once (twice at the seam of a loop).
     #[test]
     fn every_crossing_is_used_once() {
         let field = samples(40, |x, y| (5.0 * x).sin() * (7.0 * y).cos() + 0.3 * x);

@@ -1,14 +1,15 @@
-//! What there is to see, decided once: pictures and pages render the same view.
+//! The content of pictures and pages, determined once: both render the same view.
 //!
 //! ```text
 //! Picture, TaskPicture -> View -> Figure -> SVG -> PNG
 //!                             \-> JSON -> page
 //! ```
 //!
-//! A [`View`] holds what happens and where: the arm, the worlds that it moves in (one for a plan, one for each payload
-//! state of a task) with their C-obstacles, paths with their colours, and the motions in time; numbers and names, rounded to
-//! what can be seen. In pages kinematics, contacts and layers are the page's work, so that whoever holds it can put the arm
-//! anywhere. A page is one file that needs no network; the same view is the same file, byte for byte.
+//! A [`View`] contains the arm, the worlds that it moves in with their C-obstacles, paths with their colours, and the
+//! motions in time. There is one world for a single motion, and one for each payload state of a task. Numbers are
+//! rounded to visible precision. In pages, the page's code computes kinematics, contacts and layers, so that a user can
+//! place the arm anywhere. A page is one file that needs no network. The same view always gives the same file, byte for
+//! byte.
 
 mod arm;
 mod extent;
@@ -53,49 +54,51 @@ use cplan_engine::Reach;
 use motion::{Clock, MotionView};
 use serde::{Serialize, Serializer};
 
-/// How what is shown ended, for colours and symbols; `shown` where nothing was asked for: a comparison, a configuration.
+/// Serialises the outcome for colours and symbols; `shown` if there was no task, as for a comparison or a
+/// configuration.
 fn ending<S: Serializer>(status: &Option<Status>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(status.map_or("shown", Status::name))
 }
 
-/// What a picture or a page shows. Lengths in metres, angles in radians, times in seconds, rounded to what can be seen.
+/// The content of a picture or a page. Lengths in metres, angles in radians, times in seconds, rounded to visible
+/// precision.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct View {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
-    /// How it ended, in a word or two.
+    /// Outcome in a word or two.
     pub status: String,
-    /// The same for colours and symbols.
+    /// Outcome for colours and symbols.
     #[serde(serialize_with = "ending")]
     pub ending: Option<Status>,
-    /// What is to be said of the result: names and values, such as `length` and `4.4963 rad`.
+    /// Facts about the result: names and values, such as `length` and `4.4963 rad`.
     pub facts: Vec<[String; 2]>,
-    /// Empty-handed.
+    /// Arm without payload.
     #[serde(serialize_with = "arm::document")]
     pub(super) arm: Arm,
-    /// What of the workspace is shown: least and greatest of both coordinates.
+    /// Visible part of the workspace: least and greatest value of both coordinates.
     pub(super) frame: [[f64; 2]; 2],
     pub(super) start: [f64; 2],
     pub(super) goals: Vec<[f64; 2]>,
     /// Goals along segments: both ends of each.
     pub(super) goal_lines: Vec<Chain>,
-    /// The first is the one that is there at first.
+    /// Worlds; the first one is the initial world.
     pub(super) worlds: Vec<WorldView>,
     pub(super) paths: Vec<PathView>,
     motions: Vec<MotionView>,
     clock: Option<Clock>,
     pub(super) frames: Vec<FrameView>,
-    /// How the planner came to its answer: phases, one after the other.
+    /// Phases of the planner's run, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) replay: Vec<PhaseView>,
-    /// The same of a task's motions.
+    /// Replays of the planner for the motions of a task.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     replays: Vec<MotionReplayView>,
     #[serde(skip)]
     pub(super) still: Still,
 }
 
-/// A view, what its signs mean, what is in the way of the motion that is not there, and where the tip can get.
+/// The document of a page: a view, its legend, the blocking obstacles, and the reachable places.
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
@@ -115,75 +118,75 @@ pub(super) struct FrameView {
     pub axes: [[f64; 3]; 3],
 }
 
-/// What pictures show side by side, and pages one after the other: these have time.
+/// Content that pictures show side by side. Pages show it one after the other, because they have time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Still {
-    /// None of an arm alone.
+    /// Panels with configuration spaces; empty for an arm alone.
     pub panels: Vec<PanelView>,
-    /// What is drawn of a field.
+    /// The kinds of lines that are drawn of a field.
     pub field_lines: FieldLines,
-    /// Objects where they are put, each place once.
+    /// Objects at the places where the task puts them, each place once.
     pub placed: Vec<ObstacleView>,
-    /// Where the tip can get.
+    /// Reachable places of the tip.
     pub reach: Option<Reach>,
-    /// Where the arm is now, and in which world, while it moves.
+    /// Current configuration and world of the arm, while it moves.
     pub now: Option<([f64; 2], usize)>,
-    /// What time it is then, seconds.
+    /// Current time, in seconds.
     pub time: f64,
-    /// What is in the way.
+    /// Blocking obstacles.
     pub stuck: Option<Stuck>,
-    /// Where the arm is in the end, and in which world.
+    /// Final configuration and world of the arm.
     pub end: Option<([f64; 2], usize)>,
-    /// The steps of a task, below what the columns are called; none of single motions.
+    /// Steps of a task, below the titles of the columns; empty for a single motion.
     pub steps: Vec<Row>,
 }
 
-/// A configuration space, and what takes place in it.
+/// A panel with a configuration space.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PanelView {
-    /// The text above it.
+    /// Text above the panel.
     pub title: String,
-    /// These differ in what link 2 may reach into alone.
+    /// Worlds of the panel. They differ only in the obstacles that link 2 may reach into.
     pub worlds: Vec<usize>,
-    /// Those that are drawn; those that are repeated once.
+    /// Paths that are drawn; repeated paths only once.
     pub paths: Vec<usize>,
-    /// Where the arm is at first.
+    /// Initial configuration of the arm.
     pub start: [f64; 2],
     /// The step that fails here, if one does.
     pub fails: Option<usize>,
 }
 
 impl View {
-    /// Whether it is that of a task, whose steps have numbers.
+    /// Returns true if the view shows a task, whose steps have numbers.
     pub(super) fn is_task(&self) -> bool {
         !self.still.steps.is_empty()
     }
 
-    /// What the planner saw on its way to each motion of a task, as far as that is told.
+    /// Returns the planner's trace of each motion of a task, as far as the document contains them.
     pub(super) fn traces_of_steps(&self) -> impl Iterator<Item = &TraceView> {
         self.replays.iter().filter_map(|replay| replay.trace.as_ref())
     }
 
-    /// The same with these lines of a field in pictures; pages show and hide each kind.
+    /// Selects the lines of a field in pictures; pages can show and hide each kind.
     #[must_use]
     pub fn with_field_lines(mut self, lines: FieldLines) -> Self {
         self.still.field_lines = lines;
         self
     }
 
-    /// The same with the places that the tip can get to.
+    /// Adds the reachable places of the tip.
     #[must_use]
     pub fn with_reach(mut self, reach: &Reach) -> Self {
         self.still.reach = Some(reach.clone());
         self
     }
 
-    /// How long the motion takes, seconds; none where nothing moves.
+    /// Returns the duration of the motion in seconds; `None` if nothing moves.
     pub(super) fn duration(&self) -> Option<f64> {
         self.clock.as_ref().map(Clock::duration)
     }
 
-    /// The same with the arm where it is at this time of the motion.
+    /// Returns this view with the arm at this time of the motion.
     pub(super) fn moving(&self, time: f64) -> Self {
         let mut view = self.clone();
         let world =
@@ -193,30 +196,31 @@ impl View {
         view
     }
 
-    /// The world that is there at first, or now.
+    /// Returns the current world; without a motion, the initial one.
     pub(super) fn world_now(&self) -> &WorldView {
         &self.worlds[self.still.now.map_or(0, |(_, world)| world)]
     }
 
-    /// The same with what is in the way of a motion, and where it gets stuck.
+    /// Adds the blocking obstacles of a motion, and the configuration where it gets stuck.
     #[must_use]
     pub fn with_stuck(mut self, stuck: Stuck) -> Self {
         self.still.stuck = Some(stuck);
         self
     }
 
-    /// The world that is there at first.
+    /// Returns the initial world.
     pub(super) fn first_world(&self) -> &WorldView {
         &self.worlds[0]
     }
 
-    /// Configurations that were to be reached and are not, each with its world.
+    /// Returns configurations that should be reached and are not, each with its world.
     pub(super) fn unreached(&self) -> impl Iterator<Item = (usize, Configuration)> {
         let worlds = self.worlds.iter().enumerate();
         worlds.flat_map(|(index, world)| world.unreached.iter().map(move |&q| (index, q.into())))
     }
 
-    /// Where motions end in a panel or were to, the number of the step, and whether one ends there (or none was found).
+    /// Returns the goals of the motions in a panel, with the number of the step. The flag is true if a motion ends
+    /// there (or if no path was found).
     pub(super) fn ends(&self, panel: &PanelView) -> Vec<(Configuration, usize, bool)> {
         let paths = panel.paths.iter().map(|&index| &self.paths[index]).filter(|path| !path.grows);
         let is_alone = paths.clone().next().is_none();
@@ -226,7 +230,7 @@ impl View {
         goals.chain(unreached).chain(paths.map(|path| (path.goal(), path.step, true))).collect()
     }
 
-    /// The document that the page's code reads.
+    /// Returns the document that the page's code reads.
     ///
     /// # Panics
     /// Never: all keys are strings.

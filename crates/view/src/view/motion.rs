@@ -7,9 +7,9 @@ use cplan_core::space::{Configuration, Path};
 use cplan_motion::Trajectory;
 use serde::Serialize;
 
-/// Poses shown between the ends of a path.
+/// Number of poses shown between the ends of a path.
 const GHOSTS: usize = 5;
-/// Width of a line that is looked at, and of one that is not, pixels.
+/// Width of a highlighted line, and of another line (`THIN`), in pixels.
 const WIDE: f64 = 2.4;
 const THIN: f64 = 1.6;
 
@@ -18,21 +18,21 @@ const THIN: f64 = 1.6;
 pub struct PathView {
     pub name: String,
     pub world: usize,
-    /// Colour, unless it is drawn in ink.
+    /// Colour; `None` for ink.
     #[serde(skip_serializing_if = "Option::is_none")]
     color: Option<Rgb>,
-    /// Pixels.
+    /// Width of the line, in pixels.
     width: f64,
     /// Lengths of dashes and gaps in turn.
     dash: &'static [f64],
     /// Unwrapped configurations.
     pub points: Chain,
-    /// Configurations that divide it into equal parts.
+    /// Configurations that divide the path into equal parts.
     pub ghosts: Chain,
-    /// The number of the step that it is in a task.
+    /// Number of the step in a task.
     #[serde(skip_serializing_if = "is_none")]
     pub step: usize,
-    /// Whether it is being drawn, and does not end where it does as yet.
+    /// True while the path is being drawn and does not end at its goal yet.
     #[serde(skip)]
     pub grows: bool,
 }
@@ -42,7 +42,7 @@ fn is_none(step: &usize) -> bool {
 }
 
 impl PathView {
-    /// Path `index` out of `count`: a single one is drawn in ink.
+    /// Creates path `index` out of `count`: a single one is drawn in ink.
     pub fn of_several(name: &str, path: &Path, [index, count]: [usize; 2], grain: Grain) -> Self {
         let (color, dash) = color::path(index);
         let (color, dash) = if count > 1 { (Some(color), dash) } else { (None, &[][..]) };
@@ -59,46 +59,46 @@ impl PathView {
         }
     }
 
-    /// The path of a step, in the colour of what is carried.
+    /// Creates the path of a step, in the colour of the payload.
     pub fn of_step(name: String, path: &Path, world: usize, step: usize, carried: Option<Rgb>, grain: Grain) -> Self {
         let color = carried.map(|color| color.darker(0.25));
         let width = if carried.is_some() { WIDE } else { THIN };
         Self { name, world, color, width, step, ..Self::of_several("", path, [0, 1], grain) }
     }
 
-    /// The same line along other configurations, without poses between its ends, while it is being drawn.
+    /// Returns this line along other configurations, without poses between its ends, while it is being drawn.
     pub fn along(&self, points: Chain) -> Self {
         Self { points, ghosts: Chain::default(), grows: true, ..self.clone() }
     }
 
-    /// Another way than this path's, in grey beside it.
+    /// Returns a second path in grey beside this one.
     pub fn beside(&self, points: Chain) -> Self {
         Self { name: "before it is pulled taut".to_owned(), color: Some(GREY), width: THIN, ..self.along(points) }
     }
 
-    /// How it is drawn.
+    /// Returns the pen of the path.
     pub fn pen(&self) -> Pen {
         let ink = if self.width < WIDE { INK.lighter(0.3) } else { INK };
         Pen { color: self.color.unwrap_or(ink), width: self.width, dash: self.dash }
     }
 
-    /// Whether something is carried along it.
+    /// Returns true if the arm carries a payload along the path.
     pub fn is_colored(&self) -> bool {
         self.color.is_some()
     }
 
-    /// Where it begins.
+    /// Returns the first configuration.
     pub fn start(&self) -> Configuration {
         self.points.0[0]
     }
 
-    /// Where it ends.
+    /// Returns the last configuration.
     pub fn goal(&self) -> Configuration {
         self.points.0[self.points.0.len() - 1]
     }
 }
 
-/// Configurations that divide the path into `count + 1` equal parts.
+/// Returns configurations that divide the path into `count + 1` equal parts.
 fn between(path: &Path, count: usize) -> Vec<Configuration> {
     let total = path.length();
     let mut wanted = (1..=count).map(|k| total * k as f64 / (count + 1) as f64).peekable();
@@ -117,46 +117,47 @@ fn between(path: &Path, count: usize) -> Vec<Configuration> {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotionView {
     pub world: usize,
-    /// Which of the paths it follows; none of a world in which nothing moves any more.
+    /// Number of the path; `None` for a final world without a motion.
     pub path: Option<usize>,
-    /// When its world begins to be that which is there, seconds.
+    /// Time from which its world is the current one, in seconds.
     pub from: f64,
-    /// What it does, in words.
+    /// Description of the motion.
     pub label: String,
-    /// How the planner came to it: which of the replays.
+    /// Number of the planner's replay for this motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<usize>,
 }
 
 impl MotionView {
-    /// The only motion of a plan.
+    /// Returns the only motion of a plan.
     pub fn only(duration: f64) -> Self {
         Self { world: 0, path: Some(0), from: 0.0, label: format!("{duration:.3} s"), replay: None }
     }
 }
 
-/// Where the arm is at which time.
+/// The arm's configuration as a function of time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Clock {
     time: Vec<f64>,
-    /// Of both joints; radians or metres.
+    /// Position of both joints, in radians or metres.
     position: Chain,
-    /// The same a second.
+    /// Velocity of both joints, in rad/s or m/s.
     velocity: Chain,
-    /// The same a second squared, at the beginning of the interval that begins here.
+    /// Acceleration of both joints in the interval that begins at the sample, in rad/s² or m/s².
     acceleration: Chain,
-    /// Torques or forces likewise, where they are known.
+    /// Torque or force of both joints in that interval, if known.
     #[serde(skip_serializing_if = "Option::is_none")]
     torque: Option<Chain>,
 }
 
 impl Clock {
-    /// The end of the motion, seconds.
+    /// Returns the end of the motion, in seconds.
     pub fn duration(&self) -> f64 {
         self.time.last().copied().unwrap_or(0.0)
     }
 
-    /// Where the arm is at a time: between two samples on the straight line, which no one can tell from the curve.
+    /// Returns the configuration at a time. It interpolates linearly between two samples, a difference that nobody can
+    /// see.
     pub fn at(&self, time: f64) -> Configuration {
         let positions = &self.position.0;
         if let [only] = positions[..] {

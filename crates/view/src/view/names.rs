@@ -1,4 +1,4 @@
-//! Where the names of C-obstacles stand.
+//! Places for the names of C-obstacles.
 
 use super::numbers::{Grain, number};
 use super::world::ContourView;
@@ -8,11 +8,12 @@ use cplan_core::space::Configuration;
 use cplan_geometry::{Point, pole_of_inaccessibility};
 use serde::Serialize;
 
-/// Of more obstacles than this nobody could tell whose the names are.
+/// Largest number of obstacles with names. With more of them, nobody could assign the names.
 const MOST: usize = 100;
-/// Names are about so many times as wide as they are high, and stand where that leaves most room.
+/// Ratio of width to height of a typical name; the place with the most room depends on it.
 const WIDE: f64 = 2.5;
-/// How exactly the places are found, and what of the outlines may be left out for that, as parts of an axis.
+/// Precision of the places, and the detail of outlines (`COARSE`) that may be ignored for this, as fractions of an
+/// axis.
 const PRECISION: f64 = 0.004;
 const COARSE: f64 = 0.005;
 
@@ -21,11 +22,11 @@ const COARSE: f64 = 0.005;
 pub struct NameView {
     pub obstacle: usize,
     pub at: [f64; 2],
-    /// Of the part that is named, as a part of all that is shown.
+    /// Area of the named part, as a fraction of the visible area.
     pub area: f64,
 }
 
-/// A place for each obstacle that has a C-obstacle: in the largest part of it that is shown, farthest from its outline.
+/// Returns a place for each obstacle that has a C-obstacle: in its largest visible part, farthest from the outline.
 pub fn places(arm: &Arm, count: usize, contours: &[ContourView], grain: Grain) -> Vec<NameView> {
     if count > MOST {
         return Vec::new();
@@ -50,13 +51,13 @@ pub fn places(arm: &Arm, count: usize, contours: &[ContourView], grain: Grain) -
     (0..count).filter_map(place).collect()
 }
 
-/// A configuration as parts of both axes.
+/// Scales a configuration to fractions of both axes.
 fn unit(q: Configuration, window: &Window) -> Point {
     let part = |k: usize| (q[k] - window.ranges[k].0) / (window.ranges[k].1 - window.ranges[k].0);
     Point::new(part(0), part(1))
 }
 
-/// What of a polygon lies in the unit square (Sutherland and Hodgman 1974).
+/// Returns the part of a polygon in the unit square (Sutherland and Hodgman 1974).
 fn clipped(corners: impl Iterator<Item = Point>) -> Vec<Point> {
     let mut corners: Vec<Point> = corners.collect();
     for (k, limit, side) in [(0, 0.0, 1.0), (0, 1.0, -1.0), (1, 0.0, 1.0), (1, 1.0, -1.0)] {
@@ -77,7 +78,7 @@ fn clipped(corners: impl Iterator<Item = Point>) -> Vec<Point> {
     corners
 }
 
-/// The same outline without corners that hardly differ from the one before.
+/// Returns the outline without corners that hardly differ from the one before.
 fn coarsened(corners: Vec<Point>) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::new();
     for corner in corners {

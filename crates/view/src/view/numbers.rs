@@ -1,5 +1,4 @@
-//! Numbers with as many digits as can be seen, and how they stand in a document: lists of places as one coordinate after the
-//! other.
+//! Numbers rounded to visible precision, and their form in a document: a list of places is a flat list of coordinates.
 
 use crate::color::Rgb;
 use cplan_core::model::{Arm, Shape};
@@ -8,34 +7,35 @@ use cplan_geometry::{Convex, Point};
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
-/// Digits of a length behind the first one of the arm's reach: a hundredth of a pixel at the size of a screen.
+/// Number of digits of a length after the first digit of the arm's reach: a hundredth of a pixel at the size of a
+/// screen.
 const DIGITS: i32 = 5;
 
-/// What values are rounded to: powers of ten, given by how many of them make 1, so that rounding leaves short decimals.
+/// Steps of rounding. Each is a power of ten, stored as its reciprocal, so that rounding leaves short decimals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grain {
     lengths: f64,
     joints: [f64; 2],
 }
 
-/// A number rounded to `1 / grains`, without a negative zero.
+/// Rounds a number to a multiple of `1 / grains`, without a negative zero.
 fn rounded(value: f64, grains: f64) -> f64 {
     (value * grains).round() / grains + 0.0
 }
 
-/// Grains for values of this size.
+/// Returns the grains for values of this size.
 fn grains(size: f64) -> f64 {
     10_f64.powi((DIGITS - size.log10().floor() as i32).clamp(-12, 15))
 }
 
-/// An angle or another number of the order of 1.
+/// Rounds an angle or another number of the order of 1.
 #[must_use]
 pub fn number(value: f64) -> f64 {
     rounded(value, grains(1.0))
 }
 
 impl Grain {
-    /// That of an arm: its reach for lengths, a radian or the stroke for joints.
+    /// Returns the grain of an arm: from its reach for lengths, and from a radian or the stroke for joints.
     #[must_use]
     pub fn of(arm: &Arm) -> Self {
         let stroke = |k: usize| arm.joints[k].range.extent().max(f64::MIN_POSITIVE);
@@ -43,37 +43,37 @@ impl Grain {
         Self { lengths: grains(arm.reach()), joints }
     }
 
-    /// That of what lies within a box of this size, where there is no arm.
+    /// Returns the grain for content within a box of this size, if there is no arm.
     #[must_use]
     pub fn within(size: f64) -> Self {
         Self { lengths: grains(size), joints: [grains(1.0); 2] }
     }
 
-    /// A length or coordinate.
+    /// Rounds a length or coordinate.
     #[must_use]
     pub fn length(self, value: f64) -> f64 {
         rounded(value, self.lengths)
     }
 
-    /// A point of the plane.
+    /// Rounds a point of the plane.
     #[must_use]
     pub fn point(self, p: Point) -> Point {
         p.map(|x| self.length(x))
     }
 
-    /// Points of the plane.
+    /// Rounds points of the plane.
     #[must_use]
     pub fn points(self, points: &[Point]) -> Vec<Point> {
         points.iter().map(|&p| self.point(p)).collect()
     }
 
-    /// A rounded convex polygon.
+    /// Rounds a rounded convex polygon.
     #[must_use]
     pub fn shape(self, shape: &Convex) -> ShapeView {
         ShapeView(shape.mapped(|corner| self.point(corner), self.length(shape.radius())))
     }
 
-    /// A shape as the user gave it.
+    /// Rounds a shape of the world file.
     #[must_use]
     pub fn outline(self, shape: &Shape) -> Shape {
         match shape {
@@ -86,30 +86,30 @@ impl Grain {
         }
     }
 
-    /// A configuration, or speeds or accelerations of both joints.
+    /// Rounds a configuration, or speeds or accelerations of both joints.
     #[must_use]
     pub fn configuration(self, q: Configuration) -> [f64; 2] {
         [rounded(q[0], self.joints[0]), rounded(q[1], self.joints[1])]
     }
 
-    /// Several of them.
+    /// Rounds several configurations.
     #[must_use]
     pub fn configurations<'a>(self, all: impl IntoIterator<Item = &'a Configuration>) -> Chain {
         Chain(all.into_iter().map(|&q| self.configuration(q).into()).collect())
     }
 }
 
-/// Configurations or places, which make a line, a polygon, or pairs.
+/// Configurations or places that form a line, a polygon, or pairs.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chain(pub Vec<Configuration>);
 
 impl Chain {
-    /// Whether there is nothing in it.
+    /// Returns true if the chain is empty.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Two by two: boxes, or ends of lines.
+    /// Returns the items in pairs: boxes, or ends of lines.
     pub fn pairs(&self) -> impl Iterator<Item = [Configuration; 2]> + '_ {
         self.0.chunks_exact(2).map(|pair| [pair[0], pair[1]])
     }
@@ -134,7 +134,7 @@ impl Serialize for ShapeView {
     }
 }
 
-/// The shape that the user gave, by its kind; the union of the pieces is a word.
+/// Serialises a shape of the world file by its kind; the union of the pieces is a word.
 pub fn outline<S: Serializer>(shape: &Shape, serializer: S) -> Result<S::Ok, S::Error> {
     const NAME: &str = "Outline";
     match shape {

@@ -1,4 +1,4 @@
-//! One motion, several to compare, or none: what there is to show of a scene.
+//! The content of a picture of a scene: with one motion, with several to compare, or with none.
 
 use super::arm;
 use super::motion::{Clock, MotionView, PathView};
@@ -15,52 +15,53 @@ use cplan_geometry::Point;
 use cplan_motion::Trajectory;
 use nalgebra::Vector3;
 
-/// What there is to show of a scene. With one path, the path of a plan with the arm's poses along it; with several, a
-/// comparison that tells the paths apart by colour and dashes; with none, the problem alone.
+/// The content of a picture of a scene. With one path, it shows a plan with the arm's poses along its path. With
+/// several, it compares paths in different colours and dashes. With none, it shows only the problem.
 #[derive(Debug, Clone)]
 pub struct Picture<'a> {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
-    /// How it ended, in a word or two.
+    /// Outcome in a word or two.
     pub status: String,
-    /// The same for colours and symbols; none where nothing was asked for.
+    /// Outcome for colours and symbols; `None` if there was no task.
     pub ending: Option<Status>,
-    /// What is to be said of the result: names and values.
+    /// Facts about the result: names and values.
     pub facts: Vec<[String; 2]>,
     /// Arm and obstacles.
     pub scene: &'a Scene,
-    /// Where the arm begins.
+    /// Start configuration.
     pub start: Configuration,
-    /// Where it may end: single configurations and segments. Without a path the arm is shown at the first, on a segment where
-    /// it is nearest to the start.
+    /// Goals: single configurations and segments. Without a path, the arm is shown at the first goal; on a segment,
+    /// where it is nearest to the start.
     pub goals: &'a [Segment],
     /// Names and paths, in unwrapped values.
     pub paths: Vec<(String, &'a Path)>,
     /// The motion along the only path.
     pub trajectory: Option<&'a Trajectory>,
-    /// What the planner saw.
+    /// The planner's trace.
     pub trace: Option<&'a Trace>,
-    /// The proof that there is no path, if that is the answer.
+    /// Proof of infeasibility, if that is the answer.
     pub proof: Option<&'a CheckedProof>,
-    /// Contours in joint space.
+    /// Contours of the C-obstacles in joint space.
     pub c_obstacles: &'a [CObstacle],
-    /// Those of what moves at some times, seconds, ascending; by its number among what moves.
+    /// C-obstacles of moving obstacles at some times, in seconds, ascending; each with the number of its moving
+    /// obstacle.
     pub moments: &'a [(f64, Vec<CObstacle>)],
 }
 
 /// A frame, drawn by its axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxesFrame {
-    /// Written beside it.
+    /// Text beside the frame.
     pub name: String,
-    /// Origin, plane coordinates.
+    /// Origin, in plane coordinates.
     pub at: Point,
-    /// Directions of x, y and z: their parts along the plane's two coordinates and along its normal.
+    /// Directions of x, y and z: their components along the plane's two coordinates and along its normal.
     pub axes: [Vector3<f64>; 3],
 }
 
 impl<'a> Picture<'a> {
-    /// A scene with the arm at `start`, and nothing else.
+    /// Creates a picture with the arm at `start`, and nothing else.
     #[must_use]
     pub fn new(scene: &'a Scene, start: Configuration) -> Self {
         Self {
@@ -80,7 +81,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// The single goals, and where no path shows how a segment of them is reached its place nearest to the start.
+    /// Returns the single goals. Without a path, it also returns the place nearest to the start on each segment.
     fn single_goals(&self) -> Vec<Configuration> {
         let shown = self.goals.iter().filter(|goal| goal.is_point() || self.paths.is_empty());
         shown.map(|goal| goal.nearest(Measure::from(Metric::Euclidean), self.start)).collect()
@@ -88,7 +89,7 @@ impl<'a> Picture<'a> {
 }
 
 impl View {
-    /// The view of a picture.
+    /// Returns the view of a picture.
     #[must_use]
     pub fn of_picture(picture: &Picture) -> Self {
         let Picture { scene, start, .. } = *picture;
@@ -137,7 +138,7 @@ impl View {
         }
     }
 
-    /// The view of an arm in one configuration with frames, without its configuration space.
+    /// Returns the view of an arm in one configuration with frames, without its configuration space.
     #[must_use]
     pub fn of_arm(picture: &Picture, frames: &[AxesFrame]) -> Self {
         let grain = Grain::of(picture.scene.arm());

@@ -1,4 +1,4 @@
-//! How the planner came to its answer, to be played.
+//! The replay: animated phases of the planner's run.
 
 use super::numbers::{Chain, Grain};
 use super::trace::{ScaleView, TraceView};
@@ -9,23 +9,25 @@ use cplan_engine::task::TaskReplay;
 use cplan_engine::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 use serde::Serialize;
 
-/// A phase takes this long at least and at most, and so long for the square root of its events; seconds.
+/// Shortest and longest time of a phase, in seconds; in between, `A_ROOT` times the square root of the number of its
+/// events.
 const SECONDS: [f64; 2] = [1.2, 2.2];
 const A_ROOT: f64 = 0.1;
 
-/// All phases together take this long at most, seconds: what takes longer nobody watches.
+/// Longest time of all phases together, in seconds. Nobody would watch a longer replay.
 const MOST: f64 = 6.0;
 
-/// A page holds so much of how a task's motions came about, bytes; motions beyond go without.
+/// Largest size of the replays for a task's motions in a page, in bytes. Later motions have none.
 const MOST_BYTES: usize = 200_000;
 
-/// So many boxes of slabs at most, of all motions of a task together.
+/// Largest number of slab boxes, for all motions of a task together.
 const MOST_BOXES: usize = 5_000;
 
-/// Boxes narrower than this share of a joint's range are left out where there are too many: the first share that will do.
+/// If there are too many boxes, those narrower than this fraction of a joint's range disappear. The first fraction
+/// that suffices is used.
 const NARROW: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
 
-/// How the planner came to a motion of a task, and what it saw.
+/// The planner's replay and trace for a motion of a task.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotionReplayView {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -35,19 +37,19 @@ pub struct MotionReplayView {
     pub phases: Vec<PhaseView>,
 }
 
-/// A phase of a run; without data of its own it shows a part of the trace.
+/// A phase of a run. Without data of its own, it shows a part of the trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhaseView {
     pub caption: String,
-    /// How many things are shown, one after the other.
+    /// Number of events that are shown one after the other.
     pub events: usize,
-    /// How long it takes to show them.
+    /// Time to show them, in seconds.
     pub seconds: f64,
     #[serde(flatten)]
     pub shows: ShowsView,
 }
 
-/// What a phase shows: see [`Shows`].
+/// Content of a phase: see [`Shows`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum ShowsView {
@@ -61,22 +63,23 @@ pub enum ShowsView {
     Slices,
     Wave,
     Levels,
-    /// Boxes of the trace by their places among the free, the stuck and the mixed ones, in the order in which they are shown.
+    /// Boxes of the trace in the order in which they are shown, by their numbers in the list of free, colliding and
+    /// undecided boxes.
     Boxes {
         order: Vec<usize>,
     },
-    /// Boxes of slabs, the same way.
+    /// Boxes of slabs, ordered in the same way.
     Slabs {
         free: Chain,
         stuck: Chain,
         mixed: Chain,
         order: Vec<usize>,
     },
-    /// A field after so many sweeps, as levels.
+    /// A field as levels, each frame with its number of sweeps.
     Sweeps {
         frames: Vec<(usize, Waves)>,
     },
-    /// A path that is not the answer's.
+    /// A path other than the final one.
     Own {
         points: Chain,
     },
@@ -85,7 +88,7 @@ pub enum ShowsView {
 }
 
 impl PhaseView {
-    /// All phases of a replay.
+    /// Returns all phases of a replay.
     pub fn all(replay: &Replay, topology: &Topology, trace: Option<&TraceView>, grain: Grain) -> Vec<Self> {
         let seconds = |phase: &Phase| (A_ROOT * (phase.events as f64).sqrt()).clamp(SECONDS[0], SECONDS[1]);
         let hurry = (MOST / replay.phases.iter().map(seconds).sum::<f64>()).min(1.0);
@@ -116,7 +119,7 @@ impl PhaseView {
             }
             Shows::Slabs(SlabBoxes { free, stuck, mixed }) => {
                 let [free, stuck, mixed] = [free, stuck, mixed].map(|boxes| corners(boxes));
-                // All boxes of a slab are of its level.
+                // All boxes of a slab have the slab's level.
                 let order = coarse_to_fine([&free, &stuck, &mixed], topology, [1.0, 0.0]);
                 ShowsView::Slabs { free, stuck, mixed, order }
             }
@@ -129,7 +132,7 @@ impl PhaseView {
     }
 }
 
-/// The replay with no more than so many boxes of slabs: the finest are left out.
+/// Returns the replay with at most this many slab boxes; it leaves out the finest ones.
 fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
     let extents = topology.ranges.map(|axis| axis.extent());
     let mut replay = replay.clone();
@@ -149,7 +152,8 @@ fn thinned(replay: &Replay, topology: &Topology, most: usize) -> Replay {
     replay
 }
 
-/// The places of boxes by how often their sides were halved, which weigh this much, and from left to right.
+/// Orders boxes by the weighted number of times their sides were halved, and then from left to right. Returns their
+/// numbers.
 fn coarse_to_fine(kinds: [&Chain; 3], topology: &Topology, weights: [f64; 2]) -> Vec<usize> {
     let extents = topology.ranges.map(|axis| axis.extent());
     let level = |[lower, upper]: [Configuration; 2]| {
@@ -166,7 +170,7 @@ fn coarse_to_fine(kinds: [&Chain; 3], topology: &Topology, weights: [f64; 2]) ->
     order
 }
 
-/// Values as levels between the greatest and the least of the last frame.
+/// Converts values to levels between the greatest and the least value of the last frame.
 fn frames(sweeps: &Sweeps) -> Vec<(usize, Waves)> {
     let finite = |values: &[f64]| values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::min);
     let least = sweeps.frames.last().map_or(0.0, |(_, values)| finite(values)).min(-f64::MIN_POSITIVE);
@@ -176,7 +180,7 @@ fn frames(sweeps: &Sweeps) -> Vec<(usize, Waves)> {
 }
 
 impl View {
-    /// The same with how the planner came to each motion of a task, as far as there is room.
+    /// Adds the planner's replay for each motion of a task, as far as there is room.
     #[must_use]
     pub fn with_task_replay(mut self, replay: &TaskReplay) -> Self {
         let (grain, topology) = (Grain::of(&self.arm), self.arm.topology());
@@ -187,7 +191,7 @@ impl View {
             let phases = PhaseView::all(&thinned(&told.replay, &topology, most), &topology, trace.as_ref(), grain);
             let scale = trace.as_ref().and_then(TraceView::scale);
             let view = MotionReplayView { trace, scale, phases };
-            // Numbers and strings.
+            // Serialisation cannot fail: there are only numbers and strings.
             let bytes = serde_json::to_string(&view).map_or(usize::MAX, |json| json.len());
             let Some(room) = left.checked_sub(bytes) else { break };
             left = room;
@@ -199,7 +203,7 @@ impl View {
         self
     }
 
-    /// The same with how the planner came to its answer.
+    /// Adds the planner's replay.
     #[must_use]
     pub fn with_replay(mut self, replay: &Replay) -> Self {
         let (grain, trace) = (Grain::of(&self.arm), self.first_world().trace.as_ref());
@@ -207,7 +211,7 @@ impl View {
         self
     }
 
-    /// What is there when so much of a phase has been shown, from 0 to 1.
+    /// Returns the view when this part of a phase has been shown, from 0 to 1.
     pub fn thinking(&self, phase: usize, part: f64) -> Self {
         let mut view = self.clone();
         let now = &self.replay[phase];
@@ -216,7 +220,7 @@ impl View {
             Some(at) if at > phase => 0.0,
             _ => 1.0,
         };
-        // As many lines as there are when the motion begins, so that nothing jumps.
+        // As many lines as at the beginning of the motion, so that nothing jumps.
         view.title.rotate_right(1);
         view.title[0].clone_from(&now.caption);
         view.status.clear();
@@ -242,7 +246,7 @@ impl View {
     }
 }
 
-/// Leaves of a world's trace what has been shown.
+/// Reduces a world's trace to the part that has been shown.
 fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn(&ShowsView) -> bool) -> f64) {
     let edges = || shown(|shows| *shows == ShowsView::Edges);
     let expanded_part = || shown(|shows| *shows == ShowsView::Expanded);
@@ -258,7 +262,7 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
         (_, TraceView::Roadmap { edges: all, .. }) => *all = begun(all, 2, edges()),
         (_, TraceView::Slices { free }) => *free = begun(free, 2, shown(|shows| *shows == ShowsView::Slices)),
         (_, TraceView::Channel { cells, channel, centers, middles, expanded, sweep }) => {
-            // Those that are not there yet keep their places.
+            // Later cells keep their places, without corners.
             let count = count(cells.len(), shown(|shows| matches!(shows, ShowsView::Cells { .. })));
             cells[count..].iter_mut().for_each(|cell| cell.0.clear());
             *sweep = match now.shows {
@@ -290,22 +294,22 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
     }
 }
 
-/// The least value of joint 1.
+/// Returns the least value of joint 1.
 fn left(cell: &Chain) -> f64 {
     cell.0.iter().map(|corner| corner[0]).fold(f64::INFINITY, f64::min)
 }
 
-/// How many of so many are there.
+/// Returns the number of items that have appeared.
 fn count(all: usize, part: f64) -> usize {
     ((all as f64 * part).round() as usize).min(all)
 }
 
-/// The first things, each of so many configurations.
+/// Returns the items that have appeared; each one consists of `each` configurations.
 fn begun(chain: &Chain, each: usize, part: f64) -> Chain {
     Chain(chain.0[..each * count(chain.0.len() / each, part)].to_vec())
 }
 
-/// The boxes that are there; all others are where nothing has been decided yet.
+/// Returns the boxes that have appeared; all others are undecided so far.
 fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     let boxes: Vec<[Configuration; 2]> = kinds.iter().flat_map(|chain| chain.pairs()).collect();
     let ends = [kinds[0].0.len() / 2, (kinds[0].0.len() + kinds[1].0.len()) / 2];
@@ -319,7 +323,7 @@ fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     TraceView::Boxes { free, stuck, mixed, rest }
 }
 
-/// The beginning of a path, by its length.
+/// Returns the beginning of a path, as a part of its length.
 fn gone(points: &Chain, part: f64) -> Chain {
     let lengths = || points.0.windows(2).map(|ends| (ends[1] - ends[0]).norm());
     let mut left = part * lengths().sum::<f64>();

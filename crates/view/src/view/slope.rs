@@ -1,32 +1,32 @@
-//! Fields that paths follow upwards: where their equipotentials are.
+//! Fields that paths follow upwards: the values of their equipotentials.
 
 use super::isolines::Samples;
 use cplan_core::planner::Trace;
 use cplan_core::space::Topology;
 use std::borrow::Cow;
 
-/// How many equipotentials are drawn.
+/// Number of equipotentials that are drawn.
 const LINES: usize = 20;
-/// Part of the cells that may lie below the lowest equipotential: the field goes on falling in dead ends that no one
-/// asks about, and would leave no lines for the rest.
+/// Fraction of the cells that may lie below the lowest equipotential. The field continues to fall in dead ends that
+/// interest nobody, and these would leave no lines for the rest.
 const TAIL: f64 = 0.02;
-/// The same for a potential that grows without bound towards obstacles.
+/// Same fraction for a potential that grows without bound towards obstacles.
 const SLOPES: f64 = 0.15;
 
 /// A field that paths follow upwards, coarse enough to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slope {
-    /// The values at the points of a coarse grid.
+    /// Values at the points of a coarse grid.
     pub samples: Samples,
-    /// The values between which equipotentials are drawn.
+    /// Least and greatest value of the equipotentials.
     pub span: (f64, f64),
 }
 
 impl Slope {
-    /// The slope that a field planner followed; none of other planners, and where the field has no values.
+    /// Returns the slope that a field planner followed; `None` for other planners, and if the field has no values.
     pub fn new(trace: &Trace, topology: &Topology) -> Option<Self> {
         let (cells, values, tail) = match trace {
-            // What rises towards the goal where heights fall.
+            // Heights fall towards the goal, so their negatives rise.
             Trace::Potential { cells, heights } => {
                 (*cells, Cow::Owned(heights.iter().map(|height| -height).collect::<Vec<_>>()), SLOPES)
             }
@@ -41,7 +41,8 @@ impl Slope {
         Some(Self { span: span(&values, tail)?, samples: samples(cells, &values, topology) })
     }
 
-    /// Lines at equal distances of values, each set with its place in the span: 0 at the goal, 1 at the far end.
+    /// Returns lines at equal distances of values, each set with its place in the span: 0 at the goal, 1 at the far
+    /// end.
     pub fn equipotentials(&self) -> impl Iterator<Item = (f64, Vec<Vec<[f64; 2]>>)> + '_ {
         let (low, high) = self.span;
         let part = |k: usize| (k as f64 + 0.5) / LINES as f64;
@@ -49,7 +50,7 @@ impl Slope {
     }
 }
 
-/// The values between which equipotentials are drawn; `tail` is the part of the cells below them.
+/// Returns the span of the equipotentials; `tail` is the fraction of the cells below it.
 fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
     let mut known: Vec<f64> = potential.iter().copied().filter(|v| v.is_finite()).collect();
     known.sort_by(f64::total_cmp);
@@ -57,8 +58,8 @@ fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
     Some((low, *known.last()?))
 }
 
-/// The potential at the centres of every cell, or of some on a fine grid; on a circle once more beyond each seam, so
-/// that lines go on across it.
+/// Returns the potential at the centres of every cell, or on a fine grid at the centres of some. On a circle there is
+/// one more sample beyond each seam, so that lines continue across it.
 fn samples(cells: [usize; 2], potential: &[f64], topology: &Topology) -> Samples {
     const MOST: usize = 256;
     let [x, y] = [0, 1].map(|k| {

@@ -1,24 +1,24 @@
-//! Which motions share a panel.
+//! Payload states: they determine which motions share a panel.
 
 use super::steps::Order;
 use cplan_core::space::{Configuration, Topology};
 use cplan_engine::task::Leg;
 use std::sync::Arc;
 
-/// Configurations nearer than this, radians and metres, look the same; rounding of those that are.
+/// Configurations nearer than this look the same, in radians or metres. It covers rounding.
 const SAME: f64 = 1e-6;
 
-/// Motions with the same payload in the same world, one after the other.
+/// Consecutive motions with the same payload in the same world.
 #[derive(Debug, Clone)]
 pub struct PayloadState<'a> {
-    /// The motions, each with its number among all; those that are repeated once.
+    /// Motions, each with its number among all motions; repeated motions only once.
     pub motions: Vec<(usize, &'a Leg)>,
-    /// How often this comes about.
+    /// Number of repetitions.
     pub times: usize,
 }
 
-/// The payload states in the order in which they come about first; repetitions that look the same are one.
-/// `O(n^2)` for `n` motions at the worst, `O(n)` if the repetitions of a step look the same.
+/// Returns the payload states in the order of their first occurrence; repetitions that look the same are merged. In the
+/// worst case `O(n^2)` for `n` motions, and `O(n)` if the repetitions of a step look the same.
 #[must_use]
 pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadState<'a>> {
     let mut states: Vec<PayloadState> = Vec::new();
@@ -49,7 +49,7 @@ fn same_world(a: &Leg, b: &Leg) -> bool {
     Arc::ptr_eq(&a.scene, &b.scene) || same()
 }
 
-/// Whether the same step moves the joints in the same way.
+/// Returns true if both are the same step and move the joints in the same way.
 fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
     let paths = [a, b].map(|leg| leg.timed.curve.curve().path().waypoints());
     let same = || {
@@ -60,7 +60,7 @@ fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
 }
 
 impl PayloadState<'_> {
-    /// The numbers of the steps, in the order of the motions, each once.
+    /// Returns the numbers of the steps, in the order of the motions, each once.
     #[must_use]
     pub fn numbers(&self, order: &Order) -> Vec<usize> {
         let mut numbers: Vec<usize> = Vec::new();
@@ -72,8 +72,8 @@ impl PayloadState<'_> {
         numbers
     }
 
-    /// Steps, payload and repetitions: `1–2 empty-handed`, `3 carrying "part" (×100)`; in a task of several `rounds` also
-    /// `4 empty-handed, round 2`.
+    /// Returns steps, payload and repetitions: `1–2 empty-handed`, `3 carrying "part" (×100)`. In a task of several
+    /// `rounds`, it can also be `4 empty-handed, round 2`.
     #[must_use]
     pub fn title(&self, rounds: usize, order: &Order) -> String {
         let first = self.motions.first().map(|(_, leg)| leg);
@@ -87,19 +87,19 @@ impl PayloadState<'_> {
     }
 }
 
-/// The number of repetitions.
+/// Returns the number of repetitions of the task.
 #[must_use]
 pub fn rounds(legs: &[Leg]) -> usize {
     legs.iter().map(|leg| leg.step.cycle).max().unwrap_or(1)
 }
 
-/// What is carried, in words.
+/// Describes the payload in words.
 #[must_use]
 pub fn describe(object: Option<&str>) -> String {
     object.map_or("empty-handed".to_owned(), |object| format!("carrying \"{object}\""))
 }
 
-/// Numbers with those that follow each other as a range: `1–3, 5`.
+/// Writes numbers, consecutive ones as a range: `1–3, 5`.
 #[must_use]
 pub fn ranges(numbers: &[usize]) -> String {
     let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {

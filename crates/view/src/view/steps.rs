@@ -1,4 +1,4 @@
-//! What is done, step by step, in words.
+//! The steps of a task, in words.
 
 use super::TaskPicture;
 use super::states::rounds;
@@ -6,12 +6,12 @@ use crate::color::{BARRED, GREY, INK, Rgb};
 use cplan_core::model::{Object, Step};
 use cplan_engine::task::{TaskAnswer, TaskVerdict};
 
-/// More rows than this are not shown.
+/// Largest number of rows that are shown.
 const MOST: usize = 26;
-/// More lines than this on why a step fails are not shown.
+/// Largest number of lines that explain why a step fails.
 const MOST_REASONS: usize = 4;
 
-/// A row: the step's number, what it does, and when it is over.
+/// A row: the step's number, its action, and its end time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     pub number: String,
@@ -26,7 +26,7 @@ impl Row {
     }
 }
 
-/// The numbers of steps in pictures: in the order in which they are done the first time, which need not be the file's.
+/// Numbers of steps in pictures: in the order of their first execution, which can differ from the order in the file.
 pub struct Order(Vec<usize>);
 
 impl Order {
@@ -41,24 +41,25 @@ impl Order {
         Self(order)
     }
 
-    /// The number of a step.
+    /// Returns the number of a step.
     pub fn number(&self, step: &Step) -> usize {
         self.0.iter().position(|&number| number == step.number).map_or(step.number, |place| place + 1)
     }
 
-    /// What it does, and its number in the file where that is another one.
+    /// Describes the action of a step, with its number in the file if that differs.
     pub fn describe(&self, step: &Step, objects: &[Object]) -> String {
         let what = step.action.describe(objects);
         if self.number(step) == step.number { what } else { format!("{what} ({} in the file)", step.number) }
     }
 
-    /// Number and description: `3. pick "part"`.
+    /// Returns number and description: `3. pick "part"`.
     pub fn named(&self, step: &Step, objects: &[Object]) -> String {
         format!("{}. {}", self.number(step), self.describe(step, objects))
     }
 }
 
-/// What the columns are called, then each step once, as it is done the first time; then the one that fails.
+/// Returns the titles of the columns, then each step once, in the order of its first execution, then the step that
+/// fails.
 #[must_use]
 pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     let objects = &picture.task.objects;
@@ -86,7 +87,7 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     rows
 }
 
-/// The lines of the title and the status.
+/// Returns the lines of the title, and the status.
 #[must_use]
 pub fn words(picture: &TaskPicture) -> (Vec<String>, String) {
     let mut lines = picture.title.clone();

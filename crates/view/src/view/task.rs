@@ -1,4 +1,4 @@
-//! A task: its worlds, what happens when, and which motions a still picture shows together.
+//! A task: its worlds, the times of its events, and the motions that a still picture shows together.
 
 use super::arm;
 use super::motion::{Clock, MotionView, PathView};
@@ -14,39 +14,40 @@ use cplan_engine::task::{Event, Impossible, Leg, Sequence, TaskAnswer};
 use cplan_geometry::Pose;
 use std::sync::Arc;
 
-/// Poses nearer than this, metres and radians, look the same; rounding of those that are.
+/// Poses nearer than this look the same, in metres or radians. It covers rounding.
 const SAME: f64 = 1e-6;
 
-/// C-obstacles at some times.
+/// C-obstacles at some times, in seconds.
 pub type Moments = Vec<(f64, Vec<CObstacle>)>;
 
-/// What there is to show of a task. Objects count as obstacles, numbered after those that stay: they have the same
-/// colour wherever they are, and in every world.
+/// The content of a picture of a task. Objects count as obstacles, numbered after the static ones. Each object has the
+/// same colour everywhere and in every world.
 #[derive(Debug, Clone)]
 pub struct TaskPicture<'a> {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
-    /// How it ended, in a word or two. Where a step fails, its number comes before, and the reason below the title.
+    /// Outcome in a word or two. If a step fails, its number comes before, and the reason below the title.
     pub status: String,
-    /// The same for colours and symbols.
+    /// Outcome for colours and symbols.
     pub ending: Option<Status>,
-    /// What is to be said of the result: names and values.
+    /// Facts about the result: names and values.
     pub facts: Vec<[String; 2]>,
-    /// What was asked.
+    /// The task.
     pub task: &'a Task,
-    /// What came of it.
+    /// The answer to the task.
     pub answer: &'a TaskAnswer,
-    /// Contours of a scene in joint space. Asked for each world, and once more where link 2 reaches into an object.
+    /// Returns the contours of a scene in joint space. It is called for each world, and once more if link 2 reaches
+    /// into an object.
     pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,
-    /// Those of what moves, at some times from one to another, so many at the most.
+    /// Returns the contours of moving obstacles at some times of an interval, at most at this many.
     pub in_time: fn(&Scene, [f64; 2], usize) -> Moments,
 }
 
-/// Times at which C-obstacles of what moves are drawn, at the most, all worlds together.
+/// Largest number of times at which C-obstacles of moving obstacles are drawn, for all worlds together.
 const MOST_MOMENTS: usize = 120;
 
 impl View {
-    /// The view of a task: a world for each set of motions that share one.
+    /// Returns the view of a task: a world for each set of motions that share one.
     #[must_use]
     pub fn of_task(picture: &TaskPicture) -> Self {
         let (task, legs) = (picture.task, &picture.answer.legs);
@@ -54,7 +55,7 @@ impl View {
         let mut worlds = Worlds { picture, grain, scenes: Vec::new(), views: Vec::new() };
         let (mut paths, mut motions) = (Vec::new(), Vec::new());
         let mut from = 0.0;
-        // Of each world, from when to when it is there.
+        // Interval of time in which each world is the current one.
         let mut spans: Vec<[f64; 2]> = Vec::new();
         for leg in legs {
             let name = order.named(&leg.step, &task.objects);
@@ -97,7 +98,7 @@ impl View {
             field_lines: FieldLines::default(),
             panels: panels(picture, &order, &paths, world, grain),
             placed: placed.collect(),
-            // What was let go of at the end lies there.
+            // An object that was released at the end lies there.
             end: last
                 .zip(paths.last())
                 .map(|((leg, world), path)| (path.goal().into(), if leg.event.is_some() { 0 } else { world })),
@@ -126,7 +127,7 @@ impl View {
     }
 }
 
-/// A configuration space for each payload state, then that of the step that fails, in the world `last`.
+/// Returns a configuration space for each payload state, then that of the step that fails, in the world `last`.
 fn panels(picture: &TaskPicture, order: &Order, paths: &[PathView], last: usize, grain: Grain) -> Vec<PanelView> {
     let (task, legs) = (picture.task, &picture.answer.legs);
     let states = payload_states(legs, &task.arm.topology());
@@ -163,7 +164,7 @@ struct Worlds<'a> {
 }
 
 impl Worlds<'_> {
-    /// The number of a scene's world. Scenes of repetitions are often one, or else alike.
+    /// Returns the number of a scene's world. Repetitions often share one scene, or have equal ones.
     fn of(&mut self, scene: &Arc<Scene>) -> usize {
         let known = |other: &Arc<Scene>| Arc::ptr_eq(other, scene) || other == scene;
         self.scenes.iter().position(known).unwrap_or_else(|| self.add(scene))
@@ -178,7 +179,7 @@ impl Worlds<'_> {
         self.views.len() - 1
     }
 
-    /// Shows the worlds, which are there from one time to another, with what moves.
+    /// Adds moving obstacles to the worlds, each for its interval of time.
     fn put_in_time(&mut self, spans: &[[f64; 2]]) {
         let legs = &self.picture.answer.legs;
         let picked = |name: &str| {
@@ -193,7 +194,7 @@ impl Worlds<'_> {
         }
     }
 
-    /// What link 2 may reach into, as it were if it may not.
+    /// Returns the C-obstacles of the obstacles that link 2 may reach into, as if it were not allowed to.
     fn open(&self, scene: &Scene) -> Vec<ContourView> {
         let mut workspace = scene.workspace().clone();
         let whole = |workspace| {
@@ -216,7 +217,7 @@ impl Worlds<'_> {
         contours(all.iter().filter(|c| c.link == 1), self.grain)
     }
 
-    /// The world of the step that fails, with what proves that.
+    /// Adds the world of the step that fails, with the proofs.
     fn failing(&mut self, fails: &Impossible) -> usize {
         let world = self.add(&fails.scene);
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
@@ -226,7 +227,7 @@ impl Worlds<'_> {
     }
 }
 
-/// Where the objects lie after all steps, and those that move as yet; what is carried then lies nowhere.
+/// Returns the poses of the objects after all steps, and the objects that still move. A carried object has no pose.
 fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Pose>>, Vec<usize>) {
     let mut poses: Vec<Option<Pose>> = task.objects.iter().map(Object::standing_at_first).collect();
     let mut moving: Vec<usize> = task.moving_at_first().collect();
@@ -240,7 +241,7 @@ fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Pose>>, Vec<usize>) {
     (poses, moving)
 }
 
-/// Where objects are put, by the object's number; each place once, and none where the object lay at first.
+/// Returns placed objects with their numbers. Each place occurs once; initial places do not occur.
 fn placed(task: &Task, legs: &[Leg]) -> Vec<(usize, Obstacle)> {
     let mut seen: Vec<(usize, Pose)> = task.objects.iter().map(|object| object.at).enumerate().collect();
     let first = seen.len();

@@ -1,4 +1,4 @@
-//! What a planner saw.
+//! The planner's trace.
 
 use super::flow;
 use super::numbers::{Chain, Grain, number};
@@ -8,24 +8,24 @@ use cplan_core::planner::{GraphKind, Trace};
 use cplan_core::space::{Configuration, Topology};
 use serde::Serialize;
 
-/// Lines of one value.
+/// Lines of equal value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LevelView {
-    /// 0 at the goal, 1 at the far end.
+    /// Place in the span: 0 at the goal, 1 at the far end.
     pub part: f64,
     pub lines: Vec<Chain>,
 }
 
-/// What a scale of colours is about, and the values at its dark end and at its light one.
+/// Title of a scale of colours, and the values at its dark end and at its light end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ScaleView {
     pub title: &'static str,
     pub ends: [String; 2],
-    /// Whether the colours are those of surfaces, on which lines must stay legible.
+    /// True if the colours are those of surfaces, on which lines must stay legible.
     pub soft: bool,
 }
 
-/// A trace.
+/// A planner's trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum TraceView {
@@ -34,27 +34,27 @@ pub enum TraceView {
     /// Free stretches of slices: both ends of each.
     #[serde(rename = "rows")]
     Slices { free: Chain },
-    /// Cells of the decomposition, and which of them make the channel.
+    /// Cells of the decomposition, and the cells of the channel.
     Channel {
         cells: Vec<Chain>,
         channel: Vec<usize>,
-        /// Centres of the channel's cells, and middles of the doors between them.
+        /// Centres of the channel's cells, and middles of the portals between them.
         #[serde(skip_serializing_if = "Chain::is_empty")]
         centers: Chain,
         #[serde(skip_serializing_if = "Chain::is_empty")]
         middles: Chain,
-        /// Where the search came, in order.
+        /// Places that the search expanded, in order.
         #[serde(skip_serializing_if = "Chain::is_empty")]
         expanded: Chain,
-        /// Where the line is that sweeps over the cells, while it is told how it was.
+        /// Position of the sweep line over the cells, during the replay.
         #[serde(skip)]
         sweep: Option<f64>,
     },
-    /// A roadmap: both ends of each edge, and where the search came, in order.
+    /// A roadmap: both ends of each edge, and the places that the search expanded, in order.
     Roads {
         edges: Chain,
         expanded: Chain,
-        /// Which visibility graph it is, if it is one.
+        /// Kind of visibility graph, if it is one.
         #[serde(skip_serializing_if = "Option::is_none")]
         visibility: Option<&'static str>,
     },
@@ -63,7 +63,7 @@ pub enum TraceView {
         free: Chain,
         stuck: Chain,
         mixed: Chain,
-        /// Where nothing has been decided yet, while it is told how it was; without sides.
+        /// Boxes that are undecided so far, during the replay; drawn without sides.
         #[serde(skip)]
         rest: Chain,
     },
@@ -73,18 +73,18 @@ pub enum TraceView {
     Field {
         levels: Vec<LevelView>,
         flow: Vec<Chain>,
-        /// Whether values are logarithms.
+        /// True if values are logarithms.
         logarithmic: bool,
-        /// At the far end, and at the goal.
+        /// Values at the far end and at the goal.
         span: [f64; 2],
-        /// Values on the way there, while it is told how it was.
+        /// Intermediate values, during the replay.
         #[serde(skip)]
         values: Option<Waves>,
     },
 }
 
 impl TraceView {
-    /// What its colours are values of, if it has any.
+    /// Returns the scale of the colours, if there is one.
     pub fn scale(&self) -> Option<ScaleView> {
         let whole = |value: f64| format!("{value:.0}").replace('-', "\u{2212}").replace("\u{2212}0", "0");
         let (title, ends, soft) = match self {
@@ -99,12 +99,12 @@ impl TraceView {
         Some(ScaleView { title, ends, soft })
     }
 
-    /// The trace; none where there is nothing to show.
+    /// Returns the trace; `None` if there is nothing to show.
     pub fn new(trace: &Trace, topology: &Topology, grain: Grain) -> Option<Self> {
         let pairs = |pairs: &[[Configuration; 2]]| grain.configurations(pairs.iter().flatten());
         Some(match trace {
             Trace::Roadmap { edges, whole } => Self::Roadmap { edges: pairs(edges), whole: *whole },
-            // Without a path there are none that it passes.
+            // Without a path, there are no slices that it passes.
             Trace::Slices { free } if free.is_empty() => return None,
             Trace::Slices { free } => Self::Slices { free: pairs(free) },
             Trace::Channel { cells, channel, points, expanded } => Self::Channel {

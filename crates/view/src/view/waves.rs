@@ -2,16 +2,16 @@
 
 use serde::{Serialize, Serializer};
 
-/// Cells along an axis that a wavefront is coarsened to: nearly a pixel and a half each.
+/// Largest number of blocks along an axis: each one is nearly one and a half pixels wide.
 const CELLS: usize = 192;
-/// Levels are written as letters, one a block of cells: so many of them, and one for none.
+/// Letters for the levels, one letter per block of cells. `NONE` stands for no level.
 const LETTERS: &[u8; LEVELS] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 const NONE: char = '.';
 
-/// Cells along either axis up to which each has its number.
+/// Largest number of cells along either axis with which each cell shows its number.
 const NUMBERED: usize = 32;
 
-/// How many distances to the goal are told apart.
+/// Number of different distances to the goal.
 pub const LEVELS: usize = 64;
 
 /// Distances to the goal in columns of joint 1, each from the least value of joint 2 on.
@@ -19,30 +19,33 @@ pub const LEVELS: usize = 64;
 pub struct Waves {
     /// Number of blocks of cells along each axis.
     pub blocks: [usize; 2],
-    /// How much of the axis they cover: blocks may stick out beyond the last cell.
+    /// Part of the axis that the blocks cover, above 1 if blocks extend beyond the last cell.
     pub extent: [f64; 2],
-    /// Of each block its least label, as a part of the greatest of all; none where the wave did not come.
+    /// Least label of each block, as a fraction of the greatest label; `NONE` if the wave did not reach the block.
     levels: String,
-    /// Of each block the place of its first cell in the order of expansion, the same way; empty where there is no order.
+    /// Position of each block's first cell in the order of expansion, written in the same way; empty if there is no
+    /// order.
     #[serde(skip_serializing_if = "String::is_empty")]
     order: String,
-    /// The greatest label.
+    /// Greatest label.
     pub farthest: u32,
-    /// Whether distances are those from the start.
+    /// True if distances are measured from the start.
     #[serde(skip)]
     pub from_start: bool,
-    /// The label of each cell of a grid that is coarse enough for it to be read; none, in JSON -1, where the wave did not come.
+    /// Label of each cell, if the grid is coarse enough to read it; `None` (-1 in JSON) if the wave did not reach the
+    /// cell.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "labels_or_minus_one")]
     pub numbers: Vec<Option<u32>>,
 }
 
-/// Labels, and -1 where there is none.
+/// Serialises labels, with -1 for `None`.
 fn labels_or_minus_one<S: Serializer>(numbers: &[Option<u32>], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(numbers.iter().map(|number| number.map_or(-1, i64::from)))
 }
 
 impl Waves {
-    /// The wavefront with these labels, and cells in the order in which they were expanded; none where there are no labels.
+    /// Returns the wavefront with these labels, and cells in the order of their expansion; `None` if there are no
+    /// labels.
     pub fn new(cells: [usize; 2], labels: &[u32], expanded: &[u32]) -> Option<Self> {
         if labels.is_empty() || labels.len() != cells[0] * cells[1] {
             return None;
@@ -75,7 +78,7 @@ impl Waves {
         })
     }
 
-    /// Blocks of these levels, written as letters, over the whole of both axes.
+    /// Returns blocks with these levels, written as letters, over the whole of both axes.
     pub fn of_levels(blocks: [usize; 2], levels: String) -> Self {
         Self {
             blocks,
@@ -88,7 +91,7 @@ impl Waves {
         }
     }
 
-    /// The same as far as this part of the levels, or of the order of expansion, goes.
+    /// Returns this wavefront up to this part of the order of expansion, or of the levels if there is no order.
     pub fn up_to(&self, part: f64) -> Self {
         let last = (part * LEVELS as f64).floor() as usize;
         let order = if self.order.is_empty() { &self.levels } else { &self.order };
@@ -99,13 +102,13 @@ impl Waves {
         Self { levels: levels.collect(), numbers: numbers.collect(), ..self.clone() }
     }
 
-    /// The level of each block, below [`LEVELS`]; none where the wave did not come.
+    /// Returns the level of each block, below [`LEVELS`]; `None` if the wave did not reach it.
     pub fn levels(&self) -> impl Iterator<Item = Option<usize>> + '_ {
         self.levels.bytes().map(|letter| LETTERS.iter().position(|&l| l == letter))
     }
 }
 
-/// The letter of a part from 0 to 1.
+/// Returns the letter of a value from 0 to 1.
 pub fn letter(part: Option<f64>) -> char {
     part.map_or(NONE, |part| char::from(LETTERS[(part * (LEVELS - 1) as f64).round() as usize]))
 }
@@ -117,7 +120,7 @@ mod tests {
     #[test]
     fn a_fine_wavefront_is_coarsened_and_keeps_narrow_passages() {
         let cells = [401, 390];
-        // Only one row of cells was reached.
+        // The wave reached only one row of cells.
         let labels: Vec<u32> = (0..cells[0] * cells[1])
             .map(|k| if k % cells[1] == 200 { (k / cells[1]) as u32 } else { u32::MAX })
             .collect();

@@ -1,4 +1,4 @@
-//! A world that the arm moves in: obstacles, what it carries, which pairs can meet, and the C-obstacles.
+//! A world that the arm moves in: obstacles, payload, pairs of shapes that can meet, and the C-obstacles.
 
 use super::names::{self, NameView};
 use super::numbers::{Chain, Grain, ShapeView, number, outline};
@@ -11,26 +11,27 @@ use cplan_core::space::Configuration;
 use cplan_geometry::{Convex, Point};
 use serde::{Serialize, Serializer};
 
-/// More obstacles than this are numbered, not named.
+/// Largest number of obstacles with names; if there are more, they are numbered.
 pub const NAMED: usize = 16;
 
 /// An obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ObstacleView {
     pub name: String,
-    /// The same in both spaces.
+    /// Colour, the same in both spaces.
     pub color: Rgb,
-    /// As the user gave it; without a shape of its own, it is the union of its pieces.
+    /// Shape in the world file; otherwise the union of the pieces.
     #[serde(serialize_with = "outline")]
     pub outline: Shape,
-    /// How many of the pieces are the obstacle itself; those that follow are what a payload meets in their place: what
-    /// a level one makes of them, which the tip must not enter, and supports, nearer than the clearance.
+    /// Number of pieces that are the obstacle itself. The others replace them in the tests of a payload: for a level
+    /// payload, its Minkowski differences with the obstacle, which the tip must not enter; for supports, shapes that
+    /// may be nearer than the clearance.
     own: usize,
     pieces: Vec<ShapeView>,
 }
 
 impl ObstacleView {
-    /// One that is number `number` in its world.
+    /// Returns obstacle `number` of its world.
     pub fn new(obstacle: &Obstacle, number: usize, grain: Grain) -> Self {
         Self {
             name: obstacle.name.clone(),
@@ -41,33 +42,33 @@ impl ObstacleView {
         }
     }
 
-    /// The same in the colour of the robot's own links.
+    /// Returns the obstacle in the colour of the robot's own links.
     fn of_robot(self) -> Self {
         Self { color: color::ROBOT, ..self }
     }
 
-    /// The obstacle itself as convex pieces; without any it lies nowhere: it is carried.
+    /// Returns the obstacle itself as convex pieces. It is empty for an object that is carried.
     pub fn own(&self) -> impl Iterator<Item = &Convex> {
         self.pieces[..self.own].iter().map(|piece| &piece.0)
     }
 
-    /// Whether it lies somewhere.
+    /// Returns true if the obstacle has a place of its own.
     pub fn lies(&self) -> bool {
         self.own > 0
     }
 }
 
-/// What moves while the arm does.
+/// A moving obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MoverView {
-    /// In its own frame.
+    /// Shape in its own frame.
     #[serde(flatten)]
     pub obstacle: ObstacleView,
-    /// Time, both coordinates and angle of the frame, of each stop.
+    /// Time, both coordinates and angle of the frame at each stop.
     stops: Vec<[f64; 4]>,
-    /// From the last stop on, metres a second.
+    /// Velocity after the last stop, in m/s.
     velocity: [f64; 2],
-    /// When it is picked, if it is.
+    /// Time at which it is picked, if it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub until: Option<f64>,
     #[serde(skip)]
@@ -91,7 +92,7 @@ impl MoverView {
         }
     }
 
-    /// Where it is at a time, as an obstacle.
+    /// Returns the obstacle at its pose at a time.
     pub fn at(&self, time: f64) -> ObstacleView {
         let pose = self.course.pose(time);
         let ObstacleView { name, color, outline, own, pieces } = &self.obstacle;
@@ -99,34 +100,35 @@ impl MoverView {
         ObstacleView { name: name.clone(), color: *color, outline: outline.at(&pose), own: *own, pieces }
     }
 
-    /// The times at which it changes its course, and the end of the motion, or when it is picked.
+    /// Returns the times at which its trajectory changes, and the end of the motion or the time when it is picked.
     pub fn moments(&self, duration: f64) -> Vec<f64> {
         let duration = duration.min(self.until.unwrap_or(f64::INFINITY));
         let stops = self.course.stops().iter().map(|stop| stop.time).filter(|&time| 0.0 < time && time < duration);
         stops.chain([duration]).collect()
     }
 
-    /// Where its frame's origin is at a time.
+    /// Returns the origin of its frame at a time.
     pub fn origin(&self, time: f64) -> Point {
         Point::from(self.course.pose(time).translation.vector)
     }
 }
 
-/// What is carried.
+/// The payload.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PayloadView {
     pub object: String,
-    /// That of the obstacle which it is while it lies somewhere, or the one after all others.
+    /// Colour of the obstacle that it is while it lies somewhere; otherwise the colour after all others.
     pub color: Rgb,
-    /// In its own frame.
+    /// Shapes in its own frame.
     pub pieces: Vec<ShapeView>,
     #[serde(serialize_with = "grip")]
     pub grip: Grip,
-    /// What it is to link 2, in whose frame these are: parts that follow the link's own.
+    /// Shapes in the frame of link 2. They continue the list of the link's own parts.
     parts: Vec<ShapeView>,
 }
 
-/// Rigid: coordinates and angle in link 2's frame. Level: angle in the plane, and the point at the tip.
+/// Serialises a grip. A rigid one has coordinates and angle in link 2's frame; a level one the angle in the plane, and
+/// the point at the tip.
 fn grip<S: Serializer>(grip: &Grip, serializer: S) -> Result<S::Ok, S::Error> {
     let (index, name, numbers) = match *grip {
         Grip::Rigid(pose) => (0, "rigid", [pose.translation.x, pose.translation.y, pose.rotation.angle()]),
@@ -143,29 +145,29 @@ pub struct ContourView {
     pub contour: Chain,
 }
 
-/// The C-obstacles of what moves, at a time.
+/// The C-obstacles of moving obstacles at a time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MomentView {
-    /// Seconds.
+    /// Time, in seconds.
     pub time: f64,
-    /// Of each the mover by its number.
+    /// C-obstacles, each with the number of its moving obstacle.
     pub c_obstacles: Vec<ContourView>,
 }
 
-/// A region that fields prefer (negative) or avoid.
+/// A region that fields prefer (negative `epsilon`) or avoid.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RegionView {
     name: String,
     pub epsilon: f64,
-    /// Whether the corners are configurations, rather than places of the tip.
+    /// True if the corners are configurations, false if they are places of the tip.
     pub joints: bool,
     pub corners: Chain,
 }
 
-/// A world as it is drawn.
+/// The content of a world in pictures and pages.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WorldView {
-    /// What there is to say of it, in a word or two.
+    /// Description in a word or two.
     pub label: String,
     pub clearance: f64,
     pub obstacles: Vec<ObstacleView>,
@@ -173,31 +175,32 @@ pub struct WorldView {
     pub movers: Vec<MoverView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub payload: Option<PayloadView>,
-    /// Which shapes can meet: link, part, obstacle, first piece, and the one after the last.
+    /// Shapes that can meet: link, part, obstacle, first piece, and the piece after the last.
     pub pairs: Vec<[usize; 5]>,
     pub c_obstacles: Vec<ContourView>,
-    /// The C-obstacles of what moves, at some times.
+    /// C-obstacles of moving obstacles at some times.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub moments: Vec<MomentView>,
-    /// Where the names of C-obstacles stand.
+    /// Places for the names of C-obstacles.
     pub names: Vec<NameView>,
-    /// What the obstacles would block that link 2 may reach into here. Pages show one world at a time, and do without.
+    /// C-obstacles of the obstacles that link 2 may reach into, as if it were not allowed to. Pages show one world at a
+    /// time, and do not need them.
     #[serde(skip)]
     pub open: Vec<ContourView>,
     pub regions: Vec<RegionView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trace: Option<TraceView>,
-    /// What the colours of the trace are values of.
+    /// Scale of the trace's colours.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scale: Option<ScaleView>,
     /// Boxes that prove that there is no path: least and greatest values of each.
     pub proof: Chain,
-    /// Configurations that were to be reached and are not.
+    /// Configurations that should be reached and are not.
     pub unreached: Vec<[f64; 2]>,
 }
 
 impl WorldView {
-    /// A scene, what there is to say of it, and the contours of its C-obstacles.
+    /// Creates the world of a scene, with its description and the contours of its C-obstacles.
     pub fn new(scene: &Scene, label: String, c_obstacles: &[CObstacle], grain: Grain) -> Self {
         let standing = scene.workspace().obstacles.len();
         let shown = |number| shown_number(scene, number);
@@ -225,31 +228,31 @@ impl WorldView {
         }
     }
 
-    /// The same with the C-obstacles of what moves at some times, by the number of what moves.
+    /// Adds the C-obstacles of moving obstacles at some times, by the number of the moving obstacle.
     pub fn timed(self, moments: &[(f64, Vec<CObstacle>)], grain: Grain) -> Self {
         let moment =
             |(time, all): &(f64, Vec<CObstacle>)| MomentView { time: number(*time), c_obstacles: contours(all, grain) };
         Self { moments: moments.iter().map(moment).collect(), ..self }
     }
 
-    /// The last of the moments up to a time.
+    /// Returns the last of the moments up to a time.
     pub fn moment(&self, time: f64) -> Option<&MomentView> {
         let next = self.moments.partition_point(|moment| moment.time <= time);
         self.moments.get(next.saturating_sub(1))
     }
 
-    /// The same with what a planner saw.
+    /// Adds a planner's trace.
     pub fn traced(self, trace: Option<TraceView>) -> Self {
         let scale = trace.as_ref().and_then(TraceView::scale);
         Self { trace, scale, ..self }
     }
 
-    /// What an obstacle is called: its name or, where there are many, its number.
+    /// Returns the name of an obstacle, or its number if there are many.
     pub fn called(&self, obstacle: usize) -> String {
         if self.obstacles.len() > NAMED { (obstacle + 1).to_string() } else { self.obstacles[obstacle].name.clone() }
     }
 
-    /// The same with proofs.
+    /// Adds the boxes of proofs.
     pub fn proven<'a>(self, proofs: impl IntoIterator<Item = &'a CheckedProof>, grain: Grain) -> Self {
         let boxes = proofs.into_iter().flat_map(CheckedProof::stuck).flat_map(|s| [s.cell.lower, s.cell.upper]);
         let corners: Vec<_> = boxes.map(Configuration::from).collect();
@@ -257,7 +260,7 @@ impl WorldView {
     }
 }
 
-/// Contours as they are drawn.
+/// Rounds contours for the document.
 pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Grain) -> Vec<ContourView> {
     let contour = |c: &CObstacle| ContourView {
         obstacle: c.obstacle,
@@ -267,13 +270,15 @@ pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Grain) 
     all.into_iter().map(contour).collect()
 }
 
-/// The number in the view's list of an obstacle: links of the robot follow those of the workspace; those that move have a list of their own.
+/// Returns the number of an obstacle in the view's list. Links of the robot follow the obstacles of the workspace;
+/// moving obstacles have a list of their own.
 fn shown_number(scene: &Scene, number: usize) -> usize {
     let links = scene.self_obstacles();
     if links.contains(&number) { number - links.start + scene.workspace().obstacles.len() } else { number }
 }
 
-/// An obstacle by its number in the scene, and that in the view. What joint 1 carries lies nowhere of its own.
+/// Returns an obstacle by its number in the scene and its number in the view. An obstacle that joint 1 carries has no
+/// fixed place.
 fn obstacle(scene: &Scene, number: usize, shown: usize, grain: Grain) -> ObstacleView {
     let mut view = ObstacleView::new(scene.obstacle(number), shown, grain);
     if scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint) {
@@ -286,7 +291,8 @@ fn obstacle(scene: &Scene, number: usize, shown: usize, grain: Grain) -> Obstacl
     view
 }
 
-/// What moves, in the colours after those of what stands; an object in that which it has where it lies.
+/// Returns moving obstacles in the colours after those of the static ones; an object keeps the colour that it has when
+/// it lies.
 fn movers(scene: &Scene, grain: Grain) -> Vec<MoverView> {
     let obstacles = &scene.workspace().obstacles;
     let numbered = scene.workspace().movers.iter().zip(obstacles.len()..);
@@ -311,7 +317,7 @@ fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {
     })
 }
 
-/// Pairs with consecutive pieces as one.
+/// Merges pairs with consecutive pieces.
 fn ranges(scene: &Scene) -> Vec<[usize; 5]> {
     let mut ranges: Vec<[usize; 5]> = Vec::new();
     for pair in scene.pairs() {

@@ -1,4 +1,4 @@
-//! Which file names ask for the configuration space.
+//! Formats of the configuration space, by file name.
 
 use super::CSpaces;
 use std::path::Path;
@@ -6,17 +6,18 @@ use std::path::Path;
 /// A format of configuration spaces as data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CSpaceFormat {
-    /// All of it, as `docs/cspace.schema.json` has it.
+    /// The whole configuration space, as in `docs/cspace.schema.json`.
     Json,
-    /// What has coordinates, as features.
+    /// Everything with coordinates, as features.
     GeoJson,
     /// The values of a grid as a matrix.
     Csv,
 }
 
 impl CSpaceFormat {
-    /// The format that a file's name stands for, in upper or lower case: `cspace.json` and `cspace.csv`, what ends in
-    /// `.cspace.json` or `.cspace.csv`, and what ends in `.geojson`. None of other names.
+    /// Returns the format for a file name, in upper or lower case. JSON and CSV are for the names `cspace.json` and
+    /// `cspace.csv`, and for those that end in `.cspace.json` and `.cspace.csv`; GeoJSON for names that end in
+    /// `.geojson`. Returns `None` for other names.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
@@ -30,7 +31,7 @@ impl CSpaceFormat {
         }
     }
 
-    /// Returns the file's text; nothing for a matrix if there is no grid.
+    /// Returns the file's text; `None` for a matrix if there is no grid.
     #[must_use]
     pub fn text(self, spaces: &CSpaces) -> Option<String> {
         match self {

@@ -1,11 +1,11 @@
-//! Configuration spaces as GeoJSON (RFC 7946), whose longitudes and latitudes are joint values here.
+//! Configuration spaces as GeoJSON (RFC 7946), with joint values as longitudes and latitudes.
 
 use super::{CSpace, CSpaces, Values};
 use cplan_motion::line_a_field;
 use serde_json::{Value, json};
 
-/// A `FeatureCollection`. Of each feature `kind` says what it is, and `space` the number of its configuration space. Grids
-/// have no place in it.
+/// Returns a `FeatureCollection`. `kind` is the kind of each feature, and `space` the number of its configuration
+/// space. Grids are not included.
 pub fn text(spaces: &CSpaces) -> String {
     let CSpaces { name, planner, status, axes, spaces } = spaces;
     let features: Vec<Value> = spaces.iter().enumerate().flat_map(|(number, space)| features(number, space)).collect();

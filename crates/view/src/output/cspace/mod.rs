@@ -1,4 +1,4 @@
-//! The configuration space as data: what a plan's planner has to show, for programs that draw or study it.
+//! The configuration space as data: the planner's data of a plan, for programs that draw or study it.
 
 mod format;
 mod geojson;
@@ -25,22 +25,22 @@ use std::sync::Arc;
 /// A pair of joint values, base to tip; radians or metres.
 pub type Values = [f64; 2];
 
-/// The configuration spaces of a plan. Numbers have all their digits; radians, metres.
+/// The configuration spaces of a plan. Numbers have all their digits; units are radians and metres.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CSpaces {
     /// Title of the workspace; may be empty.
     pub name: String,
     /// Name of the planner.
     pub planner: String,
-    /// What became of the problem.
+    /// The outcome.
     pub status: Status,
-    /// Of joint 1 and of joint 2.
+    /// Axes of joint 1 and of joint 2.
     pub axes: [Axis; 2],
-    /// One of a single motion; of a task one for each world that the arm moves in.
+    /// One space for a single motion; for a task, one for each world that the arm moves in.
     pub spaces: Vec<CSpace>,
 }
 
-/// What one joint can take.
+/// The values of one joint.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Axis {
     /// Name of the joint in the URDF.
@@ -49,30 +49,31 @@ pub struct Axis {
     pub unit: &'static str,
     /// `interval` or `circle`: values on a circle that differ by its period are one.
     pub topology: &'static str,
-    /// Least value; on a circle where it is cut.
+    /// Least value; on a circle, the value at the cut.
     pub lower: f64,
     /// Greatest value.
     pub upper: f64,
-    /// Length of a circle; none of an interval.
+    /// Length of a circle; null for an interval.
     pub period: Option<f64>,
 }
 
-/// A configuration space and what takes place in it. What a planner does not make is left out.
+/// A configuration space and its content. Data that a planner does not make is omitted.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CSpace {
-    /// What is carried, of a task; else empty.
+    /// Name of the payload in a task; otherwise empty.
     pub payload: String,
-    /// What blocked proves in `c_obstacles`, besides the clearance asked for: `exact` for the polygons of gantries with `--margin 0`.
+    /// Guarantee of blocked in `c_obstacles`, apart from the requested clearance: `exact` for the polygons of gantries
+    /// with `--margin 0`.
     pub proves: Proves,
-    /// By obstacle, in the world's order.
+    /// C-obstacles, in the world's order.
     pub c_obstacles: Vec<ObstacleRegion>,
-    /// Where the arm is at first.
+    /// Initial configuration of the arm.
     pub start: Values,
-    /// Where it may end: both ends of a segment, which are the same for a single goal.
+    /// Goals: both ends of a segment, which are the same for a single goal.
     pub goals: Vec<[Values; 2]>,
-    /// What it follows, in unwrapped values; none if there is no way.
+    /// Paths of the arm, in unwrapped values; empty if there is no path.
     pub paths: Vec<Way>,
-    /// The planner's polygons, from the last attempt.
+    /// The planner's polygons, from its last attempt.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free: Option<FreeRegion>,
     /// Straight motions between configurations.
@@ -81,10 +82,10 @@ pub struct CSpace {
     /// Trapezoids or triangles of free space.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cells: Option<Cells>,
-    /// Where the search of roadmap or cells came, in that order.
+    /// Configurations that the search of a roadmap or of cells expanded, in that order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub expanded: Vec<Values>,
-    /// Free stretches at fixed values of joint 1, which the path passes: both ends of each.
+    /// Free stretches at fixed values of joint 1 that the path passes: both ends of each.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rows: Vec<[Values; 2]>,
     /// Boxes of a subdivision.
@@ -93,47 +94,47 @@ pub struct CSpace {
     /// Cells of a field.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<FieldGrid>,
-    /// Boxes of colliding configurations that separate start and goals: least and greatest values of each.
+    /// Collision boxes that separate start and goals: least and greatest values of each.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub proof: Vec<[Values; 2]>,
 }
 
-/// Polygons with holes, nested as the coordinates of a `MultiPolygon` in GeoJSON: of each polygon its rings, the outer one first
-/// and counter-clockwise; of each ring its corners, the first again at the end.
+/// Polygons with holes, nested like the coordinates of a `MultiPolygon` in GeoJSON. Each polygon is a list of rings,
+/// the outer one first and counter-clockwise. Each ring is a list of corners, with the first one repeated at the end.
 pub type Polygons = Vec<Vec<Vec<Values>>>;
 
-/// What an obstacle blocks.
+/// The C-obstacle of an obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ObstacleRegion {
     /// Name of the obstacle; may be empty.
     pub obstacle: String,
-    /// Disjoint, within the axes' limits, cut where circles are.
+    /// Disjoint polygons within the axes' limits, cut at the seams of circles.
     pub polygons: Polygons,
 }
 
 /// A path.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Way {
-    /// The planner's name, or the step of a task.
+    /// Name of the planner, or the step of a task.
     pub name: String,
-    /// Straight segments between them.
+    /// Waypoints, with straight segments between them.
     pub waypoints: Vec<Values>,
-    /// The same with its corners rounded as the motion rounds them, in short segments.
+    /// The path with its corners rounded as in the motion, in short segments.
     pub outline: Vec<Values>,
 }
 
-/// Free space as a planner on polygons sees it.
+/// Free space of a planner on polygons.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FreeRegion {
-    /// What free and blocked prove here.
+    /// Guarantee of free and blocked here.
     pub proves: Proves,
-    /// Least and greatest values: on circles turns around the start, in which obstacles repeat.
+    /// Least and greatest values; circles include further turns around the start, in which obstacles repeat.
     pub window: [Values; 2],
     /// Connected components.
     pub polygons: Polygons,
 }
 
-/// The schema of [`CSpaces`] as JSON, JSON Schema draft 2020-12.
+/// Returns the schema of [`CSpaces`] as JSON, JSON Schema draft 2020-12.
 #[must_use]
 pub fn cspace_schema() -> serde_json::Value {
     let settings = SchemaSettings::draft2020_12().for_serialize();
@@ -142,8 +143,8 @@ pub fn cspace_schema() -> serde_json::Value {
     schema
 }
 
-/// What its planner has to show in the configuration space, as data. C-obstacles are traced anew, which takes the time
-/// that it takes for a picture.
+/// Returns the planner's configuration space as data. It traces the C-obstacles again, which takes as long as for a
+/// picture.
 #[must_use]
 pub fn cspaces(plan: &Plan) -> CSpaces {
     let is_exact = plan.options().planner.is_exact();
@@ -162,7 +163,7 @@ pub fn cspaces(plan: &Plan) -> CSpaces {
 }
 
 impl CSpaces {
-    /// As a JSON object, a line a field.
+    /// Returns a JSON object, with one line per field.
     #[must_use]
     pub fn json(&self) -> String {
         line_a_field(self)
@@ -174,7 +175,7 @@ impl CSpaces {
         self.spaces.iter().find_map(|space| space.grid.as_ref()).map(FieldGrid::matrix)
     }
 
-    /// As a GeoJSON `FeatureCollection`, whose coordinates are joint values.
+    /// Returns a GeoJSON `FeatureCollection`, with joint values as coordinates.
     #[must_use]
     pub fn geojson(&self) -> String {
         geojson::text(self)
@@ -197,7 +198,7 @@ impl Axis {
 }
 
 impl CSpace {
-    /// Obstacles alone.
+    /// Creates a space with obstacles only.
     fn of_scene(scene: &Scene, start: Configuration, is_exact: bool) -> Self {
         let numbers = (0..scene.workspace().obstacles.len()).chain(scene.self_obstacles());
         let names = numbers.map(|number| scene.obstacle(number).name.clone());
@@ -282,7 +283,7 @@ impl CSpace {
                 Self { grid: grid(quantity, &labels.iter().map(steps).collect::<Vec<_>>()), ..self }
             }
             Trace::Potential { heights, .. } => Self { grid: grid("height", heights), ..self },
-            // Guessed for pictures.
+            // These values are an estimate for pictures.
             Trace::Harmonic { potential: None, .. } => Self { grid: grid("ln_potential", &[]), ..self },
             Trace::Field { .. } | Trace::Harmonic { .. } => {
                 let logarithms = trace.logarithms();
@@ -293,8 +294,8 @@ impl CSpace {
     }
 }
 
-/// By how many times the tolerance of pictures obstacles are grown at the most: the margin itself, twice what the flattening may
-/// take, and two margins more around shapes with many corners (see [`cspace::c_obstacles`]).
+/// Largest growth of obstacles, as a multiple of the tolerance of pictures. It is the sum of the margin itself, twice
+/// the flattening error, and two margins more around shapes with many corners (see [`cspace::c_obstacles`]).
 const MARGIN: f64 = 5.0;
 
 impl Way {
@@ -304,7 +305,7 @@ impl Way {
     }
 }
 
-/// A space for each world, in the order in which the arm moves in them; that of the step that fails comes last.
+/// Returns a space for each world, in the order in which the arm moves in them; the last one is that of a failing step.
 fn spaces_of_task(plan: &TaskPlan, is_exact: bool) -> Vec<CSpace> {
     let TaskPlan { task, answer } = plan;
     let mut scenes: Vec<&Arc<Scene>> = Vec::new();

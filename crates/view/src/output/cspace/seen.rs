@@ -1,4 +1,4 @@
-//! What planners see in a configuration space: roadmaps, cells, boxes and grids.
+//! Data of planners in a configuration space: roadmaps, cells, boxes and grids.
 
 use super::Values;
 use cplan_core::cspace::Proves;
@@ -11,13 +11,14 @@ use std::collections::HashMap;
 /// A graph of straight motions.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Roadmap {
-    /// Each once.
+    /// Vertices, each once.
     pub vertices: Vec<Values>,
-    /// Numbers of two vertices.
+    /// Indices of the two vertices of each edge.
     pub edges: Vec<[usize; 2]>,
-    /// Whether it is all of the graph, or what of it was looked at.
+    /// True if this is the whole graph, false if it is only the part that the search examined.
     pub whole: bool,
-    /// Of a visibility graph: `reduced` to arcs that are tangent at both ends, which suffice for shortest paths, or `full`.
+    /// Kind of a visibility graph: `reduced` to arcs that are tangent at both ends, which suffice for shortest paths,
+    /// or `full`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub visibility: Option<&'static str>,
 }
@@ -25,14 +26,14 @@ pub struct Roadmap {
 /// Cells of free space.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Cells {
-    /// Corners of each, counter-clockwise.
+    /// Corners of each cell, counter-clockwise.
     pub corners: Vec<Vec<Values>>,
-    /// Numbers of those that the path passes, in order.
+    /// Indices of the cells that the path passes, in order.
     pub channel: Vec<usize>,
-    /// Centres of area of the channel's cells, in order; of trapezoids.
+    /// Centres of area of the channel's cells, in order; only for trapezoids.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub centers: Vec<Values>,
-    /// Middles of the doors between them, one less; of trapezoids.
+    /// Middles of the portals between them, one fewer; only for trapezoids.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub middles: Vec<Values>,
 }
@@ -40,11 +41,11 @@ pub struct Cells {
 /// Boxes: least and greatest values of each.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Boxes {
-    /// No collision anywhere in them.
+    /// Boxes without any collision.
     pub free: Vec<[Values; 2]>,
-    /// Collision everywhere in them.
+    /// Boxes in which every configuration collides.
     pub stuck: Vec<[Values; 2]>,
-    /// Neither is proven.
+    /// Undecided boxes.
     pub mixed: Vec<[Values; 2]>,
 }
 
@@ -57,16 +58,16 @@ pub struct FieldGrid {
     pub lower: Values,
     /// Sides of a cell.
     pub size: Values,
-    /// What free and blocked prove of a cell.
+    /// Guarantee of free and blocked for a cell.
     pub proves: Proves,
-    /// One a cell: 1 where it is blocked, else 0.
+    /// One value per cell: 1 if it is blocked, otherwise 0.
     #[serde(serialize_with = "bits")]
     #[schemars(with = "Vec<u8>")]
     pub blocked: Vec<bool>,
-    /// What `values` are: `steps` to the goal, `steps_from_start`, `ln_potential` (natural logarithm, 0 at the goal, the lower
-    /// the farther), or `height` (descended by the path).
+    /// The meaning of `values`: `steps` to the goal, `steps_from_start`, `ln_potential` (natural logarithm, 0 at the
+    /// goal, lower with distance), or `height` (descended by the path).
     pub quantity: &'static str,
-    /// One a cell; infinite, in JSON null, where there is none. Empty where there is no field.
+    /// One value per cell; infinite (null in JSON) if there is no value. Empty if there is no field.
     #[schemars(with = "Vec<Option<f64>>")]
     pub values: Vec<f64>,
 }
@@ -76,7 +77,7 @@ fn bits<S: Serializer>(flags: &[bool], serializer: S) -> Result<S::Ok, S::Error>
 }
 
 impl Roadmap {
-    /// Vertices in the order in which edges name them first.
+    /// Creates a roadmap. Vertices are in the order in which edges name them first.
     pub(super) fn of(edges: &[[Configuration; 2]], whole: bool, visibility: Option<&'static str>) -> Self {
         let mut numbers: HashMap<[u64; 2], usize> = HashMap::new();
         let mut vertices = Vec::new();
@@ -92,7 +93,7 @@ impl Roadmap {
 }
 
 impl FieldGrid {
-    /// The planner's grid with values for all of its cells, or for none.
+    /// Returns the planner's grid with values for all of its cells, or for none.
     pub(super) fn of(space: &Space, quantity: &'static str, values: &[f64]) -> Option<Self> {
         let Space::Grid(grid) = space else { return None };
         let has_values = values.len() == grid.blocked.len();

@@ -1,24 +1,24 @@
-// Lessons in geometry, computed on what the page holds: where link 2 begins to touch while joint 1 rests, the tests of
-// penetration, and Minkowski differences. Polygons are lists of corners [x, y], counter-clockwise.
+// Lessons in geometry, computed from the page's data: the values of joint 2 at which link 2 begins to touch, the tests
+// of penetration, and Minkowski differences. Polygons are lists of corners [x, y], counter-clockwise.
 'use strict';
 
 const Contact = (() => {
   const { TURN, apply, poses, placed, separation, pointsOf } = Geometry;
 
-  /** What is nearer than this to a contact is one, metres: coordinates of some 100 m lose about 1e-13 m in these formulas. */
+  /** Places nearer than this are the same contact, in metres. Coordinates of some 100 m lose about 1e-13 m in these formulas. */
   const ROUNDING = 1e-9;
 
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1];
   const minus = (a, b) => [a[0] - b[0], a[1] - b[1]];
   const plus = (a, b) => [a[0] + b[0], a[1] + b[1]];
   const angle = ([x, y]) => Math.atan2(y, x);
-  /** Positive where `b` lies counter-clockwise of `a`. */
+  /** Cross product; positive if `b` is counter-clockwise of `a`. */
   const cross = (a, b) => a[0] * b[1] - a[1] * b[0];
 
-  /** Sides of a polygon; a segment has two, there and back, a point none. */
+  /** Sides of a polygon. A segment has two, there and back; a point has none. */
   const sides = (corners) => (corners.length < 2 ? [] : corners.map((p, i) => [p, corners[(i + 1) % corners.length]]));
 
-  /** The lines of the sides, `normal . x = offset`, with normals that point outwards. */
+  /** Returns the lines of the sides, `normal . x = offset`, with normals that point outwards. */
   function walls(corners) {
     return sides(corners).map(([p, q]) => {
       const length = Math.hypot(...minus(q, p));
@@ -27,17 +27,18 @@ const Contact = (() => {
     });
   }
 
-  // Where joint 2 begins and ends to touch.
+  // Values at which joint 2 begins and ends to touch.
 
-  /** The angles by which `v` must be turned so that its product with `w` is `product`; NaN where there are none. */
+  /** Returns the angles by which `v` must be turned so that its product with `w` is `product`; NaN if there are none. */
   function turnsTo(v, w, product) {
     const half = Math.acos(product / (Math.hypot(...v) * Math.hypot(...w)));
     return [-half, half].map((by) => angle(w) - angle(v) + by);
   }
 
   /**
-   * Values of a turn about the origin, or of a slide along `slide`, at which two features are `radius` apart, each with the part's
-   * feature and the piece's: [value, 'corner' or 'side', its number, and the same of the piece]. All contacts are among them.
+   * Returns values of a turn about the origin, or of a slide along `slide`, at which two features are `radius` apart.
+   * Each value comes with the feature of the part and that of the piece: [value, 'corner' or 'side', its number, and
+   * the same of the piece]. All contacts are among them.
    */
   function* candidates(part, piece, slide, radius) {
     const along = (a, normal, offset) => (slide ? [(offset - dot(normal, a)) / dot(normal, slide)] : turnsTo(a, normal, offset));
@@ -47,7 +48,7 @@ const Contact = (() => {
         for (const value of along(a, normal, offset + radius)) yield [value, 'corner', i, 'side', k];
       }
     }
-    // From the part's side the piece moves the other way.
+    // As seen from the part's side, the piece moves in the opposite direction.
     for (const [k, b] of piece.entries()) {
       for (const [i, { normal, offset }] of mine.entries()) {
         for (const value of along(b, normal, offset + radius)) yield [-value, 'side', i, 'corner', k];
@@ -64,7 +65,10 @@ const Contact = (() => {
     }
   }
 
-  /** Intervals of a turn or slide within which a part comes within `level` of a piece: [begin, end], each { value, features }. */
+  /**
+   * Returns intervals of a turn or slide in which a part is within `level` of a piece: [begin, end], each { value,
+   * features }.
+   */
   function intervals(part, piece, pivot, slide, level) {
     const seen = (shape) => [...pointsOf(shape.core)].map((p) => minus(p, pivot));
     const [moving, resting] = [seen(part), seen(piece)];
@@ -83,13 +87,13 @@ const Contact = (() => {
       if (Math.abs(gap(value)) <= ROUNDING) ends.push({ value: wrapped(value), features });
     }
     ends.sort((a, b) => a.value - b.value);
-    // A corner that comes to a corner is met twice.
+    // A contact of two corners occurs twice.
     const places = ends.filter((end, i) => i === 0 || end.value - ends[i - 1].value > ROUNDING);
     if (!places.length) return gap(0) <= 0 && !slide ? [[{ value: -Math.PI }, { value: Math.PI }]] : [];
     const found = [];
     const meets = (i, j, by) => gap((places[i].value + places[j].value + by) / 2) <= 0;
     const last = places.length - 1;
-    // Round the circle, from the last to the first.
+    // Across the seam of the circle, from the last to the first.
     const around = !slide && meets(last, 0, TURN);
     places.forEach((place, i) => {
       const before = i ? meets(i - 1, i, 0) : around;
@@ -101,7 +105,7 @@ const Contact = (() => {
     return found;
   }
 
-  /** The parts of an interval of joint 2 that lie in its domain; ends that are no contacts but limits have no features. */
+  /** Returns the parts of an interval of joint 2 in its domain. Ends at limits are not contacts, and have no features. */
   function* within({ sign, domain: [low, high] }, [begin, end]) {
     const [a, b] = sign < 0 ? [{ ...end, value: -end.value }, { ...begin, value: -begin.value }] : [begin, end];
     const by = sign === undefined ? 0 : TURN;
@@ -113,7 +117,7 @@ const Contact = (() => {
     }
   }
 
-  /** The union of intervals, ascending. */
+  /** Returns the union of intervals, ascending. */
   function united(all) {
     const merged = [];
     for (const [begin, end] of all.sort((a, b) => a[0].value - b[0].value)) {
@@ -125,14 +129,14 @@ const Contact = (() => {
   }
 
   /**
-   * The slice of the configuration space at a value of joint 1. `bands`: obstacles that link 1 touches, which bars all of it;
-   * `rows`: of each obstacle that link 2 can touch the intervals of joint 2, closed, whose ends { value, features, part, piece, body }
-   * are contacts.
+   * Returns the slice of the configuration space at a value of joint 1. `bands` are obstacles that link 1 touches,
+   * which blocks the whole slice. `rows` has closed intervals of joint 2 for each obstacle that link 2 can touch. Their
+   * ends { value, features, part, piece, body } are contacts.
    */
   function slice(arm, world, q1) {
     const at = [...poses(arm, [q1, 0]), poses(arm, [0, 0])[1]];
     const joint = arm.joints[1];
-    // Of link 2, and of link 2 as it lies to link 1.
+    // Frame of link 2, and frame of link 2 relative to link 1.
     const frames = [at[0], poses(arm, [0, 0])[0]].map((pose) => ({
       pivot: apply(pose, ...arm.offset),
       slide: joint.direction && minus(apply(pose, ...joint.direction), apply(pose, 0, 0)),
@@ -159,28 +163,28 @@ const Contact = (() => {
     return { bands: [...bands], rows: merged.filter((row) => row.intervals.length).sort((a, b) => a.obstacle - b.obstacle) };
   }
 
-  // The tests of penetration. On coordinates that `snapped` has made, all signs are exact.
+  // The tests of penetration. With coordinates from `snapped`, all signs are exact.
 
-  /** Coordinates with so few binary digits that products of their differences are exact. */
+  /** Rounds coordinates to so few binary digits that products of their differences are exact. */
   function snapped(corners, size) {
     const unit = 2 ** (Math.ceil(Math.log2(size)) - 18);
     return corners.map((p) => p.map((x) => unit * Math.round(x / unit)));
   }
 
-  /** Where a point lies in a convex polygon: signed distances to the lines of the sides, positive within, and the least of them. */
+  /** Locates a point in a convex polygon: signed distances to the lines of the sides, positive inside, and the least of them. */
   function pointTest(point, polygon) {
     const distances = sides(polygon).map(([p, q]) => cross(minus(q, p), minus(point, p)) / Math.hypot(...minus(q, p)));
     const depth = Math.min(...distances);
     return { distances, depth, side: distances.indexOf(depth), inside: depth >= 0 };
   }
 
-  /** Whether two sides cross in a point that is no end of either. */
+  /** Returns true if two sides cross in a point that is not an end of either. */
   function isCrossing([p, q], [r, s]) {
     const of = (a, b, c) => Math.sign(cross(minus(b, a), minus(c, a)));
     return of(p, q, r) * of(p, q, s) < 0 && of(r, s, p) * of(r, s, q) < 0;
   }
 
-  /** The test of two convex polygons: corners of each that lie in the other or on its boundary, and sides that cross. */
+  /** Tests two convex polygons: corners of each in the other or on its boundary, and sides that cross. */
   function polygonTest(a, b) {
     const inside = (corners, polygon) => corners.map((p) => pointTest(p, polygon));
     const crossings = sides(a).flatMap((one, i) => sides(b).flatMap((other, k) => (isCrossing(one, other) ? [[i, k]] : [])));
@@ -190,12 +194,13 @@ const Contact = (() => {
 
   // The Minkowski difference.
 
-  /** Whether a direction points into [pi, 2 pi). */
+  /** Returns true if a direction points into [pi, 2 pi). */
   const isDown = ([x, y]) => y < 0 || (y === 0 && x < 0);
 
   /**
-   * `b - a` of convex polygons, swept: the sides of `b` and of `-a` by the angles of their directions, from 0 on. Each step is
-   * a corner: { at, i, k }: corner k of b less corner i of a; and the side to the next one: { of: 'a', 'b' or 'both', direction }.
+   * Returns `b - a` of convex polygons by a sweep: the sides of `b` and of `-a`, ordered by the angles of their
+   * directions, from 0 on. Each step is a corner { at, i, k }, corner k of b minus corner i of a, with the side to the
+   * next one, { of: 'a', 'b' or 'both', direction }.
    */
   function difference(b, a) {
     const lowest = (corners, sign) => corners.reduce((best, p, i) => {

@@ -1,12 +1,12 @@
-// The right panel: the configuration space, with what the planner saw in it.
+// The right panel: the configuration space, with the planner's trace.
 'use strict';
 
 const CSpace = (() => {
   const { TURN, wrap } = Geometry;
 
-  /** More obstacles than this are a crowd. */
+  /** With more obstacles than this, the crowd is drawn in a simpler style. */
   const CROWD = 100;
-  /** The sides of cells that are narrower are finer, pixels. */
+  /** Cells narrower than this have finer sides, in pixels. */
   const NARROW = 5;
 
   function bounds(flat) {
@@ -21,7 +21,7 @@ const CSpace = (() => {
     return [[x0, x1], [y0, y1]];
   }
 
-  /** Shifts by whole turns that bring a part of a shape into view, along axes that repeat. */
+  /** Returns shifts by whole turns that bring a part of a shape into view, along axes that repeat. */
   function shifts(panel, flat, repeats) {
     const box = bounds(flat);
     const along = (k) => {
@@ -40,13 +40,17 @@ const CSpace = (() => {
     for (const by of shifts(panel, flat, repeats)) trace(context, panel, flat, closed, by);
   }
 
-  /** A shape that lies still repeats for an arm after each turn, limits or not. */
+  /**
+   * Returns for each joint whether it is revolute. A static shape then repeats after each turn, whether or not the
+   * joint has limits.
+   */
   const turning = (view) => view.model.arm.joints.map((joint) => joint.sign !== undefined);
   const circles = (view) => view.model.arm.joints.map((joint) => joint.circle);
 
   function cObstacles(context, panel, view, world) {
     const repeats = turning(view);
-    // Of a crowd, all that has a colour is drawn as one, with hairlines round it: browsers do that in a fraction of the time.
+    // In a crowd, all shapes of one colour are drawn at once, with hairlines as outlines. Browsers do that in a
+    // fraction of the time.
     const isCrowd = world.obstacles.length > CROWD;
     const groups = new Map();
     for (const { obstacle, contour } of world.c_obstacles) {
@@ -68,7 +72,7 @@ const CSpace = (() => {
     }
   }
 
-  /** What is blocked by what moves, at the time of the motion. */
+  /** Draws the C-obstacles of moving obstacles at the time of the motion. */
   function inTime(context, panel, view, world) {
     if (!world.moments || !view.shows('c-obstacles')) return;
     const next = world.moments.findIndex(({ time }) => time > view.now);
@@ -193,7 +197,7 @@ const CSpace = (() => {
     if (seen.kind === 'field') field(context, panel, view, seen);
   }
 
-  /** The number of each cell that a wave came to, if there is room for it. */
+  /** Draws the number of each cell that a wave reached, if there is room for it. */
   function numbers(context, panel, { blocks, numbers: all }) {
     const [nx, ny] = blocks;
     const [[x0, y0], [x1, y1]] = [panel.at(panel.whole.map((side) => side[0])), panel.at(panel.whole.map((side) => side[1]))];
@@ -215,7 +219,7 @@ const CSpace = (() => {
     });
   }
 
-  /** Centres of the channel's cells (discs), and middles of the doors between them (rings). */
+  /** Draws centres of the channel's cells (discs), and middles of the portals between them (rings). */
   function channelPoints(context, panel, view, { centers = [], middles = [] }) {
     const { theme } = panel;
     for (const [flat, inside, edge] of [[centers, theme.ink, theme.paper], [middles, theme.paper, theme.ink]]) {
@@ -232,13 +236,13 @@ const CSpace = (() => {
     }
   }
 
-  /** Whether a cell is wide: the sides of narrow ones together would make a moire. */
+  /** Returns true if a cell is wide. The sides of many narrow cells would make a moire pattern. */
   function isWide(panel, cell) {
     const [[low, high]] = bounds(cell);
     return (high - low) * panel.pixels >= NARROW;
   }
 
-  /** Samples: where edges begin. */
+  /** Draws samples: the first ends of edges. */
   function dots(context, panel, view, flat) {
     context.fillStyle = panel.theme.accent;
     for (let i = 0; i + 3 < flat.length; i += 4) {
@@ -249,7 +253,7 @@ const CSpace = (() => {
     }
   }
 
-  /** Where a search came, the earlier the darker. */
+  /** Draws places that a search expanded; earlier ones are darker. */
   function expanded(context, panel, view, flat) {
     const last = Math.max(flat.length / 2 - 1, 1);
     context.globalAlpha = 0.8;
@@ -290,7 +294,7 @@ const CSpace = (() => {
     context.globalAlpha = 1;
   }
 
-  /** A head a little after the beginning of a line of flow. */
+  /** Draws an arrow head a little after the beginning of a line of steepest ascent. */
   function arrow(context, panel, flat) {
     const at = 2 * Math.min(3, Math.floor(flat.length / 2) - 2);
     if (at < 0) return;
@@ -303,7 +307,7 @@ const CSpace = (() => {
     context.fill();
   }
 
-  /** Hatched, as nothing else is, on paper of a kind. */
+  /** Draws the boxes of a proof: hatched, as nothing else is, over a translucent ground. */
   function proof(context, panel, boxes) {
     context.beginPath();
     rectangles(context, panel, boxes);
@@ -331,7 +335,7 @@ const CSpace = (() => {
     }
   }
 
-  /** Names within the C-obstacles; those that would cover what they name, or another, are left out. */
+  /** Draws names within the C-obstacles, except those that would cover their shape or another name. */
   function names(context, panel, view, world) {
     const [[x0, x1], [y0, y1]] = panel.shown;
     const [width, height] = panel.whole.map(([low, high]) => high - low);
@@ -340,7 +344,7 @@ const CSpace = (() => {
     Labels.inside(context, panel, markers(panel, view), shown.map(({ obstacle, at, area }) => [view.called(obstacle), panel.at(at), area * room]));
   }
 
-  /** Solutions with the tip at the centres of cells, by whether a motion leads there. */
+  /** Draws IK solutions with the tip at the centres of cells, by whether a motion leads there. */
   function solutions(context, panel, view, { kinds }) {
     for (const { color, solutions: flat } of kinds) {
       context.fillStyle = panel.theme.obstacle(color).line;
@@ -351,7 +355,7 @@ const CSpace = (() => {
     }
   }
 
-  /** What stays while the arm moves. */
+  /** Draws everything that stays while the arm moves. */
   function still(context, panel, view) {
     const { world } = view;
     const seen = Think.seen(view, view.trace);
@@ -382,7 +386,7 @@ const CSpace = (() => {
     }
   }
 
-  /** Goals of which a joint is free: dots along a line. */
+  /** Draws goals with a free joint: dots along a line. */
   function goalLines(context, panel, view) {
     for (const [width, color] of [[4.6, panel.theme.paper], [2, panel.theme.ink]]) {
       context.beginPath();
@@ -399,7 +403,7 @@ const CSpace = (() => {
     return panel.at(q.map((value, k) => wrap(view.model.arm.joints[k], value)));
   }
 
-  /** Where start, goals and what is stuck are marked. */
+  /** Returns the configurations with markers: start, goals, and where the arm gets stuck. */
   const markers = (panel, view) => [view.beginning(), ...view.goals().map(([q]) => q), ...(view.model.stuck?.at?.slice(0, 1) ?? [])].map((q) => place(view, panel, q));
 
   function ring(context, panel, [x, y], r) {
@@ -421,7 +425,7 @@ const CSpace = (() => {
     }
   }
 
-  /** What moves: where the arm is, and where it is tried. */
+  /** Draws everything that moves: the arm's configuration, and the one that the user examines. */
   function moving(context, panel, view) {
     const { theme } = panel;
     inTime(context, panel, view, view.world);
@@ -448,7 +452,7 @@ const CSpace = (() => {
     line(context, [[px, py - 7], [px, py + 7]]);
   }
 
-  /** The scale of colours, to the right of the panel. */
+  /** Draws the scale of colours, to the right of the panel. */
   function beside(context, panel, view) {
     const { scale, trace: seen } = view;
     if (!scale || !view.shows(seen.kind === 'field' ? 'equipotentials' : seen.kind)) return;

@@ -1,4 +1,4 @@
-// Kinematics, contacts and motion in time: what the program computes, once more for whoever moves the arm by hand.
+// Kinematics, contacts and motion in time: the same computations as in the program, for users who move the arm by hand.
 // Points are [x, y], poses [x, y, cosine, sine], shapes { core: [x0, y0, x1, y1, ...], radius }.
 'use strict';
 
@@ -19,7 +19,7 @@ const Geometry = (() => {
     return [value * joint.direction[0], value * joint.direction[1], 1, 0];
   }
 
-  /** Poses of both links. */
+  /** Returns the poses of both links. */
   function poses(arm, q) {
     const first = compose([arm.base[0], arm.base[1], 1, 0], motion(arm.joints[0], q[0]));
     const second = compose(compose(first, [arm.offset[0], arm.offset[1], 1, 0]), motion(arm.joints[1], q[1]));
@@ -29,7 +29,7 @@ const Geometry = (() => {
   const tipAt = (arm, q) => apply(poses(arm, q)[1], arm.tip[0], arm.tip[1]);
   const elbowAt = (arm, q) => apply(poses(arm, q)[0], arm.offset[0], arm.offset[1]);
 
-  /** The pose of what is carried. */
+  /** Returns the pose of the payload. */
   function payloadPose(arm, payload, q) {
     if (payload.grip.rigid) {
       const [x, y, angle] = payload.grip.rigid;
@@ -40,7 +40,10 @@ const Geometry = (() => {
     return compose(turned(tip[0], tip[1], angle), [-x, -y, 1, 0]);
   }
 
-  /** Where something that moves is at a time, as an obstacle: straight and evenly from stop to stop, and on from the last. */
+  /**
+   * Returns a moving obstacle at a time: it moves straight and at constant speed from stop to stop, and continues after
+   * the last.
+   */
   function moved(mover, time) {
     const { stops, velocity, outline, pieces } = mover;
     const next = stops.findIndex(([at]) => at > time);
@@ -70,7 +73,7 @@ const Geometry = (() => {
     return { core, radius: shape.radius };
   }
 
-  /** Directions along which two convex shapes can be told apart: normals of sides; of a bare side its own, too. */
+  /** Returns directions that can separate two convex shapes: normals of sides; for a segment also its own direction. */
   function axes({ core }) {
     const n = core.length / 2;
     const found = [];
@@ -111,7 +114,7 @@ const Geometry = (() => {
     return least;
   }
 
-  /** Signed distance of two shapes: separating axes where they meet, corners to sides where they do not. */
+  /** Returns the signed distance of two shapes: by separating axes if they meet, by corners and sides if they do not. */
   function separation(a, b) {
     let gap = -Infinity;
     for (const [x, y] of axes(a)) gap = Math.max(gap, -farthest(b.core, -x, -y) - farthest(a.core, x, y));
@@ -121,9 +124,9 @@ const Geometry = (() => {
     return distance - a.radius - b.radius;
   }
 
-  /** Signed distance of every link (or what it carries) and obstacle that can meet, nearest first. */
+  /** Returns the signed distance of every link (or payload) and obstacle that can meet, nearest first. */
   function contacts(arm, world, q) {
-    // Of both links, and of link 2 as it lies to link 1.
+    // Poses of both links, and of link 2 relative to link 1.
     const at = [...poses(arm, q), poses(arm, [0, q[1]])[1]];
     const nearest = new Map();
     const parts = new Map();
@@ -145,13 +148,13 @@ const Geometry = (() => {
     return [...nearest.values()].sort((a, b) => a.distance - b.distance);
   }
 
-  /** The value of a circle within its domain; others as they are. */
+  /** Returns the value of a circle within its domain; other values stay unchanged. */
   function wrap(joint, value) {
     if (!joint.circle) return value;
     return value - TURN * Math.floor((value + Math.PI) / TURN);
   }
 
-  /** The sample of a clock whose interval holds this time. */
+  /** Returns the index of the sample whose interval contains this time. */
   function interval(clock, t) {
     let [low, high] = [0, clock.time.length - 1];
     while (high - low > 1) {
@@ -162,7 +165,7 @@ const Geometry = (() => {
     return low;
   }
 
-  /** Position and velocity at a time: the cubic between two samples. */
+  /** Returns position and velocity at a time, from the cubic between two samples. */
   function moving(clock, t) {
     const k = interval(clock, t);
     const h = clock.time[k + 1] - clock.time[k];
@@ -182,7 +185,7 @@ const Geometry = (() => {
     };
   }
 
-  /** Points of a polyline, given as one number after the other. */
+  /** Returns the points of a polyline, given as a flat list of coordinates. */
   function* pointsOf(flat) {
     for (let i = 0; i + 1 < flat.length; i += 2) yield [flat[i], flat[i + 1]];
   }

@@ -1,23 +1,23 @@
-// Names in a panel, placed as in pictures: none over another, nor over what it names.
+// Names in a panel, placed as in pictures: no name covers another one, or its own shape.
 'use strict';
 
 const Labels = (() => {
   const FONT = '600 12px system-ui, sans-serif';
-  /** Height of a name's box, and its distance from what it stands beside, pixels. */
+  /** Height of a name's box, and its distance from the shape beside it, in pixels. */
   const [LINE, GAP] = [15, 3];
-  /** Half the width of the markers of start and goals, pixels. */
+  /** Half the width of the markers of start and goals, in pixels. */
   const MARKER = 8;
-  /** Part of what is named that its name may cover. */
+  /** Largest fraction of a named area that its name may cover. */
   const COVERED = 0.5;
-  /** Where a name may stand: on what it belongs to, then above, below, beside and at the corners of it. */
+  /** Possible positions of a name: on its shape, then above, below, to the sides and at the corners of it. */
   const SIDES = [[0, 0], [0, -1], [0, 1], [1, 0], [-1, 0], [1, -1], [-1, -1], [1, 1], [-1, 1]];
 
-  /** A square about a spot. */
+  /** Returns a square about a spot. */
   const about = ([x, y], half = 0) => ({ x: x - half, y: y - half, width: 2 * half, height: 2 * half });
 
-  /** The common area, square pixels. */
+  /** Returns the common area in square pixels. */
   const common = (a, b) => Math.max(0, Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x)) * Math.max(0, Math.min(a.y + a.height, b.y + b.height) - Math.max(a.y, b.y));
-  /** The same box, within another. */
+  /** Moves a box into another one. */
   const pushed = (a, b) => ({ ...a, x: Math.max(b.x, Math.min(b.x + b.width - a.width, a.x)), y: Math.max(b.y, Math.min(b.y + b.height - a.height, a.y)) });
   const within = (a, b) => a.x >= b.x && a.y >= b.y && a.x + a.width <= b.x + b.width && a.y + a.height <= b.y + b.height;
 
@@ -27,8 +27,8 @@ const Labels = (() => {
   }
 
   /**
-   * Names, each with the box of what it belongs to: on it or, where that is smaller, beside it, where it hides least of the others;
-   * what comes first chooses first. None is over one of the markers.
+   * Draws names, each with the box of its shape: on the shape or, if that is smaller, beside it, where the name covers
+   * least of the others. Earlier names choose first. No name covers one of the markers.
    */
   function beside(context, panel, names, markers = []) {
     const taken = markers.map((spot) => about(spot, MARKER));
@@ -43,7 +43,7 @@ const Labels = (() => {
         }))
         .filter((box) => within(box, panel.rect) && !taken.some((other) => common(box, other) > 0));
       if (!free.length) continue;
-      // Of what is large a part may be hidden rather than all of what is small.
+      // It is better to hide a part of a large shape than all of a small one.
       const share = (box, other) => common(box, other) / Math.max(LINE * LINE, other.width * other.height);
       const hidden = (box) => names.reduce((sum, [, other]) => sum + (other === of ? 0 : share(box, other)), 0);
       const place = free.reduce((best, box) => (hidden(box) < hidden(best) ? box : best));
@@ -52,7 +52,7 @@ const Labels = (() => {
     }
   }
 
-  /** Names about spots, each with the area of what it names, square pixels; none over one of the markers. */
+  /** Draws names centred at spots, each with the area of its shape in square pixels. No name covers one of the markers. */
   function inside(context, panel, markers, names) {
     const taken = markers.map((spot) => about(spot, MARKER));
     for (const [text, [x, y], area] of names) {
@@ -64,7 +64,7 @@ const Labels = (() => {
     }
   }
 
-  /** Room for the name of what ends at a spot and comes from another: beyond it. */
+  /** Returns the box for a name beyond `tip`, as seen from `from`. */
   function beyond(context, text, tip, from) {
     const [width, height] = size(context, text);
     const away = [tip[0] - from[0], tip[1] - from[1]];

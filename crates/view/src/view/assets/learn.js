@@ -1,9 +1,9 @@
-// Lessons in geometry, beside the motion and how it was found: slices with their contact angles, two polygons with the tests of
-// penetration, their Minkowski difference, and how that turns with the arm.
+// Lessons in geometry, beside the motion and the planner's replay: slices with their contact angles, two polygons with
+// the tests of penetration, their Minkowski difference, and how that turns with the arm.
 'use strict';
 
 class Learn {
-  /** Lessons, what they are called, and how long they play, seconds; a sweep for each corner. */
+  /** Lessons with their titles and durations in seconds; the sweep has this duration for each corner. */
   static LESSONS = [
     ['slice', 'Contact angles of a slice', 12],
     ['tests', 'When do two polygons meet?', 0],
@@ -11,7 +11,7 @@ class Learn {
     ['stack', 'Minkowski differences of a link that turns', 8],
   ];
 
-  /** Of so many slices the one with the most contacts is seen first. */
+  /** Number of slices from which the first one to show is chosen: the one with the most contacts. */
   static TRIED = 25;
 
   static degrees(angle) {
@@ -22,7 +22,7 @@ class Learn {
     return `${length.toFixed(4).replace('-', '\u2212')} m`;
   }
 
-  /** The name of a side of a polygon of so many corners. */
+  /** Returns the name of a side of a polygon with `count` corners. */
   static side(letter, index, count) {
     return `${letter}${index + 1}${letter}${((index + 1) % count) + 1}`;
   }
@@ -34,7 +34,7 @@ class Learn {
     this.view = view;
     this.lesson = 'slice';
     this.chosen = 0;
-    /** Which polygon of link 2 and which piece of an obstacle. */
+    /** Index of the polygon of link 2, and index of the obstacle's piece. */
     this.pair = [0, 0];
     const select = (label, change) => element('select', { 'aria-label': label, onchange: (event) => change(event.target.value) });
     const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label });
@@ -57,9 +57,9 @@ class Learn {
     this.listen(this.panels.left);
   }
 
-  // What there is to learn from.
+  // The subjects of the lessons.
 
-  /** Another model. */
+  /** Switches to another model. */
   update(model) {
     this.polygons = { a: [], b: [] };
     const [world] = model.worlds;
@@ -75,7 +75,7 @@ class Learn {
     const turns = model.arm.joints.some((joint) => joint.sign !== undefined);
     this.lessons = Learn.LESSONS.filter(([name]) => (name === 'slice' ? slices : polygons && (name !== 'stack' || turns)));
     this.known = null;
-    // What somebody drags in a lesson stays as long as the polygons are the same.
+    // Polygons that the user has dragged stay until the model has other polygons.
     const signature = JSON.stringify([this.polygons, this.lessons]);
     if (signature === this.signature) return;
     this.signature = signature;
@@ -89,7 +89,7 @@ class Learn {
     if (polygons) this.take(this.pair);
   }
 
-  /** Begins a lesson; a slice where there is most to see. */
+  /** Starts a lesson. For slices, it seeks the one with the most contacts. */
   start(lesson) {
     this.lesson = lesson;
     this.parts.lesson.value = lesson;
@@ -107,7 +107,7 @@ class Learn {
     this.view.ready();
   }
 
-  /** Whether the arm and its configuration space are what is looked at. */
+  /** Returns true if the lesson shows the arm and its configuration space. */
   get isSlice() {
     return this.lesson === 'slice';
   }
@@ -117,20 +117,23 @@ class Learn {
     return this.lesson === 'sweep' ? seconds * this.steps.length : seconds;
   }
 
-  /** Which part of the lesson is over, from 0 to 1. */
+  /** Returns the finished part of the lesson, from 0 to 1. */
   get part() {
     return this.duration ? this.view.time / this.duration : 0;
   }
 
   // A slice.
 
-  /** The value of joint 1. */
+  /** Returns the value of joint 1. */
   get q1() {
     const [low, high] = this.view.model.arm.joints[0].domain;
     return low + this.part * (high - low);
   }
 
-  /** The slice there of the obstacles that are shown, and its contacts by obstacle: { obstacle, value, features, shape, piece, body }. */
+  /**
+   * Returns the slice at that value for the visible obstacles, and its contacts by obstacle: { obstacle, value,
+   * features, shape, piece, body }.
+   */
   get slice() {
     const { q1, view: { world, hidden, model } } = this;
     const key = JSON.stringify([q1, [...hidden]]);
@@ -149,13 +152,13 @@ class Learn {
     return contacts[Math.min(this.chosen, contacts.length - 1)];
   }
 
-  /** Where the arm is. */
+  /** Returns the configuration of the arm. */
   get q() {
     const [low, high] = this.view.model.arm.joints[1].domain;
     return [this.q1, this.contact?.value ?? Math.min(high, Math.max(low, 0))];
   }
 
-  /** The slice through a configuration, and the contact nearest to it. */
+  /** Moves to the slice through a configuration, and chooses the contact nearest to it. */
   goTo([q1, q2]) {
     const [low, high] = this.view.model.arm.joints[0].domain;
     this.view.seek((this.duration * (q1 - low)) / (high - low));
@@ -169,18 +172,18 @@ class Learn {
     for (const panel of Object.values(this.view.panels)) panel.draw();
   }
 
-  /** The same by its button, which is made anew. */
+  /** Chooses a contact by its button. The list is built again, so the new button gets the focus. */
   pick(contact) {
     this.choose(contact);
     this.parts.told.querySelectorAll('button')[contact].focus();
   }
 
-  /** A value of a joint with its unit. */
+  /** Formats a value of a joint with its unit. */
   value(k, value) {
     return this.view.model.arm.joints[k].unit === 'rad' ? Learn.degrees(value) : Learn.metres(value);
   }
 
-  /** Which features touch, in words. */
+  /** Describes the features that touch. */
   touching({ features: [mine, i, other, k], shape, piece, body, obstacle }) {
     const feature = (kind, index, { core, radius }) => (core.length === 2 ? 'the disc' : `${kind} ${index + 1}${radius ? ' (rounded)' : ''}`);
     return `${feature(mine, i, shape)} of ${body} on ${feature(other, k, piece)} of ${this.view.world.obstacles[obstacle].name}`;
@@ -188,7 +191,7 @@ class Learn {
 
   // Two polygons.
 
-  /** Lays two polygons so that a corner of the obstacle lies in the link. */
+  /** Places two polygons so that a corner of the obstacle lies in the link. */
   take([a, b]) {
     this.pair = [a, b];
     const { arm } = this.view.model;
@@ -202,13 +205,13 @@ class Learn {
     this.size = Math.max(...[...placed, ...rests].flat().map(Math.abs), 1e-3);
     const snap = (corners) => Contact.snapped(corners, 4 * this.size);
     const [at] = snap([Contact.plus([pose[0], pose[1]], by)]);
-    // Relative to the origin of link 2, which is what the difference is made of.
+    // Relative to the origin of link 2, because the difference is a set of positions of this origin.
     this.pieces = { a: snap(placed.map((p) => Contact.minus(p, pose))), b: snap(rests), at };
     this.frame();
     this.changed();
   }
 
-  /** The link's polygon where it is; at the angle of the lesson. */
+  /** Returns the link's polygon at its place, turned by the angle of the lesson. */
   get moved() {
     return this.turned.map((p) => Contact.plus(p, this.pieces.at));
   }
@@ -226,7 +229,7 @@ class Learn {
     return Contact.difference(this.pieces.b, this.turned);
   }
 
-  /** How a place of the link's origin is drawn on the right: of a gantry as joint values. */
+  /** Returns the place in the right panel for a position of the link's origin; for a gantry, the joint values. */
   placeOf(p) {
     const { arm } = this.view.model;
     const [first, second] = arm.joints.map((joint) => joint.direction);
@@ -236,7 +239,7 @@ class Learn {
     return [Contact.cross(by, second) / determinant, Contact.cross(first, by) / determinant];
   }
 
-  /** Ranges of the panels. */
+  /** Sets the ranges of the panels. */
   frame() {
     const { a, b, at } = this.pieces;
     const reach = Math.max(...a.map((p) => Math.hypot(...p)));
@@ -274,7 +277,7 @@ class Learn {
     for (const panel of Object.values(this.panels)) panel.draw();
   }
 
-  /** What there is to see, and to say of it, now that time or a polygon is another. */
+  /** Updates the panels and texts after a change of the time or of a polygon. */
   show() {
     const pair = !this.isSlice;
     const active = this.view.mode === 'learn';
@@ -288,9 +291,9 @@ class Learn {
     for (const panel of Object.values(this.panels)) panel.resize();
   }
 
-  // What is said.
+  // Texts.
 
-  /** Where the scrubber stands. */
+  /** Returns the text beside the scrubber. */
   get clock() {
     if (this.isSlice) return `${this.view.model.arm.joints[0].name} ${this.value(0, this.q1)}`;
     return this.lesson === 'stack' ? Learn.degrees(2 * Math.PI * this.part) : `${this.step + 1} of ${this.steps.length}`;
@@ -369,9 +372,9 @@ class Learn {
     } else told.replaceChildren();
   }
 
-  // What is drawn.
+  // Drawings.
 
-  /** The arm at all contacts of the slice, and the one that is chosen. */
+  /** Draws the arm at all contacts of the slice, and the chosen one. */
   drawArm(context, panel) {
     const { view, slice: { contacts, bands }, contact } = this;
     const { theme } = panel;
@@ -387,7 +390,7 @@ class Learn {
     if (contact) this.drawTouch(context, panel, contact);
   }
 
-  /** The features that touch, in bold. */
+  /** Draws the touching features in bold. */
   drawTouch(context, panel, { value, features: [mine, i, other, k], shape, piece }) {
     const [, pose] = Geometry.poses(this.view.model.arm, [this.q1, value]);
     context.strokeStyle = panel.theme.barred;
@@ -404,7 +407,7 @@ class Learn {
     }
   }
 
-  /** The slice in the configuration space: what is barred by whom, and its contacts. */
+  /** Draws the slice in the configuration space: the blocked intervals of each obstacle, and the contacts. */
   drawSlice(context, panel) {
     const { view, slice: { rows, contacts, bands } } = this;
     const { theme } = panel;
@@ -482,7 +485,7 @@ class Learn {
     if (this.lesson === 'sweep') this.drawStep(context, panel, a, b);
   }
 
-  /** Corners that lie in the other polygon, each with its nearest side; sides that cross. */
+  /** Draws corners that lie in the other polygon, each with its nearest side, and sides that cross. */
   drawTest(context, panel, a, b) {
     const { theme } = panel;
     const { mine, others, crossings } = this.test();
@@ -506,7 +509,7 @@ class Learn {
     for (const [i, k] of crossings) for (const [polygon, index] of [[a, i], [b, k]]) line(context, Contact.sides(polygon)[index].map((p) => panel.at(p)));
   }
 
-  /** The corners whose difference is taken, and the side that comes next by its angle. */
+  /** Draws the corners whose difference is taken, and the next side by its angle. */
   drawStep(context, panel, a, b) {
     const { i, k, of } = this.steps[this.step];
     const { theme } = panel;
@@ -545,7 +548,7 @@ class Learn {
     this.dot(context, panel, this.placeOf(this.pieces.at), theme.accent, 6);
   }
 
-  /** Directions of the sides on a circle, and which of them is next. */
+  /** Draws the directions of the sides on a circle, and marks the next one. */
   drawDirections(context, panel, steps) {
     const { theme, rect } = panel;
     const r = Math.min(46, rect.width / 8);
@@ -566,7 +569,7 @@ class Learn {
     });
   }
 
-  /** Differences of a dozen angles, above each other; the one of now in bold, and where the link's origin is. */
+  /** Draws the differences for a dozen angles, one above the other; the current one in bold, with the link's origin. */
   drawStack(context, panel) {
     const { theme } = panel;
     const { fill, line: edge } = theme.obstacle(this.color);
@@ -579,7 +582,7 @@ class Learn {
       panel.faded(context, 0.55, (layer) => this.fill(layer, panel, corners, fill, edge, 1));
     }
     this.fill(context, panel, this.steps.map((step) => lift(now)(step.at)), fill, theme.barred, 3);
-    // All angles of the link where its origin is now: the row of the configuration space.
+    // All angles of the link with its origin at the current place: a row of the configuration space.
     context.strokeStyle = theme.accent;
     context.lineWidth = 2;
     line(context, [0, 2 * Math.PI].map((angle) => panel.at(lift(angle)(this.pieces.at))));
@@ -594,12 +597,12 @@ class Learn {
     let held = null;
     const within = (corners, p) => Contact.pointTest(p, corners).inside;
     const snap = (p) => Contact.snapped([p], 4 * this.size)[0];
-    /** What lies there: a corner, or a polygon as a whole. */
+    /** Returns the grasped item at a spot: a corner, or a whole polygon. */
     const grasp = (spot) => {
       const value = panel.value(spot);
       for (const [name, corners, by] of [['a', this.moved, this.pieces.at], ['b', this.pieces.b, [0, 0]]]) {
         const index = corners.findIndex((p) => Math.hypot(...Contact.minus(panel.at(p), spot)) < NEAR);
-        // A corner of the link is dragged where the link is not turned.
+        // A corner of the link can be dragged only if the link is not turned.
         if (index >= 0 && (name === 'b' || this.lesson !== 'stack')) return { name, index, by };
       }
       if (within(this.moved, value)) return { name: 'at', from: value, was: this.pieces.at };
@@ -633,7 +636,7 @@ class Learn {
     });
   }
 
-  /** Moves what is held; a corner only as far as the polygon stays convex. */
+  /** Moves the grasped item; a corner only as far as the polygon stays convex. */
   drag({ name, index, by, from, was }, value, snap) {
     if (index !== undefined) {
       const corners = this.pieces[name].map((p, i) => (i === index ? snap(Contact.minus(value, by)) : p));
@@ -648,7 +651,7 @@ class Learn {
     this.changed();
   }
 
-  /** After something was moved the panels show all of it again. */
+  /** Fits the panels again after something was moved. */
   settle() {
     this.frame();
     this.view.ready();

@@ -1,11 +1,11 @@
-// What the signs mean: the entries of the picture's legend, each with its sign.
+// The legend: the entries of the picture's legend, each with its sign.
 'use strict';
 
 const Legend = (() => {
   const SQUARE = 'd="M6 2h16v12h-16z"';
   const diamond = (fill) => `<path d="M18 1l7 7l-7 7l-7-7z" fill="var(--${fill})" stroke="var(--ink)" stroke-width="1.6"/>`;
 
-  /** The colours are the page's own, or those of obstacles: #rrggbb. */
+  /** Signs. Colours are those of the page, or those of obstacles as #rrggbb. */
   const SIGNS = {
     start: () => '<circle cx="18" cy="8" r="6" fill="var(--paper)" stroke="var(--ink)" stroke-width="2.2"/>',
     goal: () => diamond('ink'),
@@ -22,7 +22,7 @@ const Legend = (() => {
     hatched: (theme) => `<path d="M6 7l5-5M6 14l12-12M13 14l9-9M20 14l2-2" stroke="${theme.proof}" stroke-width="1.6"/><path ${SQUARE} fill="none" stroke="${theme.proof}" stroke-width="1.1"/>`,
   };
 
-  /** The entries as items of a list. */
+  /** Returns the entries as items of a list. */
   function items(theme, keys) {
     return keys.map((key) => {
       const sign = document.createElement('template');

@@ -1,7 +1,7 @@
-// A canvas with axes: from values to pixels and back, in the colours of the page.
+// A canvas with axes: it converts values to pixels and back, and uses the colours of the page.
 'use strict';
 
-/** The colours that the page's style gives, for light and dark. */
+/** The colours of the page's style sheet, for light and dark mode. */
 class Theme {
   constructor(root) {
     const style = getComputedStyle(root);
@@ -12,25 +12,25 @@ class Theme {
     this.dark = value('dark') === '1';
   }
 
-  /** A colour with some of another mixed in; both as #rrggbb. */
+  /** Returns a colour with some of another mixed in; both as #rrggbb. */
   static mixed(color, other, part) {
     const channel = (text, k) => parseInt(text.slice(1 + 2 * k, 3 + 2 * k), 16);
     const mix = (k) => Math.round(channel(color, k) + (channel(other, k) - channel(color, k)) * part);
     return `#${[0, 1, 2].map((k) => mix(k).toString(16).padStart(2, '0')).join('')}`;
   }
 
-  /** A colour that is given by its name or as #rrggbb. */
+  /** Returns a colour that is given by its name or as #rrggbb. */
   tint(color) {
     return this[color] ?? color;
   }
 
-  /** Surface and outline of an obstacle. */
+  /** Returns the surface and the outline of an obstacle. */
   obstacle(color) {
     if (this.dark) return { fill: Theme.mixed(color, this.paper, 0.35), line: Theme.mixed(color, '#ffffff', 0.35) };
     return { fill: Theme.mixed(color, this.paper, 0.3), line: Theme.mixed(color, '#000000', 0.28) };
   }
 
-  /** A scale from 0 to 1 that is read by its lightness. */
+  /** Returns a colour of the scale from 0 to 1, which is read by its lightness. */
   scale(part) {
     const stops = ['#def5e5', '#a8e1bc', '#60ceac', '#3eb4ad', '#3498a9', '#357ba3', '#3b5d9a', '#413f80'];
     const at = Math.min(1, Math.max(0, this.dark ? 1 - part : part)) * (stops.length - 1);
@@ -39,7 +39,7 @@ class Theme {
   }
 }
 
-/** Ticks of an axis from `low` to `high`, some `room` pixels long, about `spacing` pixels apart at the least. */
+/** Returns ticks of an axis from `low` to `high` that is `room` pixels long, at least about `spacing` pixels apart. */
 function ticks(low, high, degrees, room, spacing) {
   const unit = degrees ? Math.PI / 180 : 1;
   const wanted = ((high - low) / unit / Math.max(2, room / spacing)) || 1;
@@ -55,21 +55,21 @@ function ticks(low, high, degrees, room, spacing) {
   return found;
 }
 
-/** How many times a panel magnifies at the most: numbers of a view have five digits. */
+/** Largest magnification of a panel: numbers of a view have five digits. */
 const MOST_TIMES = 2000;
 
 class Panel {
   /**
-   * @param canvas where to draw
-   * @param options `x`, `y`: ranges; `degrees`: for both axes; `titles`; `scale`: 'fill' (one scale, more than the ranges
-   * may show), 'fit' (one scale, just the ranges) or 'free'; `still` and `moving`: functions that draw what stays and
-   * what moves; `beside`: one that draws what stays beyond the sides; `margins`
+   * @param canvas the canvas to draw on
+   * @param options `x`, `y`: ranges; `degrees`: for both axes; `titles`; `scale`: 'fill' (one scale, may show more than
+   * the ranges), 'fit' (one scale, exactly the ranges) or 'free'; `still` and `moving`: functions that draw the fixed
+   * and the moving content; `beside`: one that draws fixed content outside the sides; `margins`
    */
   constructor(canvas, options) {
     Object.assign(this, { degrees: [false, false], seams: [false, false], titles: ['', ''], scale: 'free' }, options);
     this.canvas = canvas;
     this.overlays = [];
-    /** How many times it is magnified, and what of the ranges is then in the middle. */
+    /** Magnification, and the part of the ranges that is then in the middle. */
     this.times = 1;
     this.middle = [0, 0];
     this.back = document.createElement('canvas');
@@ -94,7 +94,7 @@ class Panel {
     this.draw();
   }
 
-  /** Ranges to pixels. */
+  /** Fits ranges to pixels. */
   layout() {
     if (!this.size) return;
     const [narrow, right, top, bottom] = this.margins ?? [48, 10, 8, 40];
@@ -121,12 +121,12 @@ class Panel {
     });
   }
 
-  /** Room for the digits that values have when they are magnified, pixels. */
+  /** Returns the room for the additional digits of values in a magnified panel, in pixels. */
   get digits() {
     return 7 * Math.max(0, Math.ceil(Math.log10(this.times)) - 1);
   }
 
-  /** Magnifies by a factor; what is at a spot stays there as far as it can. */
+  /** Magnifies by a factor; the value at a spot stays there as far as possible. */
   magnify(factor, spot) {
     const value = this.value(spot);
     this.times = Math.min(MOST_TIMES, Math.max(1, this.times * factor));
@@ -138,7 +138,7 @@ class Panel {
     this.redraw();
   }
 
-  /** Moves what is magnified by so many pixels. */
+  /** Moves the magnified part by this many pixels. */
   move(dx, dy) {
     const [from, to] = [this.value([0, 0]), this.value([dx, dy])];
     this.middle = this.middle.map((x, k) => x - (to[k] - from[k]));
@@ -146,7 +146,7 @@ class Panel {
     this.redraw();
   }
 
-  /** Moves what is magnified so that a value is seen. */
+  /** Moves the magnified part so that a value is visible. */
   reveal(value) {
     const isSeen = value.every((x, k) => x >= this.shown[k][0] && x <= this.shown[k][1]);
     if (isSeen || this.times === 1) return;
@@ -155,14 +155,14 @@ class Panel {
     this.redraw();
   }
 
-  /** Shows all again. */
+  /** Shows the whole ranges again. */
   reset() {
     this.times = 1;
     this.layout();
     this.redraw();
   }
 
-  /** Draws all anew with the next picture of the screen. */
+  /** Draws everything with the next picture of the screen. */
   redraw() {
     this.dirty = true;
     if (this.isAsked) return;
@@ -189,12 +189,12 @@ class Panel {
     ];
   }
 
-  /** Pixels a metre (or radian), along the first axis. */
+  /** Returns pixels per metre (or radian) along the first axis. */
   get pixels() {
     return this.rect.width / (this.shown[0][1] - this.shown[0][0]);
   }
 
-  /** Where a pointer is: pixels within the canvas. */
+  /** Returns the place of a pointer, in pixels within the canvas. */
   spot(event) {
     const box = this.canvas.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
@@ -231,7 +231,7 @@ class Panel {
     return context;
   }
 
-  /** Draws something as a whole, and all of it as transparent as `alpha` says. */
+  /** Draws something as a whole, with opacity `alpha`. */
   faded(context, alpha, draw) {
     if (alpha >= 1) {
       draw(context);
@@ -288,7 +288,7 @@ class Panel {
     context.restore();
   }
 
-  /** Seams are dashed in the accent: what leaves there comes back on the other side. */
+  /** Draws the border. Seams are dashed in the accent colour: a path that leaves there comes back on the other side. */
   border(context) {
     const { rect, theme } = this;
     const sides = [
@@ -314,7 +314,7 @@ function line(context, spots) {
   context.stroke();
 }
 
-/** Adds a polyline of values, given as one number after the other, to the current outline; shifted by `by`. */
+/** Adds a polyline of values, given as a flat list of coordinates, to the current outline; shifted by `by`. */
 function trace(context, panel, flat, closed, by = [0, 0]) {
   for (let i = 0; i + 1 < flat.length; i += 2) {
     const [x, y] = panel.at([flat[i] + by[0], flat[i + 1] + by[1]]);
@@ -324,7 +324,7 @@ function trace(context, panel, flat, closed, by = [0, 0]) {
   if (closed) context.closePath();
 }
 
-/** A cross on paper: where the arm gets stuck. */
+/** Draws a cross with a light ground: the place where the arm gets stuck. */
 function cross(context, theme, [x, y]) {
   for (const [r, width, color] of [[7.5, 6, theme.paper], [6, 2.6, theme.barred]]) {
     [context.lineWidth, context.strokeStyle] = [width, color];
@@ -332,10 +332,10 @@ function cross(context, theme, [x, y]) {
   }
 }
 
-/** From one line of a hatch to the next, along the horizontal; pixels. */
+/** Horizontal distance between neighbouring lines of a hatch, in pixels. */
 const HATCH = 7;
 
-/** Lines that rise to the right, within the current outline. */
+/** Draws lines that rise to the right, within the current outline. */
 function hatch(context, rect, color) {
   context.save();
   context.clip();
@@ -351,14 +351,14 @@ function hatch(context, rect, color) {
   context.restore();
 }
 
-/** Adds the outline of a rounded convex shape: sides moved outwards, joined by arcs. */
+/** Adds the outline of a rounded convex shape: its sides moved outwards, joined by arcs. */
 function rounded(context, panel, { core, radius }) {
   const n = core.length / 2;
   const r = radius * panel.pixels;
   if (n === 1) {
     const [x, y] = panel.at(core);
     context.moveTo(x + r, y);
-    // The same way round as the other outlines, which are united by the non-zero rule.
+    // In the same orientation as the other outlines, because the non-zero rule unites them.
     context.arc(x, y, r, 0, 2 * Math.PI, true);
     return;
   }
@@ -368,7 +368,7 @@ function rounded(context, panel, { core, radius }) {
     const [a, b] = [panel.at([core[2 * i], core[2 * i + 1]]), panel.at([core[2 * j], core[2 * j + 1]])];
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     if (length === 0) continue;
-    // Corners run counter-clockwise in the plane, clockwise where pixels count downwards.
+    // Corners run counter-clockwise in the plane, but clockwise in pixels, which count downwards.
     const [nx, ny] = [-(b[1] - a[1]) / length, (b[0] - a[0]) / length];
     const angle = Math.atan2(ny, nx);
     if (first === null) {

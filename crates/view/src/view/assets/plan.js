@@ -1,4 +1,4 @@
-// A page by itself: what it shows lies in it. What is looked at first stands behind its address: #think, #learn/sweep.
+// A page by itself, which contains its view. The address can choose the initial mode: #think, #learn/sweep.
 'use strict';
 
 window.cplan = new View(document.querySelector('main'), JSON.parse(document.getElementById('view').textContent));

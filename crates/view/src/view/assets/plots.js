@@ -1,4 +1,4 @@
-// Position, velocity, acceleration and, where it is known, torque of both joints over time.
+// Position, velocity, acceleration and, if known, torque of both joints over time.
 'use strict';
 
 const Plots = (() => {
@@ -10,7 +10,7 @@ const Plots = (() => {
   ];
   const DASHES = [[], [6, 4]];
 
-  /** The range of one joint's values, with its limits in it where there are some. */
+  /** Returns the range of one joint's values, including its limits if there are any. */
   function span(model, key) {
     let [low, high] = [0, 0];
     const values = model.clock[key];
@@ -38,7 +38,7 @@ const Plots = (() => {
       context.setLineDash(DASHES[joint]);
       context.lineWidth = 1.8;
       context.beginPath();
-      // Accelerations jump; they hold until the next sample.
+      // Accelerations jump; each value holds until the next sample.
       let before = null;
       let last = -Infinity;
       for (let k = 0; k < clock.time.length; k += 1) {
@@ -61,7 +61,7 @@ const Plots = (() => {
     line(context, [[x, panel.rect.y], [x, panel.rect.y + panel.rect.height]]);
   }
 
-  /** One panel a quantity. */
+  /** Creates one panel per quantity. */
   function mount(element, view) {
     const key = document.createElement('p');
     key.className = 'key';
@@ -95,7 +95,7 @@ const Plots = (() => {
     });
   }
 
-  /** Whether there is anything to show of it. */
+  /** Returns true if the view has values of this quantity. */
   function shows(view, { key }) {
     return Boolean(view.model.clock && view.model.clock[key]);
   }

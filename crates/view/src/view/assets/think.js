@@ -1,13 +1,13 @@
-// How the planner came to its answer: what of it is there at a moment of the replay.
+// The planner's replay: the part of its trace that is visible at a moment.
 'use strict';
 
 const Think = (() => {
-  /** So often a second the arm is put where the planner looks: more would flicker. */
+  /** Changes per second of the arm's configuration during the replay; more would flicker. */
   const LOOKS = 5;
 
   const duration = (replay) => (replay ?? []).reduce((sum, phase) => sum + phase.seconds, 0);
 
-  /** The phase at a time, its place, and how much of it has been shown, from 0 to 1. */
+  /** Returns the phase at a time, its index, and the part of it that has been shown, from 0 to 1. */
   function moment(replay, time) {
     let from = 0;
     for (const [index, phase] of replay.entries()) {
@@ -19,7 +19,7 @@ const Think = (() => {
     return null;
   }
 
-  /** How much is there of what phases of this kind show. */
+  /** Returns the visible part of the content of phases of this kind. */
   function part(view, kind) {
     const { moment: now } = view;
     const at = now ? view.replay.findIndex((phase) => phase.kind === kind) : -1;
@@ -29,10 +29,10 @@ const Think = (() => {
 
   const count = (all, share) => Math.min(all, Math.round(all * share));
 
-  /** The first things of a list, each of so many numbers. */
+  /** Returns the first items of a list, each of which consists of `each` numbers. */
   const begun = (flat, each, share) => flat.slice(0, each * count(flat.length / each, share));
 
-  /** The beginning of a path, by its length. */
+  /** Returns the beginning of a path, as a part of its length. */
   function gone(points, share) {
     const at = (i) => [points[2 * i], points[2 * i + 1]];
     const n = points.length / 2;
@@ -50,7 +50,7 @@ const Think = (() => {
     return there;
   }
 
-  /** Boxes that are there; all others lie where nothing is decided yet. */
+  /** Returns the boxes that have appeared; all others are undecided so far. */
   function cut({ free, stuck, mixed }, order, share) {
     const kinds = [free, stuck, mixed];
     const found = { kind: 'boxes', free: [], stuck: [], mixed: [], rest: [] };
@@ -69,7 +69,7 @@ const Think = (() => {
 
   const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/';
 
-  /** Cells that a wave or a search has come to. */
+  /** Returns the cells that a wave or a search has reached. */
   function upTo(seen, share) {
     const order = seen.order ?? seen.levels;
     const there = new Set([...LETTERS.slice(0, Math.floor(share * LETTERS.length))]);
@@ -78,12 +78,12 @@ const Think = (() => {
     return less;
   }
 
-  /** What is there of what the planner saw. */
+  /** Returns the visible part of the planner's trace. */
   function seen(view, trace) {
     const { moment: now } = view;
     if (!now) return trace;
     const { phase } = now;
-    // Some planners leave nothing but their slabs.
+    // The only trace of some planners is their slabs.
     if (phase.kind === 'slabs') return cut(phase, phase.order, now.part);
     if (!trace) return trace;
     const of = (kind) => part(view, kind);
@@ -113,7 +113,7 @@ const Think = (() => {
     return less;
   }
 
-  /** The paths that are there, and the one before it was pulled taut. */
+  /** Returns the visible paths: the final one, and the one before it was pulled taut. */
   function paths(view, all) {
     const { moment: now } = view;
     if (!now) return all;
@@ -125,7 +125,7 @@ const Think = (() => {
       .map((path) => ({ ...path, ghosts: [] }));
   }
 
-  /** Where the planner looks: the arm is put there. */
+  /** Returns the configuration at which the planner works; the arm is shown there. */
   function focus(view) {
     const { phase, part: share } = view.moment;
     const looks = Math.max(1, Math.round(phase.seconds * LOOKS));

@@ -1,7 +1,7 @@
-// The page: two panels, what can be shown in them, and time.
+// The page: two panels, their layers, and time.
 'use strict';
 
-/** An element with attributes and children. */
+/** Creates an element with attributes and children. */
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
@@ -12,7 +12,7 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-/** Names of layers, and whether they are shown at first. Which of them there are depends on what is shown. */
+/** Names of layers, and whether they are initially visible. The content determines which of them exist. */
 const LAYERS = [
   ['c-obstacles', 'C-obstacles', true],
   ['access', 'where the tip can get', true],
@@ -35,48 +35,49 @@ const LAYERS = [
   ['frames', 'frames', true],
 ];
 const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\u2022', waiting: '\u2026' };
-/** A finger that moves less than this has tapped; one that begins this near to the cross takes it. Pixels. */
+/** A finger that moves less than `TAP` has tapped. One that begins within `NEAR` of the cross takes it. In pixels. */
 const [TAP, NEAR] = [10, 24];
-/** Where arrow keys lead, and by how many pixels they move what is magnified. */
+/** Directions of arrow keys, and the pixels (`PAN`) by which they move a magnified picture. */
 const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
 const PAN = 40;
-/** What moves farther drags what is magnified, pixels. */
+/** A larger movement drags a magnified picture, in pixels. */
 const DRAG = 4;
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];
-/** More obstacles than this are numbered, not named; of still more names show under the pointer alone. */
+/** More obstacles than `NAMED` have numbers instead of names. With more than `CROWDED`, names appear only under the pointer. */
 const [NAMED, CROWDED] = [16, 40];
-/** Keys and buttons magnify so many times; a wheel's pixel by the exponential of so much. */
+/** Magnification by a key or button, and its logarithm per pixel of a wheel. */
 const [MAGNIFIES, A_PIXEL] = [1.5, 0.002];
-/** A wheel that turned the page so short a time ago goes on doing that, milliseconds. */
+/** A wheel that scrolled the page within this time continues to do so, in milliseconds. */
 const SCROLLING = 300;
 
 class View {
-  /** A view of `model` within `root`. `recall` asks how the planner came to it, where somebody can be asked. */
+  /** Creates a view of `model` within `root`. `recall` requests the planner's replay, if there is a program to answer. */
   constructor(root, model, recall = null) {
     this.root = root;
     this.layers = new Map(LAYERS.map(([name, , shown]) => [name, shown]));
     this.hidden = new Set();
     this.time = 0;
-    /** What is played: 'move', the motion, 'think', how the planner came to it, or 'learn', a lesson. Each keeps its time. */
+    /** Content that is played: 'move', the motion; 'think', the planner's replay; or 'learn', a lesson. Each keeps its time. */
     this.mode = 'move';
     this.times = { move: 0, think: 0, learn: 0 };
-    /** Of a task the motion that is told of in 'think'. */
+    /** Index of a task's motion whose replay 'think' shows. */
     this.told = 0;
     this.recall = recall;
-    /** What somebody has chosen, which comes back when it can be played again. */
+    /** Mode that the user has chosen. The view returns to it when it is available again. */
     this.chosen = 'move';
     this.learn = new Learn(this);
     this.speed = 1;
     this.probe = null;
     this.pinned = false;
     /**
-     * Who takes the pointer before the view does: { down, move, up }, each called with panel, value and event; `tap(panel)` is a
-     * finger's tap on nothing, `grasps(panel, value, event)` says whether there is something to take.
+     * Handler that receives pointer events before the view: { down, move, up }, each called with panel, value and
+     * event. `tap(panel)` is called for a finger's tap on nothing, and `grasps(panel, value, event)` returns whether
+     * there is something to take.
      */
     this.tool = null;
-    /** Whether somebody else says how it ended: see `say`. */
+    /** True if another script reports the outcome: see `say`. */
     this.judged = false;
-    /** Whether to leave out what takes long to draw, while something moves. */
+    /** True to leave out everything that is slow to draw, while something moves. */
     this.light = false;
     this.build();
     this.update(model);
@@ -85,9 +86,9 @@ class View {
     document.addEventListener('keydown', (event) => this.key(event));
   }
 
-  // What is shown.
+  // Content.
 
-  /** Shows another model; layers, hidden obstacles and, as far as it goes, the time stay. */
+  /** Shows another model. Layers, hidden obstacles and, as far as possible, the time stay the same. */
   update(model) {
     this.model = model;
     this.traces = null;
@@ -106,7 +107,7 @@ class View {
     cspace.seams = joints.map((joint) => joint.circle);
     cspace.titles = joints.map((joint) => `${joint.name}${joint.unit === 'm' ? ' (m)' : ''}${joint.circle ? ', wraps around' : ''}`);
     cspace.scale = alike ? 'fit' : 'free';
-    // Beside it stands a scale of colours.
+    // Room for a scale of colours beside the panel.
     const hasScale = [...model.worlds, ...(model.replays ?? [])].some(({ scale }) => scale);
     cspace.margins = hasScale ? [48, 56, 8, 40] : undefined;
     for (const panel of [workspace, cspace]) panel.layout();
@@ -121,7 +122,7 @@ class View {
     this.parts.transport.hidden = !moves && !thinks && (this.light || choices < 2);
     if (!moves && !thinks) this.pause();
     if (!there[this.mode]) {
-      // All that was found is seen at first.
+      // Initially, the end of the replay is visible, with everything that the planner found.
       this.times[this.mode] = this.time;
       this.mode = moves || !thinks ? 'move' : 'think';
       this.time = this.mode === 'think' ? this.duration : this.times.move;
@@ -129,7 +130,7 @@ class View {
     this.ready();
   }
 
-  /** Plays the motion, how the planner came to it, or a lesson. */
+  /** Switches to the motion, the planner's replay, or a lesson. */
   switchTo(mode) {
     const button = [...this.parts.modes.children].find((one) => one.dataset.mode === mode);
     if (this.parts.modes.hidden || button.hidden) return;
@@ -148,31 +149,31 @@ class View {
 
   enter(mode) {
     this.times[this.mode] = this.time;
-    // Of a task that motion is told of which is under way.
+    // For a task, the replay is that of the current motion.
     const told = mode === 'think' && this.hasReplay(this.motion) ? this.model.motions.indexOf(this.motion) : this.told;
     if (told !== this.told) [this.told, this.times.think] = [told, 0];
     this.mode = mode;
     this.time = this.times[mode];
   }
 
-  /** Whether it is told how the planner came to a motion of a task. */
+  /** Returns true if there is a replay of the planner for a motion of a task. */
   hasReplay(motion) {
     return motion?.replay !== undefined;
   }
 
-  /** Whether it is told how the planner came to anything. */
+  /** Returns true if there is any replay of the planner. */
   get thinks() {
     return Boolean(this.model.replay ?? this.model.replays);
   }
 
-  /** The controls of what is played. */
+  /** Updates the controls of the current mode. */
   ready() {
     const { parts } = this;
     const learns = this.mode === 'learn';
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
     parts.panels.hidden = parts.legend.hidden = learns && !this.learn.isSlice;
-    // While something is dragged, what is gone comes back.
+    // While the user drags, hidden controls keep their room, because they come back.
     parts.transport.classList.toggle('still', !this.duration && !this.light);
     for (const button of parts.modes.children) button.setAttribute('aria-pressed', String(button.dataset.mode === this.mode));
     parts.scrubber.max = this.duration;
@@ -187,42 +188,42 @@ class View {
     return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
   }
 
-  /** The phase of the replay, and how much of it has been shown; none while the motion is played. */
+  /** Returns the phase of the replay, and the part of it that has been shown; `null` in other modes. */
   get moment() {
     return this.mode === 'think' && this.replay ? Think.moment(this.replay, this.time) : null;
   }
 
-  /** What is told of the motion of a task: its phases, and what the planner saw. */
+  /** Returns the replay of a task's motion: its phases, and the planner's trace. */
   get account() {
     return this.mode === 'think' ? this.model.replays?.[this.model.motions[this.told].replay] : undefined;
   }
 
-  /** How the planner came to it, phase by phase. */
+  /** Returns the phases of the current replay. */
   get replay() {
     return this.model.replay ?? this.account?.phases;
   }
 
-  /** What the planner saw. */
+  /** Returns the planner's trace. */
   get trace() {
     return (this.account ?? this.world).trace;
   }
 
-  /** What its colours are values of. */
+  /** Returns the scale of the trace's colours. */
   get scale() {
     return (this.account ?? this.world).scale;
   }
 
-  /** The time of the motion, at which what moves is where it is; while something else is played, its beginning. */
+  /** Returns the time that determines the poses of moving obstacles: that of the motion; in other modes 0. */
   get now() {
     return this.mode === 'move' ? this.time : 0;
   }
 
-  /** How long the motion takes. */
+  /** Returns the duration of the motion. */
   get lasts() {
     return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
   }
 
-  /** The motion that is under way. */
+  /** Returns the current motion. */
   get motion() {
     const { motions } = this.model;
     if (this.mode === 'think') return motions[this.told];
@@ -236,7 +237,7 @@ class View {
     return this.model.worlds[this.motion?.world ?? 0];
   }
 
-  /** Where the arm is. */
+  /** Returns the configuration of the arm. */
   get q() {
     if (this.mode === 'learn' && this.learn.isSlice) return this.learn.q;
     if (this.moment) return Think.focus(this) ?? this.beginning();
@@ -247,14 +248,14 @@ class View {
     return this.layers.get(layer) && (this.mode !== 'learn' || Learn.LAYERS.has(layer));
   }
 
-  /** The paths in the world that is shown. */
+  /** Returns the paths in the current world. */
   pathsHere() {
     if (this.account) return [this.model.paths[this.motion.path]];
     const world = this.motion?.world ?? 0;
     return this.model.paths.filter((path) => path.world === world);
   }
 
-  /** Where the arm is when what is shown begins. */
+  /** Returns the configuration in which the current content begins. */
   beginning() {
     const { clock, start } = this.model;
     const { motion } = this;
@@ -263,13 +264,13 @@ class View {
     return motion && clock ? Geometry.moving(clock, motion.from).position : start;
   }
 
-  /** Ends of the paths that are shown, or the goals where there are none. */
+  /** Returns the ends of the visible paths, or the goals if there are no paths. */
   ends() {
     const ends = this.pathsHere().map((path) => path.points.slice(-2));
     return ends.length ? ends.slice(0, 1) : this.model.goals.slice(0, 1);
   }
 
-  /** Goals, each with whether a path ends there (or none was found). */
+  /** Returns goals, each with true if a path ends there (or if no path was found). */
   goals() {
     const ends = this.pathsHere().map((path) => path.points.slice(-2));
     const alone = ends.length === 0;
@@ -277,7 +278,7 @@ class View {
     return [...this.model.goals.map((q) => [q, alone]), ...unreached, ...ends.map((q) => [q, true])];
   }
 
-  /** What an obstacle is called: its name or, where there are many, its number. */
+  /** Returns the name of an obstacle, or its number if there are many. */
   called(obstacle) {
     return this.named ? this.world.obstacles[obstacle].name : String(obstacle + 1);
   }
@@ -286,7 +287,7 @@ class View {
     return this.model.paths.some((path) => path.step);
   }
 
-  /** Whether there is somewhere to go, rather than a configuration alone. */
+  /** Returns true if there is a path or a goal, and not only a configuration. */
   get isMotion() {
     return this.model.paths.length + this.model.goals.length > 0;
   }
@@ -296,7 +297,7 @@ class View {
     return [theme.ink, theme.accent];
   }
 
-  // What the page is made of.
+  // Elements of the page.
 
   build() {
     const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label, 'aria-describedby': 'told' });
@@ -396,7 +397,7 @@ class View {
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)]));
   }
 
-  /** How it ended: for colour and symbol, and in words. */
+  /** Shows the outcome: `ending` for colour and symbol, and `words` as text. */
   say(ending, words) {
     const { status } = this.parts;
     if (status.dataset.ending === ending && status.dataset.words === words) return;
@@ -404,7 +405,7 @@ class View {
     status.replaceChildren(element('span', { 'aria-hidden': 'true' }, SYMBOLS[ending]), ` ${words}`);
   }
 
-  /** What the signs mean that are drawn. */
+  /** Shows the legend of the visible signs. */
   explain() {
     if (this.light) return;
     const { theme } = this.panels.workspace;
@@ -415,7 +416,7 @@ class View {
     this.parts.legend.replaceChildren(...Legend.items(theme, keys));
   }
 
-  /** The steps of a task, to be gone to, and marks where each begins. */
+  /** Lists the steps of a task as buttons. */
   enumerate() {
     const { motions } = this.model;
     const isTask = motions.length > 1;
@@ -428,7 +429,7 @@ class View {
     }));
   }
 
-  /** Goes to a step: to its time, or to how the planner came to it. */
+  /** Goes to a step: to its time, or to its replay. */
   go(motion) {
     if (this.mode !== 'think') this.seek(motion.from);
     else if (this.hasReplay(motion)) {
@@ -438,7 +439,7 @@ class View {
     }
   }
 
-  /** Marks on the scrubber: where steps or phases begin. */
+  /** Sets marks on the scrubber at the beginnings of steps or phases. */
   tick() {
     let begin = 0;
     const phases = this.mode === 'think' ? this.replay.map(({ seconds }) => (begin += seconds) - seconds) : this.model.motions.map(({ from }) => from);
@@ -450,7 +451,7 @@ class View {
     }));
   }
 
-  /** What pictures show, for who does not see them. */
+  /** Describes the pictures for users of screen readers. */
   tell() {
     if (this.playing || this.light) return;
     const { arm } = this.model;
@@ -465,7 +466,7 @@ class View {
     this.parts.told.textContent = `${stands} ${path ? goes() : this.isMotion ? 'There is no path here.' : ''}${proven}`;
   }
 
-  /** Layers that there are, and obstacles. */
+  /** Lists the available layers, and the obstacles. */
   choices() {
     const { worlds, paths } = this.model;
     const seen = [...worlds, ...(this.model.replays ?? [])].map(({ trace }) => trace);
@@ -522,7 +523,7 @@ class View {
     return [...Object.values(this.panels), ...(this.plots ?? []).map((plot) => plot.panel)];
   }
 
-  /** Draws everything anew. */
+  /** Draws everything again. */
   refresh() {
     if (!this.model) return;
     this.explain();
@@ -606,17 +607,17 @@ class View {
     this.parts.speed.value = String(speed);
   }
 
-  // Trying a configuration.
+  // Examining a configuration.
 
   listen(panel) {
     const { canvas } = panel;
     const asTool = (name, event) => this.tool?.[name]?.(panel, panel.value(panel.spot(event)), event);
     const isCSpace = panel === this.panels.cspace;
-    /** Whether the tool has the pointer. */
+    /** True while the tool has the pointer. */
     let taken = false;
-    /** Where a pointer was put down, whether it took the cross, and where it drags the picture from. */
+    /** Place where the pointer was pressed, whether it took the cross, and the last place of a drag. */
     let press = null;
-    /** The fingers that pinch: how far apart they are, and the spot between them. */
+    /** Distance of two fingers that pinch, and the spot between them. */
     let pinch = null;
     canvas.addEventListener('pointerdown', (event) => {
       press = null;
@@ -665,7 +666,8 @@ class View {
       if (isCSpace && !this.pinned) this.examine(null);
       if (!isCSpace) this.hover(panel, null);
     });
-    // What begins on a handle does not scroll the page, nor do two fingers, nor one in what is magnified.
+    // A touch that begins on a handle does not scroll the page. Nor do two fingers, or one finger in a magnified
+    // picture.
     const takes = ({ clientX, clientY }) => {
       const touch = { clientX, clientY, pointerType: 'touch' };
       return panel.times > 1 || asTool('grasps', touch) || (isCSpace && this.isAtCross(panel.spot(touch)));
@@ -700,7 +702,7 @@ class View {
       const spot = panel.spot(event);
       const leaves = panel.times === 1 && (event.deltaY > 0 || (!event.ctrlKey && performance.now() - scrolled < SCROLLING));
       if (leaves || !panel.contains(spot)) {
-        // A pinch on a pad would magnify the page.
+        // Otherwise, a pinch on a touchpad would magnify the page.
         if (event.ctrlKey) event.preventDefault();
         return;
       }
@@ -732,7 +734,7 @@ class View {
     );
   }
 
-  /** Names the obstacle under the pointer, where they have numbers or none. */
+  /** Shows the name of the obstacle under the pointer, if obstacles have numbers or no label. */
   hover(panel, event) {
     const index = event && !this.named ? Workspace.found(this, panel.value(panel.spot(event))) : null;
     if (index === null && !this.hovered) return;
@@ -741,17 +743,17 @@ class View {
     panel.draw();
   }
 
-  /** Whether a finger there takes the cross in the configuration space. */
+  /** Returns true if a finger at this spot takes the cross in the configuration space. */
   isAtCross([x, y]) {
     if (!this.pinned || !this.probe) return false;
     const at = this.panels.cspace.at(this.probe.q);
     return Math.hypot(at[0] - x, at[1] - y) < NEAR;
   }
 
-  /** Puts the arm to q, to see what it would touch; without q, no more. */
+  /** Places a second arm at q, and shows what it touches; without q, removes it. */
   examine(q) {
     if (this.mode === 'learn' && q) {
-      // A click, not any move of the mouse, chooses a slice.
+      // A slice is chosen by a click, not by every move of the mouse.
       if (this.pinned && this.learn.isSlice) this.learn.goTo(q);
       this.pinned = false;
       return;
@@ -765,7 +767,7 @@ class View {
     for (const panel of Object.values(this.panels)) panel.draw();
   }
 
-  /** On a small screen what is said stands where the finger is: above it, as far as there is room. */
+  /** On a small screen, moves the description above the finger, as far as there is room. */
   follow(q) {
     const { canvas } = this.panels.cspace;
     const [x, y] = this.panels.cspace.at(q);
@@ -778,15 +780,15 @@ class View {
     return `${this.valued(this.probe.q)}: ${this.touched(this.probe.contacts)}`;
   }
 
-  /** A configuration in words. */
+  /** Describes a configuration. */
   valued(q) {
-    // With more digits where they can be seen.
+    // With more digits in a magnified picture.
     const more = Math.floor(Math.log10(this.panels.cspace.times));
     const value = (joint, x) => (joint.unit === 'rad' ? `${((x * 180) / Math.PI).toFixed(1 + more)}\u00b0` : `${x.toFixed(3 + more)} m`);
     return this.model.arm.joints.map((joint, k) => `${joint.name} ${value(joint, q[k])}`).join(', ');
   }
 
-  /** What is touched, or nearest, in words. */
+  /** Describes the contacts, or the nearest obstacle. */
   touched(contacts) {
     const { arm } = this.model;
     const hits = contacts.filter((c) => c.distance <= 0);
@@ -828,7 +830,10 @@ class View {
     else if (keys[event.key] && !control) event.preventDefault();
   }
 
-  /** Keys that magnify a panel, and that move what is magnified; in the configuration space what is seen follows the cross. */
+  /**
+   * Handles keys that magnify a panel or move the magnified part. In the configuration space, the visible part follows
+   * the cross.
+   */
   zooms(panel, event) {
     const way = WAYS[event.key];
     const keys = { '+': () => this.magnify(panel, MAGNIFIES), '=': () => this.magnify(panel, MAGNIFIES), '-': () => this.magnify(panel, 1 / MAGNIFIES), 0: () => panel.reset() };
@@ -840,7 +845,7 @@ class View {
     return true;
   }
 
-  /** Arrow keys move the cross in the configuration space, by less where it is magnified. */
+  /** Handles arrow keys, which move the cross in the configuration space; by smaller steps if it is magnified. */
   nudge(event) {
     const way = WAYS[event.key];
     if (!way) return false;

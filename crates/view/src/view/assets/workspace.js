@@ -1,12 +1,12 @@
-// The left panel: obstacles, the arm, and where its tip goes.
+// The left panel: obstacles, the arm, and the path of its tip.
 'use strict';
 
 const Workspace = (() => {
   const { poses, tipAt, elbowAt, payloadPose, placed, pointsOf } = Geometry;
 
-  /** Length of a straight piece of a tip's trace, as a part of a turn. */
+  /** Length of a straight piece of a tip's path, as a fraction of a turn. */
   const FINE = 0.0125;
-  /** Frames of joints: length of an axis, pixels. */
+  /** Length of the axes of joint frames, in pixels. */
   const AXIS = 46;
 
   function outline(context, panel, obstacle) {
@@ -22,12 +22,12 @@ const Workspace = (() => {
     solids(context, panel, view, world.obstacles);
   }
 
-  /** What moves, where it is now. */
+  /** Draws moving obstacles at their current poses. */
   function movers(context, panel, view, world) {
     solids(context, panel, view, (world.movers ?? []).map((mover) => Geometry.moved(mover, view.now)));
   }
 
-  /** Where what moves goes while the arm does: its course, and where it stops. */
+  /** Draws the trajectories of moving obstacles during the arm's motion, and their stops. */
   function courses(context, panel, view, world) {
     for (const mover of world.movers ?? []) {
       const lasts = Math.min(view.lasts, mover.until ?? Infinity);
@@ -57,14 +57,14 @@ const Workspace = (() => {
       context.lineWidth = obstacle.outline.polyline ? 3 : 1.4;
       if (obstacle.outline.polyline) context.stroke();
       else {
-        // What pieces have in common is no outline.
+        // Sides between pieces are not part of the outline.
         context.stroke();
         context.fill();
       }
     });
   }
 
-  /** Which of the arms is which, and the names of obstacles, above the arm. */
+  /** Draws the names of the arm's poses and of the obstacles, above the arm. */
   function names(context, panel, view, world) {
     const shown = [];
     const { arm: model } = view.model;
@@ -86,7 +86,10 @@ const Workspace = (() => {
     Labels.beside(context, panel, shown);
   }
 
-  /** What the name of an obstacle belongs to, pixels: all of it, of a wall the middle of its longest piece. */
+  /**
+   * Returns the box that the name of an obstacle refers to, in pixels: of the whole shape, or in the middle of a wall's
+   * longest piece.
+   */
   function box(panel, { outline: { polyline }, pieces, own }) {
     if (polyline) {
       const points = [...pointsOf(polyline)];
@@ -105,7 +108,7 @@ const Workspace = (() => {
     return { x: left, y: top, width: right - left, height: bottom - top };
   }
 
-  /** The obstacle at a place; none where there is none. */
+  /** Returns the index of the obstacle at a place, or `null`. */
   function found(view, place) {
     const point = { core: place, radius: 0 };
     const holds = ({ name, pieces, own }) => !view.hidden.has(name) && pieces.slice(0, own).some((piece) => Geometry.separation(point, piece) <= 0);
@@ -113,7 +116,7 @@ const Workspace = (() => {
     return index < 0 ? null : index;
   }
 
-  /** The arm at q. `look`: fill, line, width, alpha, whether joints are shown, and colours of links that touch. */
+  /** Draws the arm at q. `look`: fill, line, width, alpha, whether joints are shown, and colours of links that touch. */
   function arm(context, panel, view, world, q, look) {
     panel.faded(context, look.alpha ?? 1, (layer) => solid(layer, panel, view, world, q, look));
   }
@@ -158,7 +161,7 @@ const Workspace = (() => {
     }
   }
 
-  /** Where the tip goes along a path: straight joint motions are curves here. */
+  /** Returns the tip's path: straight motions in joint space are curves here. */
   function tipTrace(model, flat) {
     const spots = [];
     let before = null;
@@ -187,7 +190,7 @@ const Workspace = (() => {
       const there = spots[i].map((p) => panel.at(p));
       pathLine(context, panel.theme, path, () => line(context, there));
     };
-    // Those of other worlds are there, but pale.
+    // Paths in other worlds are shown, but pale.
     const here = new Set(view.pathsHere());
     context.globalAlpha = 0.22;
     view.model.paths.forEach((path, i) => !here.has(path) && draw(i, path));
@@ -211,7 +214,7 @@ const Workspace = (() => {
     context.setLineDash([]);
   }
 
-  /** Cells, by how the tip can get there. */
+  /** Draws the reachable cells, coloured by their kind. */
   function cells(context, panel, { corner, cell, size: [columns], kinds, cells: all }) {
     const { theme } = panel;
     const colors = kinds.map(({ color }) => theme.obstacle(color).fill);
@@ -224,7 +227,7 @@ const Workspace = (() => {
     }
   }
 
-  /** What stays while the arm moves. */
+  /** Draws everything that stays while the arm moves. */
   function still(context, panel, view) {
     const { model, world } = view;
     const { theme } = panel;
@@ -254,7 +257,7 @@ const Workspace = (() => {
     if (view.shows('frames')) for (const frame of model.frames) axes(context, panel, frame);
   }
 
-  /** What is in the way of a motion that is not there, and where the arm gets stuck. */
+  /** Draws the blocking obstacles of a motion that does not exist, and the arm where it gets stuck. */
   function stuck(context, panel, view, { blockers, at }) {
     const { theme } = panel;
     for (const number of blockers) {
@@ -266,7 +269,7 @@ const Workspace = (() => {
     cross(context, theme, panel.at(at[1]));
   }
 
-  /** The outline of an obstacle that is hit. */
+  /** Draws the outline of an obstacle in contact. */
   function struck(context, panel, obstacle) {
     outline(context, panel, obstacle);
     context.lineWidth = 4;
@@ -274,7 +277,7 @@ const Workspace = (() => {
     context.stroke();
   }
 
-  /** What moves: the arm, and the one that is tried. */
+  /** Draws everything that moves: the arm, and the examined one. */
   function moving(context, panel, view) {
     const { theme } = panel;
     movers(context, panel, view, view.world);
@@ -284,7 +287,7 @@ const Workspace = (() => {
     if (view.hovered) Labels.write(context, theme, ...view.hovered);
   }
 
-  /** The arm that is tried, and what it touches. */
+  /** Draws the examined arm, and the obstacles that it touches. */
   function tried(context, panel, view) {
     const { theme } = panel;
     const { contacts, q } = view.probe;
@@ -302,7 +305,7 @@ const Workspace = (() => {
     });
   }
 
-  /** Directions of a link's frame; one that stands on the plane is a dot (towards us) or a cross. */
+  /** Draws the axes of a link's frame. An axis perpendicular to the plane is a dot (towards the viewer) or a cross. */
   function axes(context, panel, frame) {
     const [x, y] = panel.at(frame.at);
     ['x', 'y', 'z'].forEach((letter, k) => {
@@ -327,7 +330,7 @@ const Workspace = (() => {
   return { still, moving, found, arm, struck };
 })();
 
-/** A path or trace: in its colour, visible on any ground by the broad line of paper under it. */
+/** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */
 function pathLine(context, theme, path, stroke) {
   context.lineCap = 'round';
   for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [path.color ?? theme.ink, path.width, path.dash]]) {
