@@ -1,7 +1,7 @@
 //! A study in words: only what its figures bear out.
 
+use super::Family;
 use super::measure::Measure;
-use super::row::Family;
 use super::sign::sign_test;
 use super::spread::Spread;
 use super::study::Study;
