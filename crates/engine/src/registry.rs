@@ -18,6 +18,8 @@ use std::str::FromStr;
 pub struct Descriptor {
     /// Name on the command line.
     pub name: &'static str,
+    /// What it does, in a line: for the help.
+    pub summary: &'static str,
     /// Planners that work alike.
     pub family: Family,
     /// Paths that it can give.
@@ -109,7 +111,7 @@ impl FromStr for Method {
 
 /// Makes [`Method`] of the table: a variant, its line in the help, its descriptor.
 macro_rules! planners {
-    ($($method:ident: $summary:literal, $descriptor:expr;)+) => {
+    ($($method:ident: $summary:literal { $($field:ident: $value:expr),+ $(,)? })+) => {
         /// A planner by name.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Method {
@@ -124,15 +126,7 @@ macro_rules! planners {
             #[must_use]
             pub fn descriptor(self) -> &'static Descriptor {
                 match self {
-                    $(Method::$method => const { &$descriptor }),+
-                }
-            }
-
-            /// Returns its line in the help.
-            #[must_use]
-            pub fn summary(self) -> &'static str {
-                match self {
-                    $(Method::$method => $summary),+
+                    $(Method::$method => const { &Descriptor { summary: $summary, $($field: $value),+ } }),+
                 }
             }
         }
@@ -140,65 +134,65 @@ macro_rules! planners {
 }
 
 const TAUT: &[PathKind] = &[PathKind::Taut];
-const TAUT_AND_OWN: &[PathKind] = &[PathKind::Own, PathKind::Taut];
+const OWN_AND_TAUT: &[PathKind] = &[PathKind::Own, PathKind::Taut];
 
 // The default, roadmap planners, field planners, those that judge the scene itself.
 planners! {
-    Shortest: "The shortest path, from exact slices, with a proven bound on the optimum; or a proof that there is none", Descriptor {
+    Shortest: "The shortest path, from exact slices, with a proven bound on the optimum; or a proof that there is none" {
         name: "shortest",
         family: Family::Exact,
         paths: TAUT,
         settings: &[Criterion, Gap, Margin],
         defaults: Settings::default,
         solve: shortest::solve,
-    };
-    Visibility: "Visibility graph: the shortest path, with a proven bound on the optimum", Descriptor {
+    }
+    Visibility: "Visibility graph: the shortest path, with a proven bound on the optimum" {
         name: Visibility::NAME,
         family: Family::Roadmap,
         paths: TAUT,
         settings: &[Criterion, Gap, Margin, Search, Graph],
         defaults: Settings::default,
         solve: by_visibility,
-    };
-    Trapezoid: "Trapezoidal decomposition: a channel of cells, and the funnel path through it", Descriptor {
+    }
+    Trapezoid: "Trapezoidal decomposition: a channel of cells, and the funnel path through it" {
         name: Trapezoid::NAME,
         family: Family::Roadmap,
         paths: &[PathKind::Own, PathKind::Taut, PathKind::Middles],
         settings: &[Path, Margin, Search],
         defaults: Settings::default,
         solve: |request| on_polygons(request, |s, _| Trapezoid { path: s.path, search: s.search }),
-    };
-    Triangles: "Triangles of free space: a channel of them, and the funnel path through it", Descriptor {
+    }
+    Triangles: "Triangles of free space: a channel of them, and the funnel path through it" {
         name: Triangles::NAME,
         family: Family::Roadmap,
-        paths: TAUT_AND_OWN,
+        paths: OWN_AND_TAUT,
         settings: &[Path, Margin, Search],
         defaults: Settings::default,
         solve: |request| on_polygons(request, |s, _| Triangles { path: s.path, search: s.search }),
-    };
-    Voronoi: "Voronoi diagram: the way whose least distance from obstacles, in joint space, is the greatest", Descriptor {
+    }
+    Voronoi: "Voronoi diagram: the way whose least distance from obstacles, in joint space, is the greatest" {
         name: Voronoi::NAME,
         family: Family::Roadmap,
-        paths: TAUT_AND_OWN,
+        paths: OWN_AND_TAUT,
         settings: &[Path, Margin, Search],
         // Far from obstacles, which a taut path is not.
         defaults: || Settings { path: PathKind::Own, ..Settings::default() },
         solve: |request| on_polygons(request, |s, _| Voronoi { path: s.path, search: s.search }),
-    };
-    Prm: "Probabilistic roadmap: random configurations, each joined to the nearest that it sees", Descriptor {
+    }
+    Prm: "Probabilistic roadmap: random configurations, each joined to the nearest that it sees" {
         name: Prm::NAME,
         family: Family::Roadmap,
-        paths: TAUT_AND_OWN,
+        paths: OWN_AND_TAUT,
         settings: &[Samples, Nearest, Seed, Path, Margin, Search],
         defaults: Settings::default,
         solve: |request| on_polygons(request, |s, level| {
             Prm { samples: s.samples << level, nearest: s.nearest, seed: s.seed, path: s.path, search: s.search }
         }),
-    };
-    Wavefront: "Manhattan wavefront on a grid", Descriptor {
+    }
+    Wavefront: "Manhattan wavefront on a grid" {
         name: Wavefront::NAME,
         family: Family::Field,
-        paths: TAUT_AND_OWN,
+        paths: OWN_AND_TAUT,
         settings: &[GridSearch, Ties, Forward, Neighborhood, Space, Path, Cells],
         // Given, so that cells are not made square in joint space.
         defaults: || Settings { cells: Some(CellCounts::square(FIRST_CELLS)), ..Settings::default() },
@@ -209,11 +203,11 @@ planners! {
             neighborhood: s.neighborhood,
             path: s.path,
         }),
-    };
-    Harmonic: "Harmonic potential on a grid", Descriptor {
+    }
+    Harmonic: "Harmonic potential on a grid" {
         name: Harmonic::NAME,
         family: Family::Field,
-        paths: TAUT_AND_OWN,
+        paths: OWN_AND_TAUT,
         settings: &[Field, Space, Path, Cells],
         // Fields are for being followed.
         defaults: || Settings { path: PathKind::Own, ..Settings::default() },
@@ -221,21 +215,21 @@ planners! {
             None => on_cells(request, |s, _| Harmonic { path: s.path }),
             Some(field) => on_zoned_cells(request, |s, _| FieldPlanner { path: s.path, ..field }),
         },
-    };
-    Subdivision: "Subdivision into boxes: a path with room around it, or a proof that there is none", Descriptor {
+    }
+    Subdivision: "Subdivision into boxes: a path with room around it, or a proof that there is none" {
         name: "subdivision",
         family: Family::Exact,
-        paths: TAUT_AND_OWN,
+        paths: OWN_AND_TAUT,
         settings: &[Path],
         defaults: Settings::default,
         solve: subdivision::solve,
-    };
-    First: "The first certified path that is found, or a proof that there is none: the quickest answer", Descriptor {
+    }
+    First: "The first certified path that is found, or a proof that there is none: the quickest answer" {
         name: "first",
         family: Family::Exact,
         paths: TAUT,
         settings: &[],
         defaults: Settings::default,
         solve: first::solve,
-    };
+    }
 }

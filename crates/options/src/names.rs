@@ -74,7 +74,7 @@ impl Named for Method {
     }
 
     fn help(self) -> &'static str {
-        self.summary()
+        self.descriptor().summary
     }
 }
 
