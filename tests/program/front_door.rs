@@ -120,7 +120,7 @@ fn what_makes_no_sense_is_refused_by_name() {
         assert!(matches!(&refused, PlanError::Options(why) if why.contains(name)), "{name}: {refused}");
     }
     let task = Problem::load(shipped("robots/scara.urdf"), shipped("workspaces/tasks/table_mission.toml")).unwrap();
-    let refused = plan(&task, &Options { planner: shortest(Some(0.01), 1e-3), ..plain }).expect_err("a gap of a task");
+    let refused = plan(&task, &Options { planner: shortest.with_gap(0.01), ..plain }).expect_err("a gap of a task");
     assert!(refused.to_string().contains("--gap is for a single motion"), "{refused}");
 }
 
