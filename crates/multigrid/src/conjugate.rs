@@ -294,7 +294,7 @@ impl Workspace {
                 odd.fill(0.0);
                 if range.contains(&cell) {
                     let j = cell - range.start;
-                    (if (i + j) % 2 == 0 { even } else { odd })[j / 2] = 1.0;
+                    (if (i + j).is_multiple_of(2) { even } else { odd })[j / 2] = 1.0;
                 }
             }
         }
