@@ -10,7 +10,7 @@
 #[path = "mobile/mod.rs"]
 mod mobile;
 
-use cplan::engine::{CellCounts, GridSpace, Method, Planner};
+use cplan::engine::{CellCounts, GridSpace, Method, Planner, Setting};
 use cplan::planner::{GridSearch, PathKind};
 use cplan::{Options, Problem, plan};
 use mobile::floor::Floor;
@@ -92,10 +92,8 @@ fn along_cells(
     for search in [GridSearch::Wave, GridSearch::AStar] {
         let (arm, workspace) = floor.scene.clone().into_parts();
         let problem = Problem::new(arm, workspace, start, goal)?;
-        let mut planner = Planner::named(Method::Wavefront).with_path(PathKind::Own).with_space(space);
-        if let Planner::Wavefront { search: how, .. } = &mut planner {
-            *how = search;
-        }
+        let planner = Planner::named(Method::Wavefront).with_path(PathKind::Own).with_space(space);
+        let planner = planner.with(Setting::GridSearch, |settings| settings.grid_search = search);
         let planner = planner.with_cell_counts(CellCounts(cells));
         let plan = plan(&problem, &Options { levels: 1, ..Options::from(planner) })?;
         let path = plan.report().path.clone().ok_or("there is no plan")?;

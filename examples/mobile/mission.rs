@@ -6,7 +6,7 @@ use super::forces::{self, Ending, Manner};
 use super::occupancy::{Occupancy, SIDE, cell};
 use super::robot::Robot;
 use super::{START, TARGETS, fields, in_the_way};
-use cplan::engine::{CellCounts, Method, Planner};
+use cplan::engine::{CellCounts, Method, Planner, Setting};
 use cplan::explore::{self, Exploration, Settings, explore};
 use cplan::field::{
     Attraction, Device, Difference, Direction, Khatib, Limits, Measure, Order, Relaxation, Repulsion, Scan, Stencil,
@@ -93,11 +93,8 @@ const COARSE: CellCounts = CellCounts([80, 40]);
 pub fn planners() -> Vec<(&'static str, Planner)> {
     let named = Planner::named(Method::Harmonic);
     let with = |choice: FieldChoice| {
-        let mut planner = named;
-        if let Planner::Harmonic { field, .. } = &mut planner {
-            *field = Some(FieldPlanner { field: choice, limits: Limits::High, escape: None, path: PathKind::Own });
-        }
-        planner
+        let field = FieldPlanner { field: choice, limits: Limits::High, escape: None, path: PathKind::Own };
+        named.with(Setting::Field, |settings| settings.field = Some(field))
     };
     // As the source: constant attraction, and 1/d^2 from every occupied cell.
     let khatib = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(1.0), saturated: false };

@@ -1,7 +1,7 @@
 //! The pictures of the documentation. `tests/program/pictures.rs` draws them, too.
 
 use cplan::PlanOutput as _;
-use cplan::engine::{CellCounts, GridSpace, Method, Planner};
+use cplan::engine::{Method, Planner, Setting};
 use cplan::field::{Attraction, Khatib, Limits, Repulsion};
 use cplan::planner::{FieldChoice, FieldPlanner, PathKind};
 use cplan::{Options, Plan, Problem, plan};
@@ -67,6 +67,6 @@ fn by_forces(charge: f64) -> Options {
     let laws = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(charge), saturated: false };
     let (limits, path) = (Limits::High, PathKind::Own);
     let field = Some(FieldPlanner { field: FieldChoice::Khatib(laws), limits, escape: None, path });
-    let cells = Some(CellCounts::square(80));
-    Options { levels: 1, ..Options::from(Planner::Harmonic { field, space: GridSpace::Rows, path, cells }) }
+    let planner = Planner::named(Method::Harmonic).with(Setting::Field, |settings| settings.field = field);
+    Options { levels: 1, ..Options::from(planner.with_cells(80)) }
 }

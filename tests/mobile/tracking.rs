@@ -8,7 +8,7 @@ use crate::mobile::tanh::{AHEAD, CYCLE, PASSED, speeds};
 use crate::mobile::tracking::{Tracking, desired, track};
 use crate::mobile::{START, TARGETS};
 use crate::plain::least_gap;
-use cplan::engine::{CellCounts, GridSpace, Method, Planner};
+use cplan::engine::{CellCounts, GridSpace, Method, Planner, Setting};
 use cplan::model::{Scene, Workspace};
 use cplan::planner::{GridSearch, PathKind};
 use cplan::{Options, Point, Problem, plan};
@@ -71,9 +71,8 @@ fn cells_of_the_wave_and_of_a_star_are_followed() {
         let (arm, workspace) = floor.scene.clone().into_parts();
         let problem = Problem::new(arm, workspace, start, goal).unwrap();
         for search in [GridSearch::Wave, GridSearch::AStar] {
-            let mut planner = Planner::named(Method::Wavefront).with_path(PathKind::Own).with_space(space);
-            let Planner::Wavefront { search: how, .. } = &mut planner else { panic!("a wavefront") };
-            *how = search;
+            let planner = Planner::named(Method::Wavefront).with_path(PathKind::Own).with_space(space);
+            let planner = planner.with(Setting::GridSearch, |s| s.grid_search = search);
             let options = Options { levels: 1, ..Options::from(planner.with_cell_counts(CellCounts(cells))) };
             let path = plan(&problem, &options).unwrap().report().path.clone().expect("cells");
             let heading = (path[1][1] - path[0][1]).atan2(path[1][0] - path[0][0]);

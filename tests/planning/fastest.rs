@@ -8,6 +8,7 @@ use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::random_worlds::oracle::Oracle;
 use crate::random_worlds::world::{KINDS, world};
+use cplan::engine::Method;
 use cplan::model::Status;
 use cplan::motion::{Drive, Objective, Trajectory};
 use cplan::space::{Configuration, Path};
@@ -93,7 +94,7 @@ fn motions_of_random_worlds() {
         let mut dice = Dice::new(seed ^ 0x51_7e);
         let kind = KINDS[(seed % 4) as usize];
         let Some(problem) = world(kind, 7000 + seed).map(Problem::from) else { continue };
-        let plain = plan(&problem, &Options { planner: Planner::First, ..Options::default() }).unwrap();
+        let plain = plan(&problem, &Options { planner: Planner::named(Method::First), ..Options::default() }).unwrap();
         // Straight ways are as fast as can be.
         if plain.status() != Status::Found || plain.report().path.as_ref().is_some_and(|path| path.len() < 3) {
             continue;

@@ -1,7 +1,7 @@
 //! How planners came to their answers: what is told of it is what happened.
 
 use crate::common::shipped_feasible;
-use cplan::engine::{Method, Phase, Replay, Shows, SlabBoxes, Verdict};
+use cplan::engine::{Method, Phase, Replay, Setting, Shows, SlabBoxes, Verdict};
 use cplan::planner::{GridSearch, PathKind, Trace};
 use cplan::space::Configuration;
 use cplan::{Options, Plan, Planner, Problem, plan};
@@ -69,9 +69,7 @@ fn every_planner_tells_how_it_came_to_its_path() {
 #[test]
 fn searches_are_told_in_the_order_in_which_they_went() {
     for search in GridSearch::ALL {
-        let mut planner = Planner::named(Method::Wavefront);
-        let Planner::Wavefront { search: how, .. } = &mut planner else { panic!("a wavefront") };
-        *how = search;
+        let planner = Planner::named(Method::Wavefront).with(Setting::GridSearch, |s| s.grid_search = search);
         let plan = asked("planar_2r", "shelf", planner);
         let Trace::Wavefront { cells, labels, expanded, forward: false } = &plan.motion().unwrap().answer.run.trace
         else {
@@ -147,9 +145,7 @@ fn a_field_is_told_between_its_sweeps() {
         escape: None,
         path: PathKind::Own,
     };
-    let mut planner = Planner::named(Method::Harmonic).with_cells(32);
-    let Planner::Harmonic { field, .. } = &mut planner else { panic!("a field") };
-    *field = Some(relaxed);
+    let planner = Planner::named(Method::Harmonic).with_cells(32).with(Setting::Field, |s| s.field = Some(relaxed));
     let plan = asked("planar_2r", "shelf", planner);
     let phases = replayed(&plan);
     let Some(Phase { shows: Shows::Sweeps(sweeps), .. }) = phases.first() else { panic!("{phases:?}") };

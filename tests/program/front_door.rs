@@ -2,7 +2,7 @@
 
 use crate::cli::Place;
 use cplan::PlanOutput as _;
-use cplan::engine::{CellCounts, Method};
+use cplan::engine::Method;
 use cplan::geometry::{Convex, SimplePolygon, penetration_depth, polygon_test};
 use cplan::{
     Arm, Configuration, Criterion, Obstacle, Options, Outcome, Plan, PlanError, Planner, Point, Problem, Refutation,
@@ -57,20 +57,13 @@ fn options_are_those_of_the_command_line() {
     let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
     let problem = Problem::load(&robot, &world).unwrap();
     let named = |name: &str| Planner::named(name.parse().unwrap());
-    let mut wavefront = named("wavefront");
-    if let Planner::Wavefront { cells, .. } = &mut wavefront {
-        *cells = CellCounts::square(128);
-    }
     let criterion = Criterion::Weighted([1.0, 0.5]);
     for (words, planner) in [
         ("--planner first", named("first")),
-        ("--planner wavefront --cells 128", wavefront),
+        ("--planner wavefront --cells 128", named("wavefront").with_cells(128)),
         ("--planner trapezoid --path own", named("trapezoid").with_path(cplan::planner::PathKind::Own)),
         ("--planner harmonic", named("harmonic")),
-        (
-            "--metric weighted --weights 1,0.5 --gap 0.01",
-            Planner::Shortest { criterion, gap: Some(0.01), margin: 1e-3 },
-        ),
+        ("--metric weighted --weights 1,0.5 --gap 0.01", named("shortest").with_criterion(criterion).with_gap(0.01)),
     ] {
         let told = Place::new().run(&[&robot, &world], &format!("{words} --json"));
         let made = plan(&problem, &Options { planner, ..Options::default() }).unwrap();
@@ -96,19 +89,7 @@ fn an_outcome_is_one_of_three() {
     let Outcome::Infeasible(Refutation::Motion(proof)) = closed.outcome() else { panic!("it is closed") };
     assert!(!proof.stuck().is_empty() && closed.trajectory().is_none());
     // One attempt at eight cells shows nothing, and a wave proves nothing; the judge may.
-    let coarse = Options {
-        planner: Planner::Wavefront {
-            search: Default::default(),
-            ties: Default::default(),
-            forward: false,
-            neighborhood: Default::default(),
-            space: Default::default(),
-            path: cplan::planner::PathKind::Taut,
-            cells: CellCounts::square(8),
-        },
-        levels: 1,
-        ..Options::default()
-    };
+    let coarse = Options { planner: Planner::named(Method::Wavefront).with_cells(8), levels: 1, ..Options::default() };
     let unknown = plan(&load("workspaces/shelf.toml"), &coarse).unwrap();
     assert!(matches!(unknown.outcome(), Outcome::Unknown(why) if !why.is_empty()), "{:?}", unknown.status());
 }
@@ -116,15 +97,15 @@ fn an_outcome_is_one_of_three() {
 #[test]
 fn what_makes_no_sense_is_refused_by_name() {
     let problem = Problem::load(shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")).unwrap();
-    let shortest = |gap, margin| Planner::Shortest { criterion: Criterion::Euclidean, gap, margin };
+    let shortest = Planner::named(Method::Shortest);
     let plain = Options::default();
     let mut options = vec![
         ("levels", Options { levels: 0, ..plain }),
         ("levels", Options { levels: 13, ..plain }),
-        ("gap", Options { planner: shortest(Some(f64::NAN), 1e-3), ..plain }),
-        ("gap", Options { planner: shortest(Some(0.0), 1e-3), ..plain }),
-        ("margin", Options { planner: shortest(None, -1e-3), ..plain }),
-        ("margin", Options { planner: shortest(None, f64::NAN), ..plain }),
+        ("gap", Options { planner: shortest.with_gap(f64::NAN), ..plain }),
+        ("gap", Options { planner: shortest.with_gap(0.0), ..plain }),
+        ("margin", Options { planner: shortest.with_margin(-1e-3), ..plain }),
+        ("margin", Options { planner: shortest.with_margin(f64::NAN), ..plain }),
         ("jerk", Options { jerk: Some([Some(-1.0), None]), ..plain }),
     ];
     let weights = Planner::named(Method::Visibility).with_criterion(Criterion::Weighted([1.0, -1.0]));
@@ -139,7 +120,7 @@ fn what_makes_no_sense_is_refused_by_name() {
         assert!(matches!(&refused, PlanError::Options(why) if why.contains(name)), "{name}: {refused}");
     }
     let task = Problem::load(shipped("robots/scara.urdf"), shipped("workspaces/tasks/table_mission.toml")).unwrap();
-    let refused = plan(&task, &Options { planner: shortest(Some(0.01), 1e-3), ..plain }).expect_err("a gap of a task");
+    let refused = plan(&task, &Options { planner: shortest.with_gap(0.01), ..plain }).expect_err("a gap of a task");
     assert!(refused.to_string().contains("--gap is for a single motion"), "{refused}");
 }
 

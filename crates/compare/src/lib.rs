@@ -28,10 +28,11 @@ mod words;
 
 pub use comparison::Comparison;
 pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, WeightScan, convergence};
+pub use cplan_engine::Family;
 pub use labels::labels;
 pub use measure::Measure;
 pub use page::{Overlay, Page, Picture, Spot};
-pub use row::{Family, OtherPath, Row};
+pub use row::{OtherPath, Row};
 pub use sign::sign_test;
 pub use spread::Spread;
 pub use study::{Refusal, Sampling, Study};

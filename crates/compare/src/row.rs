@@ -2,45 +2,7 @@
 
 use cplan_core::model::Status;
 use cplan_core::planner::{Note, PathKind, Size};
-use cplan_engine::Method;
-
-/// Planners that work alike.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Family {
-    /// A graph over the free space's polygons: visibility, trapezoid, triangles, voronoi, prm.
-    Roadmap,
-    /// Values on a grid's cells: wavefront, harmonic and its relatives.
-    Field,
-    /// Planners that test the scene itself (exact slices, slabs, boxes): shortest, first, subdivision.
-    Exact,
-}
-
-impl Family {
-    /// All families, in the order of the tables.
-    pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Exact];
-
-    /// Returns the plural name of its planners.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Family::Roadmap => "roadmaps",
-            Family::Field => "fields",
-            Family::Exact => "exact planners",
-        }
-    }
-}
-
-impl From<Method> for Family {
-    fn from(method: Method) -> Self {
-        match method {
-            Method::Visibility | Method::Trapezoid | Method::Triangles | Method::Voronoi | Method::Prm => {
-                Family::Roadmap
-            }
-            Method::Wavefront | Method::Harmonic => Family::Field,
-            Method::Shortest | Method::First | Method::Subdivision => Family::Exact,
-        }
-    }
-}
+use cplan_engine::Family;
 
 /// Figures of a planner's path of the other kind than the row is about.
 #[derive(Debug, Clone, Copy, PartialEq)]

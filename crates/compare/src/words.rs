@@ -1,7 +1,7 @@
 //! Conclusions of a study in words, as far as its figures support them.
 
+use super::Family;
 use super::measure::Measure;
-use super::row::Family;
 use super::sign::sign_test;
 use super::spread::Spread;
 use super::study::Study;

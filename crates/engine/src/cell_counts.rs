@@ -1,7 +1,7 @@
 //! How many cells a grid has along its axes.
 
 use super::planner_errors::wrong_number;
-use super::planner_options::CELLS;
+use super::setting::CELLS;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;

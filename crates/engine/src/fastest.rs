@@ -1,7 +1,7 @@
 //! The fastest motion among several ways.
 
 use super::options::Options;
-use super::planner_options::Criterion;
+use super::setting::Criterion;
 use super::{Answer, Verdict, bound, solve};
 use cplan_core::check::CertifiedPath;
 use cplan_core::model::MotionProblem;

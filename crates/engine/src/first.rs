@@ -1,13 +1,13 @@
 //! The first answer: a certified path, or a proof, by slabs alone.
 
+use super::ladder::Request;
 use super::settle::decide;
-use super::{Answer, Method, Options, Space, Stages, Verdict};
-use cplan_core::model::MotionProblem;
+use super::{Answer, Method, Space, Stages, Verdict};
 use cplan_core::planner::{PathKind, Proposal, Run, Size, Trace};
 use cplan_interrupt::Instant;
 
-/// Answers `problem` by [`decide`].
-pub(super) fn solve(problem: &MotionProblem, options: &Options) -> Answer {
+/// Answers a request by [`decide`].
+pub(super) fn solve(Request { problem, options, .. }: Request) -> Answer {
     let clock = Instant::now();
     let verdict = decide(problem, options.boxes);
     let stages = Stages { query: clock.elapsed(), ..Stages::default() };

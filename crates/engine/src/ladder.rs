@@ -2,17 +2,16 @@
 
 use super::admission::{Admit, Ends};
 use super::bound::{Bound, bound};
-use super::rungs::{Described, cells, field_cells, polygons, zoned_cells};
+use super::rungs::{Described, grid_cells, polygons, zoned_cells};
 use super::settle::decide;
-use super::{Answer, Options, Planner, Space, Stages, Verdict, first, shortest, subdivision};
+use super::{Answer, Options, Settings, Space, Stages, Verdict};
 use cplan_core::check::{CertifiedPath, Rejection, certify};
-use cplan_core::cspace::has_exact_polygons;
+use cplan_core::cspace::{Grid, Regions, ZonedGrid, has_exact_polygons};
 use cplan_core::model::{MotionProblem, Scene};
-use cplan_core::planner::{Harmonic, Note, Proposal, Query, Run, Trapezoid, Visibility, Wavefront};
+use cplan_core::planner::{Note, Planner, Proposal, Query, Run, Visibility};
 use cplan_core::space::{Metric, Path, Segment};
-use cplan_fields::{FieldChoice, FieldPlanner};
+use cplan_fields::FieldChoice;
 use cplan_interrupt::Instant;
-use cplan_roadmaps::{Prm, Triangles, Voronoi};
 use cplan_text::percent;
 
 /// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
@@ -50,55 +49,54 @@ pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMu
 }
 
 fn answered(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
-    match options.planner {
-        Planner::Shortest { .. } => shortest::solve(problem, options, progress),
-        Planner::First => first::solve(problem, options),
-        Planner::Visibility { .. } => climb_polygons(problem, options, progress),
-        Planner::Trapezoid { path, margin, search } => {
-            let planner = Trapezoid { path, search };
-            climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
-        }
-        Planner::Triangles { path, margin, search } => {
-            let planner = Triangles { path, search };
-            climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
-        }
-        Planner::Voronoi { path, margin, search } => {
-            let planner = Voronoi { path, search };
-            climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
-        }
-        Planner::Prm { samples, nearest, seed, path, margin, search } => {
-            let planner = |level: usize| Prm { samples: samples << level, nearest, seed, path, search };
-            climb(problem, options, progress, planner, |level| polygons(problem, margin, level))
-        }
-        Planner::Wavefront { search, ties, forward, neighborhood, space, path, cells: counts } => {
-            let planner = Wavefront { search, ties, forward, neighborhood, path };
-            climb(problem, options, progress, |_| planner, |level| cells(problem, space, counts, level))
-        }
-        Planner::Harmonic { field: None, space, path, cells } => {
-            climb(problem, options, progress, |_| Harmonic { path }, |level| field_cells(problem, space, cells, level))
-        }
-        Planner::Harmonic { field: Some(field), space, path, cells } => {
-            let planner = FieldPlanner { path, ..field };
-            climb(problem, options, progress, |_| planner, |level| zoned_cells(problem, space, cells, level))
-        }
-        Planner::Subdivision { .. } => subdivision::solve(problem, options, progress),
-    }
+    let solve = options.planner.method().descriptor().solve;
+    solve(Request { problem, options, progress })
 }
 
-/// By a visibility graph, of which the planner has the margin.
-pub(super) fn climb_polygons(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
-    let (metric, margin) = (options.planner.metric(problem.scene().arm()), options.planner.margin());
-    let (search, graph) = (options.planner.search().unwrap_or_default(), options.planner.graph().unwrap_or_default());
-    let planner = Visibility { metric, search, graph };
-    climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
+/// What a planner is asked, and who hears about attempts that failed.
+pub(super) struct Request<'a> {
+    pub problem: &'a MotionProblem,
+    pub options: &'a Options,
+    pub progress: &'a mut dyn FnMut(&str),
+}
+
+/// Answers among polygons: `planner` makes the planner of a level from the settings.
+pub(super) fn on_polygons<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
+where
+    P: Planner<Space = Regions>,
+{
+    let (problem, margin) = (request.problem, request.options.planner.settings().margin);
+    climb(request, planner, |level| polygons(problem, margin, level))
+}
+
+/// Answers on the cells of a grid.
+pub(super) fn on_cells<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
+where
+    P: Planner<Space = Grid>,
+{
+    let (problem, &Settings { space, cells, .. }) = (request.problem, request.options.planner.settings());
+    climb(request, planner, |level| grid_cells(problem, space, cells, level))
+}
+
+/// Answers on the cells of a grid that know the world's preferences.
+pub(super) fn on_zoned_cells<P>(request: Request, planner: impl Fn(&Settings, usize) -> P) -> Answer
+where
+    P: Planner<Space = ZonedGrid>,
+{
+    let (problem, &Settings { space, cells, .. }) = (request.problem, request.options.planner.settings());
+    climb(request, planner, |level| zoned_cells(problem, space, cells, level))
+}
+
+/// Answers by a visibility graph, which also has its turn for other planners that optimise.
+pub(super) fn by_visibility(request: Request) -> Answer {
+    let metric = request.options.planner.metric(request.problem.scene().arm());
+    on_polygons(request, |s, _| Visibility { metric, search: s.search, graph: s.graph })
 }
 
 /// Level after level, until a path is good enough or a proof is found: of each the planner and the space.
-fn climb<P: cplan_core::planner::Planner>(
-    problem: &MotionProblem,
-    options: &Options,
-    progress: &mut dyn FnMut(&str),
-    planner: impl Fn(usize) -> P,
+fn climb<P: Planner>(
+    Request { problem, options, progress }: Request,
+    planner: impl Fn(&Settings, usize) -> P,
     build: impl Fn(usize) -> Option<P::Space>,
 ) -> Answer
 where
@@ -114,7 +112,7 @@ where
     for level in 0..options.levels.max(1) {
         let clock = Instant::now();
         let Some(space) = build(level) else { break };
-        let planner = planner(level);
+        let planner = planner(options.planner.settings(), level);
         let map = planner.build(&space);
         climb.stages.build += clock.elapsed();
         let clock = Instant::now();

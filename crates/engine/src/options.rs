@@ -24,9 +24,9 @@ pub enum NamedJoints {
 /// What is asked for beside the problem.
 ///
 /// ```
-/// use cplan_engine::{Options, Planner};
+/// use cplan_engine::{Method, Options, Planner};
 ///
-/// let options = Options { planner: Planner::First, ..Options::default() };
+/// let options = Options { planner: Planner::named(Method::First), ..Options::default() };
 /// assert_eq!(options.levels, Options::default().levels);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 //! Errors of a planner's options, in words.
 
-use super::planner_options::{MOST_MARGIN, NEAREST, SAMPLES};
-use super::{Criterion, Method, Planner};
+use super::setting::{MOST_MARGIN, NEAREST, SAMPLES};
+use super::{Criterion, Planner, Setting};
 use cplan_core::model::Preference;
 use cplan_core::planner::{GridSearch, PathKind};
 use cplan_fields::{EquationChoice, FieldChoice};
@@ -31,35 +31,40 @@ impl Planner {
         preferences.is_empty().then(needs)
     }
 
-    /// Reports the first option without sense, by name.
+    /// Reports the first setting without sense, by name.
     pub(super) fn error(&self) -> Option<String> {
-        if self.path_kind() == PathKind::Middles && self.method() != Method::Trapezoid {
+        if self.path_kind() == PathKind::Middles && !self.method().descriptor().paths.contains(&PathKind::Middles) {
             return Some(format!("path: middles is for trapezoid, not for {}", self.method()));
         }
-        let positive = |name: &str, value: f64| {
-            (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} is not finite and positive"))
-        };
-        match *self {
-            Planner::Shortest { criterion, gap, margin } | Planner::Visibility { criterion, gap, margin, .. } => {
-                let weights = if let Criterion::Weighted(weights) = criterion { weights } else { [1.0; 2] };
-                let wrong = weights.into_iter().find_map(|weight| positive("weights", weight));
+        self.method().descriptor().settings.iter().find_map(|&setting| self.setting_error(setting))
+    }
+
+    fn setting_error(&self, setting: Setting) -> Option<String> {
+        let settings = self.settings();
+        match setting {
+            Setting::Criterion => match settings.criterion {
+                Criterion::Weighted(weights) => weights.into_iter().find_map(|weight| not_positive("weights", weight)),
+                Criterion::Euclidean | Criterion::Time => None,
+            },
+            Setting::Gap => {
+                let gap = settings.gap?;
                 let blind = || "gap: a search that is not after the shortest path closes none".to_owned();
-                let blind = (gap.is_some() && !self.optimises()).then(blind);
-                wrong.or_else(|| positive("gap", gap?)).or(blind).or_else(|| wrong_margin(margin))
+                not_positive("gap", gap).or_else(|| (!self.optimises()).then(blind))
             }
-            Planner::Trapezoid { margin, .. } | Planner::Triangles { margin, .. } | Planner::Voronoi { margin, .. } => {
-                wrong_margin(margin)
-            }
-            Planner::Prm { samples, nearest, margin, .. } => wrong_number("samples", samples, &SAMPLES)
-                .or_else(|| wrong_number("nearest", nearest, &NEAREST))
-                .or_else(|| wrong_margin(margin)),
-            Planner::Wavefront { search: GridSearch::Wave, forward: true, .. } => {
+            Setting::Margin => wrong_margin(settings.margin),
+            Setting::Samples => wrong_number("samples", settings.samples, &SAMPLES),
+            Setting::Nearest => wrong_number("nearest", settings.nearest, &NEAREST),
+            Setting::Forward if settings.forward && settings.grid_search == GridSearch::Wave => {
                 Some("forward: the wave begins at the goals, so that its labels are steps to them".into())
             }
-            Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => cells.error(),
-            Planner::Harmonic { cells: None, .. } | Planner::First | Planner::Subdivision { .. } => None,
+            Setting::Cells => settings.cells?.error(),
+            _ => None,
         }
     }
+}
+
+fn not_positive(name: &str, value: f64) -> Option<String> {
+    (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} is not finite and positive"))
 }
 
 /// Reports a number that lies outside its range.

@@ -6,10 +6,10 @@
 
 use super::admission::Ends;
 use super::ladder::FIRST_BOXES;
-use super::{Answer, Options, Planner, Space, Verdict, solve};
+use super::{Answer, Options, Space, Verdict, solve};
 use cplan_core::cspace::ZonedGrid;
 use cplan_core::model::MotionProblem;
-use cplan_core::planner::{GraphKind, Note, PathKind, Proposal, Size, Trace};
+use cplan_core::planner::{CellKind, GraphKind, Note, PathKind, Proposal, Size, Trace};
 use cplan_core::space::{Configuration, Path};
 use cplan_fields::{Device, Measure, RELATIVE_TOLERANCE, Stopping, relax_watched};
 use cplan_fields::{FieldChoice, field_domain};
@@ -153,7 +153,7 @@ impl Phases {
                 self.add(edges.len(), caption, Shows::Edges);
             }
             Trace::Roads { edges, expanded, kind } => {
-                if let Planner::Prm { .. } = options.planner {
+                if let GraphKind::Samples = kind {
                     let caption = format!("Random free configurations: {}", counted(graph, "node"));
                     self.add(edges.len(), caption, Shows::Nodes);
                     self.add(
@@ -162,20 +162,22 @@ impl Phases {
                         Shows::Edges,
                     );
                 } else {
-                    let name = match kind {
-                        GraphKind::Visibility(graph) => format!("{} visibility graph", graph.name()),
-                        GraphKind::Roadmap => "roadmap".to_owned(),
+                    let name = match kind.visibility() {
+                        Some(graph) => format!("{} visibility graph", graph.name()),
+                        None => "roadmap".to_owned(),
                     };
                     self.add(edges.len(), format!("The {name}: {}", counted(edges.len(), "edge")), Shows::Edges);
                 }
                 self.add(expanded.len(), "The search: where it came, one after the other", Shows::Expanded);
             }
-            Trace::Channel { cells, channel, expanded, .. } => {
-                let caption = match options.planner {
-                    Planner::Triangles { .. } => format!("Free space in {}", counted(cells.len(), "triangle")),
-                    _ => format!("A line sweeps free space and leaves {}", counted(cells.len(), "trapezoid")),
+            Trace::Channel { kind, cells, channel, expanded, .. } => {
+                let caption = match kind {
+                    CellKind::Triangles => format!("Free space in {}", counted(cells.len(), "triangle")),
+                    CellKind::Trapezoids => {
+                        format!("A line sweeps free space and leaves {}", counted(cells.len(), "trapezoid"))
+                    }
                 };
-                let swept = matches!(options.planner, Planner::Trapezoid { .. });
+                let swept = *kind == CellKind::Trapezoids;
                 self.add(cells.len(), caption, Shows::Cells { swept });
                 self.add(expanded.len(), "The search from cell to cell", Shows::Expanded);
                 let caption = format!("A channel of {} from start to goal", counted(channel.len(), "cell"));

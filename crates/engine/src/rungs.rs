@@ -1,6 +1,6 @@
 //! The representation of each level: finer and finer approximations of one configuration space.
 
-use super::planner_options::FIRST_CELLS;
+use super::setting::FIRST_CELLS;
 use super::{CellCounts, GridSpace, Space};
 use cplan_core::cspace::{
     Grid, Proves, Regions, ZonedGrid, exact_regions, grid_from_slices, has_exact_polygons, outer_grid, regions,
@@ -80,26 +80,25 @@ const MOST_OBLONG: f64 = 16.0;
 /// one size free cells are wholly free; should these be too few, cells of free centres follow on the second, which show
 /// passages some three cells wider. What a path among those is worth is for the certificate to say; it takes a sixteenth of
 /// the time that wholly free cells of the same passage take.
-pub(super) fn cells(problem: &MotionProblem, space: GridSpace, first: CellCounts, level: usize) -> Option<Grid> {
-    Some(grid(problem, space, level, finer(problem, space, first, level)?))
-}
-
-/// As many cells for a field; where no number is given square ones in joint space, where a radian is as long as a metre: then
-/// its equation is that of the configuration space, not of its picture on a grid.
-pub(super) fn field_cells(
+///
+/// Where no number is given cells are square in joint space, where a radian is as long as a metre: then a field's equation is
+/// that of the configuration space, not of its picture on a grid.
+pub(super) fn grid_cells(
     problem: &MotionProblem,
     space: GridSpace,
     first: Option<CellCounts>,
     level: usize,
 ) -> Option<Grid> {
-    if let Some(first) = first {
-        return cells(problem, space, first, level);
-    }
-    let n = finer(problem, space, CellCounts::square(FIRST_CELLS), level)?[0] as f64;
+    let shape = finer(problem, space, first.unwrap_or(CellCounts::square(FIRST_CELLS)), level)?;
+    let shape = if first.is_some() { shape } else { square_in_joint_space(problem, shape[0] as f64) };
+    Some(grid(problem, space, level, shape))
+}
+
+/// Numbers of cells along the axes, `n * n` in all, so that cells are as long along one as along the other.
+fn square_in_joint_space(problem: &MotionProblem, n: f64) -> [usize; 2] {
     let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MOST_OBLONG, MOST_OBLONG).sqrt();
-    let shape = [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize);
-    Some(grid(problem, space, level, shape))
+    [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize)
 }
 
 /// The same with the workspace's preferences.
@@ -109,7 +108,7 @@ pub(super) fn zoned_cells(
     first: Option<CellCounts>,
     level: usize,
 ) -> Option<ZonedGrid> {
-    field_cells(problem, space, first, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
+    grid_cells(problem, space, first, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
 }
 
 /// Cells along the axes, if the level is not too fine.

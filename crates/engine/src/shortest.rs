@@ -9,7 +9,7 @@
 use super::bound::{Bound, FEW_POLYGONS, lower_bound, motions};
 use super::corners::fewer_corners;
 use super::first::answer;
-use super::ladder::{CLOSE, FIRST_BOXES, climb_polygons};
+use super::ladder::{CLOSE, FIRST_BOXES, Request, by_visibility};
 use super::settle::decide;
 use super::{Answer, Method, Options, Stages, Verdict};
 use cplan_core::check::{CertifiedPath, certify};
@@ -37,9 +37,9 @@ const PART: f64 = 0.5;
 /// Part of what is left of the gap that fewer corners may cost.
 const SPENT: f64 = 0.9;
 
-/// Answers `problem` with about the shortest path. Where slabs do not tell whether there is one, or it is not proven to be within
+/// Answers a request with about the shortest path. Where slabs do not tell whether there is one, or it is not proven to be within
 /// the gap, a visibility graph has its turn, and the better of both paths is the answer.
-pub(super) fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let metric = options.planner.metric(problem.scene().arm());
     let clock = Instant::now();
     let first = decide(problem, options.boxes.min(FIRST_BOXES));
@@ -50,7 +50,7 @@ pub(super) fn solve(problem: &MotionProblem, options: &Options, progress: &mut d
     {
         return answer;
     }
-    let mut by_graph = || climb_polygons(problem, options, progress);
+    let mut by_graph = || by_visibility(Request { problem, options, progress });
     let (own, by_graph) = match first {
         Verdict::Infeasible(_) => return answer(Method::Shortest, first, stages),
         // Among so many pieces polygons, which cover them by fewer, are the better way.
@@ -94,8 +94,9 @@ const MARGIN: f64 = 0.4;
 /// gap. None if it is not.
 fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) -> Option<Answer> {
     let (scene, gap) = (problem.scene(), options.planner.gap().unwrap_or(CLOSE));
-    let planner = options.planner.with_gap(gap).with_margin(options.planner.margin().min(MARGIN * gap));
-    let mut answer = climb_polygons(problem, &Options { planner, ..*options }, &mut |_| ());
+    let planner = options.planner.with_gap(gap).with_margin(options.planner.settings().margin.min(MARGIN * gap));
+    let options = &Options { planner, ..*options };
+    let mut answer = by_visibility(Request { problem, options, progress: &mut |_| () });
     answer.stages = answer.stages + stages;
     let Verdict::Found(path) = &answer.verdict else { return None };
     if !is_content(&answer, options) {

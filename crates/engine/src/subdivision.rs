@@ -1,8 +1,8 @@
 //! Planning by subdivision of the configuration space.
 
-use super::ladder::explain;
+use super::ladder::{Request, explain};
 use super::settle::checked;
-use super::{Answer, Method, Options, Space, Stages, Verdict};
+use super::{Answer, Method, Space, Stages, Verdict};
 use cplan_core::check::CertifiedPath;
 use cplan_core::check::{Rejection, certify};
 use cplan_core::model::MotionProblem;
@@ -12,9 +12,9 @@ use cplan_geometry::Point;
 use cplan_interrupt::Instant;
 use cplan_proofs::{Channel, Connectivity, Exploration, Occupancy, explore};
 
-/// Answers `problem` by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
-/// [`Options::boxes`]. There is nothing to refine and try again: the boxes are refined where it matters as it goes.
-pub(super) fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+/// Answers a request by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
+/// [`Options::boxes`](super::Options::boxes). There is nothing to refine and try again: the boxes are refined where it matters as it goes.
+pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;
     let mut stages = Stages::default();

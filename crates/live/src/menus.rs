@@ -8,7 +8,7 @@ use super::protocol::{OptionReply, PlannerReply};
 use clap::{Arg, Command};
 use cplan_core::planner::GridSearch;
 use cplan_core::waves::Neighborhood;
-use cplan_engine::{FIRST_CELLS, GridSpace, Method, Planner};
+use cplan_engine::{FIRST_CELLS, GridSpace, Method, Planner, Setting};
 use cplan_options::Named;
 use cplan_roadmaps::Prm;
 
@@ -39,7 +39,7 @@ const CHOICES: [Choice; 8] = [
         label: "cells",
         numbers: &[("64", "64"), ("128", "128"), ("256", "256"), ("512", "512"), ("1024", "1024")],
         standard: cells,
-        is_for: |planner| matches!(planner, Method::Wavefront | Method::Harmonic),
+        is_for: |planner| planner.reads(Setting::Cells),
     },
     Choice {
         name: "path",
@@ -52,7 +52,9 @@ const CHOICES: [Choice; 8] = [
         name: "search",
         label: "search",
         numbers: &[],
-        standard: |planner| word(if planner.has_roadmap() { GridSearch::AStar } else { GridSearch::default() }),
+        standard: |planner| {
+            word(if planner.reads(Setting::Search) { GridSearch::AStar } else { GridSearch::default() })
+        },
         is_for: |_| true,
     },
     Choice {
@@ -80,11 +82,10 @@ const CHOICES: [Choice; 8] = [
 
 /// Returns the default of `--cells`. Cells of fields are square in joint space unless their number is given.
 fn cells(planner: Method) -> Option<String> {
-    match Planner::named(planner) {
-        Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => Some(cells.to_string()),
-        Planner::Harmonic { cells: None, .. } => Some(format!("{FIRST_CELLS}, square")),
-        _ => None,
-    }
+    Some(match Planner::named(planner).cells() {
+        Some(cells) => cells.to_string(),
+        None => format!("{FIRST_CELLS}, square"),
+    })
 }
 
 fn word(value: impl Named) -> Option<String> {

@@ -258,76 +258,107 @@ impl Workspace {
                     stages,
                     #[inline(always)]
                     |stage, i| match stage {
-                        0 => {
-                            let range = i * columns..(i + 1) * columns;
-                            let [even, odd] = [&mut self.right_even, &mut self.right_odd].map(|band| band.cells_mut(i));
-                            match right {
-                                Right::Given(right) => part(&right[range.clone()], i, even, odd),
-                                Right::Unit(cell) => {
-                                    even.fill(0.0);
-                                    odd.fill(0.0);
-                                    if range.contains(&cell) {
-                                        let j = cell - range.start;
-                                        (if (i + j) % 2 == 0 { even } else { odd })[j / 2] = 1.0;
-                                    }
-                                }
-                            }
-                            // The odd ones are not needed.
-                            part(&values[range], i, self.exact_even.cells_mut(i), self.exact_odd.cells_mut(i));
-                            let (sum, free) = (self.sum.row(i, count), red_black.even.row(i, count));
-                            for ((sum, free), to) in sum.iter().zip(free).zip(self.exact_even.row_mut(i, count)) {
-                                let value = m.pack_double(to) + unit * m.double(m.pack(sum));
-                                let value = value * m.double(m.pack(free));
-                                value.store(to, 0);
-                            }
-                            red_black.frame_even(&mut self.exact_even, i);
-                        }
-                        1 => {
-                            let around = self.exact_even.around(i, Colour::Even, count);
-                            let (right, free) = (self.right_odd.row(i, count), red_black.odd.row(i, count));
-                            let to = self.exact_odd.row_mut(i, count);
-                            for (k, ((right, free), to)) in right.iter().zip(free).zip(to).enumerate() {
-                                let sum = m.pack_double(right) + around.sum(m, k);
-                                let value = sum * (m.double(m.pack(free)) * inverse);
-                                value.store(to, 0);
-                            }
-                            red_black.settle(&mut self.exact_odd, &self.exact_even, i);
-                        }
+                        0 => self.add_steps(m, red_black, right, values, unit, i),
+                        1 => self.compute_odd(m, red_black, inverse, i),
                         2 => {
-                            let mut most_here = most;
-                            for (a, b) in self.exact_even.row(i, count).iter().zip(self.exact_odd.row(i, count)) {
-                                let [a, b] = [a, b].map(|pack| m.abs_double(m.pack_double(pack)));
-                                most_here = m.greater_double(most_here, m.greater_double(a, b));
-                            }
-                            most = most_here;
+                            most = self.greatest_value(m, count, most, i);
                             let [even, odd] =
                                 [&self.exact_even, &self.exact_odd].map(|band| &band.data[band.start(i)..]);
                             merge(even, odd, i, &mut values[i * columns..(i + 1) * columns]);
                         }
-                        _ => {
-                            let around = self.exact_odd.around(i, Colour::Odd, count);
-                            let (even, right, free) = (
-                                self.exact_even.row(i, count),
-                                self.right_even.row(i, count),
-                                red_black.even.row(i, count),
-                            );
-                            let rows = even.iter().zip(right).zip(free).zip(self.residual.row_mut(i, count));
-                            let mut left_here = left;
-                            for (k, (((even, right), free), to)) in rows.enumerate() {
-                                let here = m.pack_double(right) - degree * m.pack_double(even);
-                                let residual = (here + around.sum(m, k)) * (m.double(m.pack(free)) * scale);
-                                m.significant(m.single(residual), NEGLIGIBLE).store(to, 0);
-                                left_here = m.greater_double(left_here, m.abs_double(residual));
-                            }
-                            left = left_here;
-                            red_black.frame_even(&mut self.residual, i);
-                        }
+                        _ => left = self.scaled_residual(m, red_black, [degree, scale], left, i),
                     },
                 );
             },
         );
         let greatest = |pack: M::Double| pack.lanes().into_iter().fold(0.0, f64::max);
         Greatest { value: greatest(most), change: greatest(left) }
+    }
+
+    /// Reads a row of the right-hand side and of the values, and adds `unit` times the sum of the steps to its even cells.
+    #[inline(always)]
+    fn add_steps<M: Machine>(
+        &mut self,
+        m: M,
+        red_black: &RedBlack,
+        right: Right,
+        values: &[f64],
+        unit: M::Double,
+        i: usize,
+    ) {
+        let (columns, count) = (red_black.shape.columns, red_black.count());
+        let range = i * columns..(i + 1) * columns;
+        let [even, odd] = [&mut self.right_even, &mut self.right_odd].map(|band| band.cells_mut(i));
+        match right {
+            Right::Given(right) => part(&right[range.clone()], i, even, odd),
+            Right::Unit(cell) => {
+                even.fill(0.0);
+                odd.fill(0.0);
+                if range.contains(&cell) {
+                    let j = cell - range.start;
+                    (if (i + j).is_multiple_of(2) { even } else { odd })[j / 2] = 1.0;
+                }
+            }
+        }
+        // The odd ones are not needed.
+        part(&values[range], i, self.exact_even.cells_mut(i), self.exact_odd.cells_mut(i));
+        let (sum, free) = (self.sum.row(i, count), red_black.even.row(i, count));
+        for ((sum, free), to) in sum.iter().zip(free).zip(self.exact_even.row_mut(i, count)) {
+            let value = m.pack_double(to) + unit * m.double(m.pack(sum));
+            let value = value * m.double(m.pack(free));
+            value.store(to, 0);
+        }
+        red_black.frame_even(&mut self.exact_even, i);
+    }
+
+    /// Computes the odd cells of a row from the even ones around them.
+    #[inline(always)]
+    fn compute_odd<M: Machine>(&mut self, m: M, red_black: &RedBlack, inverse: M::Double, i: usize) {
+        let count = red_black.count();
+        let around = self.exact_even.around(i, Colour::Even, count);
+        let (right, free) = (self.right_odd.row(i, count), red_black.odd.row(i, count));
+        let to = self.exact_odd.row_mut(i, count);
+        for (k, ((right, free), to)) in right.iter().zip(free).zip(to).enumerate() {
+            let sum = m.pack_double(right) + around.sum(m, k);
+            let value = sum * (m.double(m.pack(free)) * inverse);
+            value.store(to, 0);
+        }
+        red_black.settle(&mut self.exact_odd, &self.exact_even, i);
+    }
+
+    /// Returns the greatest magnitudes of a row's cells and of `most`.
+    #[inline(always)]
+    fn greatest_value<M: Machine>(&self, m: M, count: usize, mut most: M::Double, i: usize) -> M::Double {
+        for (a, b) in self.exact_even.row(i, count).iter().zip(self.exact_odd.row(i, count)) {
+            let [a, b] = [a, b].map(|pack| m.abs_double(m.pack_double(pack)));
+            most = m.greater_double(most, m.greater_double(a, b));
+        }
+        most
+    }
+
+    /// Computes the scaled residual of a row's even cells, and returns the greatest magnitudes of it and of `left`.
+    #[inline(always)]
+    fn scaled_residual<M: Machine>(
+        &mut self,
+        m: M,
+        red_black: &RedBlack,
+        [degree, scale]: [M::Double; 2],
+        mut left: M::Double,
+        i: usize,
+    ) -> M::Double {
+        let count = red_black.count();
+        let around = self.exact_odd.around(i, Colour::Odd, count);
+        let (even, right) = (self.exact_even.row(i, count), self.right_even.row(i, count));
+        let free = red_black.even.row(i, count);
+        let rows = even.iter().zip(right).zip(free).zip(self.residual.row_mut(i, count));
+        for (k, (((even, right), free), to)) in rows.enumerate() {
+            let here = m.pack_double(right) - degree * m.pack_double(even);
+            let residual = (here + around.sum(m, k)) * (m.double(m.pack(free)) * scale);
+            m.significant(m.single(residual), NEGLIGIBLE).store(to, 0);
+            left = m.greater_double(left, m.abs_double(residual));
+        }
+        red_black.frame_even(&mut self.residual, i);
+        left
     }
 }
 

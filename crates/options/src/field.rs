@@ -2,9 +2,11 @@
 
 use super::names::word;
 use super::number::{finite, positive};
+use super::readers::{listed, require};
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use cplan_core::planner::PathKind;
-use cplan_engine::Method;
+use cplan_engine::{Method, Setting};
 use cplan_fields::{
     Attraction, Device, Difference, Direction, Escape, Factor, Khatib, Limits, Lines, Measure, Order,
     RELATIVE_TOLERANCE, Relaxation, Repulsion, Scan, Stencil,
@@ -146,15 +148,13 @@ impl FieldArgs {
     pub fn planner(&self, method: Method) -> Result<Option<FieldPlanner>, String> {
         let given = self.given();
         let Some(first) = given.first() else { return Ok(None) };
-        if method != Method::Harmonic {
-            return Err(format!("{first} needs --planner harmonic: {method} follows no such field"));
-        }
+        require(first, &[Setting::Field], method, "follows no such field")?;
         let name = self.field.unwrap_or(FieldName::Harmonic);
         for option in &given {
             if let Some(fields) = needed_field(option)
                 && !fields.contains(&name)
             {
-                return Err(format!("{option} is for --field {}", listed(fields)));
+                return Err(format!("{option} is for --field {}", names(fields)));
             }
         }
         let is_plain = |option: &&str| *option == "--field" || (*option == "--on" && self.device().is_cpu());
@@ -295,14 +295,9 @@ fn needed_field(option: &str) -> Option<&'static [FieldName]> {
 }
 
 /// `oriented, bvp or bvp2`.
-fn listed(fields: &[FieldName]) -> String {
-    let names: Vec<_> =
-        fields.iter().filter_map(ValueEnum::to_possible_value).map(|v| v.get_name().to_owned()).collect();
-    match names.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, others)) => format!("{} or {last}", others.join(", ")),
-        None => String::new(),
-    }
+fn names(fields: &[FieldName]) -> String {
+    let values: Vec<_> = fields.iter().filter_map(ValueEnum::to_possible_value).collect();
+    listed(&values.iter().map(PossibleValue::get_name).collect::<Vec<_>>(), " or ")
 }
 
 /// Numbers that commas separate.

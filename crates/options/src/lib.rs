@@ -5,6 +5,7 @@ mod motion;
 mod names;
 mod number;
 mod planner;
+mod readers;
 mod roadmap;
 
 pub use field::{OrderName, direction};

@@ -74,24 +74,7 @@ impl Named for Method {
     }
 
     fn help(self) -> &'static str {
-        match self {
-            Method::Shortest => {
-                "The shortest path, from exact slices, with a proven bound on the optimum; or a proof that there is none"
-            }
-            Method::First => {
-                "The first certified path that is found, or a proof that there is none: the quickest answer"
-            }
-            Method::Visibility => "Visibility graph: the shortest path, with a proven bound on the optimum",
-            Method::Trapezoid => "Trapezoidal decomposition: a channel of cells, and the funnel path through it",
-            Method::Triangles => "Triangles of free space: a channel of them, and the funnel path through it",
-            Method::Voronoi => {
-                "Voronoi diagram: the way whose least distance from obstacles, in joint space, is the greatest"
-            }
-            Method::Prm => "Probabilistic roadmap: random configurations, each joined to the nearest that it sees",
-            Method::Wavefront => "Manhattan wavefront on a grid",
-            Method::Harmonic => "Harmonic potential on a grid",
-            Method::Subdivision => "Subdivision into boxes: a path with room around it, or a proof that there is none",
-        }
+        self.descriptor().summary
     }
 }
 

@@ -3,15 +3,17 @@
 use super::field::FieldArgs;
 use super::names::word;
 use super::number::number_in;
+use super::readers::{listed, readers, require};
 use super::roadmap::RoadmapArgs;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, ValueEnum};
 use cplan_core::planner::{GridSearch, PathKind};
 use cplan_core::waves::Neighborhood;
 use cplan_core::waves::search::Ties;
-use cplan_engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
+use cplan_engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner, Setting};
 use cplan_fields::FieldPlanner;
 use std::ops::RangeInclusive;
+use std::sync::LazyLock;
 
 /// How hard to try, for any planner.
 #[derive(Debug, Clone, Args)]
@@ -72,9 +74,12 @@ pub enum MetricName {
     Time,
 }
 
+static OPTIMUM_HEADING: LazyLock<String> =
+    LazyLock::new(|| format!("Shortest paths (planners {})", readers(&[Setting::Gap], " and ")));
+
 /// What to optimise, and how well.
 #[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Shortest paths (planners shortest and visibility)")]
+#[command(next_help_heading = OPTIMUM_HEADING.as_str())]
 pub struct OptimumArgs {
     /// What makes a path short.
     #[arg(long, value_enum, value_name = "NAME", default_value_t = MetricName::Euclidean)]
@@ -96,14 +101,11 @@ pub struct Weights(pub [f64; 2]);
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Paths and grids")]
 pub struct PathArgs {
-    /// Which path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of a
-    /// decomposition's doors and cells, the arcs of the Voronoi diagram), that one pulled taut within the planner's cells, or middles
-    /// [default: own for harmonic and voronoi, taut for the others].
-    #[arg(long, value_parser = word::<PathKind>(), value_name = "KIND")]
+    /// Which path.
+    #[arg(long, value_parser = word::<PathKind>(), value_name = "KIND", help = path_help())]
     pub path: Option<PathKind>,
-    /// How the grid is searched, from the goal unless it is --forward (planner wavefront), or the roadmap, from the start unless it
-    /// is --backward (planners visibility, trapezoid, triangles, voronoi, prm), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the others]
-    #[arg(long, value_parser = word::<GridSearch>(), value_name = "NAME")]
+    /// How the grid or the roadmap is searched.
+    #[arg(long, value_parser = word::<GridSearch>(), value_name = "NAME", help = search_help())]
     pub search: Option<GridSearch>,
     /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
     /// (planner wavefront). wave and bfs count moves; dijkstra and astar take a diagonal one for 1.414. [default: 4]
@@ -116,10 +118,38 @@ pub struct PathArgs {
     /// the start.
     #[arg(long, conflicts_with = "backward")]
     pub forward: bool,
-    /// How the grid's cells are decided (planners wavefront, harmonic): by exact slices, or by sampled collision checks, which
-    /// prove nothing. Paths are certified either way. [default: rows]
-    #[arg(long, value_parser = word::<GridSpace>(), value_name = "NAME")]
+    /// How the grid's cells are decided.
+    #[arg(long, value_parser = word::<GridSpace>(), value_name = "NAME", help = space_help())]
     pub space: Option<GridSpace>,
+}
+
+fn path_help() -> String {
+    let follows = |method: &Method| method.path_kind() == PathKind::Own;
+    let mut own: Vec<&str> = Method::ALL.into_iter().filter(follows).map(Method::name).collect();
+    own.sort_unstable();
+    format!(
+        "Which path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of a \
+         decomposition's doors and cells, the arcs of the Voronoi diagram), that one pulled taut within the planner's cells, or \
+         middles [default: own for {}, taut for the others]",
+        listed(&own, " and ")
+    )
+}
+
+fn search_help() -> String {
+    format!(
+        "How the grid is searched, from the goal unless it is --forward (planner wavefront), or the roadmap, from the start unless \
+         it is --backward (planners {}), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the \
+         others]",
+        readers(&[Setting::Search], ", ")
+    )
+}
+
+fn space_help() -> String {
+    format!(
+        "How the grid's cells are decided (planners {}): by exact slices, or by sampled collision checks, which prove nothing. \
+         Paths are certified either way. [default: rows]",
+        readers(&[Setting::Space], ", ")
+    )
 }
 
 /// All options of planners.
@@ -168,10 +198,8 @@ impl PlannerArgs {
         let field = self.field.planner(method)?;
         self.optimum.check(method)?;
         self.path.check(method)?;
-        if self.effort.margin == Some(0.0) && !method.has_polygons() {
-            return Err(format!(
-                "--margin 0 needs --planner shortest, visibility, trapezoid, triangles, voronoi or prm: {method} plans among no polygons"
-            ));
+        if self.effort.margin == Some(0.0) {
+            require("--margin 0", &[Setting::Margin], method, "plans among no polygons")?;
         }
         let search = self.roadmap.search(method, self.path.search)?;
         if self.optimum.gap.is_some() && !search.order.is_optimal() {
@@ -183,18 +211,16 @@ impl PlannerArgs {
         Ok(self.put_into(Planner::named(method).with_search(search), field))
     }
 
-    fn put_into(&self, planner: Planner, chosen: Option<FieldPlanner>) -> Planner {
-        let mut planner = self.effort.put_into(planner).with_criterion(self.optimum.criterion());
-        match &mut planner {
-            Planner::Wavefront { search, ties, forward, neighborhood, .. } => {
-                *search = self.path.search.unwrap_or(*search);
-                *ties = self.path.ties.unwrap_or(*ties);
-                *forward = self.path.forward;
-                *neighborhood = self.path.neighbors.unwrap_or(*neighborhood);
-            }
-            Planner::Harmonic { field, .. } => *field = chosen,
-            _ => {}
-        }
+    fn put_into(&self, planner: Planner, field: Option<FieldPlanner>) -> Planner {
+        let planner = self.effort.put_into(planner).with_criterion(self.optimum.criterion());
+        let planner = planner
+            .with(Setting::GridSearch, |settings| {
+                settings.grid_search = self.path.search.unwrap_or_default();
+                settings.ties = self.path.ties.unwrap_or_default();
+                settings.forward = self.path.forward;
+                settings.neighborhood = self.path.neighbors.unwrap_or_default();
+            })
+            .with(Setting::Field, |settings| settings.field = field);
         let planner = self.roadmap.put_into(planner);
         let planner = self.optimum.gap.map_or(planner, |share| planner.with_gap(share));
         let planner = self.path.space.map_or(planner, |space| planner.with_space(space));
@@ -223,10 +249,8 @@ impl OptimumArgs {
         }
         let asked = if self.gap.is_some() { "--gap" } else { "--metric" };
         let optimises = self.gap.is_some() || self.metric != MetricName::Euclidean;
-        if optimises && !planner.optimises() {
-            return Err(format!(
-                "{asked} needs --planner shortest or visibility: {planner} does not look for the shortest path"
-            ));
+        if optimises {
+            require(asked, &[Setting::Gap], planner, "does not look for the shortest path")?;
         }
         Ok(())
     }
@@ -235,27 +259,27 @@ impl OptimumArgs {
 impl PathArgs {
     /// Refuses what the planner cannot do.
     fn check(&self, planner: Method) -> Result<(), String> {
-        if self.search.is_some() && planner != Method::Wavefront && !planner.has_roadmap() {
+        if self.search.is_some() {
+            let why = "searches neither a grid from cell to cell nor a roadmap";
+            require("--search", &[Setting::GridSearch, Setting::Search], planner, why)?;
+        }
+        if self.neighbors.is_some() {
+            let why = "searches no grid from cell to cell";
+            require("--neighbors", &[Setting::Neighborhood], planner, why)?;
+        }
+        if self.ties.is_some() && (!planner.reads(Setting::Ties) || self.search != Some(GridSearch::AStar)) {
+            let planners = readers(&[Setting::Ties], " or ");
             return Err(format!(
-                "--search needs --planner wavefront, visibility, trapezoid, triangles, voronoi or prm: {planner} searches neither a \
-                 grid from cell to cell nor a roadmap"
+                "--ties needs --planner {planners} --search astar: only there are cells equally promising"
             ));
-        }
-        if self.neighbors.is_some() && planner != Method::Wavefront {
-            return Err(format!("--neighbors needs --planner wavefront: {planner} searches no grid from cell to cell"));
-        }
-        if self.ties.is_some() && (planner != Method::Wavefront || self.search != Some(GridSearch::AStar)) {
-            return Err(
-                "--ties needs --planner wavefront --search astar: only there are cells equally promising".into()
-            );
         }
         if self.forward {
             self.check_forward(planner)?;
         }
-        if self.space.is_some() && !matches!(planner, Method::Wavefront | Method::Harmonic) {
-            return Err(format!("--space needs --planner wavefront or harmonic: {planner} has no grid"));
+        if self.space.is_some() {
+            require("--space", &[Setting::Space], planner, "has no grid")?;
         }
-        if self.path == Some(PathKind::Middles) && planner != Method::Trapezoid {
+        if self.path == Some(PathKind::Middles) && !planner.descriptor().paths.contains(&PathKind::Middles) {
             return Err(format!("--path middles needs --planner trapezoid: {planner} has no doors on verticals"));
         }
         if self.path == Some(PathKind::Own) && !planner.has_own_path() {
@@ -266,10 +290,10 @@ impl PathArgs {
 
     /// Refuses --forward where nothing is searched, or where the search has to begin at the goal.
     fn check_forward(&self, planner: Method) -> Result<(), String> {
-        if planner.has_roadmap() {
+        if planner.reads(Setting::Search) {
             return Ok(());
         }
-        if planner != Method::Wavefront {
+        if !planner.reads(Setting::Forward) {
             return Err(format!(
                 "--forward needs a planner that searches: {planner} has neither a grid's cells nor a roadmap"
             ));

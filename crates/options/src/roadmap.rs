@@ -2,14 +2,18 @@
 
 use super::names::word;
 use super::planner::whole;
+use super::readers::{readers, require};
 use clap::Args;
 use cplan_core::planner::{GridSearch, RoadmapSearch, SearchOrder, VisibilityGraph};
-use cplan_engine::{Method, NEAREST, Planner, SAMPLES};
-use cplan_roadmaps::Prm;
+use cplan_engine::{Method, NEAREST, Planner, SAMPLES, Setting};
+use std::sync::LazyLock;
+
+static HEADING: LazyLock<String> =
+    LazyLock::new(|| format!("Roadmaps (planners {})", readers(&[Setting::Search], ", ")));
 
 /// How roadmaps are made and searched; `--search` stands with the paths.
 #[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Roadmaps (planners visibility, trapezoid, triangles, voronoi, prm)")]
+#[command(next_help_heading = HEADING.as_str())]
 pub struct RoadmapArgs {
     /// Search from the goals to the start, which planner wavefront does anyway.
     #[arg(long)]
@@ -39,19 +43,17 @@ impl RoadmapArgs {
             ("--nearest", self.nearest.is_some()),
             ("--seed", self.seed.is_some()),
         ];
-        if let Some((name, _)) = given.iter().find(|option| option.1 && planner != Method::Prm) {
-            return Err(format!("{name} needs --planner prm: {planner} draws no samples"));
+        for (name, _) in given.into_iter().filter(|option| option.1) {
+            require(name, &[Setting::Samples], planner, "draws no samples")?;
         }
-        if self.graph.is_some() && planner != Method::Visibility {
-            return Err(format!("--graph needs --planner visibility: {planner} searches no visibility graph"));
+        if self.graph.is_some() {
+            require("--graph", &[Setting::Graph], planner, "searches no visibility graph")?;
         }
-        if !planner.has_roadmap() {
-            let needs = "--backward needs --planner visibility, trapezoid, triangles, voronoi, prm or wavefront";
-            return if self.backward && planner != Method::Wavefront {
-                Err(format!("{needs}: {planner} has no roadmap"))
-            } else {
-                Ok(RoadmapSearch::default())
-            };
+        if self.backward {
+            require("--backward", &[Setting::Search, Setting::GridSearch], planner, "has no roadmap")?;
+        }
+        if !planner.reads(Setting::Search) {
+            return Ok(RoadmapSearch::default());
         }
         let order = match search.unwrap_or(GridSearch::AStar) {
             GridSearch::Wave => {
@@ -70,16 +72,14 @@ impl RoadmapArgs {
     }
 
     /// The planner with what of these options is its.
-    pub fn put_into(&self, mut planner: Planner) -> Planner {
-        if let Planner::Visibility { graph, .. } = &mut planner {
-            *graph = self.graph.unwrap_or_default();
-        }
-        if let Planner::Prm { samples, nearest, seed, .. } = &mut planner {
-            let usual = Prm::default();
-            *samples = self.samples.map_or(usual.samples, |n| n as usize);
-            *nearest = self.nearest.map_or(usual.nearest, |n| n as usize);
-            *seed = self.seed.unwrap_or(usual.seed);
-        }
-        planner
+    pub fn put_into(&self, planner: Planner) -> Planner {
+        planner.with(Setting::Graph, |settings| settings.graph = self.graph.unwrap_or_default()).with(
+            Setting::Samples,
+            |settings| {
+                settings.samples = self.samples.map_or(settings.samples, |n| n as usize);
+                settings.nearest = self.nearest.map_or(settings.nearest, |n| n as usize);
+                settings.seed = self.seed.unwrap_or(settings.seed);
+            },
+        )
     }
 }

@@ -5,7 +5,7 @@ use cplan_core::cspace::Regions;
 use cplan_core::planner::mesh::Mesh;
 use cplan_core::planner::roadmap::{self, Asked, Nearby, Roadmap, RoadmapSearch};
 use cplan_core::planner::terminals::Terminals;
-use cplan_core::planner::{PathKind, Planner, Proposal, Query, Run};
+use cplan_core::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run};
 use cplan_core::space::{Draws, Measure, Metric, Path, Segment};
 use cplan_geometry::Point;
 use cplan_geometry::planar::Boundary;
@@ -79,7 +79,7 @@ impl Planner for Prm {
     fn query(&self, space: &Regions, map: &PrmMap, query: &Query) -> Run {
         let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
             Ok(terminals) => terminals,
-            Err(reason) => return roadmap::run(Proposal::GaveUp(reason), None, Vec::new()),
+            Err(reason) => return roadmap::run(GraphKind::Samples, Proposal::GaveUp(reason), None, Vec::new()),
         };
         let asked = self.asked(map, &terminals);
         let (way, expanded) = asked.search(self.search, &terminals);
@@ -87,7 +87,7 @@ impl Planner for Prm {
             None => Proposal::GaveUp(format!("{} do not join start and goal", counted(self.samples, "sample"))),
             Some(way) => along(&map.mesh, way.into_iter().map(|node| asked.at(node)).collect(), self.path),
         };
-        roadmap::run(outcome, Some(&asked), expanded)
+        roadmap::run(GraphKind::Samples, outcome, Some(&asked), expanded)
     }
 }
 

@@ -4,7 +4,7 @@ use cplan_core::cspace::Regions;
 use cplan_core::planner::mesh::Mesh;
 use cplan_core::planner::roadmap::{Roadmap, RoadmapSearch};
 use cplan_core::planner::terminals::Terminals;
-use cplan_core::planner::{ChannelPoints, PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use cplan_core::planner::{CellKind, ChannelPoints, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use cplan_core::space::{Configuration, Measure, Metric, Path, Portal, Segment, funnel_path, nearest_end};
 use cplan_geometry::Point;
 use cplan_geometry::planar::{Boundary, NONE};
@@ -79,6 +79,7 @@ impl Planner for Triangles {
         Run {
             outcome,
             trace: Trace::Channel {
+                kind: CellKind::Triangles,
                 cells: Arc::clone(&map.corners),
                 channel,
                 points: ChannelPoints::default(),

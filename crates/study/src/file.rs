@@ -69,81 +69,33 @@ impl Named {
 /// Reads a study from its text, and what it names through `open`.
 pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Result<Study, InputError> {
     let reader = Reader { source };
-    let file: StudyFile = toml::from_str(source.text()).map_err(|error| {
-        let message = in_toml_words(error.message());
-        let diagnostic = match error.span() {
-            Some(span) => source.diagnostic_at(span, message),
-            None => source.diagnostic(message),
-        };
-        diagnostic.help("`cplan help study` shows a study; `cplan schema study` is what editors check by")
-    })?;
+    let file = reader.parse()?;
     let urdf = reader.named(Named::Robot, file.robot.as_ref(), open)?;
     let world = reader.named(Named::World, file.world.as_ref(), open)?;
     let (options, overrides) = match &file.options {
         None => (Options::default(), Overrides::default()),
         Some(words) => read_options(words.get_ref()).map_err(|why| reader.options(words, &why))?,
     };
-    let parameters = file.parameter.iter().map(|table| reader.parameter(table.get_ref(), table.span()));
-    let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
-    reader.distinct(&file.parameter)?;
-    let drawn = parameters.iter().position(|parameter| matches!(parameter.values, Values::Drawn { .. }));
-    let draws = reader.draws(&file, drawn)?;
-    let design =
-        Design::new(&parameters, draws, file.seed.unwrap_or(0)).filter(|design| design.count() <= MOST_LAYOUTS);
-    let design = design.ok_or_else(|| {
-        let message = format!("the values make more than {MOST_LAYOUTS} layouts");
-        source.diagnostic(message).help("list fewer values, or draw some of them")
-    })?;
+    let parameters = reader.parameters(&file.parameter)?;
+    let seed = file.seed.unwrap_or(0);
+    let design = reader.design(&file, &parameters, seed)?;
     let [world, urdf] = reader.templates(&file.parameter, world, urdf)?;
     let base = scene_from(urdf.source().clone(), world.source().clone())?;
     if let (Some(why), Some(words)) = (options.error(base.has_steps()), &file.options) {
         return Err(reader.wrong(words.span(), format!("options: {why}"), "leave the option out").into());
     }
-    let measures = match &file.measure {
-        None => Measure::ALL.to_vec(),
-        Some(names) => names.iter().map(|name| reader.word(name, Measure::named)).collect::<Result<_, _>>()?,
-    };
-    let conditions: Vec<Condition> =
-        file.conditions.iter().map(|text| reader.word(text, Condition::parse)).collect::<Result<_, _>>()?;
-    let objective = file.objective.as_ref().map(|text| reader.word(text, Objective::parse)).transpose()?;
-    let first = || {
-        [Measure::Duration, Measure::Length].into_iter().find(|m| measures.contains(m)).or(measures.first().copied())
-    };
-    let objective =
-        objective.or_else(|| first().map(|measure| Objective { measure, most: measure == Measure::Clearance }));
-    let wanted =
-        conditions.iter().map(|condition| condition.measure).chain(objective.map(|objective| objective.measure));
-    let mut all: Vec<Measure> = Vec::new();
-    measures.into_iter().for_each(|measure| {
-        if !all.contains(&measure) {
-            all.push(measure);
-        }
-    });
-    wanted.for_each(|measure| {
-        if !all.contains(&measure) {
-            all.push(measure)
-        }
-    });
-    let bounds = [Measure::OverBound, Measure::LowerBound];
-    let asked = file.conditions.iter().zip(conditions.iter().map(|condition| condition.measure));
-    let asked = asked.chain(file.objective.iter().zip(objective.map(|objective| objective.measure)));
-    for (text, measure) in asked {
-        if base.has_steps() && bounds.contains(&measure) {
-            let message = format!("a world with steps has no {}", measure.name());
-            return Err(reader.wrong(text.span(), message, "its duration is what is bounded: use that").into());
-        }
-    }
+    let Goals { measures, conditions, objective } = reader.goals(&file, base.has_steps())?;
     let searched =
         file.search.as_ref().map(|table| reader.search(&table.layouts, &parameters, objective)).transpose()?;
     let stem = source.stem().unwrap_or_else(|| "study".to_owned());
     Ok(Study {
         name: file.name.unwrap_or(stem),
         parameters,
-        measures: all,
+        measures,
         conditions,
         objective,
         searched: searched.unwrap_or(0),
-        seed: file.seed.unwrap_or(0),
+        seed,
         source: source.clone(),
         design,
         world,
@@ -156,7 +108,78 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Re
     })
 }
 
+/// What a study measures and looks for.
+struct Goals {
+    /// Measures of the file, then those that conditions and the objective need besides.
+    measures: Vec<Measure>,
+    conditions: Vec<Condition>,
+    objective: Option<Objective>,
+}
+
+/// Returns the objective of a study that names none: the first of duration and length that is measured, or else the first measure.
+fn usual_objective(measures: &[Measure]) -> Option<Objective> {
+    let preferred = [Measure::Duration, Measure::Length].into_iter().find(|measure| measures.contains(measure));
+    let measure = preferred.or(measures.first().copied())?;
+    Some(Objective { measure, most: measure == Measure::Clearance })
+}
+
 impl Reader<'_> {
+    fn parse(&self) -> Result<StudyFile, Diagnostic> {
+        toml::from_str(self.source.text()).map_err(|error| {
+            let message = in_toml_words(error.message());
+            let diagnostic = match error.span() {
+                Some(span) => self.source.diagnostic_at(span, message),
+                None => self.source.diagnostic(message),
+            };
+            diagnostic.help("`cplan help study` shows a study; `cplan schema study` is what editors check by")
+        })
+    }
+
+    fn parameters(&self, tables: &[Spanned<ParameterTable>]) -> Result<Vec<Parameter>, Diagnostic> {
+        let parameters = tables.iter().map(|table| self.parameter(table.get_ref(), table.span()));
+        let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
+        self.distinct(tables)?;
+        Ok(parameters)
+    }
+
+    fn design(&self, file: &StudyFile, parameters: &[Parameter], seed: u64) -> Result<Design, Diagnostic> {
+        let drawn = parameters.iter().position(|parameter| matches!(parameter.values, Values::Drawn { .. }));
+        let draws = self.draws(file, drawn)?;
+        let design = Design::new(parameters, draws, seed).filter(|design| design.count() <= MOST_LAYOUTS);
+        design.ok_or_else(|| {
+            let message = format!("the values make more than {MOST_LAYOUTS} layouts");
+            self.source.diagnostic(message).help("list fewer values, or draw some of them")
+        })
+    }
+
+    /// Reads measures, conditions and the objective. Worlds with steps have no bounds.
+    fn goals(&self, file: &StudyFile, has_steps: bool) -> Result<Goals, Diagnostic> {
+        let named: Vec<Measure> = match &file.measure {
+            None => Measure::ALL.to_vec(),
+            Some(names) => names.iter().map(|name| self.word(name, Measure::named)).collect::<Result<_, _>>()?,
+        };
+        let conditions: Vec<Condition> =
+            file.conditions.iter().map(|text| self.word(text, Condition::parse)).collect::<Result<_, _>>()?;
+        let objective = file.objective.as_ref().map(|text| self.word(text, Objective::parse)).transpose()?;
+        let objective = objective.or_else(|| usual_objective(&named));
+        let of_conditions = || conditions.iter().map(|condition| condition.measure);
+        let of_objective = || objective.map(|objective| objective.measure);
+        let texts = file.conditions.iter().zip(of_conditions()).chain(file.objective.iter().zip(of_objective()));
+        for (text, measure) in texts {
+            if has_steps && [Measure::OverBound, Measure::LowerBound].contains(&measure) {
+                let message = format!("a world with steps has no {}", measure.name());
+                return Err(self.wrong(text.span(), message, "its duration is what is bounded: use that"));
+            }
+        }
+        let mut measures: Vec<Measure> = Vec::new();
+        for measure in named.into_iter().chain(of_conditions()).chain(of_objective()) {
+            if !measures.contains(&measure) {
+                measures.push(measure);
+            }
+        }
+        Ok(Goals { measures, conditions, objective })
+    }
+
     fn wrong(&self, at: Range<usize>, message: impl Into<String>, help: &str) -> Diagnostic {
         self.source.diagnostic_at(at, message).help(help)
     }

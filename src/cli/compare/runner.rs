@@ -8,7 +8,7 @@ use crate::engine::{MotionPlan, Options, PlanError, Problem, Verdict, bound, pla
 use crate::model::{MotionProblem, Status};
 use crate::parallel::in_order;
 use crate::planner::PathKind;
-use crate::report::{Comparison, Family, OtherPath, Row};
+use crate::report::{Comparison, OtherPath, Row};
 use crate::space::{Metric, Path};
 use std::convert::Infallible;
 use std::time::{Duration, Instant};
@@ -122,7 +122,7 @@ impl Runner<'_> {
             }
             None => (work()?, None),
         };
-        let mut row = Row::new(entry.label.clone(), Family::from(options.planner.method()), Status::Unknown);
+        let mut row = Row::new(entry.label.clone(), options.planner.method().descriptor().family, Status::Unknown);
         let mut path = None;
         if let Some(MotionPlan { answer, curve, .. }) = made.motion() {
             let stages = answer.stages;

@@ -18,10 +18,11 @@ mod tasks;
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, times, usual};
 use crate::common::slips::slipped;
+use cplan::engine::Method;
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
-use cplan::{Options, Planner, Problem, plan};
+use cplan::{Options, Problem, plan};
 use cplan_check::{CheckError, check};
 use drawn::{Drawn, Goal, Kind, Outline};
 use serde_json::{Value, json};
@@ -96,7 +97,7 @@ fn closed(seed: u64, tally: &mut Tally) -> Vec<Closed> {
             continue;
         };
         tally.worlds += 1;
-        let options = if dice.chance(0.1) { Options::default() } else { Planner::First.into() };
+        let options = if dice.chance(0.1) { Options::default() } else { Method::First.into() };
         let answer = plan(&problem, &options).unwrap();
         if answer.status() != Status::Infeasible {
             continue;

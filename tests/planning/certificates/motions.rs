@@ -12,7 +12,7 @@ use cplan::engine::Method;
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
-use cplan::{Options, Planner, Problem, plan};
+use cplan::{Options, Problem, plan};
 use cplan_check::check;
 use std::time::{Duration, Instant};
 
@@ -56,7 +56,7 @@ fn ways(seed: u64, tally: &mut Tally) {
         let Ok(problem) = scene(&world).and_then(|scene| Problem::of_scene(scene, &Overrides::default())) else {
             continue;
         };
-        let options = [Options::default(), Planner::First.into(), Planner::named(Method::Voronoi).into()][turn % 3];
+        let options = [Options::default(), Method::First.into(), Method::Voronoi.into()][turn % 3];
         let answer = plan(&problem, &options).unwrap();
         if answer.status() != Status::Found {
             continue;

@@ -8,11 +8,11 @@ use super::drawn::{Drawn, V};
 use super::{KINDS, TRIES};
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
-use cplan::engine::NoCertificate;
+use cplan::engine::{Method, NoCertificate};
 use cplan::input::{self, Overrides, Source};
 use cplan::model::Status;
 use cplan::space::Configuration;
-use cplan::{Planner, Problem, plan};
+use cplan::{Problem, plan};
 use cplan_check::{CheckError, check};
 use serde_json::Value;
 use std::fmt::Write;
@@ -122,7 +122,7 @@ fn tasks(seed: u64, tally: &mut Tally) {
             continue;
         };
         tally.asked += 1;
-        let answer = plan(&problem, &Planner::First.into()).unwrap();
+        let answer = plan(&problem, &Method::First.into()).unwrap();
         if answer.status() == Status::Infeasible {
             let none = answer.certificate(&Overrides::default(), None);
             assert_eq!(none, Err(NoCertificate::Task), "seed {seed}: {urdf}\n{world}");

@@ -11,7 +11,7 @@ use crate::common::placed;
 use cplan::draw::{Picture, View, svg};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
-use cplan::planner::{ChannelPoints, GraphKind, Trace};
+use cplan::planner::{CellKind, ChannelPoints, GraphKind, Trace};
 use cplan::space::{Configuration, JointRange, Path, Segment};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;
@@ -164,7 +164,13 @@ fn a_channel_of_a_gantry() {
         let boxes = cells.free_boxes();
         let holds = |b: &Vec<Configuration>, q: &Configuration| (0..2).all(|k| b[0][k] <= q[k] && q[k] <= b[2][k]);
         let channel = (0..boxes.len()).filter(|&i| path.waypoints().iter().any(|q| holds(&boxes[i], q))).collect();
-        Trace::Channel { cells: boxes.into(), channel, points: ChannelPoints::default(), expanded: Vec::new() }
+        Trace::Channel {
+            kind: CellKind::Trapezoids,
+            cells: boxes.into(),
+            channel,
+            points: ChannelPoints::default(),
+            expanded: Vec::new(),
+        }
     });
     let words = words(&text);
     for word in ["bridge (m)", "trolley (m)", "channel", "crate"] {
@@ -268,6 +274,7 @@ fn a_motion_that_stays_where_it_is_is_drawn() {
     for trace in [
         Trace::Roadmap { edges: Vec::new(), whole: true },
         Trace::Channel {
+            kind: CellKind::Trapezoids,
             cells: [].into(),
             channel: Vec::new(),
             points: ChannelPoints::default(),

@@ -8,7 +8,7 @@ use cplan::draw::{AxesFrame, Picture, View, page};
 use cplan::geometry::Point;
 use cplan::model::Status;
 use cplan::motion::Drive;
-use cplan::planner::{ChannelPoints, GraphKind, Trace};
+use cplan::planner::{CellKind, ChannelPoints, GraphKind, Trace};
 use cplan::search::{Connectivity, connectivity};
 use cplan::space::Path;
 use nalgebra::Vector3;
@@ -139,6 +139,7 @@ fn other_traces_keep_their_parts() {
     assert!(["roadmap", "expanded first", "expanded last"].iter().all(|key| svg.contains(key)), "{svg}");
     let cell = vec![at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)];
     let channel = shown(&Trace::Channel {
+        kind: CellKind::Triangles,
         cells: vec![cell].into(),
         channel: vec![0],
         points: ChannelPoints::default(),

@@ -183,8 +183,27 @@ pub struct ChannelPoints {
 pub enum GraphKind {
     /// A visibility graph.
     Visibility(VisibilityGraph),
+    /// A roadmap of random configurations, joined to their neighbours.
+    Samples,
     /// Any other roadmap.
     Roadmap,
+}
+
+impl GraphKind {
+    /// Returns which visibility graph it is, if it is one.
+    #[must_use]
+    pub fn visibility(self) -> Option<VisibilityGraph> {
+        if let Self::Visibility(graph) = self { Some(graph) } else { None }
+    }
+}
+
+/// Shape of the cells of a decomposition.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CellKind {
+    /// Trapezoids that a line leaves as it sweeps over free space.
+    Trapezoids,
+    /// Triangles.
+    Triangles,
 }
 
 /// What a planner saw on its way, for pictures.
@@ -204,6 +223,8 @@ pub enum Trace {
     },
     /// Cells of the decomposition (corners, counter-clockwise) and the indices of those in the channel, in order.
     Channel {
+        /// Shape of the cells.
+        kind: CellKind,
         /// Corners of each cell; shared with the planner's map.
         cells: Arc<[Vec<Configuration>]>,
         /// Indices of the channel's cells.

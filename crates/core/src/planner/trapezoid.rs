@@ -6,7 +6,7 @@ use super::channel::{Adjacency, Channel};
 use super::decomposition::{CellPortal, Decomposition};
 use super::roadmap::RoadmapSearch;
 use super::terminals::Terminals;
-use super::{ChannelPoints, PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use super::{CellKind, ChannelPoints, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::space::funnel::{Turn, turns};
 use crate::space::{Configuration, Measure, Metric, Path, Portal, Segment, nearest_end};
@@ -90,7 +90,13 @@ impl Planner for Trapezoid {
         let expanded = if self.search.is_usual() { Vec::new() } else { expanded };
         Run {
             outcome,
-            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel, points, expanded },
+            trace: Trace::Channel {
+                kind: CellKind::Trapezoids,
+                cells: Arc::clone(&map.corners),
+                channel,
+                points,
+                expanded,
+            },
             size: Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.portals.len() },
             note: None,
         }

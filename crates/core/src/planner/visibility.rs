@@ -156,7 +156,7 @@ impl Visibility {
         };
         let asked = match asked {
             Ok(asked) => asked,
-            Err(reason) => return super::roadmap::run(Proposal::GaveUp(reason), None, Vec::new()),
+            Err(reason) => return super::roadmap::run(GraphKind::Roadmap, Proposal::GaveUp(reason), None, Vec::new()),
         };
         let (way, expanded) = asked.search(self.search, terminals);
         let outcome = match way {

@@ -7,9 +7,9 @@ mod task;
 pub use task::{Choice, TaskFigures};
 
 use super::Bound;
-use super::Planner;
 use super::moving::Timing;
 use super::task::MessageError;
+use super::{Planner, Setting, Settings};
 use cplan_core::check::{CertifiedCurve, CheckedProof};
 use cplan_core::model::{AssumedLimits, Joint, RobotJoints, Status};
 use cplan_core::planner::VisibilityGraph;
@@ -206,9 +206,10 @@ impl From<Bound> for Optimum {
 /// How a planner searches its grid, or its roadmap if that is not by the usual search.
 #[must_use]
 pub fn search_used(planner: &Planner) -> Option<SearchUsed> {
-    if let Planner::Wavefront { search, ties, forward, neighborhood, .. } = planner {
+    let Settings { grid_search, ties, forward, neighborhood, .. } = planner.settings();
+    if planner.method().reads(Setting::GridSearch) {
         return Some(SearchUsed {
-            search: search.name(),
+            search: grid_search.name(),
             ties: (!ties.is_usual()).then(|| ties.name()),
             neighbors: Some(neighborhood.count()),
             backward: forward.then_some(false),

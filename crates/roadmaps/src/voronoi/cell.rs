@@ -29,69 +29,28 @@ impl Arc {
     }
 }
 
-/// The lower envelope of a site's bisectors with others, in order; with gaps where there is none. `O(k m)` for `k` arcs and `m`
-/// bisectors.
+/// Returns the lower envelope of a site's bisectors with others, in order; with gaps where there is none. `O(k m)` for `k` arcs and
+/// `m` bisectors.
 pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Vec<Arc> {
     checkpoint();
     let [first, last] = site.range;
     let slack = SAME * (last - first).min(1.0);
+    let envelope = Envelope { others, bisectors, slack };
     let mut arcs = Vec::new();
-    let touching = |a: &Bisector, b: &Bisector| {
-        let (a, b) = (&others[a.other], &others[b.other]);
-        a.is_side != b.is_side && [(a, b), (b, a)].iter().any(|(x, y)| x.is_side && (x.at == y.at || x.to == y.at))
-    };
     let mut at = first;
-    let mut current = lowest(bisectors, at, slack);
+    let mut current = envelope.lowest(at);
     // Each bisector falls below another one twice at the most.
     for _ in 0..8 * bisectors.len() + 8 {
-        let Some(mut now) = current else {
-            // A gap, to where the next bisector begins.
-            let next = bisectors.iter().map(|b| b.from).filter(|from| *from > at + slack).fold(f64::INFINITY, f64::min);
-            if next >= last {
+        let Some(now) = current else {
+            at = envelope.next_start(at);
+            if at >= last {
                 break;
             }
-            at = next;
-            current = lowest(bisectors, at, slack);
+            current = envelope.lowest(at);
             continue;
         };
-        // A side is nearer than its own end wherever it is seen.
-        let seen = |b: &&Bisector| b.from <= at + slack && b.to > at + slack && touching(b, now);
-        if !others[now.other].is_side {
-            now = bisectors.iter().filter(|b| others[b.other].is_side).find(seen).unwrap_or(now);
-        }
-        let (mut end, mut next) = (now.to, None);
-        for b in bisectors {
-            if b.to <= at + slack || std::ptr::eq(b, now) {
-                continue;
-            }
-            let event = if touching(b, now) {
-                (others[b.other].is_side && b.from > at).then_some(b.from)
-            } else if b.from > at && b.from < end && b.value(b.from) < now.value(b.from) {
-                Some(b.from)
-            } else {
-                let falls = b.falls_below(now).filter(|t| *t >= b.from.max(at - slack) && *t <= b.to);
-                falls.filter(|t| *t > at + slack || b.slope(*t) < now.slope(*t) - EVEN).map(|t| t.max(at))
-            };
-            if let Some(t) = event.filter(|t| *t < end) {
-                (end, next) = (t, Some(b));
-            }
-        }
-        // What rounding has hidden shows in the middle.
-        let middle = 0.5 * (at + end);
-        let below = |b: &&Bisector, t: f64| {
-            b.from <= t
-                && b.to >= t
-                && !touching(b, now)
-                && b.value(t) < now.value(t) - EVEN * (1.0 + now.value(t).abs())
-        };
-        if let Some(hidden) = bisectors.iter().find(|b| end - at > 4.0 * slack && below(b, middle)) {
-            let (mut low, mut high) = (at, middle);
-            for _ in 0..HALVINGS {
-                let half = 0.5 * (low + high);
-                (low, high) = if below(&hidden, half) { (low, half) } else { (half, high) };
-            }
-            (end, next) = (high, Some(hidden));
-        }
+        let now = envelope.side_of(now, at);
+        let (end, next) = envelope.end(now, at);
         if end > at {
             arcs.push(Arc { bisector: *now, from: at, to: end });
         }
@@ -99,15 +58,101 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
             break;
         }
         at = end;
-        current = next.or_else(|| lowest(bisectors, at, slack));
+        current = next.or_else(|| envelope.lowest(at));
     }
     arcs
 }
 
-/// The bisector of least value right after a parameter; of equal ones that which falls most, and sides before corners.
-fn lowest(bisectors: &[Bisector], at: f64, slack: f64) -> Option<&Bisector> {
-    let here = || bisectors.iter().filter(|b| b.from <= at + slack && b.to > at + slack);
-    let least = here().map(|b| b.value(at)).fold(f64::INFINITY, f64::min);
-    let even = here().filter(|b| b.value(at) <= least + EVEN * (1.0 + least.abs()));
-    even.min_by(|a, b| a.slope(at).total_cmp(&b.slope(at)))
+/// Bisectors of a site with others, whose lower envelope is followed.
+struct Envelope<'a> {
+    others: &'a [Site],
+    bisectors: &'a [Bisector],
+    /// Parameters that differ by less are the same.
+    slack: f64,
+}
+
+impl<'a> Envelope<'a> {
+    /// Returns the bisector of least value right after a parameter; of equal ones that which falls most, and sides before corners.
+    fn lowest(&self, at: f64) -> Option<&'a Bisector> {
+        let here = || self.bisectors.iter().filter(|b| self.is_after(b, at));
+        let least = here().map(|b| b.value(at)).fold(f64::INFINITY, f64::min);
+        let even = here().filter(|b| b.value(at) <= least + EVEN * (1.0 + least.abs()));
+        even.min_by(|a, b| a.slope(at).total_cmp(&b.slope(at)))
+    }
+
+    /// Returns whether there is a bisector right after a parameter.
+    fn is_after(&self, b: &Bisector, at: f64) -> bool {
+        b.from <= at + self.slack && b.to > at + self.slack
+    }
+
+    /// Returns where the next bisector begins, after a gap; infinity if none does.
+    fn next_start(&self, at: f64) -> f64 {
+        self.bisectors.iter().map(|b| b.from).filter(|from| *from > at + self.slack).fold(f64::INFINITY, f64::min)
+    }
+
+    fn is_of_side(&self, b: &Bisector) -> bool {
+        self.others[b.other].is_side
+    }
+
+    /// Returns whether two bisectors are with a side and with one of its own ends.
+    fn touching(&self, a: &Bisector, b: &Bisector) -> bool {
+        let (a, b) = (&self.others[a.other], &self.others[b.other]);
+        a.is_side != b.is_side && [(a, b), (b, a)].iter().any(|(x, y)| x.is_side && (x.at == y.at || x.to == y.at))
+    }
+
+    /// Returns the bisector with a side in place of that with its end: a side is nearer than its own end wherever it is seen.
+    fn side_of(&self, now: &'a Bisector, at: f64) -> &'a Bisector {
+        if self.is_of_side(now) {
+            return now;
+        }
+        let is_seen = |b: &&Bisector| self.is_of_side(b) && self.is_after(b, at) && self.touching(b, now);
+        self.bisectors.iter().find(is_seen).unwrap_or(now)
+    }
+
+    /// Returns where the envelope leaves a bisector that it follows from a parameter on, and the next one, if it is known.
+    fn end(&self, now: &Bisector, at: f64) -> (f64, Option<&'a Bisector>) {
+        let (mut end, mut next) = (now.to, None);
+        for b in self.bisectors {
+            if b.to <= at + self.slack || std::ptr::eq(b, now) {
+                continue;
+            }
+            if let Some(t) = self.crossing(b, now, [at, end]) {
+                (end, next) = (t, Some(b));
+            }
+        }
+        self.hidden(now, at, end).unwrap_or((end, next))
+    }
+
+    /// Returns where another bisector takes over within a range, before its end.
+    fn crossing(&self, b: &Bisector, now: &Bisector, [at, end]: [f64; 2]) -> Option<f64> {
+        let event = if self.touching(b, now) {
+            (self.is_of_side(b) && b.from > at).then_some(b.from)
+        } else if b.from > at && b.from < end && b.value(b.from) < now.value(b.from) {
+            Some(b.from)
+        } else {
+            let falls = b.falls_below(now).filter(|t| *t >= b.from.max(at - self.slack) && *t <= b.to);
+            falls.filter(|t| *t > at + self.slack || b.slope(*t) < now.slope(*t) - EVEN).map(|t| t.max(at))
+        };
+        event.filter(|t| *t < end)
+    }
+
+    /// Returns what rounding has hidden, which shows in the middle of a range: a lower bisector, and where it takes over.
+    fn hidden(&self, now: &Bisector, at: f64, end: f64) -> Option<(f64, Option<&'a Bisector>)> {
+        let is_below = |b: &Bisector, t: f64| {
+            b.from <= t
+                && b.to >= t
+                && !self.touching(b, now)
+                && b.value(t) < now.value(t) - EVEN * (1.0 + now.value(t).abs())
+        };
+        if end - at <= 4.0 * self.slack {
+            return None;
+        }
+        let (mut low, mut high) = (at, 0.5 * (at + end));
+        let hidden = self.bisectors.iter().find(|b| is_below(b, high))?;
+        for _ in 0..HALVINGS {
+            let half = 0.5 * (low + high);
+            (low, high) = if is_below(hidden, half) { (low, half) } else { (half, high) };
+        }
+        Some((high, Some(hidden)))
+    }
 }

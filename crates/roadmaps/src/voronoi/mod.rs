@@ -15,7 +15,7 @@ use cplan_core::cspace::Regions;
 use cplan_core::planner::mesh::Mesh;
 use cplan_core::planner::roadmap::{self, RoadmapSearch};
 use cplan_core::planner::terminals::Terminals;
-use cplan_core::planner::{PathKind, Planner, Proposal, Query, Run};
+use cplan_core::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run};
 use cplan_geometry::planar::Boundary;
 use diagram::Diagram;
 use ways::Ways;
@@ -70,15 +70,15 @@ impl Planner for Voronoi {
     fn query(&self, space: &Regions, map: &VoronoiMap, query: &Query) -> Run {
         let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
             Ok(terminals) => terminals,
-            Err(reason) => return roadmap::run(Proposal::GaveUp(reason), None, Vec::new()),
+            Err(reason) => return roadmap::run(GraphKind::Roadmap, Proposal::GaveUp(reason), None, Vec::new()),
         };
         let asked = map.ways.asked(&map.mesh, &map.diagram, &terminals);
         let Some(widest) = asked.widest(ways::NARROW) else {
-            return roadmap::run(Proposal::NoPath, Some(&asked), Vec::new());
+            return roadmap::run(GraphKind::Roadmap, Proposal::NoPath, Some(&asked), Vec::new());
         };
         let (way, expanded) = widest.search(self.search, &terminals);
         let own = |way: Vec<_>| way.into_iter().map(|node| widest.at(node)).collect();
         let outcome = way.map_or(Proposal::NoPath, |way| along(&map.mesh, own(way), self.path));
-        roadmap::run(outcome, Some(&asked), expanded)
+        roadmap::run(GraphKind::Roadmap, outcome, Some(&asked), expanded)
     }
 }

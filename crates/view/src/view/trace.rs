@@ -4,7 +4,7 @@ use super::flow;
 use super::numbers::{Chain, Grain, number};
 use super::slope::Slope;
 use super::waves::Waves;
-use cplan_core::planner::{GraphKind, Trace};
+use cplan_core::planner::{Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Topology};
 use serde::Serialize;
 
@@ -107,7 +107,7 @@ impl TraceView {
             // Without a path, there are no slices that it passes.
             Trace::Slices { free } if free.is_empty() => return None,
             Trace::Slices { free } => Self::Slices { free: pairs(free) },
-            Trace::Channel { cells, channel, points, expanded } => Self::Channel {
+            Trace::Channel { cells, channel, points, expanded, .. } => Self::Channel {
                 cells: cells.iter().map(|cell| grain.configurations(cell)).collect(),
                 channel: channel.clone(),
                 centers: grain.configurations(&points.centers),
@@ -118,10 +118,7 @@ impl TraceView {
             Trace::Roads { edges, expanded, kind } => Self::Roads {
                 edges: pairs(edges),
                 expanded: grain.configurations(expanded),
-                visibility: match kind {
-                    GraphKind::Visibility(graph) => Some(graph.name()),
-                    GraphKind::Roadmap => None,
-                },
+                visibility: kind.visibility().map(VisibilityGraph::name),
             },
             Trace::Boxes { free, stuck, mixed } => {
                 Self::Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed), rest: Chain::default() }

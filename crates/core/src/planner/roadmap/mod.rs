@@ -66,10 +66,10 @@ impl Roadmap {
 }
 
 /// What a search of a roadmap came to; without one where it was given up before.
-pub fn run(outcome: Proposal, asked: Option<&Asked>, expanded: Vec<Configuration>) -> Run {
+pub fn run(kind: GraphKind, outcome: Proposal, asked: Option<&Asked>, expanded: Vec<Configuration>) -> Run {
     let [nodes, edges] = asked.map_or([0; 2], Asked::size);
     let drawn = asked.map_or_else(Vec::new, Asked::edges);
-    let trace = Trace::Roads { edges: drawn, expanded, kind: GraphKind::Roadmap };
+    let trace = Trace::Roads { edges: drawn, expanded, kind };
     Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
 }
 

@@ -12,7 +12,7 @@ use super::picture::{PICTURE_TOLERANCE, contours};
 use cplan_core::check::{CertifiedCurve, CheckedProof};
 use cplan_core::cspace::{self, Polygon, Proves};
 use cplan_core::model::{Joint, Scene, Status};
-use cplan_core::planner::{GraphKind, Trace, VisibilityGraph};
+use cplan_core::planner::{Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Path};
 use cplan_engine::{Kind, MotionPlan, Plan, Space, TaskPlan};
 use cplan_geometry::Point;
@@ -257,14 +257,11 @@ impl CSpace {
                 Self { roadmap: Some(Roadmap::of(edges, *whole, reduced)), ..self }
             }
             Trace::Roads { edges, expanded, kind } => {
-                let visibility = match kind {
-                    GraphKind::Visibility(graph) => Some(graph.name()),
-                    GraphKind::Roadmap => None,
-                };
+                let visibility = kind.visibility().map(VisibilityGraph::name);
                 Self { roadmap: Some(Roadmap::of(edges, true, visibility)), expanded: all(expanded), ..self }
             }
             Trace::Slices { free } => Self { rows: pairs(free), ..self },
-            Trace::Channel { cells, channel, points, expanded } => {
+            Trace::Channel { cells, channel, points, expanded, .. } => {
                 let cells = Cells {
                     corners: cells.iter().map(|cell| all(cell)).collect(),
                     channel: channel.clone(),

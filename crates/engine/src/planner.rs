@@ -1,0 +1,266 @@
+//! A planner with its settings.
+
+use super::{CellCounts, Criterion, GridSpace, Method, Setting, Settings};
+use cplan_core::model::Arm;
+use cplan_core::planner::{PathKind, RoadmapSearch, VisibilityGraph};
+use cplan_core::space::Metric;
+use cplan_fields::FieldPlanner;
+use serde::de::Error;
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Value;
+
+/// A planner with the settings that it reads. In JSON its name, with the settings as `{"trapezoid": {"path": "taut", ...}}`; a setting
+/// that is missing there has its default.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Planner {
+    method: Method,
+    settings: Settings,
+}
+
+impl Planner {
+    /// The planner of that name with its defaults.
+    #[must_use]
+    pub fn named(method: Method) -> Self {
+        Self { method, settings: (method.descriptor().defaults)() }
+    }
+
+    /// Which planner it is.
+    #[must_use]
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// Its settings.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The same planner after `change` has set the field of this setting, if the planner reads it.
+    #[must_use]
+    pub fn with(mut self, setting: Setting, change: impl FnOnce(&mut Settings)) -> Self {
+        if self.method.reads(setting) {
+            change(&mut self.settings);
+        }
+        self
+    }
+
+    /// The same planner, giving the other path, if it has two.
+    #[must_use]
+    pub fn with_path(self, kind: PathKind) -> Self {
+        self.with(Setting::Path, |settings| settings.path = kind)
+    }
+
+    /// The same planner, for which this makes a path short, if it optimises.
+    #[must_use]
+    pub fn with_criterion(self, criterion: Criterion) -> Self {
+        self.with(Setting::Criterion, |settings| settings.criterion = criterion)
+    }
+
+    /// The same planner, asked for this gap, if it optimises.
+    #[must_use]
+    pub fn with_gap(self, share: f64) -> Self {
+        self.with(Setting::Gap, |settings| settings.gap = Some(share))
+    }
+
+    /// The same planner with this first margin, if it has one.
+    #[must_use]
+    pub fn with_margin(self, share: f64) -> Self {
+        self.with(Setting::Margin, |settings| settings.margin = share)
+    }
+
+    /// The same planner with this first number of cells along each axis, if it has cells.
+    #[must_use]
+    pub fn with_cells(self, n: usize) -> Self {
+        self.with_cell_counts(CellCounts::square(n))
+    }
+
+    /// The same planner with these first numbers of cells along the axes, if it has cells.
+    #[must_use]
+    pub fn with_cell_counts(self, counts: CellCounts) -> Self {
+        self.with(Setting::Cells, |settings| settings.cells = Some(counts))
+    }
+
+    /// The same planner that searches its roadmap like this, if it has one.
+    #[must_use]
+    pub fn with_search(self, search: RoadmapSearch) -> Self {
+        self.with(Setting::Search, |settings| settings.search = search)
+    }
+
+    /// The same planner with cells decided like this, if it has cells.
+    #[must_use]
+    pub fn with_space(self, space: GridSpace) -> Self {
+        self.with(Setting::Space, |settings| settings.space = space)
+    }
+
+    /// Which of its paths it gives.
+    #[must_use]
+    pub fn path_kind(&self) -> PathKind {
+        self.settings.path
+    }
+
+    /// Whether the exact polygons of a gantry are asked for: in files and pictures, and for the first attempt.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.settings.margin == 0.0
+    }
+
+    /// The first numbers of cells along the axes, if they are given.
+    #[must_use]
+    pub fn cells(&self) -> Option<CellCounts> {
+        self.settings.cells
+    }
+
+    /// Which visibility graph it searches, if it does.
+    #[must_use]
+    pub fn graph(&self) -> Option<VisibilityGraph> {
+        self.if_read(Setting::Graph, self.settings.graph)
+    }
+
+    /// How it measures paths of an arm.
+    #[must_use]
+    pub fn metric(&self, arm: &Arm) -> Metric {
+        self.settings.criterion.metric(arm)
+    }
+
+    /// The gap asked for, of planners that optimise.
+    #[must_use]
+    pub fn gap(&self) -> Option<f64> {
+        self.settings.gap
+    }
+
+    /// How it searches its roadmap, if it has one.
+    #[must_use]
+    pub fn search(&self) -> Option<RoadmapSearch> {
+        self.if_read(Setting::Search, self.settings.search)
+    }
+
+    /// Whether its search looks for the optimum.
+    #[must_use]
+    pub fn optimises(&self) -> bool {
+        self.method.optimises() && self.settings.search.order.is_optimal()
+    }
+
+    /// How the cells of its grid are decided, if it has one.
+    #[must_use]
+    pub fn space(&self) -> Option<GridSpace> {
+        self.if_read(Setting::Space, self.settings.space)
+    }
+
+    /// The field that it follows, if it is not the plain harmonic one.
+    #[must_use]
+    pub fn field(&self) -> Option<&FieldPlanner> {
+        self.settings.field.as_ref()
+    }
+
+    fn if_read<T>(&self, setting: Setting, value: T) -> Option<T> {
+        self.method.reads(setting).then_some(value)
+    }
+}
+
+impl Serialize for Planner {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if self.method.descriptor().settings.is_empty() {
+            return serializer.serialize_str(self.method.name());
+        }
+        let mut planner = serializer.serialize_map(Some(1))?;
+        planner.serialize_entry(self.method.name(), &Read(self))?;
+        planner.end()
+    }
+}
+
+/// The settings that a planner reads.
+struct Read<'a>(&'a Planner);
+
+impl Serialize for Read<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Planner { method, settings } = self.0;
+        let mut map = serializer.serialize_map(None)?;
+        for &setting in method.descriptor().settings {
+            let is_left_out = match setting {
+                Setting::Ties => settings.ties.is_usual(),
+                Setting::Forward => !settings.forward,
+                _ => false,
+            };
+            if !is_left_out {
+                settings.write(setting, &mut map)?;
+            }
+        }
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for Planner {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let named = |name: &str| Ok(Self::named(name.parse().map_err(D::Error::custom)?));
+        let one = match Value::deserialize(deserializer)? {
+            Value::String(name) => return named(&name),
+            Value::Object(map) if map.len() == 1 => map.into_iter().next(),
+            _ => None,
+        };
+        let Some((name, Value::Object(mut given))) = one else {
+            return Err(D::Error::custom("a planner is its name, or an object with the name as its only key"));
+        };
+        let mut planner: Self = named(&name)?;
+        for &setting in planner.method.descriptor().settings {
+            let Some(value) = given.remove(setting.key()) else { continue };
+            let wrong = |error| D::Error::custom(format_args!("{}: {error}", setting.key()));
+            planner.settings.read(setting, value).map_err(wrong)?;
+        }
+        Ok(planner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_has_the_settings_that_a_planner_reads() {
+        let roadmap = r#""search":{"order":"a_star","backward":false}"#;
+        for (method, expected) in [
+            (Method::Shortest, r#"{"shortest":{"criterion":"euclidean","gap":null,"margin":0.001}}"#.to_owned()),
+            (Method::Trapezoid, format!(r#"{{"trapezoid":{{"path":"taut","margin":0.001,{roadmap}}}}}"#)),
+            (Method::Voronoi, format!(r#"{{"voronoi":{{"path":"own","margin":0.001,{roadmap}}}}}"#)),
+            (
+                Method::Wavefront,
+                r#"{"wavefront":{"search":"wave","neighborhood":"four","space":"rows","path":"taut","cells":256}}"#
+                    .into(),
+            ),
+            (Method::Harmonic, r#"{"harmonic":{"field":null,"space":"rows","path":"own","cells":null}}"#.into()),
+            (Method::Subdivision, r#"{"subdivision":{"path":"taut"}}"#.into()),
+            (Method::First, r#""first""#.into()),
+        ] {
+            assert_eq!(serde_json::to_string(&Planner::named(method)).unwrap(), expected);
+        }
+    }
+
+    #[test]
+    fn each_setting_is_read_as_it_was_written() {
+        let planner = Planner::named(Method::Wavefront).with_cell_counts(CellCounts([64, 32]));
+        let planner = planner.with_path(PathKind::Own).with(Setting::Forward, |settings| settings.forward = true);
+        let text = serde_json::to_string(&planner).unwrap();
+        assert!(text.contains(r#""forward":true"#), "{text}");
+        assert_eq!(serde_json::from_str::<Planner>(&text).unwrap(), planner);
+        for wrong in ["{}", "[]", r#""fastest""#, r#"{"prm":{"seed":-1}}"#, r#"{"prm":{},"first":{}}"#] {
+            assert!(serde_json::from_str::<Planner>(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_planner_keeps_the_defaults_of_what_it_does_not_read() {
+        let first = Planner::named(Method::First);
+        assert_eq!(first.with_margin(0.0).with_cells(64).with_path(PathKind::Own).with_gap(0.1), first);
+    }
+
+    #[test]
+    fn a_descriptor_is_consistent() {
+        for method in Method::ALL {
+            let descriptor = method.descriptor();
+            assert!(descriptor.paths.contains(&method.path_kind()), "{method}");
+            assert_eq!(descriptor.paths.len() > 1, method.reads(Setting::Path), "{method}");
+            assert_eq!(method.name().parse(), Ok(method));
+        }
+    }
+}
