@@ -1,21 +1,10 @@
 //! The JSON schema of world files, for editors: derived from the types that read them.
 
-use super::world::WorldFile;
 use cplan_robot::stands_for;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema};
 use serde_json::Value;
-
-/// The schema of the world file, JSON Schema draft 7 (what editors of TOML read). It has every key with its meaning and
-/// unit, and refuses unknown keys, missing ones and all but exactly one shape, region or kind of goal.
-///
-/// What it cannot say is checked only when the file is read: that polygons are simple, that names exist, that files are
-/// there, that numbers are not too large, that an arm can take the values.
-#[must_use]
-pub fn world_schema() -> Value {
-    toml_schema::<WorldFile>()
-}
 
 /// The schema of a file in TOML.
 pub fn toml_schema<T: JsonSchema>() -> Value {

@@ -11,15 +11,15 @@ mod document;
 mod mcap;
 mod other_joints;
 mod records;
+mod samples;
 mod steps;
 mod units;
 
 use super::LoadedScene;
-use cplan_core::model::{Claims, HeldJoint, HeldMotion, JointType, RecordedStep};
-use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
+use cplan_core::model::{Claims, HeldMotion, JointType, RecordedStep};
+use cplan_core::space::{Configuration, Interpolation, Recording};
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
-use std::borrow::Cow;
-use std::ops::Range;
+use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;
 
 /// What to say of accelerations that do not join samples.
@@ -41,34 +41,6 @@ pub struct LoadedRecording {
     pub has_torques: bool,
     /// What the user should know: what was ignored, and which rule joins the samples.
     pub notes: Vec<String>,
-}
-
-/// What a file holds of one joint.
-#[derive(Debug, Default)]
-struct Series {
-    name: String,
-    position: Vec<f64>,
-    velocity: Option<Vec<f64>>,
-    acceleration: Option<Vec<f64>>,
-}
-
-/// What a file holds.
-#[derive(Debug, Default)]
-struct Samples {
-    time: Option<Vec<f64>>,
-    joints: Vec<Series>,
-    /// What the file holds of joints at other times than the samples', with positions alone.
-    aside: Vec<Series>,
-    /// How samples are joined that have accelerations, if these do it; see [`Interpolation`].
-    joined: Option<Interpolation>,
-    /// Samples after which nothing is joined: the arm stands until the next.
-    rests: Vec<usize>,
-    has_torques: bool,
-    /// How the file calls sample `k`: this, with `k` in brackets.
-    what: Cow<'static, str>,
-    /// Where in the text each sample is, if the reader knows.
-    places: Vec<Range<usize>>,
-    notes: Vec<String>,
 }
 
 /// Reads a joint path or trajectory; the file's extension tells the format: `.json`, `.csv`, `.yaml`, `.yml` or `.mcap`.
@@ -149,18 +121,6 @@ fn recorded(path: &Path, _: Option<&str>, _: &Names) -> Result<LoadedRecording, 
     Err(diagnostic.help("verify a .json, .csv or .yaml, or build with --features mcap").into())
 }
 
-/// The joints that a file can speak of.
-struct Names<'a> {
-    arm: [&'a str; 2],
-    /// Whether each of the arm's joints turns, or slides.
-    turns: [bool; 2],
-    held: &'a [HeldJoint],
-    /// Why no motion of the held joints can be judged, if so.
-    rigid: Option<&'static str>,
-    /// Whether the world has steps, in which a wrist turns and a quill goes up and down.
-    has_steps: bool,
-}
-
 impl<'a> Names<'a> {
     fn of(scene: &'a LoadedScene) -> Self {
         Self {
@@ -170,10 +130,6 @@ impl<'a> Names<'a> {
             rigid: other_joints::rigid(&scene.scene),
             has_steps: scene.has_steps(),
         }
-    }
-
-    fn all(&self) -> impl Iterator<Item = &str> {
-        self.arm.iter().copied().chain(self.held.iter().map(|joint| joint.name.as_str()))
     }
 
     /// The arm's two joints of what was read.
@@ -219,36 +175,6 @@ impl<'a> Names<'a> {
         notes.push(rule(&recording).into());
         notes.extend((recording.accelerations().is_some() && samples.joined.is_none()).then(|| STATED.into()));
         Ok(LoadedRecording { recording, held, steps: None, claims: None, has_torques: samples.has_torques, notes })
-    }
-}
-
-impl Samples {
-    /// A diagnostic of one sample.
-    fn diagnostic(&self, source: &Source, sample: usize, message: &str) -> Diagnostic {
-        match self.places.get(sample) {
-            Some(place) => source.diagnostic_at(place.clone(), message),
-            None => source.diagnostic(format!("{}[{sample}]: {message}", self.what)),
-        }
-    }
-}
-
-fn misplaced(source: &Source, samples: &Samples, diagnostic: &RecordingError) -> Diagnostic {
-    let message = diagnostic.to_string();
-    let placed = match diagnostic.sample() {
-        Some(sample) => samples.diagnostic(source, sample, &message),
-        None => source.diagnostic(message),
-    };
-    match diagnostic {
-        RecordingError::Empty => placed.help("record at least one sample"),
-        RecordingError::Count { .. } => placed.help("give every sample all of its values"),
-        RecordingError::VelocityWithoutTime => placed.help("add the times, in seconds, or leave the velocities out"),
-        RecordingError::AccelerationWithoutVelocity => {
-            placed.help("add the velocities, or leave the accelerations out: no controller joins samples without them")
-        }
-        RecordingError::Value { what, .. } => {
-            placed.help(format!("a {what} is a finite number: radians or metres, and seconds"))
-        }
-        RecordingError::Time { .. } => placed.help("sort the samples by time and drop repeated ones"),
     }
 }
 
