@@ -30,7 +30,7 @@ pub use comparison::Comparison;
 pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, WeightScan, convergence};
 pub use labels::labels;
 pub use measure::Measure;
-pub use page::{Overlay, Page, Picture, Spot};
+pub use page::{Overlay, Page, Picture};
 pub use row::{Family, OtherPath, Row};
 pub use sign::sign_test;
 pub use spread::Spread;

@@ -30,6 +30,7 @@ mod frames;
 #[cfg(feature = "png")]
 mod gif_writer;
 mod grid;
+mod key;
 mod labels;
 mod legend;
 mod obstacles;

@@ -1,10 +1,7 @@
 //! All paths of a planner on one configuration space.
 
-use super::markup::number;
+use super::markup::{COLORS, number};
 use cplan_text::{counted, markup};
-
-/// A point `(q1, q2)`.
-pub type Spot = [f64; 2];
 
 /// A configuration space, and the paths that each planner found in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,9 +15,9 @@ pub struct Overlay {
     /// Whether an axis is a circle, whose copies a turn apart are the same.
     pub circles: [bool; 2],
     /// Contours of what is blocked, unwrapped.
-    pub blocked: Vec<Vec<Spot>>,
+    pub blocked: Vec<Vec<[f64; 2]>>,
     /// Paths, unwrapped, by planner.
-    pub planners: Vec<(String, Vec<Vec<Spot>>)>,
+    pub planners: Vec<(String, Vec<Vec<[f64; 2]>>)>,
     /// What is shown of what, in words, if not all.
     pub note: Option<String>,
 }
@@ -54,8 +51,7 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
         } else {
             html += &format!("<use class=\"blocked\" href=\"#blocked{id}\"/>\n");
         }
-        html +=
-            &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % super::COLORS, lines(overlay, paths, false));
+        html += &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % COLORS, lines(overlay, paths, false));
         let middle = number(EDGE + SIZE / 2.0);
         html += &format!(
             "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>",
@@ -72,7 +68,7 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
 }
 
 /// The lines as one path's data; on circles with those copies that reach into the window.
-fn lines(overlay: &Overlay, lines: &[Vec<Spot>], closed: bool) -> String {
+fn lines(overlay: &Overlay, lines: &[Vec<[f64; 2]>], closed: bool) -> String {
     let mut data = String::new();
     for line in lines {
         let shifts = [0, 1].map(|k| shifts(overlay, line, k));
@@ -86,7 +82,7 @@ fn lines(overlay: &Overlay, lines: &[Vec<Spot>], closed: bool) -> String {
 }
 
 /// By how much a line is to be moved along an axis to reach into the window; once, as it is, on an interval.
-fn shifts(overlay: &Overlay, line: &[Spot], axis: usize) -> Vec<f64> {
+fn shifts(overlay: &Overlay, line: &[[f64; 2]], axis: usize) -> Vec<f64> {
     if !overlay.circles[axis] {
         return vec![0.0];
     }
@@ -99,8 +95,8 @@ fn shifts(overlay: &Overlay, line: &[Spot], axis: usize) -> Vec<f64> {
     (from..=to).map(|k| k as f64 * turn).collect()
 }
 
-fn trace(overlay: &Overlay, line: &[Spot], shift: Spot, closed: bool, data: &mut String) {
-    let pixel = |p: &Spot, axis: usize| {
+fn trace(overlay: &Overlay, line: &[[f64; 2]], shift: [f64; 2], closed: bool, data: &mut String) {
+    let pixel = |p: &[f64; 2], axis: usize| {
         let (lower, upper) = overlay.window[axis];
         let share = (p[axis] + shift[axis] - lower) / (upper - lower);
         // A tenth of a pixel is enough, and half the size.
@@ -150,7 +146,7 @@ mod tests {
 
     #[test]
     fn what_falls_into_one_pixel_is_one_point() {
-        let dense: Vec<Spot> = (0..1000).map(|i| [f64::from(i) * 1e-7, 1.0]).collect();
+        let dense: Vec<[f64; 2]> = (0..1000).map(|i| [f64::from(i) * 1e-7, 1.0]).collect();
         assert_eq!(lines(&overlay([false; 2]), &[dense], true), "M110.0 165.0Z");
     }
 }

@@ -14,9 +14,6 @@ const WIDTHS: f64 = 4.0;
 /// Every so many steps a point of the line is kept.
 const KEPT: usize = 4;
 
-/// A point in units of cells.
-type Spot = [f64; 2];
-
 /// Lines of steepest ascent, as polylines; they end at the goal, at a local maximum, or where there is no value. On a
 /// circle they may leave the domain by less than a cell; there they end, for the seam to be visible.
 #[must_use]
@@ -48,7 +45,7 @@ fn extent(samples: &Samples) -> Option<[[usize; 2]; 2]> {
     Some([along(|at, columns| at / columns)?, along(|at, columns| at % columns)?])
 }
 
-fn line(samples: &Samples, begin: Spot) -> Vec<[f64; 2]> {
+fn line(samples: &Samples, begin: [f64; 2]) -> Vec<[f64; 2]> {
     let steps = (WIDTHS * samples.x.len().max(samples.y.len()) as f64 / STEP) as usize;
     let mut points = Vec::new();
     let Some((mut here, mut direction)) = slope(samples, begin) else { return points };
@@ -77,7 +74,7 @@ fn line(samples: &Samples, begin: Spot) -> Vec<[f64; 2]> {
 }
 
 /// Value and direction of ascent of the bilinear interpolation; none outside, at walls and where the field is flat.
-fn slope(samples: &Samples, at: Spot) -> Option<(f64, Spot)> {
+fn slope(samples: &Samples, at: [f64; 2]) -> Option<(f64, [f64; 2])> {
     let [(i, u), (j, v)] = [(at[0], samples.x.len()), (at[1], samples.y.len())].map(|(x, n)| {
         let below = x.floor().clamp(0.0, (n - 2) as f64);
         (below as usize, x - below)
@@ -96,7 +93,7 @@ fn slope(samples: &Samples, at: Spot) -> Option<(f64, Spot)> {
 }
 
 /// Coordinates of a spot.
-fn place(samples: &Samples, at: Spot) -> [f64; 2] {
+fn place(samples: &Samples, at: [f64; 2]) -> [f64; 2] {
     let along = |axis: &[f64], x: f64| {
         let below = (x.floor().max(0.0) as usize).min(axis.len() - 2);
         axis[below] + (axis[below + 1] - axis[below]) * (x - below as f64)

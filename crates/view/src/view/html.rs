@@ -1,6 +1,6 @@
 //! The file around a view.
 
-use super::View;
+use super::content::View;
 use crate::color::TINTS;
 use cplan_text::markup;
 

@@ -1,11 +1,12 @@
 //! One motion, several to compare, or none: what there is to show of a scene.
 
 use super::arm;
+use super::content::{FrameView, PanelView, Still, View};
+use super::extent;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::{Grain, number};
 use super::trace::TraceView;
 use super::world::WorldView;
-use super::{FrameView, PanelView, Still, View, extent};
 use cplan_core::check::CheckedProof;
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Scene, Status};

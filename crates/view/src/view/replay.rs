@@ -1,13 +1,14 @@
 //! How the planner came to its answer, to be played.
 
+use super::content::View;
 use super::numbers::{Chain, Grain};
-use super::trace::{ScaleView, TraceView};
+use super::phase::{MotionReplayView, PhaseView, ShowsView};
+use super::trace::TraceView;
 use super::waves::{self, Waves};
-use super::{View, WorldView};
+use super::world::WorldView;
 use cplan_core::space::{Configuration, Topology};
 use cplan_engine::task::TaskReplay;
 use cplan_engine::{Phase, Replay, Shows, SlabBoxes, Sweeps};
-use serde::Serialize;
 
 /// A phase takes this long at least and at most, and so long for the square root of its events; seconds.
 const SECONDS: [f64; 2] = [1.2, 2.2];
@@ -24,65 +25,6 @@ const MOST_BOXES: usize = 5_000;
 
 /// Boxes narrower than this share of a joint's range are left out where there are too many: the first share that will do.
 const NARROW: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
-
-/// How the planner came to a motion of a task, and what it saw.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct MotionReplayView {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub trace: Option<TraceView>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub scale: Option<ScaleView>,
-    pub phases: Vec<PhaseView>,
-}
-
-/// A phase of a run; without data of its own it shows a part of the trace.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PhaseView {
-    pub caption: String,
-    /// How many things are shown, one after the other.
-    pub events: usize,
-    /// How long it takes to show them.
-    pub seconds: f64,
-    #[serde(flatten)]
-    pub shows: ShowsView,
-}
-
-/// What a phase shows: see [`Shows`].
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-pub enum ShowsView {
-    Nodes,
-    Edges,
-    Cells {
-        swept: bool,
-    },
-    Channel,
-    Expanded,
-    Slices,
-    Wave,
-    Levels,
-    /// Boxes of the trace by their places among the free, the stuck and the mixed ones, in the order in which they are shown.
-    Boxes {
-        order: Vec<usize>,
-    },
-    /// Boxes of slabs, the same way.
-    Slabs {
-        free: Chain,
-        stuck: Chain,
-        mixed: Chain,
-        order: Vec<usize>,
-    },
-    /// A field after so many sweeps, as levels.
-    Sweeps {
-        frames: Vec<(usize, Waves)>,
-    },
-    /// A path that is not the answer's.
-    Own {
-        points: Chain,
-    },
-    Path,
-    Proof,
-}
 
 impl PhaseView {
     /// All phases of a replay.

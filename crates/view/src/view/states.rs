@@ -87,12 +87,6 @@ impl PayloadState<'_> {
     }
 }
 
-/// The number of repetitions.
-#[must_use]
-pub fn rounds(legs: &[Leg]) -> usize {
-    legs.iter().map(|leg| leg.step.cycle).max().unwrap_or(1)
-}
-
 /// What is carried, in words.
 #[must_use]
 pub fn describe(object: Option<&str>) -> String {

@@ -1,10 +1,9 @@
 //! What is done, step by step, in words.
 
-use super::TaskPicture;
-use super::states::rounds;
+use super::task_picture::TaskPicture;
 use crate::color::{BARRED, GREY, INK, Rgb};
 use cplan_core::model::{Object, Step};
-use cplan_engine::task::{TaskAnswer, TaskVerdict};
+use cplan_engine::task::{Leg, TaskAnswer, TaskVerdict};
 
 /// More rows than this are not shown.
 const MOST: usize = 26;
@@ -56,6 +55,12 @@ impl Order {
     pub fn named(&self, step: &Step, objects: &[Object]) -> String {
         format!("{}. {}", self.number(step), self.describe(step, objects))
     }
+}
+
+/// The number of repetitions.
+#[must_use]
+pub fn rounds(legs: &[Leg]) -> usize {
+    legs.iter().map(|leg| leg.step.cycle).max().unwrap_or(1)
 }
 
 /// What the columns are called, then each step once, as it is done the first time; then the one that fails.
