@@ -243,9 +243,7 @@ impl Plan {
 
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
         let name = slf.get_type().qualname()?;
-        let summary = slf.get().plan.summary();
-        let result = summary.lines().find_map(|line| line.strip_prefix("result")).unwrap_or_default();
-        Ok(format!("<cplan.{name}: {}>", result.trim_start()))
+        Ok(format!("<cplan.{name}: {}>", slf.get().plan.verdict()))
     }
 
     /// Returns the object itself, because it never changes.

@@ -1,16 +1,55 @@
 //! `cplan check`: why a configuration is, or is not, free.
 
-use super::args::CheckArgs;
+use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
+use super::files::Files;
 use super::sinks::{self, Sink};
-use super::{DONE, REFUTED};
+use super::values::clearance;
 use crate::draw::{Picture, View};
 use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
-use crate::input::{self, LoadedScene, RobotReport};
+use crate::grammar::number_in;
+use crate::input::{self, JointValues, LoadedScene, RobotReport};
 use crate::model::Scene;
 use crate::output::{configuration, contours, range};
 use crate::space::{Configuration, JointRange};
 use crate::text::{Columns, at_least, fixed, told_apart};
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
+
+/// Tell why a configuration is (not) free: limits, penetrations, crossing sides.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Depths and distances are in metres. If the configuration is not free, the nearest free one is named as well.
+
+Examples:
+  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
+  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 0.14,0 --clearance 0.02 --picture why.html
+  cplan check robots/scara.urdf workspaces/scara_cell.toml --at=-1,-0.9 --json
+
+Exit codes: 0 whether it is free or not, 1 bad input or I/O, 2 wrong command line.")]
+pub struct CheckArgs {
+    #[command(flatten)]
+    pub files: Files,
+    /// The configuration, such as 0.3,-1 or 20deg,-60deg.
+    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
+    pub at: JointValues,
+    /// The time at which obstacles that move are where they are, seconds since the motion begins.
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = time, allow_hyphen_values = true)]
+    pub time: f64,
+    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
+    pub clearance: Option<f64>,
+    /// Draw workspace and configuration space with the configuration: .svg, .png or .html. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub picture: Vec<PathBuf>,
+    /// Print the findings as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn time(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x >= 0.0, "of seconds, finite and not negative")
+}
 
 /// Checks and reports.
 ///

@@ -1,12 +1,13 @@
 //! `cplan completions`: what a shell needs to complete commands, options and their values.
 
-use super::args::Cli;
+use super::exit::DONE;
 use super::failure::Failure;
-use super::{DONE, sinks};
-use clap::{Arg, Args, CommandFactory};
+use super::program::Program;
+use super::sinks;
+use clap::{Arg, Args, Command};
 use clap_complete::Shell;
 
-/// Arguments of `completions`.
+/// Print what a shell needs to complete commands, options and their values.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -29,18 +30,20 @@ pub struct CompletionsArgs {
 ///
 /// # Errors
 /// I/O.
-pub fn run(args: &CompletionsArgs) -> Result<u8, Failure> {
+pub fn run(args: &CompletionsArgs, program: &Program) -> Result<u8, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "cplan", &mut script);
+    clap_complete::generate(args.shell, &mut (program.grammar)(), "cplan", &mut script);
     let script = String::from_utf8_lossy(&script);
-    sinks::print(&if args.shell == Shell::Fish { for_fish(&script) } else { script.into_owned() })?;
+    // What is generated leaves its grammar with a `help` of its own.
+    let script = if args.shell == Shell::Fish { for_fish(&script, &(program.grammar)()) } else { script.into_owned() };
+    sinks::print(&script)?;
     Ok(DONE)
 }
 
 /// The script for fish as it works here. The generated one takes the first file for a subcommand, so that the main job has options in front
 /// of its files only; it knows nothing behind an option whose value is not there yet, nor behind `help`, which it takes for a
 /// subcommand of itself; and it has no values of arguments without a name.
-fn for_fish(script: &str) -> String {
+fn for_fish(script: &str, grammar: &Command) -> String {
     let rules = script.find("complete -c").map_or("", |at| &script[at..]);
     let is_known = |line: &&str| !line.contains("__fish_cplan_using_subcommand help");
     let rules: String = rules.split_inclusive('\n').filter(is_known).collect();
@@ -49,9 +52,8 @@ fn for_fish(script: &str) -> String {
         rules.replace(&generated, &format!("\"not __fish_cplan_using_subcommand $__fish_cplan_commands\" {option}"))
     };
     let rules = ["-s ", "-l "].into_iter().fold(rules, of_main_job);
-    let command = Cli::command();
-    let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).chain(["help"]).collect();
-    let values = command.get_subcommands().flat_map(|command| {
+    let names: Vec<&str> = grammar.get_subcommands().map(Command::get_name).chain(["help"]).collect();
+    let values = grammar.get_subcommands().flat_map(|command| {
         let values = command.get_positionals().flat_map(Arg::get_possible_values);
         values.map(|value| values_rule(command.get_name(), value.get_name()))
     });

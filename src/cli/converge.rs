@@ -1,9 +1,10 @@
 //! `cplan converge`: how relaxations converge on a world's grid.
 
-use super::DONE;
-use super::args::{Files, QueryArgs};
+use super::exit::DONE;
 use super::failure::Failure;
+use super::files::Files;
 use super::print_args::PrintArgs;
+use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
 use crate::engine::{FieldProblem, Problem};
 use crate::field::{Difference, Direction, Equation, Limits, Measure, Stencil, Stopping};
@@ -16,7 +17,7 @@ use crate::report::{Setup, convergence};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-/// Arguments of `converge`.
+/// Tell how relaxations of the harmonic planner's fields converge: errors and sweeps, by relaxation, order, factor and drift.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Jacobi's, weighted Jacobi's (0.8), Gauss-Seidel's and SOR's relaxations (the latter row by row, from the four corners in turn,

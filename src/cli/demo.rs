@@ -1,9 +1,10 @@
 //! `cplan demo`: a cell that is part of the program, for those who have no files yet.
 
-use super::args::PlanArgs;
+use super::exit::DONE;
 use super::failure::Failure;
 use super::fresh::{folder, spare, word};
-use super::{DONE, plan, sinks};
+use super::plan::PlanArgs;
+use super::{plan, sinks};
 use crate::input::{Source, scene_from};
 use crate::output::laid_out;
 use clap::{Args, ValueHint};
@@ -18,7 +19,7 @@ pub const WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
 const RESULT: &str = "plan.json";
 const PICTURE: &str = "plan.html";
 
-/// Arguments of `demo`: all options of the main job, and where to write.
+/// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.html.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The files of the cell are those of `cplan init --kind scara`.

@@ -1,10 +1,12 @@
 //! `cplan explain`: why there is no motion, and what opens a way; of one that there is, what shapes it.
 
-use super::args::{Files, QueryArgs, time_limit};
+use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
+use super::files::Files;
 use super::print_args::PrintArgs;
+use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
-use super::{DONE, INFEASIBLE, UNKNOWN};
+use super::values::time_limit;
 use crate::draw::View;
 use crate::engine::explain::{Explanation, Question, TIME_LIMIT, explain};
 use crate::engine::task::Impossible;
@@ -19,7 +21,7 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Arguments of `explain`.
+/// Tell why there is no motion and what opens a way, or what shapes the one that there is.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Where there is no motion it names what is in the way: obstacles, limits of joints, the clearance. All of them together leave no way, proven;

@@ -1,10 +1,11 @@
 //! `cplan explore`: planning in a world that is only seen bit by bit.
 
-use super::args::{Files, QueryArgs};
+use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
+use super::files::Files;
 use super::print_args::PrintArgs;
+use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
-use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
 use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, explore, map_description, map_picture};
@@ -18,7 +19,7 @@ use crate::text::{counted, short};
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
-/// Arguments of `explore`.
+/// Plan in a world that is only seen bit by bit: what the sensor has not seen is solid.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The world file is what is really there. The arm knows of it what its range sensor has seen ([sensor] in the world file says

@@ -1,5 +1,6 @@
 //! What ends a job before its result: exit code 1, or 2 for a wrong command line.
 
+use super::exit::{BAD_INPUT, USAGE};
 use crate::draw::DrawError;
 use crate::engine::PlanError;
 use crate::input::InputError;
@@ -48,7 +49,7 @@ impl Failure {
 
     /// The process's exit code.
     pub fn exit_code(&self) -> u8 {
-        if matches!(self, Self::Usage(_) | Self::Plan(PlanError::Options(_))) { super::USAGE } else { super::BAD_INPUT }
+        if matches!(self, Self::Usage(_) | Self::Plan(PlanError::Options(_))) { USAGE } else { BAD_INPUT }
     }
 }
 

@@ -1,9 +1,10 @@
 //! `cplan init`: a robot and a world to start from, every key explained.
 
 use super::demo::{self, in_folder};
+use super::exit::DONE;
 use super::failure::Failure;
 use super::fresh::{folder, spare, word};
-use super::{DONE, schema, sinks};
+use super::{schema, sinks};
 use crate::motion::write_whole_set;
 use crate::output::laid_out;
 use clap::{Args, ValueEnum, ValueHint};
@@ -17,7 +18,7 @@ const SCHEMA: &str = "world.schema.json";
 /// The world with `{{marks}}` for what differs between the kinds of arms.
 const TEMPLATE: &str = include_str!("starter/world.toml");
 
-/// Arguments of `init`.
+/// Write a commented world and a robot to start from.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

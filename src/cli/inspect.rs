@@ -1,16 +1,17 @@
 //! `cplan inspect`: what the planner makes of a robot, and what keeps it from planning.
 
-use super::args::InspectArgs;
+use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
+use super::files::XacroArgs;
 use super::inspect_text::text;
 use super::sinks::{self, Sink};
-use super::{DONE, REFUTED};
 use crate::draw::{AxesFrame, Picture, View};
 use crate::input::{self, Diagnostic, InputError, Inspection, RobotFile};
 use crate::motion::write_whole;
 use crate::space::Configuration;
+use clap::{Args, ValueHint};
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The report as JSON.
 #[derive(Serialize)]
@@ -32,6 +33,36 @@ struct DiagnosticEntry<'a> {
     message: &'a str,
     #[serde(rename = "cure")]
     help: Option<&'a str>,
+}
+
+/// Tell what is made of a robot: tree, plane, limits, outlines, and what keeps it from being planned with.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cplan inspect robots/planar_2r.urdf
+  cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
+  cplan inspect robots/scara.urdf.xacro --xacro-arg reach=0.6 --expanded scara_expanded.urdf
+
+Exit codes: 0 the robot can be planned with, 1 it cannot (the report is printed all the same), or I/O, 2 wrong command line.")]
+pub struct InspectArgs {
+    /// The robot: a URDF or xacro, which may be broken or no planar arm at all.
+    #[arg(value_name = "URDF", value_hint = ValueHint::FilePath)]
+    pub urdf: PathBuf,
+    /// The workspace, TOML: its [robot] table decides what the URDF leaves open.
+    #[arg(value_name = "WORLD", value_hint = ValueHint::FilePath)]
+    pub world: Option<PathBuf>,
+    #[command(flatten)]
+    pub xacro: XacroArgs,
+    /// Write the URDF that a robot in xacro expands to, for `cplan-check` and other programs: .urdf. Beside the xacro file it finds the
+    /// same meshes.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub expanded: Option<PathBuf>,
+    /// Draw the arm at zero with the frames of its joints: .svg, .png or .html. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub picture: Vec<PathBuf>,
+    /// Print the report as JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Reports on stdout.

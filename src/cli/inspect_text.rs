@@ -91,7 +91,7 @@ fn described(report: &Inspection, name: &str) -> String {
 }
 
 fn unit(joint: &JointEntry) -> &'static str {
-    if joint.kind == "prismatic" { "m" } else { "rad" }
+    if joint.slides { "m" } else { "rad" }
 }
 
 fn movable(report: &Inspection, joint: &JointEntry) -> String {
@@ -133,10 +133,10 @@ fn range(joint: &JointEntry, limits: LimitEntry) -> String {
         LimitSource::Unset => return "range unset".into(),
     };
     let [lower, upper] = limits.range.unwrap_or_default();
-    let degrees = if unit(joint) == "rad" {
-        format!(" = {:.1} to {:.1} deg", lower.to_degrees(), upper.to_degrees())
-    } else {
+    let degrees = if joint.slides {
         String::new()
+    } else {
+        format!(" = {:.1} to {:.1} deg", lower.to_degrees(), upper.to_degrees())
     };
     format!("{lower} to {upper} {}{degrees} ({source})", unit(joint))
 }

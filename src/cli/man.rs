@@ -1,16 +1,17 @@
 //! `cplan man`: manual pages, from the same words as the help.
 
-use super::args::Cli;
+use super::exit::DONE;
 use super::failure::Failure;
 use super::fresh::folder;
-use super::{DONE, sinks};
+use super::program::Program;
+use super::sinks;
 use crate::motion::write_whole_set;
-use clap::{Args, Command, CommandFactory, ValueHint};
+use clap::{Args, Command, ValueHint};
 use clap_mangen::Man;
 use std::io;
 use std::path::PathBuf;
 
-/// Arguments of `man`.
+/// Print the manual page, or write those of all commands.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -30,8 +31,8 @@ pub struct ManArgs {
 ///
 /// # Errors
 /// I/O.
-pub fn run(args: &ManArgs) -> Result<u8, Failure> {
-    let mut command = Cli::command().disable_help_subcommand(true);
+pub fn run(args: &ManArgs, program: &Program) -> Result<u8, Failure> {
+    let mut command = (program.grammar)().disable_help_subcommand(true);
     // Gives the subcommands their full names.
     command.build();
     let failed = |error: io::Error| Failure::Option(format!("manual page: {error}"));

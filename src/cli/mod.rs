@@ -1,18 +1,20 @@
 //! The command line: arguments to library calls, results to files, summaries and exit codes.
 
-mod args;
 mod batch;
 mod check;
 mod compare;
+mod commands;
 mod completions;
 mod converge;
 #[cfg(feature = "study")]
 mod ctrl_c;
 mod demo;
 mod error_json;
+mod exit;
 mod explain;
 mod explore;
 mod failure;
+mod files;
 mod fresh;
 mod import;
 mod init;
@@ -22,8 +24,11 @@ mod man;
 mod memory;
 mod message_args;
 mod plan;
+mod planners;
 mod print_args;
+mod program;
 mod progress;
+mod query_args;
 mod reach;
 mod recheck;
 mod result_files;
@@ -34,6 +39,7 @@ mod sinks;
 #[cfg(feature = "study")]
 mod study;
 mod terminal;
+mod values;
 mod variant;
 mod verify;
 mod words;
@@ -44,26 +50,100 @@ pub use failure::Failure;
 pub use memory::MemoryMeter;
 pub use words::read_words;
 
-use args::{Cli, Command};
+use crate::engine::Method;
+use crate::grammar::PlannerWords;
 use clap::error::ErrorKind;
-use clap::{CommandFactory, FromArgMatches};
+use clap::{CommandFactory, FromArgMatches, Parser};
+use commands::commands;
 use error_json::ErrorJson;
+use exit::USAGE;
+use files::Files;
+use plan::PlanArgs;
+use program::Program;
+use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Exit code: a path was found, and it is certified; or the job is done.
-const DONE: u8 = 0;
-/// Exit code: bad input or I/O.
-const BAD_INPUT: u8 = 1;
-/// Exit code: wrong command line, as clap has it.
-const USAGE: u8 = 2;
-/// Exit code: there is no path, proven.
-const INFEASIBLE: u8 = 3;
-/// Exit code of `verify`: a proven collision, a limit that is broken, or a task that is not the one asked for.
-const REFUTED: u8 = 3;
-/// Exit code: neither found nor ruled out.
-const UNKNOWN: u8 = 4;
+commands! { program:
+    Compare(compare::CompareArgs, program),
+    Batch(batch::BatchArgs),
+    Converge(converge::ConvergeArgs),
+    Explain(explain::ExplainArgs),
+    Explore(explore::ExploreArgs),
+    Check(check::CheckArgs),
+    Import(import::ImportArgs),
+    Inspect(inspect::InspectArgs),
+    Reach(reach::ReachArgs),
+    Recheck(recheck::RecheckArgs),
+    Verify(verify::VerifyArgs),
+    #[cfg(feature = "serve")]
+    Serve(serve::ServeArgs),
+    #[cfg(feature = "study")]
+    Study(study::StudyArgs),
+    Demo(demo::DemoArgs),
+    Init(init::InitArgs),
+    Completions(completions::CompletionsArgs, program),
+    Man(man::ManArgs, program),
+    Planners(planners::PlannersArgs, program),
+    Schema(schema::SchemaArgs),
+}
+
+/// Plans motions of a planar two-joint arm among polygonal obstacles: a path that is certified free of collision,
+/// a proof that there is none, or "unknown".
+#[derive(Debug, Parser)]
+#[command(name = "cplan", version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(after_help = "\
+Examples:
+  cplan demo
+  cplan init cell
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --output plan.json --picture plan.svg
+  cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
+  cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
+  cplan robots/scara.urdf workspaces/tasks/kitting_cell.toml --output kit.json
+  cplan import workspaces/drawings/cell.dxf --output cell.toml
+  cplan compare robots/planar_2r.urdf workspaces/shelf.toml
+  cplan compare --suite workspaces --output report.html
+  cplan serve robots/planar_2r.urdf workspaces/shelf.toml
+  cplan study workspaces/studies/base.toml --output base.csv --output base.html
+  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
+  cplan explain robots/planar_2r.urdf workspaces/no_path.toml
+  cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
+  cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
+  cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
+  cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
+  cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
+
+Lengths are metres, angles radians (or 30deg), times seconds. `cplan help check` and so on explain the other jobs.
+
+Exit codes: 0 found and certified, 1 bad input or I/O, 2 wrong command line, 3 proven that there is no path, 4 unknown.")]
+struct Cli {
+    /// Other jobs than planning.
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// Files of the main job; there unless another job is.
+    #[command(flatten)]
+    files: Option<Files>,
+    #[command(flatten)]
+    plan: PlanArgs,
+}
+
+impl Cli {
+    /// The grammar for reading. What planners can be told is left out of the main job's help, a line an option, which has no room for it.
+    fn to_read() -> clap::Command {
+        let planners: BTreeSet<String> =
+            PlannerWords::command().get_opts().map(|option| option.get_id().to_string()).collect();
+        let names = Method::ALL.map(|method| method.name()).join(", ");
+        let help = format!("Planner: {names}; `cplan help planners` tells of each and of its options");
+        Self::command().mut_args(|argument| match argument.get_id().as_str() {
+            "planner" => argument.hide_possible_values(true).help(help.clone()),
+            "joints" => argument.hide_possible_values(true),
+            id if planners.contains(id) => argument.hide(true),
+            _ => argument,
+        })
+    }
+}
 
 /// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json` an error is
 /// a JSON object on stdout, besides the words on stderr. `meter` counts the
@@ -78,36 +158,15 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
 pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     let in_json = arguments.iter().any(|argument| argument == "--json");
     let first = arguments.get(1).cloned();
-    let mut cli =
-        match Cli::grammar().try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
-            Ok(cli) => cli,
-            Err(error) => {
-                let misspelled = first.filter(|_| error.kind() == ErrorKind::ArgumentConflict).and_then(misspelled);
-                return unread(&misspelled.unwrap_or(error), in_json);
-            }
-        };
-    let done = match (&mut cli.command, &cli.files) {
-        (Some(Command::Compare(args)), _) => compare::run(args, meter),
-        (Some(Command::Batch(args)), _) => batch::run(args),
-        (Some(Command::Check(args)), _) => check::run(args),
-        (Some(Command::Converge(args)), _) => converge::run(args),
-        (Some(Command::Explain(args)), _) => explain::run(args),
-        (Some(Command::Explore(args)), _) => explore::run(args),
-        (Some(Command::Import(args)), _) => import::run(args),
-        (Some(Command::Inspect(args)), _) => inspect::run(args),
-        (Some(Command::Reach(args)), _) => reach::run(args),
-        (Some(Command::Recheck(args)), _) => recheck::run(args),
-        (Some(Command::Verify(args)), _) => verify::run(args),
-        #[cfg(feature = "serve")]
-        (Some(Command::Serve(args)), _) => serve::run(args),
-        #[cfg(feature = "study")]
-        (Some(Command::Study(args)), _) => study::run(args),
-        (Some(Command::Demo(args)), _) => demo::run(args),
-        (Some(Command::Init(args)), _) => init::run(args),
-        (Some(Command::Completions(args)), _) => completions::run(args),
-        (Some(Command::Man(args)), _) => man::run(args),
-        (Some(Command::Planners(_)), _) => planners(),
-        (Some(Command::Schema(args)), _) => schema::run(args),
+    let cli = match Cli::to_read().try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let misspelled = first.filter(|_| error.kind() == ErrorKind::ArgumentConflict).and_then(misspelled);
+            return unread(&misspelled.unwrap_or(error), in_json);
+        }
+    };
+    let done = match (cli.command, &cli.files) {
+        (Some(mut command), _) => command.run(&Program { grammar: Cli::command, meter }),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => {
             let error = Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required");
@@ -122,14 +181,6 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
         sinks::say(&format!("error: {failure}"));
         failure.exit_code()
     })
-}
-
-/// Shows what planners can be told.
-fn planners() -> Result<u8, Failure> {
-    let mut grammar = Cli::grammar();
-    let help = grammar.find_subcommand_mut("planners").map(|command| command.render_long_help().to_string());
-    sinks::print(&help.unwrap_or_default())?;
-    Ok(DONE)
 }
 
 /// That a first word is neither a command nor a file. Of more words than two the third would be the command then, in conflict with two files.
@@ -154,7 +205,6 @@ fn unread(error: &clap::Error, in_json: bool) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::Parser;
 
     /// All examples of all helps are command lines; `tests/program/cli/help.rs` runs those that end soon.
     #[test]

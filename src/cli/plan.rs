@@ -1,18 +1,91 @@
 //! The main job: from two files to a certified motion, a proof, or neither.
 
-use super::args::{Files, PlanArgs};
+use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
+use super::files::Files;
+use super::message_args::MessageArgs;
+use super::print_args::PrintArgs;
+use super::progress;
+use super::query_args::QueryArgs;
 use super::result_files::ResultFiles;
 use super::sinks::{self, Sink};
-use super::{DONE, INFEASIBLE, UNKNOWN, words};
-use crate::engine::{Options, Plan, Planner, Problem, plan_with};
+use crate::draw::FieldLines;
+use crate::engine::{Method, Options, Plan, Planner, Problem, plan_with};
+use crate::grammar::{MotionArgs, PlannerArgs, word};
 use crate::input::{self, Digests, InputError, JointValues, LoadedScene, Overrides};
 use crate::model::{MotionProblem, Status};
 use crate::motion::write_whole;
 use crate::output::{CSpaceFormat, PlanOutput as _, summary_with};
 use crate::space::Configuration;
-use std::path::Path;
+use clap::{Args, ValueEnum, ValueHint};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Options of the main job.
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    /// Planner.
+    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
+    pub planner: Method,
+    #[command(flatten)]
+    pub query: QueryArgs,
+    #[command(flatten)]
+    pub motion: MotionArgs,
+    /// Write the result: .json, .csv, .yaml (ROS 2 JointTrajectory) or .mcap (recording of ROS 2 topics); or the configuration
+    /// space with what the planner saw in it: cspace.json, NAME.cspace.json or .geojson. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Vec<PathBuf>,
+    /// Write the motion of each step into a .csv or .yaml file of its own, from rest to rest: plan-001.yaml, plan-002.yaml
+    /// and so on for --output plan.yaml (worlds with steps).
+    #[arg(long)]
+    pub per_step: bool,
+    #[command(flatten)]
+    pub message: MessageArgs,
+    /// Draw workspace and configuration space side by side: .svg, .png, .gif (how the planner came to its answer, then the motion), or .html
+    /// (a page that plays the same, and in which the arm can be moved).
+    /// Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub picture: Vec<PathBuf>,
+    /// What pictures of a field show (.svg, .png, .gif; pages show and hide each).
+    #[arg(long, value_enum, value_name = "LINES", default_value_t = FieldLinesName::Equipotentials)]
+    pub field_lines: FieldLinesName,
+    /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact arithmetic. If FILE is a
+    /// .json of --output, too, it becomes the member `certificate` of that. Infeasible tasks have none.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub certificate: Option<PathBuf>,
+    #[command(flatten)]
+    pub print: PrintArgs,
+    /// Tell also how the robot was read: the plane, the tip, the outline of each link.
+    #[arg(long, short)]
+    pub verbose: bool,
+    /// Put the time that each stage took into the JSON; without it the same input gives the same bytes.
+    #[arg(long)]
+    pub timings: bool,
+    // Last, because its headings are for all that follows.
+    #[command(flatten)]
+    pub options: PlannerArgs,
+}
+
+/// Field lines in words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FieldLinesName {
+    /// Lines of equal potential.
+    Equipotentials,
+    /// Lines of steepest ascent, with an arrow each.
+    Flow,
+    // Needs no help.
+    Both,
+}
+
+impl From<FieldLinesName> for FieldLines {
+    fn from(name: FieldLinesName) -> Self {
+        match name {
+            FieldLinesName::Equipotentials => Self::Equipotentials,
+            FieldLinesName::Flow => Self::Flow,
+            FieldLinesName::Both => Self::Both,
+        }
+    }
+}
 
 /// Plans, writes what was asked for, and returns the exit code.
 ///
@@ -34,7 +107,7 @@ pub fn answer(
     let certificate = args.certificate.as_deref();
     let within = certificate.filter(|path| sinks::is_json_among(path, &args.output));
     let sinks = sinks::sinks_with(&args.output, &args.picture, certificate.filter(|_| within.is_none()))?;
-    let options = words::options(args.planner, &args.options, &args.motion, &args.message)?;
+    let options = options(args.planner, &args.options, &args.motion, &args.message)?;
     let options = Options { timings: args.timings, ..options };
     require_grid(&sinks, &options.planner)?;
     let begun = Instant::now();
@@ -126,7 +199,7 @@ fn written(
                 }
             },
             Sink::Picture(format, path) => {
-                let mut progress = sinks::pictures_done(path, &args.print);
+                let mut progress = progress::pictures_done(path, &args.print);
                 write_whole(path, &format.bytes_with(view.get_or_insert_with(seen), &mut progress)?)?;
             }
             Sink::Certificate(path) => match certificate {
@@ -143,4 +216,27 @@ fn written(
 fn shown(path: &Path, sinks: &[Sink]) -> String {
     let is_file = sinks.iter().any(|sink| matches!(sink, Sink::Certificate(own) if own == path));
     if is_file { path.display().to_string() } else { format!("the certificate in {}", path.display()) }
+}
+
+/// How to plan, from the command line.
+///
+/// # Errors
+/// Options that contradict each other or the planner, and a GPU that is not there.
+pub fn options(
+    planner: Method,
+    options: &PlannerArgs,
+    motion: &MotionArgs,
+    message: &MessageArgs,
+) -> Result<Options, Failure> {
+    let planner = options.planner(planner).map_err(Failure::Usage)?;
+    options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
+    Ok(Options {
+        levels: options.levels(&planner),
+        planner,
+        drive: motion.drive(),
+        jerk: motion.jerk(),
+        joints: message.joints,
+        accelerations: message.accelerations,
+        ..Options::default()
+    })
 }

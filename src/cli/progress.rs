@@ -1,7 +1,9 @@
 //! Progress of many runs, or layouts, on stderr.
 
-use crate::cli::sinks;
+use super::print_args::PrintArgs;
+use super::sinks;
 use std::io::{IsTerminal, Write};
+use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -153,7 +155,7 @@ fn time(seconds: f64) -> String {
 }
 
 /// `37 of 1000 runs, 12.3 a second, 78 s left`.
-pub(super) fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
+fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
     let (rate, left) = rate(done, total, elapsed);
     let left = left.map_or_else(String::new, |left| format!(", {left} left"));
     format!("{done} of {total} {things}, {rate:.1} a second{left}")
@@ -167,6 +169,19 @@ fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     let text = format!("[{}{}] {done}/{total} {rate:.1}/s{left}  {now}", "#".repeat(full), ".".repeat(BAR - full));
     let cut: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(WIDTH).collect();
     format!("{cut:WIDTH$}")
+}
+
+/// Says now and then how many pictures of a picture in motion are done, if that takes long.
+pub fn pictures_done(path: &Path, print: &PrintArgs) -> impl FnMut(usize, usize) {
+    const PICTURE_INTERVAL: Duration = Duration::from_secs(5);
+    let begun = Instant::now();
+    let mut told = begun;
+    move |done, all| {
+        if told.elapsed() > PICTURE_INTERVAL {
+            told = Instant::now();
+            print.say(&format!("{}: {}", path.display(), line(done, all, "pictures", begun.elapsed())));
+        }
+    }
 }
 
 #[cfg(test)]

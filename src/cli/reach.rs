@@ -1,10 +1,11 @@
 //! `cplan reach`: where the tip can get.
 
-use super::DONE;
-use super::args::Files;
+use super::exit::DONE;
 use super::failure::Failure;
+use super::files::Files;
 use super::print_args::PrintArgs;
 use super::sinks;
+use super::values::clearance;
 use crate::draw::{Picture, View};
 use crate::engine::{Access, MOST_PLACES, Reach, reach};
 use crate::grammar::positive;
@@ -19,7 +20,7 @@ use std::path::PathBuf;
 /// Cells across the arm's reach, if nothing else is said.
 const CELLS: f64 = 60.0;
 
-/// Arguments of `reach`.
+/// Tell where the tip can get, with which IK solutions: certified, or proven out of reach.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The tip is asked for at the centre of each square cell: with which solutions of the inverse kinematics can it be there, and which of these does
@@ -41,7 +42,7 @@ pub struct ReachArgs {
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub cell: Option<f64>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
-    #[arg(long, value_name = "METRES", value_parser = super::args::clearance)]
+    #[arg(long, value_name = "METRES", value_parser = clearance)]
     pub clearance: Option<f64>,
     /// Write the cells and their solutions: .json, .csv (a line a solution). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]

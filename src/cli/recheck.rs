@@ -1,17 +1,40 @@
 //! `cplan recheck`: whether a proof that there is no path holds, or the bound on how short a path can be.
 
-use super::DONE;
-use super::args::RecheckArgs;
+use super::exit::DONE;
 use super::failure::Failure;
+use super::files::Files;
+use super::query_args::QueryArgs;
 use super::sinks;
 use crate::check::{ProofFormatError, read_proof};
 use crate::engine::{Bound, checked_bound};
 use crate::input::{self, Source};
 use crate::model::MotionProblem;
 use crate::text::counted;
+use clap::{Args, ValueHint};
+use std::path::PathBuf;
 
 /// Share of a bound that its check may not see: each allows for rounding of its own.
 const UNSEEN: f64 = 1e-6;
+
+/// Check a proof that there is no path, or a bound on the shortest, with code that shares nothing with the search that made it.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
+  cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --output bound.json
+  cplan recheck robots/planar_2r.urdf workspaces/shelf.toml --proof bound.json
+
+Exit codes: 0 the proof or bound holds, 1 it does not, or bad input or I/O, 2 wrong command line.")]
+pub struct RecheckArgs {
+    #[command(flatten)]
+    pub files: Files,
+    /// A result of the main job, with the proof that there is no path or a bound on the shortest (`optimum`): .json.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub proof: PathBuf,
+    #[command(flatten)]
+    pub query: QueryArgs,
+}
 
 /// Checks what a result file proves against the two input files. That it was made for them is not taken on trust.
 ///

@@ -1,13 +1,13 @@
 //! `cplan schema`: the JSON schemas of files.
 
-use super::DONE;
+use super::exit::DONE;
 use super::failure::Failure;
 use super::sinks;
 use crate::input::world_schema;
 use crate::output::cspace_schema;
 use clap::{Args, ValueEnum};
 
-/// Arguments of `schema`.
+/// Print the JSON schema of world files, for editors, or of configuration spaces.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 An editor with Taplo (Even Better TOML) completes and explains the keys of a world whose first line is

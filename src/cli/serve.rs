@@ -1,8 +1,9 @@
 //! `cplan serve`: the live page.
 
-use super::args::XacroArgs;
+use super::exit::DONE;
 use super::failure::Failure;
-use super::{DONE, demo, sinks};
+use super::files::XacroArgs;
+use super::{demo, sinks};
 use crate::grammar::number_in;
 use crate::input::{Source, scene_from};
 use crate::live::serve;
@@ -14,7 +15,7 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Arguments of `serve`.
+/// Open a live page: move obstacles, start and goal in the browser, and the plan follows.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

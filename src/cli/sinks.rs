@@ -1,8 +1,6 @@
 //! Files and streams.
 
 use super::failure::Failure;
-use super::print_args::PrintArgs;
-use super::progress;
 use super::terminal;
 use crate::draw::View;
 use crate::input::{FileIdentity, read_from};
@@ -12,7 +10,6 @@ use crate::text::{plain, plain_json};
 use serde::Serialize;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 /// A file to write.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,19 +128,6 @@ pub fn warn_unwritten(path: &Path, content: &str) {
 /// I/O, or a picture that cannot be made of pixels.
 pub fn save_picture(format: PictureFormat, path: &Path, view: &View) -> Result<(), Failure> {
     Ok(write_whole(path, &format.bytes(view)?)?)
-}
-
-/// Says now and then how many pictures of a picture in motion are done, if that takes long.
-pub fn pictures_done(path: &Path, print: &PrintArgs) -> impl FnMut(usize, usize) {
-    const INTERVAL: Duration = Duration::from_secs(5);
-    let begun = Instant::now();
-    let mut told = begun;
-    move |done, all| {
-        if told.elapsed() > INTERVAL {
-            told = Instant::now();
-            print.say(&format!("{}: {}", path.display(), progress::line(done, all, "pictures", begun.elapsed())));
-        }
-    }
 }
 
 /// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.

@@ -1,7 +1,7 @@
 //! `cplan study`: many layouts, a row each.
 
-use super::DONE;
 use super::ctrl_c;
+use super::exit::DONE;
 use super::failure::Failure;
 use super::print_args::PrintArgs;
 use super::progress::Progress;
@@ -16,7 +16,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::available_parallelism;
 
-/// Arguments of `study`.
+/// Plan in many layouts: numbers of robot and world that differ, a row each, and the best.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 A study file (TOML) names a robot, a world, numbers of both that differ from layout to layout, and what is measured:

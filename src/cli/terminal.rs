@@ -1,7 +1,7 @@
 //! What a terminal shows: lines within its width, and in colour what a reader looks for. Elsewhere lines and letters stay as they are,
 //! for scripts.
 
-use super::{DONE, INFEASIBLE, UNKNOWN};
+use super::exit::{DONE, INFEASIBLE, UNKNOWN};
 use crate::text::{INDENT, wrapped};
 use clap::builder::styling::{AnsiColor, Style};
 use std::io::IsTerminal;

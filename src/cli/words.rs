@@ -1,13 +1,15 @@
 //! What the main job can be told, for callers that are no shell.
 
-use super::args::{Cli, QueryArgs};
 use super::failure::Failure;
+use super::files::Files;
 use super::message_args::MessageArgs;
+use super::plan::{self, PlanArgs};
+use super::query_args::QueryArgs;
 use crate::engine::{Method, Options};
 use crate::grammar::{MotionArgs, PlannerArgs, word};
 use crate::input::Overrides;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory, Parser};
+use clap::{Args, Command, Parser};
 
 /// All that says how to plan and what to override, as words of the main job's command line.
 #[derive(Debug, Parser)]
@@ -48,15 +50,16 @@ pub(super) fn asked(words: &[String]) -> Result<Asked, Failure> {
     let refused = |error| Failure::Usage(misplaced(&error).unwrap_or_else(|| told(&error)));
     let words = Words::try_parse_from(words).map_err(refused)?;
     let Words { planner, query, motion, message, options: given } = words;
-    let options = self::options(planner, &given, &motion, &message)?;
+    let options = plan::options(planner, &given, &motion, &message)?;
     Ok(Asked { options, overrides: query.overrides() })
 }
 
 /// What is wrong with an option of the main job that says nothing of how to plan, but of files and printing.
 fn misplaced(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else { return None };
+    let main_job = PlanArgs::augment_args(Files::augment_args(Command::new("cplan")));
     let is_known = error.kind() == ErrorKind::UnknownArgument
-        && Cli::command().get_arguments().any(|known| known.get_long() == option.strip_prefix("--"));
+        && main_job.get_arguments().any(|known| known.get_long() == option.strip_prefix("--"));
     is_known.then(|| format!("{option} is about files or what is printed, and has no place here"))
 }
 
@@ -65,27 +68,4 @@ pub(super) fn told(error: &clap::Error) -> String {
     let text = error.to_string();
     let said = text.split("\n\nUsage").next().unwrap_or_default();
     said.strip_prefix("error: ").unwrap_or(said).trim_end().to_owned()
-}
-
-/// What is asked for.
-///
-/// # Errors
-/// Options that contradict each other or the planner, and a GPU that is not there.
-pub(super) fn options(
-    planner: Method,
-    options: &PlannerArgs,
-    motion: &MotionArgs,
-    message: &MessageArgs,
-) -> Result<Options, Failure> {
-    let planner = options.planner(planner).map_err(Failure::Usage)?;
-    options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
-    Ok(Options {
-        levels: options.levels(&planner),
-        planner,
-        drive: motion.drive(),
-        jerk: motion.jerk(),
-        joints: message.joints,
-        accelerations: message.accelerations,
-        ..Options::default()
-    })
 }

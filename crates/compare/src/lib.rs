@@ -31,7 +31,7 @@ pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthSca
 pub use cplan_engine::Family;
 pub use labels::labels;
 pub use measure::Measure;
-pub use page::{Overlay, Page, Picture, Spot};
+pub use page::{Overlay, Page, Picture};
 pub use row::{OtherPath, Row};
 pub use sign::sign_test;
 pub use spread::Spread;

@@ -44,7 +44,8 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let clock = Instant::now();
     let first = decide(problem, options.boxes.min(FIRST_BOXES));
     let stages = Stages { query: clock.elapsed(), ..Stages::default() };
-    if let (Verdict::Found(_), "PP") = (&first, problem.scene().arm().kind())
+    if matches!(first, Verdict::Found(_))
+        && problem.scene().arm().is_gantry()
         && problem.scene().pairs().len() <= FEW_POLYGONS
         && let Some(answer) = among_polygons(problem, options, stages)
     {

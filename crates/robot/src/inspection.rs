@@ -103,6 +103,9 @@ pub struct JointEntry {
     /// Joint type in the words of the file.
     #[serde(rename = "type")]
     pub kind: String,
+    /// Whether it slides: its values are metres, not radians.
+    #[serde(skip)]
+    pub slides: bool,
     /// Line of the URDF.
     pub line: usize,
     /// The link that carries the joint.

@@ -1,7 +1,7 @@
 //! Coordinate frames: they map values to places on the page, and draw ticks.
 
 use super::color::{FAINT, GREY, INK, PALE};
-use super::figure::{Anchor, Item, Rect, Spot, Step, Style, label as text, upwards};
+use super::figure::{Anchor, Item, Rect, Step, Style, label as text, upwards};
 
 /// Lower and upper value along an axis.
 pub type Range = (f64, f64);
@@ -67,7 +67,7 @@ impl Frame {
 
     /// Returns the place of the point `(x, y)` on the page.
     #[must_use]
-    pub fn at(&self, x: f64, y: f64) -> Spot {
+    pub fn at(&self, x: f64, y: f64) -> [f64; 2] {
         let Rect { width, height, .. } = self.rect;
         [
             self.rect.x + (x - self.x.0) / (self.x.1 - self.x.0) * width,
@@ -112,7 +112,7 @@ impl Frame {
     pub fn sides(&self, seams: [bool; 2]) -> Vec<Item> {
         let Rect { x: left, y: top, .. } = self.rect;
         let (right, bottom) = (self.rect.right(), self.rect.bottom());
-        let side = |a: Spot, b: Spot, seam: bool| {
+        let side = |a: [f64; 2], b: [f64; 2], seam: bool| {
             let pen = Style::line(INK, 1.2);
             let pen = if seam { pen.dashed(&[7.0, 5.0]) } else { pen };
             Item::Outline(vec![Step::Move(a), Step::Line(b)], pen)
@@ -129,7 +129,7 @@ impl Frame {
     #[must_use]
     pub fn tick_marks(&self, units: [Unit; 2], values: [bool; 2]) -> Vec<Item> {
         let (left, bottom) = (self.rect.x, self.rect.bottom());
-        let mark = |a: Spot, b: Spot| Item::Outline(vec![Step::Move(a), Step::Line(b)], Style::line(PALE, 1.0));
+        let mark = |a: [f64; 2], b: [f64; 2]| Item::Outline(vec![Step::Move(a), Step::Line(b)], Style::line(PALE, 1.0));
         let mut items = Vec::new();
         let [x_ticks, y_ticks] = self.ticks(units);
         for (value, name) in x_ticks {

@@ -3,7 +3,7 @@
 use super::axes::Frame;
 use super::color::{EDGE, FREE, MIXED, PROOF, WHITE};
 use super::figure::{Item, Rect, Step, Style, rectangle};
-use super::legend::{Key, Sign};
+use super::key::{Key, Sign};
 use super::view::Chain;
 use cplan_core::space::Configuration;
 

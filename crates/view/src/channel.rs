@@ -2,8 +2,8 @@
 
 use super::chart::Chart;
 use super::color::{CHANNEL, EDGE, INK, WHITE};
-use super::figure::{Anchor, Item, Rect, Spot, Style, label, text_width};
-use super::legend::{Key, Sign};
+use super::figure::{Anchor, Item, Rect, Style, label, text_width};
+use super::key::{Key, Sign};
 use super::view::Chain;
 
 /// Cells narrower than this are drawn with finer sides, in pixels. With normal sides, many such cells would make a
@@ -44,14 +44,14 @@ fn is_wide(Chain(corners): &Chain, chart: &Chart) -> bool {
 /// Draws centres of cells (discs) and middles of portals (rings), named `C1`, `Q1`, `C2` and so on. If there are only a
 /// few, they have names where these cover no marker.
 pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
-    let places = |points: &Chain| points.0.iter().map(|&q| chart.place(q)).collect::<Vec<Spot>>();
+    let places = |points: &Chain| points.0.iter().map(|&q| chart.place(q)).collect::<Vec<[f64; 2]>>();
     let (centers, middles) = (places(centers), places(middles));
     let mut items: Vec<Item> = centers.iter().map(|&at| disc(at)).chain(middles.iter().map(|&at| ring(at))).collect();
     if centers.len() > NAMED {
         return items;
     }
     let mut taken: Vec<Rect> = centers.iter().chain(&middles).map(|&at| about(at, [2.0 * RADIUS; 2])).collect();
-    let named = |letter: char, places: &[Spot]| -> Vec<(String, Spot)> {
+    let named = |letter: char, places: &[[f64; 2]]| -> Vec<(String, [f64; 2])> {
         places.iter().enumerate().map(|(k, &at)| (format!("{letter}{}", k + 1), at)).collect()
     };
     for (name, at) in named('Q', &middles).into_iter().chain(named('C', &centers)) {
@@ -68,15 +68,15 @@ pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
     items
 }
 
-fn disc(at: Spot) -> Item {
+fn disc(at: [f64; 2]) -> Item {
     Item::Disc(at, RADIUS, Style::line(WHITE, 0.8).filled(INK))
 }
 
-fn ring(at: Spot) -> Item {
+fn ring(at: [f64; 2]) -> Item {
     Item::Disc(at, RADIUS, Style::line(INK, 1.4).filled(WHITE))
 }
 
-fn about([x, y]: Spot, [width, height]: [f64; 2]) -> Rect {
+fn about([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
@@ -88,8 +88,8 @@ fn within(place: &Rect, page: &Rect) -> bool {
     place.x >= page.x && place.right() <= page.right() && place.y >= page.y && place.bottom() <= page.bottom()
 }
 
-/// Draws a point for the legend.
-pub fn sign(at: Spot, is_middle: bool) -> Item {
+/// Where a point of the legend is drawn.
+pub fn sign(at: [f64; 2], is_middle: bool) -> Item {
     if is_middle { ring(at) } else { disc(at) }
 }
 

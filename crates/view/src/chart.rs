@@ -2,7 +2,7 @@
 
 use super::axes::{Frame, Unit};
 use super::copies::Window;
-use super::figure::{Item, Rect, Spot, Step, Style, chain};
+use super::figure::{Item, Rect, Step, Style, chain};
 use super::view::{Chain, ContourView};
 use cplan_core::model::{Arm, Joint};
 use cplan_core::space::{Configuration, Topology};
@@ -48,7 +48,7 @@ impl Chart {
 
     /// Returns the place of a configuration on the page.
     #[must_use]
-    pub fn place(&self, q: Configuration) -> Spot {
+    pub fn place(&self, q: Configuration) -> [f64; 2] {
         let q = self.topology.wrap(q);
         self.frame.at(q[0], q[1])
     }

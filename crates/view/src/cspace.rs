@@ -3,10 +3,10 @@
 use super::axes::Frame;
 use super::chart::{self, Chart};
 use super::color::{ACCENT, INK, Rgb, WHITE};
-use super::figure::{Item, Pen, Rect, Spot, Step, Style};
+use super::figure::{Item, Pen, Rect, Step, Style, lines};
 use super::shapes::DASH;
 use super::view::{ContourView, NameView, PanelView, View, WorldView};
-use super::{boxes, labels, page, preferences, reach, stuck, tags, trace};
+use super::{boxes, labels, preferences, reach, stuck, tags, trace};
 
 /// Pen for goals along a segment.
 const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
@@ -43,8 +43,8 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let marked = view.ends(panel).into_iter().map(|(q, ..)| q).chain([panel.start.into()]).chain(stuck);
     let markers = marked.map(|q| labels::about(chart.place(q), [MARKER; 2])).collect();
     inside.extend(names(world, frame, markers));
-    inside.extend(page::lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOALS))));
-    inside.extend(page::lines(paths.map(|path| (chart.outline(&path.points.0), path.pen()))));
+    inside.extend(lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOALS))));
+    inside.extend(lines(paths.map(|path| (chart.outline(&path.points.0), path.pen()))));
     inside.extend(world.trace.iter().flat_map(|trace| trace::over_path(trace, chart)));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
@@ -121,13 +121,13 @@ fn passable(color: Rgb) -> Style {
 
 /// Draws the start of a motion: a ring, which leaves room for the arm's current configuration.
 #[must_use]
-pub fn start_marker(at: Spot) -> Vec<Item> {
+pub fn start_marker(at: [f64; 2]) -> Vec<Item> {
     vec![Item::Disc(at, 9.5, Style::fill(WHITE).faded(0.85)), Item::Disc(at, 7.0, Style::line(INK, 2.2).filled(WHITE))]
 }
 
 /// Draws the goal of a motion: a diamond, hollow if no path ended there.
 #[must_use]
-pub fn goal_marker([x, y]: Spot, reached: bool) -> Vec<Item> {
+pub fn goal_marker([x, y]: [f64; 2], reached: bool) -> Vec<Item> {
     let diamond = |r: f64| {
         vec![
             Step::Move([x, y - r]),

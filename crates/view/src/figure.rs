@@ -1,9 +1,6 @@
 //! The neutral figure: items and their places on the page, without a file format.
 
-use super::color::Rgb;
-
-/// A place on the page: pixels from the left and from the top.
-pub type Spot = [f64; 2];
+use super::color::{Rgb, WHITE};
 
 /// A rectangle of the page, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,12 +33,12 @@ impl Rect {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Step {
     /// Begins a new piece.
-    Move(Spot),
-    /// A straight line to a place.
-    Line(Spot),
-    /// An arc of a circle with this radius to a place: at most half a turn, counter-clockwise as seen on the page.
-    Arc(f64, Spot),
-    /// Returns to the beginning of the piece.
+    Move([f64; 2]),
+    /// Straight on to a place.
+    Line([f64; 2]),
+    /// On a circle of this radius, by half a turn at most, counter-clockwise as seen on the page.
+    Arc(f64, [f64; 2]),
+    /// Back to the beginning of the piece.
     Close,
 }
 
@@ -120,9 +117,9 @@ pub enum Anchor {
 /// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
-    /// Place at which the text is anchored.
-    pub at: Spot,
-    /// The text; any characters are allowed.
+    /// The place at which the text is anchored.
+    pub at: [f64; 2],
+    /// What, any characters.
     pub text: String,
     /// Height of the font, in pixels.
     pub size: f64,
@@ -140,7 +137,7 @@ pub enum Item {
     /// Lines and surfaces.
     Outline(Vec<Step>, Style),
     /// A disc: centre, radius and style.
-    Disc(Spot, f64, Style),
+    Disc([f64; 2], f64, Style),
     /// A line of text.
     Text(Label),
     /// Items that are cut to the rectangle.
@@ -176,10 +173,10 @@ pub struct Figure {
 /// Returns the outline of an open (or closed) chain of spots. It skips spots nearer than a quarter of a pixel to the
 /// one before: nobody can see them, and files stay small.
 #[must_use]
-pub fn chain(spots: impl IntoIterator<Item = Spot>, closed: bool) -> Vec<Step> {
+pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Step> {
     const INVISIBLE: f64 = 0.25;
     let mut steps = Vec::new();
-    let mut kept: Option<Spot> = None;
+    let mut kept: Option<[f64; 2]> = None;
     let mut skipped = None;
     for spot in spots {
         match kept {
@@ -202,15 +199,28 @@ pub fn chain(spots: impl IntoIterator<Item = Spot>, closed: bool) -> Vec<Step> {
     steps
 }
 
-/// Creates a text that reads to the right.
+/// Lines, visible on any ground by the broad pale one under each. Those come first, so that no line hides in the gaps of
+/// another's dashes.
 #[must_use]
-pub fn label(at: Spot, text: impl Into<String>, size: f64, anchor: Anchor, color: Rgb) -> Item {
+pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
+    let (mut halos, mut lines) = (Vec::new(), Vec::new());
+    for (steps, pen) in outlines {
+        halos.push(Item::Outline(steps.clone(), Style::line(WHITE, pen.width + 2.6).faded(0.85)));
+        lines.push(Item::Outline(steps, Style { pen: Some(pen), ..Style::line(pen.color, pen.width) }));
+    }
+    halos.extend(lines);
+    halos
+}
+
+/// A text that reads to the right.
+#[must_use]
+pub fn label(at: [f64; 2], text: impl Into<String>, size: f64, anchor: Anchor, color: Rgb) -> Item {
     Item::Text(Label { at, text: text.into(), size, anchor, upwards: false, color })
 }
 
 /// Creates a text that reads upwards, centred at its place.
 #[must_use]
-pub fn upwards(at: Spot, text: impl Into<String>, size: f64, color: Rgb) -> Item {
+pub fn upwards(at: [f64; 2], text: impl Into<String>, size: f64, color: Rgb) -> Item {
     Item::Text(Label { at, text: text.into(), size, anchor: Anchor::Middle, upwards: true, color })
 }
 

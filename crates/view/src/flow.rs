@@ -2,8 +2,8 @@
 
 use super::chart::Chart;
 use super::color::{self, ACCENT, PALE};
-use super::figure::{Item, Pen, Spot, Step, Style, chain};
-use super::legend::{Key, Sign};
+use super::figure::{Item, Pen, Step, Style, chain};
+use super::key::{Key, Sign};
 use super::view::{Chain, LevelView};
 
 /// The lines of a field that pictures show.
@@ -55,7 +55,7 @@ impl FieldLines {
 /// Returns an arrow head a little after the beginning of a line of steepest ascent.
 fn arrow(Chain(line): &Chain, chart: &Chart) -> Vec<Step> {
     let Some(at) = line.len().checked_sub(2).map(|last| last.min(3)) else { return Vec::new() };
-    let [a, b]: [Spot; 2] = [line[at], line[at + 1]].map(|q| chart.frame.at(q[0], q[1]));
+    let [a, b]: [[f64; 2]; 2] = [line[at], line[at + 1]].map(|q| chart.frame.at(q[0], q[1]));
     let angle = (b[1] - a[1]).atan2(b[0] - a[0]);
     let corner = |(r, turn): (f64, f64)| [b[0] + r * (angle + turn).cos(), b[1] + r * (angle + turn).sin()];
     let [tip, left, right] = [(6.0, 0.0), (4.0, 2.5), (4.0, -2.5)].map(corner);

@@ -2,7 +2,7 @@
 
 use super::axes::Frame;
 use super::color::{self, INK, WHITE};
-use super::figure::{Anchor, Item, Spot, Step, Style, label};
+use super::figure::{Anchor, Item, Step, Style, label};
 use super::view::FrameView;
 use cplan_geometry::{Vector, perpendicular};
 
@@ -26,7 +26,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
         let (color, _) = color::path(k);
         // The page's y axis points down.
         let shadow = Vector::new(u, -v);
-        let text = |at: Spot| label(at, LETTERS[k], 14.0, Anchor::Middle, color);
+        let text = |at: [f64; 2]| label(at, LETTERS[k], 14.0, Anchor::Middle, color);
         if shadow.norm() < STANDING {
             items.extend(standing(at, w > 0.0, Style::line(color, 1.8)));
             items.push(text([at[0] - 15.0, at[1] + 5.0]));
@@ -44,8 +44,8 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
     items
 }
 
-/// Draws an axis perpendicular to the plane: in a circle, the point of an arrow (a dot) or its feathers (a cross).
-fn standing(at: Spot, towards: bool, pen: Style) -> Vec<Item> {
+/// An arrow seen from its point (a dot) or from its feathers (a cross), in a circle.
+fn standing(at: [f64; 2], towards: bool, pen: Style) -> Vec<Item> {
     const RADIUS: f64 = 7.0;
     let ring = Item::Disc(at, RADIUS, pen.filled(WHITE));
     if towards {
@@ -57,6 +57,6 @@ fn standing(at: Spot, towards: bool, pen: Style) -> Vec<Item> {
     vec![ring, stroke(r), stroke(-r)]
 }
 
-fn moved(at: Spot, by: Vector) -> Spot {
+fn moved(at: [f64; 2], by: Vector) -> [f64; 2] {
     [at[0] + by.x, at[1] + by.y]
 }

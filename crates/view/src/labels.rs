@@ -2,7 +2,7 @@
 
 use super::axes::Frame;
 use super::color::{INK, WHITE};
-use super::figure::{Anchor, Item, Rect, Spot, Style, label, rectangle, shortened, text_width};
+use super::figure::{Anchor, Item, Rect, Style, label, rectangle, shortened, text_width};
 use super::tags::overlap;
 use super::view::around;
 use cplan_core::model::Shape;
@@ -19,8 +19,8 @@ const WALL: f64 = 10.0;
 /// Largest fraction of a named area that its name may cover.
 const COVERED: f64 = 0.5;
 
-/// Possible positions of a name: on its shape, then above, below, to the sides and at the corners of it.
-const SIDES: [Spot; 9] =
+/// Where a name may stand: on what it belongs to, then above, below, beside and at the corners of it.
+const SIDES: [[f64; 2]; 9] =
     [[0.0, 0.0], [0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
 /// A name, and the box of the shape that it names.
@@ -36,7 +36,7 @@ pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
         let size = size(&name);
         let middle = [of.x + of.width / 2.0, of.y + of.height / 2.0];
         let fits = size[0] <= of.width && size[1] <= of.height;
-        let boxes = SIDES.into_iter().skip(usize::from(!fits)).map(|side: Spot| {
+        let boxes = SIDES.into_iter().skip(usize::from(!fits)).map(|side: [f64; 2]| {
             let away = [0, 1].map(|k| side[k] * (size[k] / 2.0 + GAP + [of.width, of.height][k] / 2.0));
             about([middle[0] + away[0], middle[1] + away[1]], size)
         });
@@ -57,7 +57,7 @@ pub fn items(page: &Rect, names: &[Named]) -> Vec<Item> {
 /// Draws names centred at spots, each with the area of the named shape in square pixels. It leaves out a name that
 /// would cover its shape, another name, or one of the `markers`.
 #[must_use]
-pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (String, Spot, f64)>) -> Vec<Item> {
+pub fn inside(page: &Rect, markers: Vec<Rect>, names: impl IntoIterator<Item = (String, [f64; 2], f64)>) -> Vec<Item> {
     let mut taken = markers;
     let mut items = Vec::new();
     for (name, at, area) in names {
@@ -86,13 +86,13 @@ pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = 
     Rect { x: left, y: top, width: right - left, height: bottom - top }
 }
 
-/// Returns a rectangle of this size about a spot.
-pub fn about([x, y]: Spot, [width, height]: [f64; 2]) -> Rect {
+/// A rectangle of this size about a spot.
+pub fn about([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
-/// Returns the box for a name beyond `tip`, as seen from `from`.
-pub fn beyond(name: &str, tip: Spot, from: Spot) -> Rect {
+/// Room for the name of what ends at a spot and comes from another: beyond it.
+pub fn beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
     let away = [tip[0] - from[0], tip[1] - from[1]];
     let length = away[0].hypot(away[1]).max(f64::MIN_POSITIVE);
     let size = size(name);

@@ -1,11 +1,11 @@
 //! The legend: the meaning of the signs.
 
-use super::color::{self, BARRED, GREY, INK, PALE, Rgb};
+use super::color::{self, BARRED, GREY, INK, PALE};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
 use super::flow::FieldLines;
+use super::key::{Key, KeyView, Layered, Sign};
 use super::view::{NAMED, ObstacleView, PathView, TraceView, View};
 use super::{boxes, channel, cspace, preferences, reach, shapes, stuck, trace};
-use serde::Serialize;
 
 /// Height of a row, in pixels.
 pub const ROW: f64 = 21.0;
@@ -13,88 +13,7 @@ const SIZE: f64 = 13.0;
 const SIGN: f64 = 26.0;
 const GAP: f64 = 26.0;
 
-/// The sign before a name.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Sign {
-    /// The start of the motion.
-    Start,
-    /// The goal of the motion.
-    Goal,
-    /// A goal that is not reached.
-    Unreached,
-    /// A piece of line, drawn with this pen.
-    Line(Pen),
-    /// A small square of this colour.
-    Swatch(Rgb),
-    /// A small square in a colour of the scale, from 0 to 1.
-    Shade(f64),
-    /// A dashed outline.
-    Dashed(Rgb),
-    /// The hatch of a proof.
-    Hatched,
-    /// A point of a channel: the middle of a portal, or the centre of a cell.
-    Point {
-        /// True for the middle of a portal.
-        middle: bool,
-    },
-}
-
-/// A sign and its meaning.
-pub type Key = (Sign, String);
-
-/// A key in the document for pages.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct KeyView {
-    sign: &'static str,
-    /// Colour of a line or a square: its name, if it has a meaning, or `#rrggbb`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    color: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    width: Option<f64>,
-    #[serde(skip_serializing_if = "<[f64]>::is_empty")]
-    dash: &'static [f64],
-    /// Place on the scale of colours, from 0 to 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    part: Option<f64>,
-    text: String,
-    /// Layers to which the key belongs; a page can hide them. Empty for items that are always visible.
-    #[serde(skip_serializing_if = "<[&str]>::is_empty")]
-    layers: &'static [&'static str],
-    /// True if it is shown only while the page plays how the planner found its answer.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    think: bool,
-}
-
-/// A key, and the layers to which it belongs.
-type Layered = (Key, &'static [&'static str]);
-
-impl KeyView {
-    fn new(((sign, text), layers): Layered, think: bool) -> Self {
-        let name = match sign {
-            Sign::Start => "start",
-            Sign::Goal => "goal",
-            Sign::Unreached => "unreached",
-            Sign::Line(_) => "line",
-            Sign::Swatch(_) => "swatch",
-            Sign::Shade(_) => "shade",
-            Sign::Dashed(_) => "dashed",
-            Sign::Hatched => "hatched",
-            Sign::Point { middle: true } => "middle",
-            Sign::Point { middle: false } => "center",
-        };
-        let bare = Self { sign: name, color: None, width: None, dash: &[], part: None, text, layers, think };
-        match sign {
-            Sign::Line(Pen { color, width, dash }) => {
-                Self { color: Some(color::tint(color)), width: Some(width), dash, ..bare }
-            }
-            Sign::Swatch(color) | Sign::Dashed(color) => Self { color: Some(color::tint(color)), ..bare },
-            Sign::Shade(part) => Self { part: Some(part), ..bare },
-            Sign::Start | Sign::Goal | Sign::Unreached | Sign::Hatched | Sign::Point { .. } => bare,
-        }
-    }
-}
-
-/// Returns the legend of a picture.
+/// Everything that a picture needs explained.
 #[must_use]
 pub fn keys(view: &View) -> Vec<Key> {
     all(view, true).into_iter().map(|(key, _)| key).collect()

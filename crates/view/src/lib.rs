@@ -31,6 +31,7 @@ mod frames;
 #[cfg(feature = "png")]
 mod gif_writer;
 mod grid;
+mod key;
 mod labels;
 mod legend;
 mod obstacles;

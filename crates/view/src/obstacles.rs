@@ -3,7 +3,7 @@
 use super::axes::{Frame, Range, Unit};
 use super::color;
 use super::figure::Item;
-use super::legend::{Key, Sign};
+use super::key::{Key, Sign};
 use super::view::{Grain, ObstacleView, around};
 use super::{labels, page, shapes, svg_writer};
 use cplan_core::model::Obstacle;

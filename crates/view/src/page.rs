@@ -1,9 +1,10 @@
 //! The page: titles, the workspace, configuration spaces, the steps of a task, legend.
 
-use super::color::{GREY, INK, WHITE};
-use super::figure::{Anchor, Figure, Item, Pen, Rect, Step, Style, label, shortened, text_width};
+use super::color::{GREY, INK};
+use super::figure::{Anchor, Figure, Item, Rect, label, shortened, text_width};
 use super::grid::Grid;
-use super::legend::{self, Key};
+use super::key::Key;
+use super::legend;
 use super::view::{PanelView, View};
 use super::{cspace, steps, workspace};
 
@@ -123,18 +124,6 @@ fn layout(top: f64, grid: f64, list: f64, legend: f64) -> Layout {
     let list =
         if left { Rect { y: workspace.bottom() + AXES, ..LEFT } } else { Rect { y: top + grid + AXES, ..RIGHT } };
     Layout { workspace, list, height }
-}
-
-/// Draws lines, each over a broad pale one that makes it visible on any ground. The pale ones come first, so that they
-/// hide no line in the gaps of another's dashes.
-pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
-    let (mut halos, mut lines) = (Vec::new(), Vec::new());
-    for (steps, pen) in outlines {
-        halos.push(Item::Outline(steps.clone(), Style::line(WHITE, pen.width + 2.6).faded(0.85)));
-        lines.push(Item::Outline(steps, Style { pen: Some(pen), ..Style::line(pen.color, pen.width) }));
-    }
-    halos.extend(lines);
-    halos
 }
 
 fn heading(column: Rect, y: f64, text: &str) -> Item {

@@ -4,7 +4,7 @@ use super::axes::Frame;
 use super::chart::Chart;
 use super::color::{AVOIDED, PREFERRED};
 use super::figure::{Item, Pen, Step, Style, chain};
-use super::legend::{Key, Sign};
+use super::key::{Key, Sign};
 use super::view::RegionView;
 
 const DASH: &[f64] = &[7.0, 4.0];

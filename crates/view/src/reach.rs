@@ -4,7 +4,7 @@ use super::axes::Frame;
 use super::chart::Chart;
 use super::color::Rgb;
 use super::figure::{Item, Raster, Rect, Style};
-use super::legend::{Key, Sign};
+use super::key::{Key, Sign};
 use super::view::{Chain, Grain};
 use cplan_engine::{Access, Reach, Solution};
 use serde::Serialize;

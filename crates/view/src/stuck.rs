@@ -4,10 +4,11 @@ use super::arm::{self, UNREACHED};
 use super::axes::Frame;
 use super::chart::Chart;
 use super::color::{BARRED, WHITE};
-use super::figure::{Item, Pen, Spot, Step, Style};
-use super::legend::{Key, Sign};
+use super::figure::{Item, Pen, Step, Style};
+use super::key::{Key, Sign};
 use super::shapes;
-use super::view::View;
+use super::view::WorldView;
+use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
 use cplan_geometry::Point;
 use serde::{Serialize, Serializer};
@@ -35,12 +36,11 @@ fn pair<S: Serializer>(at: &Option<(Configuration, Point)>, serializer: S) -> Re
 
 /// Draws the outlines of the blocking obstacles, the arm where it gets stuck, and the place.
 #[must_use]
-pub fn in_workspace(stuck: &Stuck, view: &View, frame: &Frame) -> Vec<Item> {
-    let world = view.first_world();
+pub fn in_workspace(stuck: &Stuck, of: &Arm, world: &WorldView, frame: &Frame) -> Vec<Item> {
     let blockers = stuck.blockers.iter().filter_map(|&number| world.obstacles.get(number));
     let mut items: Vec<Item> = blockers.map(|obstacle| shapes::marked(frame, obstacle, pen())).collect();
     if let Some((at, point)) = stuck.at {
-        items.extend(arm::items(frame, &view.arm, world.payload.as_ref(), at, &UNREACHED));
+        items.extend(arm::items(frame, of, world.payload.as_ref(), at, &UNREACHED));
         items.extend(cross(frame.at(point.x, point.y)));
     }
     items
@@ -67,8 +67,8 @@ fn pen() -> Style {
     Style::line(BARRED, WIDTH).dashed(DASH)
 }
 
-/// Draws a cross on white.
-fn cross([x, y]: Spot) -> Vec<Item> {
+/// A cross on white.
+fn cross([x, y]: [f64; 2]) -> Vec<Item> {
     let strokes = |r: f64| {
         vec![
             Step::Move([x - r, y - r]),

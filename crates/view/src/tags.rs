@@ -1,7 +1,7 @@
 //! Numbers beside places; where there is room, none covers another.
 
 use super::color::{INK, WHITE};
-use super::figure::{Anchor, Item, Rect, Spot, Style, label, rectangle, shortened, text_width};
+use super::figure::{Anchor, Item, Rect, Style, label, rectangle, shortened, text_width};
 use super::view::ranges;
 
 const SIZE: f64 = 12.0;
@@ -32,14 +32,14 @@ const LINE_SPOT: f64 = 4.0;
 /// Steps that end at one place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tag {
-    /// Place at which the steps end.
-    pub at: Spot,
-    /// Numbers of the steps, each once.
+    /// The place at which the steps end.
+    pub at: [f64; 2],
+    /// Their numbers, each once.
     pub numbers: Vec<usize>,
 }
 
 /// Adds a number at a place.
-pub fn add(tags: &mut Vec<Tag>, at: Spot, number: usize) {
+pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
     match tags.iter_mut().find(|tag| (tag.at[0] - at[0]).hypot(tag.at[1] - at[1]) < NEAR) {
         Some(tag) if tag.numbers.contains(&number) => {}
         Some(tag) => tag.numbers.push(number),
@@ -50,7 +50,7 @@ pub fn add(tags: &mut Vec<Tag>, at: Spot, number: usize) {
 /// Draws the numbers in boxes. Each box lies on the side of its place where it covers the least: first other numbers,
 /// places and the page's border, then the `shapes` and lines through the `spots`.
 #[must_use]
-pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[Spot]) -> Vec<Item> {
+pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[[f64; 2]]) -> Vec<Item> {
     let mut taken: Vec<Rect> = tags.iter().map(|tag| around(tag.at, [8.0, 8.0])).collect();
     let mut items = Vec::new();
     for tag in tags {
@@ -80,7 +80,7 @@ pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[Spot]) -> Vec
     items
 }
 
-fn around([x, y]: Spot, [width, height]: [f64; 2]) -> Rect {
+fn around([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 

@@ -4,7 +4,7 @@ use super::chart::Chart;
 use super::color::{self, ACCENT, CHANNEL, EDGE, GREY, INK, Rgb};
 use super::figure::{Anchor, Item, Pen, Raster, Rect, Style, chain, label, upwards};
 use super::flow::FieldLines;
-use super::legend::{Key, Sign};
+use super::key::{Key, Sign};
 use super::view::{Chain, LEVELS, ScaleView, TraceView, Waves};
 use super::{boxes, channel, wave_numbers};
 

@@ -3,14 +3,12 @@
 use super::arm::{self, GHOST, GOAL, NOW, START, UNREACHED};
 use super::axes::{Frame, Unit};
 use super::color::{BARRED, GREY, INK, PALE, WHITE};
-use super::figure::{Anchor, Item, Rect, Spot, Step, Style, chain, label};
+use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines};
 use super::labels::{self, Named};
-use super::view::{ObstacleView, PathView, View, around};
-use super::{frames, page, preferences, reach, shapes, stuck, tags};
-use cplan_core::model::{Arm, JointType, Plane};
+use super::view::{ObstacleView, PathView, View, around, reach_shape, titles};
+use super::{frames, preferences, reach, shapes, stuck, tags};
+use cplan_core::model::Arm;
 use cplan_core::space::Configuration;
-use cplan_geometry::{Convex, cross};
-use nalgebra::Vector3;
 
 /// Draws the panel, which fills this part of the page.
 #[must_use]
@@ -36,8 +34,8 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     still.end.into_iter().for_each(|(q, world)| pose(world, q.into(), &GOAL));
     let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
     let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
-    let spots: Vec<Spot> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
-    inside.extend(page::lines(traces));
+    let spots: Vec<[f64; 2]> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
+    inside.extend(lines(traces));
     let named = if view.is_task() || view.still.panels.is_empty() { Vec::new() } else { names(view, &frame) };
     inside.extend(labels::items(&frame.rect, &named));
     if view.is_task() {
@@ -47,7 +45,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     if let Some((q, world)) = still.now {
         inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q.into(), &NOW));
     }
-    inside.extend(still.stuck.iter().flat_map(|stuck| stuck::in_workspace(stuck, view, &frame)));
+    inside.extend(still.stuck.iter().flat_map(|stuck| stuck::in_workspace(stuck, arm, view.first_world(), &frame)));
     inside.extend(hidden_note(&frame, lying()));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.border([Unit::Meters; 2], titles(&arm.plane), [false; 2]));
@@ -88,8 +86,8 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
     arms.chain(obstacles).chain(movers).collect()
 }
 
-/// Draws a dot with the step's number at each place where a step ends or should have ended.
-fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[Spot]) -> Vec<Item> {
+/// A dot where each step ends, or was to end, with its number.
+fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[[f64; 2]]) -> Vec<Item> {
     let (mut items, mut tags) = (Vec::new(), Vec::new());
     for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
         let tip = view.arm.tip_at(q);
@@ -102,8 +100,8 @@ fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[Spot]) -> Vec<It
     items
 }
 
-/// Returns the end of a step of an outline.
-fn end(step: &Step) -> Option<Spot> {
+/// Where a step of an outline leads.
+fn end(step: &Step) -> Option<[f64; 2]> {
     match *step {
         Step::Move(spot) | Step::Line(spot) | Step::Arc(_, spot) => Some(spot),
         Step::Close => None,
@@ -140,44 +138,7 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
     items
 }
 
-/// Returns the titles of the plane's coordinates: the names of the root frame's axes, if they run along these.
-pub fn titles(plane: &Plane) -> [String; 2] {
-    const ALONG: f64 = 0.9999;
-    let name = |v: Vector3<f64>, other: &str| {
-        let axis = ["x", "y", "z"].into_iter().zip(v.iter()).find(|(_, part)| **part > ALONG);
-        format!("{} (m)", axis.map_or(other, |(name, _)| name))
-    };
-    [name(plane.u, "u"), name(plane.v, "v")]
-}
-
-/// Returns the region that the tip can never leave. If joint 1 is revolute, it is the disc with the greatest distance
-/// from the base; otherwise the places that the slides reach, grown by the reach of a revolute second link.
-pub fn reach_shape(arm: &Arm) -> Convex {
-    let topology = arm.topology();
-    let [first, second] = topology.ranges.map(|axis| axis.domain());
-    if arm.joints[0].joint_type.is_revolute() {
-        const FINE: usize = 720;
-        let at = |i: usize| second.0 + (second.1 - second.0) * i as f64 / FINE as f64;
-        let distance = |i: usize| (arm.tip_at(Configuration::new(first.0, at(i))) - arm.base).norm();
-        return Convex::trusted(vec![arm.base], (0..=FINE).map(distance).fold(0.0, f64::max));
-    }
-    match arm.joints[1].joint_type {
-        JointType::Revolute { .. } => {
-            Convex::trusted(vec![arm.elbow_at(first.0), arm.elbow_at(first.1)], arm.tip.coords.norm())
-        }
-        JointType::Prismatic { .. } => {
-            let tip = |q1, q2| arm.tip_at(Configuration::new(q1, q2));
-            let mut corners =
-                vec![tip(first.0, second.0), tip(first.1, second.0), tip(first.1, second.1), tip(first.0, second.1)];
-            if cross(corners[1] - corners[0], corners[2] - corners[1]) < 0.0 {
-                corners.reverse();
-            }
-            Convex::trusted(corners, 0.0)
-        }
-    }
-}
-
-/// Returns the path of the tip. Straight motions in joint space are curves here, so it samples them in small steps.
+/// Where the tip goes: straight joint motions are curves here, so they are followed in small steps.
 fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
     /// Step in radians. A chord of such an arc is off by at most 2e-5 of the reach, a hundredth of a pixel.
     const STEP: f64 = 0.0125;

@@ -43,4 +43,11 @@ impl LoadedScene {
         loaded.require("the start", start, &place).map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
         Ok(Explorable { scene: loaded.scene, sensor, start, goals: None, robot: loaded.robot, notes })
     }
+
+    /// The sensor that the world describes; what it does not say is as [`Sensor::usual`] has it.
+    #[must_use]
+    pub fn sensor(&self) -> Sensor {
+        let turn = self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle());
+        self.world.sensor.over(Sensor { turn, ..Sensor::usual(self.scene.arm()) })
+    }
 }

@@ -1,8 +1,8 @@
 //! Checked values of a world file.
 
+use super::goal_table::GoalTable;
 use super::joint_pair::JointPair;
 use super::notes::Taken;
-use super::world::GoalTable;
 use cplan_core::model::{Goal, Heights};
 use cplan_core::space::Configuration;
 use cplan_geometry::{Point, Pose, Vector};
@@ -49,7 +49,21 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns a point of the plane.
+    /// An angle, or a joint's value.
+    pub fn quantity(&self, written: &Written, what: &str) -> Result<f64, Diagnostic> {
+        self.source.finite(&Number::new(written.span(), written.get_ref().value), what)
+    }
+
+    /// Values of both joints.
+    pub fn joint_pair(&self, written: &Spanned<Vec<Written>>, what: &str) -> Result<JointPair, Diagnostic> {
+        let [a, b] = &written.get_ref()[..] else {
+            let message = format!("{what}: expected two numbers, found {}", written.get_ref().len());
+            return Err(self.source.diagnostic_at(written.span(), message).help("joints = [q1, q2], base to tip"));
+        };
+        let values = [self.quantity(a, what)?, self.quantity(b, what)?];
+        Ok(JointPair { values, degrees: [a, b].map(|w| w.get_ref().in_degrees.then(|| w.span())) })
+    }
+    /// A point of the plane.
     pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Diagnostic> {
         self.two(numbers, what).map(Point::from)
     }

@@ -1,23 +1,12 @@
 //! The JSON schema of world files, for editors: derived from the types that read them.
 
-use super::world::WorldFile;
 use cplan_robot::stands_for;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
-/// Returns the JSON Schema (draft 7, as used by TOML editors) of the world file. It describes every key with its
-/// meaning and unit, and refuses unknown and missing keys, and all but exactly one shape, region or kind of goal.
-///
-/// Other conditions are checked only when a file is read: simple polygons, existing names and files, sizes of numbers,
-/// values that the arm can take.
-#[must_use]
-pub fn world_schema() -> Value {
-    toml_schema::<WorldFile>()
-}
-
-/// Returns the schema of a TOML file.
+/// The schema of a file in TOML.
 pub fn toml_schema<T: JsonSchema>() -> Value {
     let mut settings = SchemaSettings::draft07();
     // First, because the draft's own transforms may apply to its result.

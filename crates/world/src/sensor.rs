@@ -1,6 +1,5 @@
 //! The range sensor in the world file's `[sensor]`.
 
-use super::LoadedScene;
 use super::reader::Reader;
 use super::schema::{NotNegative, SensorOn};
 use cplan_core::model::{Mount, Sensor};
@@ -118,21 +117,19 @@ impl SensorTable {
     }
 }
 
-impl LoadedScene {
-    /// Returns the sensor that the world describes. Missing properties are those of [`Sensor::usual`].
-    #[must_use]
-    pub fn sensor(&self) -> Sensor {
-        let (usual, wishes) = (Sensor::usual(self.scene.arm()), &self.world.sensor);
+impl SensorWishes {
+    /// The usual sensor with what is wished for.
+    pub fn over(&self, usual: Sensor) -> Sensor {
         Sensor {
-            mount: wishes.mount.unwrap_or(usual.mount),
-            turn: self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle()),
-            rays: wishes.rays.unwrap_or(usual.rays),
-            field_of_view: wishes.field_of_view.unwrap_or(usual.field_of_view),
-            range: wishes.range.unwrap_or(usual.range),
-            step: wishes.step.unwrap_or(usual.step),
-            noise: wishes.noise.unwrap_or(usual.noise),
-            seed: wishes.seed.unwrap_or(usual.seed),
-            cell: wishes.cell.unwrap_or(usual.cell),
+            mount: self.mount.unwrap_or(usual.mount),
+            rays: self.rays.unwrap_or(usual.rays),
+            field_of_view: self.field_of_view.unwrap_or(usual.field_of_view),
+            range: self.range.unwrap_or(usual.range),
+            step: self.step.unwrap_or(usual.step),
+            noise: self.noise.unwrap_or(usual.noise),
+            seed: self.seed.unwrap_or(usual.seed),
+            cell: self.cell.unwrap_or(usual.cell),
+            ..usual
         }
     }
 }

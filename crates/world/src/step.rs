@@ -1,12 +1,12 @@
 //! The world file's `[[step]]` and `[task]`: which steps there are, and in which groups.
 
+use super::goal_table::GoalTable;
 use super::group::{Body, Group, Leaf, LeafAction, Node, When};
 use super::object::{Movable, NameList, Names};
 use super::pallet::Pallets;
 use super::reader::Reader;
 use super::schema::{DoneIn, NotNegative, Share};
 use super::table::Table;
-use super::world::GoalTable;
 use cplan_core::model::{LATEST, Object};
 use cplan_geometry::Pose;
 use cplan_robot::{AngleOrLength, Cursor, Diagnostic, Number, Numbers, Two, Written};

@@ -1,5 +1,6 @@
 //! The world file: its schema, and the workspace it describes.
 
+use super::goal_table::GoalTable;
 use super::help::help;
 use super::joint_pair::JointPair;
 use super::object::{self, Movable, Names, ObjectTable};
@@ -7,7 +8,7 @@ use super::obstacle::{ObstacleTable, Read};
 use super::pallet::{PalletTable, Pallets};
 use super::preference::PreferenceTable;
 use super::reader::Reader;
-use super::schema::NotNegative;
+use super::schema::{NotNegative, toml_schema};
 use super::sensor::{SensorTable, SensorWishes};
 use super::sequence::{Sequence, write_out};
 use super::step::{StepReader, StepTable, TaskTable};
@@ -20,6 +21,7 @@ use cplan_robot::{
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::Value;
 use std::ops::Range;
 use toml::Spanned;
 
@@ -145,21 +147,14 @@ struct StartTable {
     tip: Option<Numbers>,
 }
 
-/// Goal of the arm: joint values, a tip position in the best IK solution, or areas for the tip.
-#[derive(Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }, { "required": ["areas"] }]))]
-pub(super) struct GoalTable {
-    /// Values of both joints, base to tip, rad or m.
-    #[schemars(with = "Option<[AngleOrLength; 2]>")]
-    pub joints: Option<Spanned<Vec<Written>>>,
-    /// Coordinates of the tip, m.
-    #[schemars(with = "Option<Two>")]
-    pub tip: Option<Numbers>,
-    /// Alternative rectangles for the tip, each by two opposite corners, m. For an arm that is not prismatic along both
-    /// axes, each counts as its centre. Not in steps.
-    #[schemars(with = "Option<Vec<[Two; 2]>>")]
-    pub areas: Option<Spanned<Vec<Spanned<Vec<Numbers>>>>>,
+/// The schema of the world file, JSON Schema draft 7 (what editors of TOML read). It has every key with its meaning and
+/// unit, and refuses unknown keys, missing ones and all but exactly one shape, region or kind of goal.
+///
+/// What it cannot say is checked only when the file is read: that polygons are simple, that names exist, that files are
+/// there, that numbers are not too large, that an arm can take the values.
+#[must_use]
+pub fn world_schema() -> Value {
+    toml_schema::<WorldFile>()
 }
 
 /// Reads a world.

@@ -3,11 +3,11 @@
 mod reader;
 mod turns;
 
-use super::DONE;
-use super::args::time_limit;
 use super::error_json::ErrorJson;
+use super::exit::DONE;
 use super::failure::Failure;
 use super::sinks;
+use super::values::time_limit;
 use crate::engine::Report;
 use crate::model::Status;
 use crate::text::plain_json;
@@ -24,7 +24,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 use turns::Turns;
 
-/// Arguments of `batch`.
+/// Answer problems as JSON lines, a result a line: one process for thousands.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 A line is an object: `urdf` (a path; of xacro with `xacro_args`, an object) or `urdf_text`; `world` (a path, or the keys of a world file as an object) or `world_text`

@@ -1,6 +1,7 @@
 //! Arguments of `compare`.
 
-use crate::cli::args::{QueryArgs, XacroArgs};
+use crate::cli::files::XacroArgs;
+use crate::cli::query_args::QueryArgs;
 use crate::cli::variant::Variant;
 use crate::engine::Method;
 use crate::grammar::{EffortArgs, MotionArgs, word};
@@ -10,7 +11,7 @@ use std::path::PathBuf;
 /// Pairs at the most: their results still fit into memory.
 const MOST_QUERIES: i64 = 100_000;
 
-/// Arguments of `compare`.
+/// Run every planner on the same problem, or on many, side by side.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("format").args(["wide", "json", "csv", "markdown"]))]
 #[command(after_help = "\

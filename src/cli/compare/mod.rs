@@ -15,12 +15,13 @@ mod started;
 
 pub use args::CompareArgs;
 
+use super::exit::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
 use super::memory::MemoryMeter;
+use super::program::Program;
 use super::progress::Progress;
 use super::sinks::{self, Sink};
 use super::words::told;
-use super::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
 use crate::engine::{Method, Options, Planner};
 use crate::input::LoadedScene;
 use crate::motion::write_whole_set;
@@ -35,7 +36,7 @@ use sink::{ReportFormat, report_sinks};
 ///
 /// # Errors
 /// Bad input and I/O.
-pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure> {
+pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
     let sinks = report_sinks(&args.output)?;
     let pictures = sinks::sinks(&[], &args.picture)?;
     let files = || sinks.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
@@ -50,7 +51,7 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
         cases.left_out.iter().for_each(|line| sinks::say(&format!("note: {line}")));
     }
     let started = started::now();
-    let (study, done) = measured(args, &cases, meter)?;
+    let (study, done) = measured(args, &cases, program.meter)?;
     for sink in &pictures {
         if let (Sink::Picture(format, path), [comparison]) = (sink, &study.comparisons[..]) {
             drawings::save(&cases.cases[0], comparison, &done.paths[0], *format, path)?;

@@ -1,7 +1,7 @@
 //! Which parts of a drawing are taken, and as what.
 
-use super::Failure;
 use super::obstacles::{Names, Taken, rounded};
+use crate::cli::failure::Failure;
 use crate::input::LARGEST;
 use crate::text::{counted, plain_line};
 use cplan_drawing::{Geometry, Notes, Shape};

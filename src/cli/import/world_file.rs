@@ -1,7 +1,7 @@
 //! The world as text.
 
+use super::args::ImportArgs;
 use super::obstacles::{Taken, rounded};
-use super::{ImportArgs, title};
 use crate::text::plain_line;
 use cplan_drawing::Geometry;
 use std::fmt::Write;
@@ -18,7 +18,7 @@ pub(super) fn text(args: &ImportArgs, taken: &[Taken], notes: &[String]) -> Stri
     for note in notes {
         let _ = writeln!(text, "# Note: {}", plain_line(note));
     }
-    let _ = writeln!(text, "name = {}", quoted(&title(args)));
+    let _ = writeln!(text, "name = {}", quoted(&args.title()));
     let query = &args.query;
     if let Some(clearance) = query.clearance {
         let _ = writeln!(text, "clearance = {clearance:?}");

@@ -1,7 +1,7 @@
 //! Box plots, a line a planner.
 
 use super::axis::Axis;
-use super::markup::{margin, name_before, number};
+use super::markup::{COLORS, margin, name_before, number};
 use crate::{Measure, Spread, Study, labels};
 use cplan_text::{counted, markup};
 
@@ -49,7 +49,7 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
         let middle = TOP + LINE * (i as f64 + 0.5);
         svg += &name_before(&names[i], left - 10.0, middle + 4.0);
         if let Some(spread) = Spread::of(values.iter().copied()) {
-            svg += &format!("<g class=\"p{}\"><title>{}</title>", i % super::COLORS, markup(&described(name, &spread)));
+            svg += &format!("<g class=\"p{}\"><title>{}</title>", i % COLORS, markup(&described(name, &spread)));
             svg += &drawn(&spread, values, middle, &x);
             svg += "</g>\n";
         }

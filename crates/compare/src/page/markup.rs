@@ -3,6 +3,9 @@
 use crate::{Align, Table};
 use cplan_text::{markup, wrapped};
 
+/// Colours of planners, after which they begin again: those of Okabe and Ito that pictures draw paths in.
+pub const COLORS: usize = 6;
+
 /// Characters of a planner's name that a line of it has room for in front of a chart, at the most.
 const NAME: usize = 24;
 

@@ -12,15 +12,12 @@ mod overlay;
 pub use axis::Axis;
 pub use frame::{Frame, frame};
 pub use markup::{image_source, number, table};
-pub use overlay::{Overlay, Spot};
+pub use overlay::Overlay;
 
 use super::measure::Measure;
 use super::study::Study;
 use super::words::words;
 use cplan_text::{counted, markup};
-
-/// Colours of planners, after which they begin again: those of Okabe and Ito that pictures draw paths in.
-const COLORS: usize = 6;
 
 /// A drawing that the page holds.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,7 @@
 //! All paths of a planner on one configuration space.
 
-use super::markup::number;
+use super::markup::{COLORS, number};
 use cplan_text::{counted, markup};
-
-/// A point `(q1, q2)`.
-pub type Spot = [f64; 2];
 
 /// A configuration space, and the paths that each planner found in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,11 +14,11 @@ pub struct Overlay {
     pub window: [(f64, f64); 2],
     /// True for each axis that is a circle, whose copies a turn apart are the same.
     pub circles: [bool; 2],
-    /// Contours of the blocked region, unwrapped.
-    pub blocked: Vec<Vec<Spot>>,
+    /// Contours of what is blocked, unwrapped.
+    pub blocked: Vec<Vec<[f64; 2]>>,
     /// Paths, unwrapped, by planner.
-    pub planners: Vec<(String, Vec<Vec<Spot>>)>,
-    /// Note on the selection shown, if not all.
+    pub planners: Vec<(String, Vec<Vec<[f64; 2]>>)>,
+    /// What is shown of what, in words, if not all.
     pub note: Option<String>,
 }
 
@@ -54,8 +51,7 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
         } else {
             html += &format!("<use class=\"blocked\" href=\"#blocked{id}\"/>\n");
         }
-        html +=
-            &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % super::COLORS, lines(overlay, paths, false));
+        html += &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % COLORS, lines(overlay, paths, false));
         let middle = number(EDGE + SIZE / 2.0);
         html += &format!(
             "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>",
@@ -71,8 +67,8 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
     html + "</div>\n"
 }
 
-/// Returns the lines as one path; on circles with the copies that reach into the window.
-fn lines(overlay: &Overlay, lines: &[Vec<Spot>], closed: bool) -> String {
+/// The lines as one path's data; on circles with those copies that reach into the window.
+fn lines(overlay: &Overlay, lines: &[Vec<[f64; 2]>], closed: bool) -> String {
     let mut data = String::new();
     for line in lines {
         let shifts = [0, 1].map(|k| shifts(overlay, line, k));
@@ -85,8 +81,8 @@ fn lines(overlay: &Overlay, lines: &[Vec<Spot>], closed: bool) -> String {
     data
 }
 
-/// Returns the shifts along an axis that move a line into the window; for an interval only zero.
-fn shifts(overlay: &Overlay, line: &[Spot], axis: usize) -> Vec<f64> {
+/// By how much a line is to be moved along an axis to reach into the window; once, as it is, on an interval.
+fn shifts(overlay: &Overlay, line: &[[f64; 2]], axis: usize) -> Vec<f64> {
     if !overlay.circles[axis] {
         return vec![0.0];
     }
@@ -99,8 +95,8 @@ fn shifts(overlay: &Overlay, line: &[Spot], axis: usize) -> Vec<f64> {
     (from..=to).map(|k| k as f64 * turn).collect()
 }
 
-fn trace(overlay: &Overlay, line: &[Spot], shift: Spot, closed: bool, data: &mut String) {
-    let pixel = |p: &Spot, axis: usize| {
+fn trace(overlay: &Overlay, line: &[[f64; 2]], shift: [f64; 2], closed: bool, data: &mut String) {
+    let pixel = |p: &[f64; 2], axis: usize| {
         let (lower, upper) = overlay.window[axis];
         let share = (p[axis] + shift[axis] - lower) / (upper - lower);
         // A tenth of a pixel is enough, and half the size.
@@ -150,7 +146,7 @@ mod tests {
 
     #[test]
     fn what_falls_into_one_pixel_is_one_point() {
-        let dense: Vec<Spot> = (0..1000).map(|i| [f64::from(i) * 1e-7, 1.0]).collect();
+        let dense: Vec<[f64; 2]> = (0..1000).map(|i| [f64::from(i) * 1e-7, 1.0]).collect();
         assert_eq!(lines(&overlay([false; 2]), &[dense], true), "M110.0 165.0Z");
     }
 }

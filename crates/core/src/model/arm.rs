@@ -135,6 +135,12 @@ impl Arm {
         }
     }
 
+    /// Whether both joints slide.
+    #[must_use]
+    pub fn is_gantry(&self) -> bool {
+        !self.joints.iter().any(|joint| joint.joint_type.is_revolute())
+    }
+
     /// Pose of link 1 (`index` 0), of link 2 (1), or of link 2 while joint 1 stays at zero (2): how it lies to link 1.
     #[must_use]
     pub fn pose(&self, index: usize, q: Configuration) -> Pose {

@@ -159,6 +159,7 @@ fn joint(limits: &Limits, index: usize) -> JointEntry {
     JointEntry {
         name: joint.name.clone(),
         kind: chain::type_name(joint),
+        slides: joint.joint_type == JointType::Prismatic,
         line: limits.document.joint_line(index),
         parent: joint.parent.link.clone(),
         child: joint.child.link.clone(),

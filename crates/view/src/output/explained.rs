@@ -207,7 +207,9 @@ fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
         set.elements().iter().filter(|other| *other != element).map(|other| other.describe(scene)).collect();
     let others = if others.is_empty() { "nothing else".into() } else { format!("{} alone", others.join(", ")) };
     let nothing_else = if *among == Among::Set { format!(", with {others} in the way") } else { String::new() };
-    let digits = if unit == "m" && by.opens < 0.01 { 6 } else { 4 };
+    let is_length =
+        !matches!(element, Element::Limit { joint, .. } if scene.arm().joints[*joint].joint_type.is_revolute());
+    let digits = if is_length && by.opens < 0.01 { 6 } else { 4 };
     let (open, shut) = (at_most(by.opens, digits), at_least(by.closed, digits));
     format!("{how} {open} {unit} opens a way (certified), by {shut} {unit} does not (proven){nothing_else}")
 }

@@ -67,6 +67,10 @@ pub trait PlanOutput {
     /// Returns the result in some ten lines for people, the verdict first, with a line for each step of a task.
     #[must_use]
     fn summary(&self) -> String;
+
+    /// Returns the verdict of the summary: what was found, or why nothing was.
+    #[must_use]
+    fn verdict(&self) -> String;
 }
 
 impl PlanOutput for Plan {
@@ -100,5 +104,9 @@ impl PlanOutput for Plan {
 
     fn summary(&self) -> String {
         summary::summary_with(self, &[], &[], false)
+    }
+
+    fn verdict(&self) -> String {
+        summary::verdict(self)
     }
 }

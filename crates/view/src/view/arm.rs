@@ -1,8 +1,11 @@
 //! The arm in the document: all data needed to place it in any configuration.
 
 use super::numbers::{Grain, ShapeView};
-use crate::{chart, workspace};
-use cplan_core::model::{Arm, JointType, Part, Scene};
+use crate::chart;
+use cplan_core::model::{Arm, JointType, Part, Plane, Scene};
+use cplan_core::space::Configuration;
+use cplan_geometry::{Convex, cross};
+use nalgebra::Vector3;
 use serde::{Serialize, Serializer};
 
 #[derive(Serialize)]
@@ -84,8 +87,8 @@ pub fn document<'a, S: Serializer>(arm: &'a Arm, serializer: S) -> Result<S::Ok,
         base: [arm.base.x, arm.base.y],
         offset: [arm.offset.x, arm.offset.y],
         tip: [arm.tip.x, arm.tip.y],
-        reach: ShapeView(workspace::reach_shape(arm)),
-        plane: workspace::titles(&arm.plane),
+        reach: ShapeView(reach_shape(arm)),
+        plane: titles(&arm.plane),
     };
     document.serialize(serializer)
 }
@@ -107,5 +110,42 @@ fn joint(arm: &Arm, k: usize) -> JointView<'_> {
         velocity: joint.velocity,
         acceleration: joint.acceleration,
         torque: arm.dynamics.filter(|dynamics| dynamics.limits).map(|dynamics| dynamics.effort[k]),
+    }
+}
+
+/// The plane's coordinates are named after the root frame's axes if they run along them.
+pub fn titles(plane: &Plane) -> [String; 2] {
+    const ALONG: f64 = 0.9999;
+    let name = |v: Vector3<f64>, other: &str| {
+        let axis = ["x", "y", "z"].into_iter().zip(v.iter()).find(|(_, part)| **part > ALONG);
+        format!("{} (m)", axis.map_or(other, |(name, _)| name))
+    };
+    [name(plane.u, "u"), name(plane.v, "v")]
+}
+
+/// The region that the tip can never leave: within the greatest distance from the base if joint 1 turns, else the
+/// places that the slides reach, grown by the reach of a turning second link.
+pub fn reach_shape(arm: &Arm) -> Convex {
+    let topology = arm.topology();
+    let [first, second] = topology.ranges.map(|axis| axis.domain());
+    if arm.joints[0].joint_type.is_revolute() {
+        const FINE: usize = 720;
+        let at = |i: usize| second.0 + (second.1 - second.0) * i as f64 / FINE as f64;
+        let distance = |i: usize| (arm.tip_at(Configuration::new(first.0, at(i))) - arm.base).norm();
+        return Convex::trusted(vec![arm.base], (0..=FINE).map(distance).fold(0.0, f64::max));
+    }
+    match arm.joints[1].joint_type {
+        JointType::Revolute { .. } => {
+            Convex::trusted(vec![arm.elbow_at(first.0), arm.elbow_at(first.1)], arm.tip.coords.norm())
+        }
+        JointType::Prismatic { .. } => {
+            let tip = |q1, q2| arm.tip_at(Configuration::new(q1, q2));
+            let mut corners =
+                vec![tip(first.0, second.0), tip(first.1, second.0), tip(first.1, second.1), tip(first.0, second.1)];
+            if cross(corners[1] - corners[0], corners[2] - corners[1]) < 0.0 {
+                corners.reverse();
+            }
+            Convex::trusted(corners, 0.0)
+        }
     }
 }

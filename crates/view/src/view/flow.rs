@@ -14,11 +14,8 @@ const WIDTHS: f64 = 4.0;
 /// One of this many points of a line is kept.
 const KEPT: usize = 4;
 
-/// A point in units of cells.
-type Spot = [f64; 2];
-
-/// Returns lines of steepest ascent as polylines. They end at the goal, at a local maximum, or at a place without a
-/// value. On a circle they may leave the domain by less than a cell; they end there, so that the seam stays visible.
+/// Lines of steepest ascent, as polylines; they end at the goal, at a local maximum, or where there is no value. On a
+/// circle they may leave the domain by less than a cell; there they end, for the seam to be visible.
 #[must_use]
 pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     let size = [samples.x.len(), samples.y.len()];
@@ -48,7 +45,7 @@ fn extent(samples: &Samples) -> Option<[[usize; 2]; 2]> {
     Some([along(|at, columns| at / columns)?, along(|at, columns| at % columns)?])
 }
 
-fn line(samples: &Samples, begin: Spot) -> Vec<[f64; 2]> {
+fn line(samples: &Samples, begin: [f64; 2]) -> Vec<[f64; 2]> {
     let steps = (WIDTHS * samples.x.len().max(samples.y.len()) as f64 / STEP) as usize;
     let mut points = Vec::new();
     let Some((mut here, mut direction)) = slope(samples, begin) else { return points };
@@ -76,9 +73,8 @@ fn line(samples: &Samples, begin: Spot) -> Vec<[f64; 2]> {
     points
 }
 
-/// Returns value and direction of ascent of the bilinear interpolation; `None` outside, at obstacles, and where the
-/// field is flat.
-fn slope(samples: &Samples, at: Spot) -> Option<(f64, Spot)> {
+/// Value and direction of ascent of the bilinear interpolation; none outside, at walls and where the field is flat.
+fn slope(samples: &Samples, at: [f64; 2]) -> Option<(f64, [f64; 2])> {
     let [(i, u), (j, v)] = [(at[0], samples.x.len()), (at[1], samples.y.len())].map(|(x, n)| {
         let below = x.floor().clamp(0.0, (n - 2) as f64);
         (below as usize, x - below)
@@ -96,8 +92,8 @@ fn slope(samples: &Samples, at: Spot) -> Option<(f64, Spot)> {
     (length > 0.0).then(|| (here, along.map(|x| x / length)))
 }
 
-/// Returns the coordinates of a spot.
-fn place(samples: &Samples, at: Spot) -> [f64; 2] {
+/// Coordinates of a spot.
+fn place(samples: &Samples, at: [f64; 2]) -> [f64; 2] {
     let along = |axis: &[f64], x: f64| {
         let below = (x.floor().max(0.0) as usize).min(axis.len() - 2);
         axis[below] + (axis[below + 1] - axis[below]) * (x - below as f64)

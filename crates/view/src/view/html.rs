@@ -1,6 +1,6 @@
 //! The HTML file around a view.
 
-use super::View;
+use super::content::View;
 use crate::color::TINTS;
 use cplan_text::markup;
 

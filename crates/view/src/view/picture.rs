@@ -1,11 +1,12 @@
 //! The content of a picture of a scene: with one motion, with several to compare, or with none.
 
 use super::arm;
+use super::content::{FrameView, PanelView, Still, View};
+use super::extent;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::{Grain, number};
 use super::trace::TraceView;
 use super::world::WorldView;
-use super::{FrameView, PanelView, Still, View, extent};
 use cplan_core::check::CheckedProof;
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Scene, Status};

@@ -1,13 +1,14 @@
 //! The replay: animated phases of the planner's run.
 
+use super::content::View;
 use super::numbers::{Chain, Grain};
-use super::trace::{ScaleView, TraceView};
+use super::phase::{MotionReplayView, PhaseView, ShowsView};
+use super::trace::TraceView;
 use super::waves::{self, Waves};
-use super::{View, WorldView};
+use super::world::WorldView;
 use cplan_core::space::{Configuration, Topology};
 use cplan_engine::task::TaskReplay;
 use cplan_engine::{Phase, Replay, Shows, SlabBoxes, Sweeps};
-use serde::Serialize;
 
 /// Shortest and longest time of a phase, in seconds; in between, `A_ROOT` times the square root of the number of its
 /// events.
@@ -26,66 +27,6 @@ const MOST_BOXES: usize = 5_000;
 /// If there are too many boxes, those narrower than this fraction of a joint's range disappear. The first fraction
 /// that suffices is used.
 const NARROW: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
-
-/// The planner's replay and trace for a motion of a task.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct MotionReplayView {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub trace: Option<TraceView>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub scale: Option<ScaleView>,
-    pub phases: Vec<PhaseView>,
-}
-
-/// A phase of a run. Without data of its own, it shows a part of the trace.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PhaseView {
-    pub caption: String,
-    /// Number of events that are shown one after the other.
-    pub events: usize,
-    /// Time to show them, in seconds.
-    pub seconds: f64,
-    #[serde(flatten)]
-    pub shows: ShowsView,
-}
-
-/// Content of a phase: see [`Shows`].
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-pub enum ShowsView {
-    Nodes,
-    Edges,
-    Cells {
-        swept: bool,
-    },
-    Channel,
-    Expanded,
-    Slices,
-    Wave,
-    Levels,
-    /// Boxes of the trace in the order in which they are shown, by their numbers in the list of free, colliding and
-    /// undecided boxes.
-    Boxes {
-        order: Vec<usize>,
-    },
-    /// Boxes of slabs, ordered in the same way.
-    Slabs {
-        free: Chain,
-        stuck: Chain,
-        mixed: Chain,
-        order: Vec<usize>,
-    },
-    /// A field as levels, each frame with its number of sweeps.
-    Sweeps {
-        frames: Vec<(usize, Waves)>,
-    },
-    /// A path other than the final one.
-    Own {
-        points: Chain,
-    },
-    Path,
-    Proof,
-}
 
 impl PhaseView {
     /// Returns all phases of a replay.

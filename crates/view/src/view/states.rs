@@ -87,13 +87,7 @@ impl PayloadState<'_> {
     }
 }
 
-/// Returns the number of repetitions of the task.
-#[must_use]
-pub fn rounds(legs: &[Leg]) -> usize {
-    legs.iter().map(|leg| leg.step.cycle).max().unwrap_or(1)
-}
-
-/// Describes the payload in words.
+/// What is carried, in words.
 #[must_use]
 pub fn describe(object: Option<&str>) -> String {
     object.map_or("empty-handed".to_owned(), |object| format!("carrying \"{object}\""))

@@ -1,10 +1,9 @@
 //! The steps of a task, in words.
 
-use super::TaskPicture;
-use super::states::rounds;
+use super::task_picture::TaskPicture;
 use crate::color::{BARRED, GREY, INK, Rgb};
 use cplan_core::model::{Object, Step};
-use cplan_engine::task::{TaskAnswer, TaskVerdict};
+use cplan_engine::task::{Leg, TaskAnswer, TaskVerdict};
 
 /// Largest number of rows that are shown.
 const MOST: usize = 26;
@@ -58,8 +57,13 @@ impl Order {
     }
 }
 
-/// Returns the titles of the columns, then each step once, in the order of its first execution, then the step that
-/// fails.
+/// The number of repetitions.
+#[must_use]
+pub fn rounds(legs: &[Leg]) -> usize {
+    legs.iter().map(|leg| leg.step.cycle).max().unwrap_or(1)
+}
+
+/// What the columns are called, then each step once, as it is done the first time; then the one that fails.
 #[must_use]
 pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     let objects = &picture.task.objects;

@@ -1,49 +1,24 @@
 //! A task: its worlds, the times of its events, and the motions that a still picture shows together.
 
 use super::arm;
+use super::content::{PanelView, Still, View};
+use super::extent;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::Grain;
-use super::states::{PayloadState, describe, payload_states, rounds};
-use super::steps::{Order, rows, words};
+use super::states::{PayloadState, describe, payload_states};
+use super::steps::{Order, rounds, rows, words};
+use super::task_picture::TaskPicture;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
-use super::{PanelView, Still, View, extent};
 use crate::{FieldLines, color};
-use cplan_core::cspace::CObstacle;
-use cplan_core::model::{Object, Obstacle, Scene, Status, Task};
-use cplan_engine::task::{Event, Impossible, Leg, Sequence, TaskAnswer};
+use cplan_core::model::{Object, Obstacle, Scene, Task};
+use cplan_engine::task::{Event, Impossible, Leg, Sequence};
 use cplan_geometry::Pose;
 use std::sync::Arc;
 
 /// Poses nearer than this look the same, in metres or radians. It covers rounding.
 const SAME: f64 = 1e-6;
 
-/// C-obstacles at some times, in seconds.
-pub type Moments = Vec<(f64, Vec<CObstacle>)>;
-
-/// The content of a picture of a task. Objects count as obstacles, numbered after the static ones. Each object has the
-/// same colour everywhere and in every world.
-#[derive(Debug, Clone)]
-pub struct TaskPicture<'a> {
-    /// The first line is the title; the others follow in smaller type.
-    pub title: Vec<String>,
-    /// Outcome in a word or two. If a step fails, its number comes before, and the reason below the title.
-    pub status: String,
-    /// Outcome for colours and symbols.
-    pub ending: Option<Status>,
-    /// Facts about the result: names and values.
-    pub facts: Vec<[String; 2]>,
-    /// The task.
-    pub task: &'a Task,
-    /// The answer to the task.
-    pub answer: &'a TaskAnswer,
-    /// Returns the contours of a scene in joint space. It is called for each world, and once more if link 2 reaches
-    /// into an object.
-    pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,
-    /// Returns the contours of moving obstacles at some times of an interval, at most at this many.
-    pub in_time: fn(&Scene, [f64; 2], usize) -> Moments,
-}
-
-/// Largest number of times at which C-obstacles of moving obstacles are drawn, for all worlds together.
+/// Times at which C-obstacles of what moves are drawn, at the most, all worlds together.
 const MOST_MOMENTS: usize = 120;
 
 impl View {

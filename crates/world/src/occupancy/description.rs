@@ -1,7 +1,6 @@
 //! The YAML beside a picture.
 
-use super::Occupancy;
-use super::picture::Shade;
+use super::picture::{Occupancy, Shade};
 use crate::parsers::yaml_diagnostic;
 use cplan_robot::{Diagnostic, LARGEST, Source, quoted};
 use serde::Deserialize;

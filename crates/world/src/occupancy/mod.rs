@@ -15,25 +15,15 @@ mod picture;
 mod png;
 mod rectangles;
 
+pub use picture::{MOST_CELLS, Occupancy};
 pub use rectangles::{PixelRectangle, rectangles};
 
 use cplan_geometry::{Convex, Point, Pose};
 use cplan_robot::{Diagnostic, InputError, LARGEST, Source, read_bounded};
 use description::Description;
 use nalgebra::{Isometry2, Vector2};
-use picture::Broken;
+use picture::{Broken, Judge, Picture};
 use std::path::Path;
-
-/// The occupancy of a cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Occupancy {
-    /// The cell is free.
-    Free,
-    /// Something is there.
-    Occupied,
-    /// Nobody has looked, or the picture does not say.
-    Unknown,
-}
 
 /// An occupancy map in the plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,7 +68,7 @@ impl OccupancyMap {
         let broken = |Broken { message, help }: Broken| Diagnostic::new(path.display().to_string(), message).help(help);
         let bytes = read_bounded(&path)
             .map_err(|e| broken(Broken::new(format!("cannot be read: {e}"), "check the file's permissions")))?;
-        let picture = picture::read(&bytes, &|shade| description.judge(shade)).map_err(broken)?;
+        let picture = picture(&bytes, &|shade| description.judge(shade)).map_err(broken)?;
         let size = [picture.width, picture.height];
         let [x, y, yaw] = description.origin;
         let extent = size[0].max(size[1]) as f64 * description.resolution;
@@ -138,5 +128,22 @@ impl OccupancyMap {
     }
 }
 
-/// Cells of the largest picture that is read.
-pub const MOST_CELLS: usize = 1 << 26;
+/// Reads a picture, whose format its first bytes tell.
+fn picture(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
+    const SAVE: &str = "save it as PGM or PNG";
+    match bytes {
+        [b'P', b'2' | b'5', ..] => pgm::read(bytes, judge),
+        [0x89, b'P', b'N', b'G', ..] => png::read(bytes, judge),
+        [b'P', kind @ b'1'..=b'7', ..] => {
+            let format = match kind {
+                b'1' | b'4' => "a bitmap of single bits (PBM)",
+                b'7' => "a PAM",
+                _ => "in colour (PPM)",
+            };
+            Err(Broken::new(format!("is {format}, not a greymap (PGM)"), SAVE))
+        }
+        [0xff, 0xd8, ..] => Err(Broken::new("is a JPEG, whose shades are not those that were drawn", SAVE)),
+        [] => Err(Broken::new("is empty", SAVE)),
+        _ => Err(Broken::new("is neither PGM nor PNG", SAVE)),
+    }
+}

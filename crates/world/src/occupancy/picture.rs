@@ -1,6 +1,18 @@
 //! A picture of either format, and what makes one unusable.
 
-use super::{MOST_CELLS, Occupancy, pgm, png};
+/// What a map says of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Occupancy {
+    /// Nothing is there.
+    Free,
+    /// Something is there.
+    Occupied,
+    /// Nobody has looked, or the picture does not say.
+    Unknown,
+}
+
+/// Cells of the largest picture that is read.
+pub const MOST_CELLS: usize = 1 << 26;
 
 /// A picture's pixels, judged.
 pub(super) struct Picture {
@@ -33,27 +45,7 @@ pub(super) struct Shade {
 /// A function from shades to occupancy. A pixel that is not opaque has no shade.
 pub(super) type Judge<'a> = &'a dyn Fn(Option<Shade>) -> Occupancy;
 
-/// Reads a picture, whose format its first bytes tell.
-pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
-    const SAVE: &str = "save it as PGM or PNG";
-    match bytes {
-        [b'P', b'2' | b'5', ..] => pgm::read(bytes, judge),
-        [0x89, b'P', b'N', b'G', ..] => png::read(bytes, judge),
-        [b'P', kind @ b'1'..=b'7', ..] => {
-            let format = match kind {
-                b'1' | b'4' => "a bitmap of single bits (PBM)",
-                b'7' => "a PAM",
-                _ => "in colour (PPM)",
-            };
-            Err(Broken::new(format!("is {format}, not a greymap (PGM)"), SAVE))
-        }
-        [0xff, 0xd8, ..] => Err(Broken::new("is a JPEG, whose shades are not those that were drawn", SAVE)),
-        [] => Err(Broken::new("is empty", SAVE)),
-        _ => Err(Broken::new("is neither PGM nor PNG", SAVE)),
-    }
-}
-
-/// Returns the number of pixels, or an error if there are too many, before any memory is allocated.
+/// The number of pixels, if the program takes so many: before any memory is asked for.
 pub(super) fn checked_size(width: usize, height: usize) -> Result<usize, Broken> {
     if width == 0 || height == 0 {
         return Err(Broken::new(format!("has no pixels: {width} x {height}"), "draw the map anew"));

@@ -3,8 +3,8 @@
 
 use super::columns::{Meaning, Quantity, meanings};
 use super::records::{Field, Records};
+use super::samples::{Names, Samples, Series};
 use super::units::{self, Dimension, Unit};
-use super::{Names, Samples, Series};
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
 
 /// Reads a table. See [`super::load_recording`] for the names of columns.

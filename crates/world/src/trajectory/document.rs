@@ -1,6 +1,6 @@
 //! Joint values as a structured document: cplan's JSON, or a ROS 2 message in YAML or JSON.
 
-use super::{Samples, Series};
+use super::samples::{Samples, Series};
 use crate::parsers::{json_diagnostic, yaml_diagnostic};
 use cplan_core::space::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 use cplan_robot::{Diagnostic, InputError, Source};

@@ -11,15 +11,15 @@ mod document;
 mod mcap;
 mod other_joints;
 mod records;
+mod samples;
 mod steps;
 mod units;
 
 use super::LoadedScene;
-use cplan_core::model::{Claims, HeldJoint, HeldMotion, JointType, RecordedStep};
-use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
+use cplan_core::model::{Claims, HeldMotion, JointType, RecordedStep};
+use cplan_core::space::{Configuration, Interpolation, Recording};
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
-use std::borrow::Cow;
-use std::ops::Range;
+use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;
 
 /// Note about accelerations that do not join samples.
@@ -41,34 +41,6 @@ pub struct LoadedRecording {
     pub has_torques: bool,
     /// Notes for the user about ignored parts and the rule that joins the samples.
     pub notes: Vec<String>,
-}
-
-/// The values of one joint in a file.
-#[derive(Debug, Default)]
-struct Series {
-    name: String,
-    position: Vec<f64>,
-    velocity: Option<Vec<f64>>,
-    acceleration: Option<Vec<f64>>,
-}
-
-/// The contents of a file.
-#[derive(Debug, Default)]
-struct Samples {
-    time: Option<Vec<f64>>,
-    joints: Vec<Series>,
-    /// Positions of joints at other times than those of the samples.
-    aside: Vec<Series>,
-    /// Rule that joins samples with accelerations, if accelerations are used; see [`Interpolation`].
-    joined: Option<Interpolation>,
-    /// Samples after which nothing is joined: the arm stands until the next.
-    rests: Vec<usize>,
-    has_torques: bool,
-    /// The file's word for a sample, followed by its number in brackets.
-    what: Cow<'static, str>,
-    /// Position of each sample in the text, if the reader knows it.
-    places: Vec<Range<usize>>,
-    notes: Vec<String>,
 }
 
 /// Reads a joint path or trajectory; the file's extension tells the format: `.json`, `.csv`, `.yaml`, `.yml` or `.mcap`.
@@ -150,18 +122,6 @@ fn recorded(path: &Path, _: Option<&str>, _: &Names) -> Result<LoadedRecording, 
     Err(diagnostic.help("verify a .json, .csv or .yaml, or build with --features mcap").into())
 }
 
-/// The joints that a file can speak of.
-struct Names<'a> {
-    arm: [&'a str; 2],
-    /// True for each of the arm's joints that is revolute.
-    turns: [bool; 2],
-    held: &'a [HeldJoint],
-    /// Why no motion of the held joints can be judged, if so.
-    rigid: Option<&'static str>,
-    /// True if the world has steps, in which a wrist turns and a quill moves up and down.
-    has_steps: bool,
-}
-
 impl<'a> Names<'a> {
     fn of(scene: &'a LoadedScene) -> Self {
         Self {
@@ -173,11 +133,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    fn all(&self) -> impl Iterator<Item = &str> {
-        self.arm.iter().copied().chain(self.held.iter().map(|joint| joint.name.as_str()))
-    }
-
-    /// Extracts the arm's two joints.
+    /// The arm's two joints of what was read.
     fn recording(&self, source: &Source, mut samples: Samples) -> Result<LoadedRecording, Diagnostic> {
         let mut notes = std::mem::take(&mut samples.notes);
         let mut chosen = Vec::new();
@@ -223,37 +179,7 @@ impl<'a> Names<'a> {
     }
 }
 
-impl Samples {
-    /// Creates a diagnostic about one sample.
-    fn diagnostic(&self, source: &Source, sample: usize, message: &str) -> Diagnostic {
-        match self.places.get(sample) {
-            Some(place) => source.diagnostic_at(place.clone(), message),
-            None => source.diagnostic(format!("{}[{sample}]: {message}", self.what)),
-        }
-    }
-}
-
-fn misplaced(source: &Source, samples: &Samples, diagnostic: &RecordingError) -> Diagnostic {
-    let message = diagnostic.to_string();
-    let placed = match diagnostic.sample() {
-        Some(sample) => samples.diagnostic(source, sample, &message),
-        None => source.diagnostic(message),
-    };
-    match diagnostic {
-        RecordingError::Empty => placed.help("record at least one sample"),
-        RecordingError::Count { .. } => placed.help("give every sample all of its values"),
-        RecordingError::VelocityWithoutTime => placed.help("add the times, in seconds, or leave the velocities out"),
-        RecordingError::AccelerationWithoutVelocity => {
-            placed.help("add the velocities, or leave the accelerations out: no controller joins samples without them")
-        }
-        RecordingError::Value { what, .. } => {
-            placed.help(format!("a {what} is a finite number: radians or metres, and seconds"))
-        }
-        RecordingError::Time { .. } => placed.help("sort the samples by time and drop repeated ones"),
-    }
-}
-
-/// Describes the rule that joins the samples.
+/// How the samples are joined, in words.
 fn rule(recording: &Recording) -> &'static str {
     match (recording.interpolation(), recording.times()) {
         (Interpolation::Cubic, _) => "between samples: the cubic that positions and velocities imply",

@@ -1,6 +1,6 @@
 //! Recorded joints other than the arm's two.
 
-use super::{Names, Samples, Series, misplaced};
+use super::samples::{Names, Samples, Series, misplaced};
 use cplan_core::model::{HeldEffect, HeldJoint, HeldMotion, OutlineSource, Scene};
 use cplan_core::space::{Configuration, Interpolation, Recording, RecordingError};
 use cplan_robot::{Diagnostic, Source};

@@ -1,6 +1,6 @@
 //! The steps in a result of a task.
 
-use super::Samples;
+use super::samples::Samples;
 use crate::parsers::json_diagnostic;
 use cplan_core::model::{RecordedStep, RecordedTurn};
 use cplan_robot::{Diagnostic, InputError, Source};

@@ -5,7 +5,7 @@ mod file;
 mod message;
 mod topics;
 
-use super::{Names, Samples, Series};
+use super::samples::{Names, Samples, Series};
 use cplan_core::space::Interpolation;
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use message::{Kind, Message, Row};

@@ -1,0 +1,35 @@
+//! A view as the page's code reads it.
+
+use super::content::View;
+use super::numbers::Grain;
+use crate::key::KeyView;
+use crate::legend;
+use crate::reach::ReachView;
+use crate::stuck::Stuck;
+use serde::Serialize;
+
+/// A view, what its signs mean, what is in the way of the motion that is not there, and where the tip can get.
+#[derive(Serialize)]
+struct Document<'a> {
+    #[serde(flatten)]
+    view: &'a View,
+    legend: Vec<KeyView>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stuck: Option<&'a Stuck>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reach: Option<ReachView>,
+}
+
+impl View {
+    /// The document that the page's code reads.
+    ///
+    /// # Panics
+    /// Never: all keys are strings.
+    #[must_use]
+    pub fn json(&self) -> String {
+        let reach = self.still.reach.as_ref().map(|reach| ReachView::new(reach, Grain::of(&self.arm)));
+        let stuck = self.still.stuck.as_ref();
+        let document = Document { view: self, legend: legend::on_pages(self), stuck, reach };
+        serde_json::to_string(&document).expect("numbers and strings")
+    }
+}

@@ -1,0 +1,48 @@
+//! The input files of most subcommands.
+
+use crate::input::RobotFile;
+use clap::{Args, ValueHint};
+use std::path::{Path, PathBuf};
+
+/// The two files.
+#[derive(Debug, Args)]
+pub struct Files {
+    /// The arm: a URDF, or xacro.
+    #[arg(value_name = "URDF", value_hint = ValueHint::FilePath)]
+    pub urdf: PathBuf,
+    /// The workspace, TOML.
+    #[arg(value_name = "WORLD", value_hint = ValueHint::FilePath)]
+    pub world: PathBuf,
+    // As in `XacroArgs`, which an optional group cannot hold.
+    /// Argument of a robot that is xacro, in place of its default. Can be repeated.
+    #[arg(long = "xacro-arg", value_name = "NAME=VALUE", value_parser = xacro_argument)]
+    pub xacro_args: Vec<(String, String)>,
+}
+
+impl Files {
+    /// The arm's file with its arguments.
+    pub fn robot(&self) -> RobotFile {
+        RobotFile { path: self.urdf.clone(), xacro_args: self.xacro_args.clone() }
+    }
+}
+
+/// Arguments of robots that are xacro.
+#[derive(Debug, Default, Args)]
+pub struct XacroArgs {
+    /// Argument of a robot that is xacro, in place of its default. Can be repeated.
+    #[arg(long = "xacro-arg", value_name = "NAME=VALUE", value_parser = xacro_argument)]
+    pub xacro_args: Vec<(String, String)>,
+}
+
+impl XacroArgs {
+    /// A robot's file with the arguments.
+    pub fn robot(&self, path: &Path) -> RobotFile {
+        RobotFile { path: path.to_owned(), xacro_args: self.xacro_args.clone() }
+    }
+}
+
+/// `NAME=VALUE`, or `NAME:=VALUE` as ROS has it.
+fn xacro_argument(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("an argument of xacro is written NAME=VALUE")?;
+    Ok((name.strip_suffix(':').unwrap_or(name).to_owned(), value.to_owned()))
+}
