@@ -32,6 +32,8 @@ mod gif_writer;
 mod grid;
 mod labels;
 mod legend;
+#[cfg(feature = "png")]
+mod letters;
 mod obstacles;
 mod page;
 #[cfg(feature = "png")]
@@ -41,6 +43,8 @@ mod reach;
 mod shapes;
 mod steps;
 mod stuck;
+#[cfg(feature = "png")]
+mod svg_painter;
 mod svg_writer;
 mod tags;
 mod trace;
