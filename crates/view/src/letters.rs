@@ -2,32 +2,23 @@
 //! look alike everywhere.
 
 use super::figure::Anchor;
-use skrifa::outline::{DrawSettings, OutlinePen};
-use skrifa::prelude::{FontRef, GlyphId, LocationRef, MetadataProvider, Size};
-use skrifa::raw::tables::gpos::{PairPos, PositionSubtables};
-use skrifa::raw::{ReadError, TableProvider};
 use tiny_skia::{Path, PathBuilder};
+use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 /// The font, ready to set texts.
-pub struct Font {
-    font: FontRef<'static>,
-    /// Tables of pairs of letters that stand closer together or further apart, by lookups. Of each lookup the first table
-    /// that knows a pair counts.
-    kerning: Vec<Vec<PairPos<'static>>>,
-}
+pub struct Font(Face<'static>);
 
 impl Font {
     /// The font that is part of the program.
     pub fn built_in() -> Self {
-        let font = FontRef::new(epaint_default_fonts::UBUNTU_LIGHT).expect("the built-in font can be read");
-        Self { kerning: kerning(&font).unwrap_or_default(), font }
+        Self(Face::parse(epaint_default_fonts::UBUNTU_LIGHT, 0).expect("the built-in font can be read"))
     }
 
     /// The outline of a line of text of this size, which is anchored at this place of the page; nothing if no letter shows.
     pub fn outline(&self, text: &str, size: f32, anchor: Anchor, [left, bottom]: [f32; 2]) -> Option<Path> {
-        let (metrics, letters) = (self.font.metrics(Size::unscaled(), LocationRef::default()), self.font.charmap());
-        let glyphs: Vec<GlyphId> = text.chars().map(|letter| letters.map(letter).unwrap_or_default()).collect();
-        let scale = size / f32::from(metrics.units_per_em);
+        let scale = size / f32::from(self.0.units_per_em());
+        let glyphs = self.glyphs(text);
         let places = self.places(&glyphs);
         let width = places.last().copied().unwrap_or_default();
         let shift = match anchor {
@@ -36,60 +27,50 @@ impl Font {
             Anchor::End => width,
         };
         let mut pen = Pen { path: PathBuilder::new(), scale, origin: [0.0, bottom] };
-        let outlines = self.font.outline_glyphs();
-        let settings = || DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
         for (glyph, place) in glyphs.into_iter().zip(places) {
             pen.origin[0] = left + (place - shift) * scale;
-            // A letter that cannot be drawn is left out.
-            let _ = outlines.get(glyph).map(|outline| outline.draw(settings(), &mut pen));
+            // A space has no outline.
+            let _ = self.0.outline_glyph(glyph, &mut pen);
         }
         pen.path.finish()
     }
 
+    /// The glyphs of a text; those of letters that the font lacks are boxes.
+    fn glyphs(&self, text: &str) -> Vec<GlyphId> {
+        text.chars().map(|letter| self.0.glyph_index(letter).unwrap_or_default()).collect()
+    }
+
     /// Where each glyph begins, and where the last one ends, in units of the font.
     fn places(&self, glyphs: &[GlyphId]) -> Vec<f32> {
-        let metrics = self.font.glyph_metrics(Size::unscaled(), LocationRef::default());
         let mut places = vec![0.0];
         let mut end = 0.0;
         for (k, &glyph) in glyphs.iter().enumerate() {
-            end += metrics.advance_width(glyph).unwrap_or_default();
+            end += f32::from(self.0.glyph_hor_advance(glyph).unwrap_or_default());
             end += glyphs.get(k + 1).map_or(0.0, |&next| f32::from(self.kern(glyph, next)));
             places.push(end);
         }
         places
     }
 
-    /// How much further than usual the second glyph is from the first.
+    /// How much further than usual the second glyph is from the first. Of each lookup the first table that knows the pair counts.
     fn kern(&self, first: GlyphId, second: GlyphId) -> i16 {
-        self.kerning.iter().filter_map(|tables| tables.iter().find_map(|table| advance(table, first, second))).sum()
+        let lookups = self.0.tables().gpos.into_iter().flat_map(|table| table.lookups);
+        let known = lookups.filter_map(|lookup| {
+            lookup.subtables.into_iter::<PositioningSubtable>().find_map(|table| advance(&table, first, second))
+        });
+        known.sum()
     }
-}
-
-/// All tables for pairs of letters.
-fn kerning(font: &FontRef<'static>) -> Result<Vec<Vec<PairPos<'static>>>, ReadError> {
-    let lookups = font.gpos()?.lookup_list()?.lookups();
-    let tables = lookups.iter().map(|lookup| match lookup?.subtables()? {
-        PositionSubtables::Pair(pairs) => pairs.iter().collect(),
-        _ => Ok(Vec::new()),
-    });
-    tables.collect()
 }
 
 /// What a table says of a pair; nothing if it does not know the pair.
-fn advance(table: &PairPos, first: GlyphId, second: GlyphId) -> Option<i16> {
-    match table {
-        PairPos::Format1(pairs) => {
-            let set = pairs.pair_sets().get(usize::from(pairs.coverage().ok()?.get(first)?)).ok()?;
-            let mut records = set.pair_value_records().iter().filter_map(Result::ok);
-            records.find(|pair| GlyphId::from(pair.second_glyph()) == second)?.value_record1().x_advance()
-        }
-        PairPos::Format2(classes) => {
-            classes.coverage().ok()?.get(first)?;
-            let [row, column] = [classes.class_def1().ok()?.get(first), classes.class_def2().ok()?.get(second)];
-            let row = classes.class1_records().get(usize::from(row)).ok()?;
-            row.class2_records().get(usize::from(column)).ok()?.value_record1().x_advance()
-        }
-    }
+fn advance(table: &PositioningSubtable, first: GlyphId, second: GlyphId) -> Option<i16> {
+    let PositioningSubtable::Pair(pairs) = table else { return None };
+    let index = pairs.coverage().get(first)?;
+    let (of_first, _) = match pairs {
+        PairAdjustment::Format1 { sets, .. } => sets.get(index)?.get(second)?,
+        PairAdjustment::Format2 { classes, matrix, .. } => matrix.get((classes.0.get(first), classes.1.get(second)))?,
+    };
+    Some(of_first.x_advance)
 }
 
 /// Puts outlines of glyphs on the page: fonts count upwards, pages downwards.
@@ -111,7 +92,7 @@ impl Pen {
     }
 }
 
-impl OutlinePen for Pen {
+impl OutlineBuilder for Pen {
     fn move_to(&mut self, x: f32, y: f32) {
         self.path.move_to(self.x(x), self.y(y));
     }
@@ -120,12 +101,12 @@ impl OutlinePen for Pen {
         self.path.line_to(self.x(x), self.y(y));
     }
 
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        self.path.quad_to(self.x(cx), self.y(cy), self.x(x), self.y(y));
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.path.quad_to(self.x(x1), self.y(y1), self.x(x), self.y(y));
     }
 
-    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
-        self.path.cubic_to(self.x(cx0), self.y(cy0), self.x(cx1), self.y(cy1), self.x(x), self.y(y));
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.path.cubic_to(self.x(x1), self.y(y1), self.x(x2), self.y(y2), self.x(x), self.y(y));
     }
 
     fn close(&mut self) {
@@ -153,10 +134,7 @@ mod tests {
     #[test]
     fn pairs_of_letters_are_kerned() {
         let font = Font::built_in();
-        let width = |text: &str| {
-            let glyphs: Vec<_> = text.chars().map(|letter| font.font.charmap().map(letter).unwrap()).collect();
-            *font.places(&glyphs).last().unwrap()
-        };
+        let width = |text: &str| *font.places(&font.glyphs(text)).last().unwrap();
         assert!(width("AV") < width("A") + width("V") - 20.0);
         assert_eq!(width("HH"), 2.0 * width("H"));
     }

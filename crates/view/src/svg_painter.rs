@@ -8,9 +8,9 @@ use roxmltree::Node;
 use std::str::FromStr;
 use svgtypes::{SimplePathSegment, SimplifyingPathParser};
 use tiny_skia::{
-    Color, FillRule, IntRect, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Rect, Stroke,
+    Color, FillRule, IntRect, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Rect, Stroke, StrokeDash,
+    Transform,
 };
-use tiny_skia::{StrokeDash, Transform};
 
 /// Paints an element and those within it.
 pub fn paint(font: &Font, element: Node, transform: Transform, pixels: &mut Pixmap) -> Result<(), DrawError> {
@@ -291,7 +291,8 @@ mod tests {
 
     #[test]
     fn what_no_picture_of_ours_has_is_refused() {
-        for content in ["<image/>", "<circle r=\"1\"/>", "<path d=\"M0 0 X\"/>", "<path d=\"M0 0L9 9\" opacity=\"half\"/>"]
+        for content in
+            ["<image/>", "<circle r=\"1\"/>", "<path d=\"M0 0 X\"/>", "<path d=\"M0 0L9 9\" opacity=\"half\"/>"]
         {
             assert!(matches!(painted(content), Err(DrawError::Svg(_))), "{content}");
         }
