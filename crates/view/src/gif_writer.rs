@@ -10,9 +10,9 @@ use super::png_writer::{Rasteriser, blank};
 use super::svg_writer;
 use cplan_interrupt::checkpoint;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
-use resvg::tiny_skia::{Pixmap, PixmapPaint, Transform};
 use std::borrow::Cow;
 use std::collections::HashMap;
+use tiny_skia::{Pixmap, PixmapPaint, Transform};
 
 /// Number of colours in the palette. One more index (`SAME`) marks unchanged pixels.
 const COLORS: usize = 255;
@@ -113,7 +113,7 @@ impl Painter {
     fn paint(&mut self, figure: &Figure) -> Result<Pixmap, DrawError> {
         let units = units(figure);
         let mut picture = blank([figure.width, figure.height], self.width / figure.width)?;
-        picture.fill(resvg::tiny_skia::Color::WHITE);
+        picture.fill(tiny_skia::Color::WHITE);
         let mut begin = 0;
         for (end, is_same) in runs(&self.before, &units) {
             let run = &units[begin..end];

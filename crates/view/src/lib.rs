@@ -34,6 +34,8 @@ mod grid;
 mod key;
 mod labels;
 mod legend;
+#[cfg(feature = "png")]
+mod letters;
 mod obstacles;
 mod page;
 #[cfg(feature = "png")]
@@ -43,6 +45,8 @@ mod reach;
 mod shapes;
 mod steps;
 mod stuck;
+#[cfg(feature = "png")]
+mod svg_painter;
 mod svg_writer;
 mod tags;
 mod trace;
@@ -62,7 +66,7 @@ pub enum DrawError {
     /// The size is not usable.
     #[error("a picture at {0} pixels a unit would be empty, or more than 16384 pixels wide")]
     Scale(f64),
-    /// The SVG document could not be read back.
+    /// The SVG document cannot be read, or has elements that no picture of ours has.
     #[error("cannot rasterise the picture: {0}")]
     Svg(String),
     /// The pixels could not be compressed.
@@ -87,10 +91,10 @@ pub fn moving(view: &View) -> impl Iterator<Item = (String, u16)> {
     moments.map(|moment| (svg_writer::write(&animation::figure(view, moment)), moment.delay))
 }
 
-/// Returns an SVG document as a PNG file, `scale` pixels per unit.
+/// An SVG document that this crate wrote, or one with the same elements, as a PNG file of its size times `scale`.
 ///
 /// # Errors
-/// [`DrawError::Scale`] if the scale is not a positive number of a sensible size.
+/// [`DrawError::Scale`] if the scale is not a positive number of a sensible size, [`DrawError::Svg`] if the document has other elements.
 #[cfg(feature = "png")]
 pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
     png_writer::write(svg, scale)
@@ -112,10 +116,10 @@ pub fn gif(view: &View, width: f64, progress: &mut dyn FnMut(usize, usize)) -> R
     })
 }
 
-/// Returns an SVG document as a GIF with a single picture of this width.
+/// An SVG document that this crate wrote as a GIF of a single picture of this width.
 ///
 /// # Errors
-/// Same as for [`gif()`].
+/// As [`png()`].
 #[cfg(feature = "png")]
 pub fn still_gif(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
     gif_writer::still(svg, width)

@@ -310,7 +310,7 @@ mod raster {
         let goals = [at(1.0, 1.0).into()];
         let bytes = png(&drawn(&bare(&scene, &goals)), 0.5).unwrap();
         assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
-        let pixels = resvg::tiny_skia::Pixmap::decode_png(&bytes).unwrap();
+        let pixels = tiny_skia::Pixmap::decode_png(&bytes).unwrap();
         assert_eq!((pixels.width(), pixels.height()), (700, 360));
         let colors: BTreeSet<[u8; 3]> = pixels.pixels().iter().map(|p| [p.red(), p.green(), p.blue()]).collect();
         assert!(colors.len() > 50, "{} colours", colors.len());
@@ -323,7 +323,7 @@ mod raster {
         let dark = |title: &str| {
             let mut picture = bare(&scene, &[]);
             picture.title = vec![title.to_owned()];
-            let pixels = resvg::tiny_skia::Pixmap::decode_png(&png(&drawn(&picture), 1.0).unwrap()).unwrap();
+            let pixels = tiny_skia::Pixmap::decode_png(&png(&drawn(&picture), 1.0).unwrap()).unwrap();
             pixels.pixels()[..1400 * 50].iter().filter(|p| p.red() < 128).count()
         };
         assert!(dark("A title of some length") > dark("") + 300);

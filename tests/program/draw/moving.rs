@@ -59,7 +59,7 @@ fn the_last_picture_of_a_gif_is_the_still_one() {
     let (count, pixels) = last_picture(&bytes, width);
     assert!(count > 40 && bytes.len() < 2_000_000);
     let still = cplan::draw::png(&svg(&view), f64::from(width) / 1400.0).unwrap();
-    let still = resvg::tiny_skia::Pixmap::decode_png(&still).unwrap();
+    let still = tiny_skia::Pixmap::decode_png(&still).unwrap();
     assert_eq!(still.pixels().len(), pixels.len());
     // A palette has 255 colours: shades between two of them are off by some.
     let off = still.pixels().iter().zip(&pixels).map(|(a, b)| {

@@ -1,0 +1,149 @@
+//! Texts as outlines, in Ubuntu Light. The font is part of the program: no font of the machine is asked for, so that pictures
+//! look alike everywhere.
+
+use super::figure::Anchor;
+use tiny_skia::{Path, PathBuilder};
+use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
+
+/// The font, ready to set texts.
+pub struct Font(Face<'static>);
+
+impl Font {
+    /// The font that is part of the program.
+    pub fn built_in() -> Self {
+        Self(Face::parse(epaint_default_fonts::UBUNTU_LIGHT, 0).expect("the built-in font can be read"))
+    }
+
+    /// The outline of a line of text of this size, which is anchored at this place of the page; nothing if no letter shows.
+    pub fn outline(&self, text: &str, size: f32, anchor: Anchor, [left, bottom]: [f32; 2]) -> Option<Path> {
+        let scale = size / f32::from(self.0.units_per_em());
+        let glyphs = self.glyphs(text);
+        let places = self.places(&glyphs);
+        let width = places.last().copied().unwrap_or_default();
+        let shift = match anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => width / 2.0,
+            Anchor::End => width,
+        };
+        let mut pen = Pen { path: PathBuilder::new(), scale, origin: [0.0, bottom] };
+        for (glyph, place) in glyphs.into_iter().zip(places) {
+            pen.origin[0] = left + (place - shift) * scale;
+            // A space has no outline.
+            let _ = self.0.outline_glyph(glyph, &mut pen);
+        }
+        pen.path.finish()
+    }
+
+    /// The glyphs of a text; those of letters that the font lacks are boxes.
+    fn glyphs(&self, text: &str) -> Vec<GlyphId> {
+        text.chars().map(|letter| self.0.glyph_index(letter).unwrap_or_default()).collect()
+    }
+
+    /// Where each glyph begins, and where the last one ends, in units of the font.
+    fn places(&self, glyphs: &[GlyphId]) -> Vec<f32> {
+        let mut places = vec![0.0];
+        let mut end = 0.0;
+        for (k, &glyph) in glyphs.iter().enumerate() {
+            end += f32::from(self.0.glyph_hor_advance(glyph).unwrap_or_default());
+            end += glyphs.get(k + 1).map_or(0.0, |&next| f32::from(self.kern(glyph, next)));
+            places.push(end);
+        }
+        places
+    }
+
+    /// How much further than usual the second glyph is from the first. Of each lookup the first table that knows the pair counts.
+    fn kern(&self, first: GlyphId, second: GlyphId) -> i16 {
+        let lookups = self.0.tables().gpos.into_iter().flat_map(|table| table.lookups);
+        let known = lookups.filter_map(|lookup| {
+            lookup.subtables.into_iter::<PositioningSubtable>().find_map(|table| advance(&table, first, second))
+        });
+        known.sum()
+    }
+}
+
+/// What a table says of a pair; nothing if it does not know the pair.
+fn advance(table: &PositioningSubtable, first: GlyphId, second: GlyphId) -> Option<i16> {
+    let PositioningSubtable::Pair(pairs) = table else { return None };
+    let index = pairs.coverage().get(first)?;
+    let (of_first, _) = match pairs {
+        PairAdjustment::Format1 { sets, .. } => sets.get(index)?.get(second)?,
+        PairAdjustment::Format2 { classes, matrix, .. } => matrix.get((classes.0.get(first), classes.1.get(second)))?,
+    };
+    Some(of_first.x_advance)
+}
+
+/// Puts outlines of glyphs on the page: fonts count upwards, pages downwards.
+struct Pen {
+    path: PathBuilder,
+    /// Pixels per unit of the font.
+    scale: f32,
+    /// Where the glyph's own origin is.
+    origin: [f32; 2],
+}
+
+impl Pen {
+    fn x(&self, x: f32) -> f32 {
+        self.origin[0] + x * self.scale
+    }
+
+    fn y(&self, y: f32) -> f32 {
+        self.origin[1] - y * self.scale
+    }
+}
+
+impl OutlineBuilder for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.path.move_to(self.x(x), self.y(y));
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.path.line_to(self.x(x), self.y(y));
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.path.quad_to(self.x(x1), self.y(y1), self.x(x), self.y(y));
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.path.cubic_to(self.x(x1), self.y(y1), self.x(x2), self.y(y2), self.x(x), self.y(y));
+    }
+
+    fn close(&mut self) {
+        self.path.close();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sides(text: &str, anchor: Anchor) -> [f32; 2] {
+        let bounds = Font::built_in().outline(text, 100.0, anchor, [500.0, 300.0]).unwrap().bounds();
+        [bounds.left(), bounds.right()]
+    }
+
+    #[test]
+    fn anchors_shift_texts() {
+        let [start, middle, end] = [Anchor::Start, Anchor::Middle, Anchor::End].map(|anchor| sides("HH", anchor));
+        assert!((500.0..520.0).contains(&start[0]) && (480.0..500.0).contains(&end[1]), "{start:?} {end:?}");
+        assert!((middle[0] + middle[1] - 1000.0).abs() < 2.0, "{middle:?}");
+    }
+
+    /// As HarfBuzz does with this font: of the letters "AV" the second one overlaps the first.
+    #[test]
+    fn pairs_of_letters_are_kerned() {
+        let font = Font::built_in();
+        let width = |text: &str| *font.places(&font.glyphs(text)).last().unwrap();
+        assert!(width("AV") < width("A") + width("V") - 20.0);
+        assert_eq!(width("HH"), 2.0 * width("H"));
+    }
+
+    #[test]
+    fn letters_that_the_font_lacks_are_boxes() {
+        let font = Font::built_in();
+        assert!(font.outline("\u{4e00}", 10.0, Anchor::Start, [0.0; 2]).is_some());
+        assert!(font.outline(" ", 10.0, Anchor::Start, [0.0; 2]).is_none());
+        assert!(font.outline("", 10.0, Anchor::Start, [0.0; 2]).is_none());
+    }
+}
