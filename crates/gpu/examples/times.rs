@@ -4,7 +4,7 @@
 //! The source's fields are states of play that are not published: here the field is empty, with a goal in the middle of one end and
 //! ten robots for the local drifts. So rows are comparable in kind, not in sweeps.
 
-use cplan_gpu::{Edge, Gpu, GpuError, Multigrid, Problem, Settings, Stencil, Sweep};
+use cplan_gpu::{Edge, Gpu, GpuError, GridEquations, Multigrid, Settings, Stencil, Sweep};
 use std::time::Instant;
 
 /// Rows and columns of the source's field.
@@ -31,7 +31,7 @@ fn local(i: usize, j: usize) -> [f64; 2] {
 }
 
 /// Walls of value 1 around, a goal of value 0.
-fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result<Problem, GpuError> {
+fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result<GridEquations, GpuError> {
     let side = |b: f64| if is_upwind { 1.0 + b.max(0.0) } else { 1.0 + 0.5 * b };
     let weights = |cell: usize| {
         let b = drift(cell / columns, cell % columns);
@@ -43,7 +43,7 @@ fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result
     let stencil = if is_plain { Stencil::Mean } else { Stencil::Weights((0..rows * columns).map(weights).collect()) };
     let mut unknown = vec![true; rows * columns];
     unknown[rows / 2 * columns + columns - 1] = false;
-    Problem::new([rows, columns], [Edge::Wall; 2], 1.0, vec![0.0; rows * columns], unknown, stencil)
+    GridEquations::new([rows, columns], [Edge::Wall; 2], 1.0, vec![0.0; rows * columns], unknown, stencil)
 }
 
 /// `4 / (2 + sqrt(4 - c^2))`, `c` the sum of the cosines of pi over the cells (Young 1954).

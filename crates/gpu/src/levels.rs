@@ -1,6 +1,6 @@
 //! Grids that are coarser and coarser, and the equations on them.
 
-use super::{Edge, Problem};
+use super::{Edge, GridEquations};
 
 /// Diffusion between blocks of 2 x 2 cells is that of their common sides, over this. 2 would be right in the open, where a block's
 /// centre is twice as far; with a little less corrections stay too small rather than too great where blocks meet walls, which is what
@@ -26,7 +26,7 @@ const BACK: [usize; 4] = [1, 0, 3, 2];
 
 impl Level {
     /// The finest: the problem's weights, `1 - weight` for sides at which the cell meets itself.
-    pub fn finest(problem: &Problem, weights: impl Fn(usize) -> [f64; 4]) -> Self {
+    pub fn finest(problem: &GridEquations, weights: impl Fn(usize) -> [f64; 4]) -> Self {
         let count = problem.values.len();
         let mut level =
             Self { cells: problem.cells, edges: problem.edges, own: vec![0.0; count], sides: vec![[0.0; 4]; count] };

@@ -3,7 +3,7 @@
 use super::buffers::watched;
 use super::cycle::Cycle;
 use super::levels::Level;
-use super::{Gpu, GpuError, Problem, Stencil};
+use super::{Gpu, GpuError, GridEquations, Stencil};
 use cplan_interrupt::checkpoint;
 
 /// How far multigrid goes.
@@ -55,7 +55,7 @@ impl Gpu {
     /// [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear; [`GpuError::TooLarge`], [`GpuError::Failed`]. That it does
     /// not converge (drifts by central differences of 2 and more a cell, unknowns that no given value reaches) is no error:
     /// [`Solution::converged`] says so.
-    pub fn solve(&self, problem: &Problem, settings: &Multigrid) -> Result<Solution, GpuError> {
+    pub fn solve(&self, problem: &GridEquations, settings: &Multigrid) -> Result<Solution, GpuError> {
         let weights = |cell: usize| match &problem.stencil {
             Stencil::Weights(weights) => weights[cell],
             Stencil::Mean | Stencil::Altered(_) => [0.25; 4],
@@ -116,7 +116,7 @@ impl Gpu {
 
 /// What is left to do in each cell, and the greatest of it as a part of the greatest value. `O(cells)`.
 fn residual(
-    problem: &Problem,
+    problem: &GridEquations,
     finest: &Level,
     weights: &impl Fn(usize) -> [f64; 4],
     values: &[f64],

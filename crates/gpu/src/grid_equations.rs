@@ -7,7 +7,7 @@ use super::GpuError;
 pub enum Edge {
     /// The cells of the other end.
     Circle,
-    /// `Problem::outside`.
+    /// `GridEquations::outside`.
     Wall,
     /// The cell itself.
     Mirror,
@@ -26,7 +26,7 @@ pub enum Stencil {
 
 /// Cells, their values, and what the others are to be.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Problem {
+pub struct GridEquations {
     pub(super) cells: [usize; 2],
     pub(super) edges: [Edge; 2],
     pub(super) outside: f64,
@@ -38,7 +38,7 @@ pub struct Problem {
 /// Cells that one problem may have: places are counted in 32 bits, four weights a cell.
 const MOST: usize = 1 << 29;
 
-impl Problem {
+impl GridEquations {
     /// Of `cells[0]` rows and `cells[1]` columns, row by row. `edges[0]` is beyond the first and the last row, `outside` the value
     /// beyond walls; `values` are kept where `unknown` is false, and the start where it is true. `O(cells)`.
     ///
@@ -73,7 +73,7 @@ impl Problem {
     /// The same problem from other values, one a cell.
     ///
     /// # Errors
-    /// As [`Problem::new`].
+    /// As [`GridEquations::new`].
     pub fn from(self, values: Vec<f64>) -> Result<Self, GpuError> {
         Self::new(self.cells, self.edges, self.outside, values, self.unknown, self.stencil)
     }
