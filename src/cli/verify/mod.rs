@@ -9,7 +9,7 @@ use super::sinks::{self, Sink};
 use super::{DONE, REFUTED, UNKNOWN};
 use crate::draw::{Picture, View};
 use crate::engine::certificate_of_recording;
-use crate::engine::findings::{MotionFindings, Verdict, verify};
+use crate::engine::findings::{Judgement, MotionFindings, verify};
 use crate::input::{self, Digests, Overrides};
 use crate::model::Scene;
 use crate::motion::write_whole;
@@ -55,7 +55,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
                 let why = format!("joint \"{joint}\" moves, and certificates are about the arm's two joints");
                 sinks::say(&format!("warning: {} is not written: {why}", path.display()));
             }
-            Sink::Certificate(path) if matches!(findings.verdict, Verdict::Free) => {
+            Sink::Certificate(path) if matches!(findings.verdict, Judgement::Free) => {
                 let (start, goals) = if args.anywhere { (None, Vec::new()) } else { loaded.ends(&overrides(args))? };
                 let (steps, asked) = (recorded.steps.as_deref(), (&overrides(args), &about));
                 let task = steps.map(|_| loaded.clone().task(&overrides(args))).transpose()?;
@@ -72,9 +72,9 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         }
     }
     let code = match findings.verdict {
-        Verdict::Free => DONE,
-        Verdict::Undecided => UNKNOWN,
-        Verdict::Collision | Verdict::Limits | Verdict::Task | Verdict::Ends | Verdict::Claims => REFUTED,
+        Judgement::Free => DONE,
+        Judgement::Undecided => UNKNOWN,
+        Judgement::Collision | Judgement::Limits | Judgement::Task | Judgement::Ends | Judgement::Claims => REFUTED,
     };
     args.print.tell(code, || sinks::pretty(&findings), || text::summary(scene.arm(), recording, &findings))?;
     Ok(code)
