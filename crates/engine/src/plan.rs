@@ -74,6 +74,7 @@ pub struct Plan {
 
 /// What was planned, with the limits asked for, and its answer.
 #[derive(Debug, Clone)]
+#[expect(clippy::large_enum_variant, reason = "a plan has one, in a box")]
 pub enum Detail {
     /// A single motion.
     Motion {

@@ -34,6 +34,7 @@ pub enum ProblemError {
 
 /// A motion, or a task with the arm, empty-handed, among obstacles and objects where they lie initially.
 #[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "a problem shares one")]
 pub(super) enum MotionOrTask {
     Motion(MotionProblem),
     Task(Task, Scene),
