@@ -4,8 +4,9 @@
 mod common;
 
 use common::{Benchmark, benchmark, problem, w20};
+use cplan::Outcome;
 use cplan::cspace::bitmap;
-use cplan::engine::{Verdict, decide};
+use cplan::engine::decide;
 use cplan::search::slab_connectivity;
 use cplan::{Options, Problem, plan};
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -18,7 +19,7 @@ fn answers(c: &mut Criterion) {
     let mut group = c.benchmark_group("slabs");
     for which in PROBLEMS {
         let problem = problem(which);
-        assert!(!matches!(decide(&problem, 10_000), Verdict::Unknown(_)), "{which:?}");
+        assert!(!matches!(decide(&problem, 10_000), Outcome::Unknown(_)), "{which:?}");
         group.bench_function(format!("{which:?}: certified or proven"), |b| {
             b.iter(|| decide(black_box(&problem), 10_000))
         });
@@ -36,7 +37,7 @@ fn optima(c: &mut Criterion) {
     for which in [Benchmark::A, Benchmark::B] {
         let problem = Problem::from(problem(which));
         let shortest = || plan(black_box(&problem), &Options::default()).expect("the defaults make sense");
-        let gap = shortest().motion().and_then(|plan| plan.answer.bound).expect("both have a path").gap();
+        let gap = shortest().bound().expect("both have a path").gap();
         group.bench_function(format!("{which:?}: timed, proven within {gap:.1e}"), |b| b.iter(shortest));
     }
     group.finish();

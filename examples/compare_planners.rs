@@ -19,18 +19,19 @@ fn main() -> Result<(), Box<dyn Error>> {
         let plan = plan(&problem, &Options::from(method))?;
         match plan.outcome() {
             Outcome::Found(trajectory) => {
-                let report = plan.report();
                 println!(
                     "{method:<11} length {:.4}, proven clearance {:.4} m, motion {:.2} s",
-                    report.length.unwrap_or_default(),
-                    report.clearance.unwrap_or(f64::INFINITY),
+                    plan.length().unwrap_or_default(),
+                    plan.clearance().unwrap_or(f64::INFINITY),
                     trajectory.duration(),
                 );
             }
             Outcome::Infeasible(Refutation::Motion(proof)) => {
                 println!("{method:<11} no path: {} stuck boxes separate start and goal", proof.stuck().len());
             }
-            Outcome::Infeasible(Refutation::Step(step)) => println!("{method:<11} step {} cannot be done", step.step),
+            Outcome::Infeasible(Refutation::Step(failed)) => {
+                println!("{method:<11} step {} cannot be done", failed.step.number);
+            }
             Outcome::Unknown(why) => println!("{method:<11} unknown: {why}"),
         }
     }

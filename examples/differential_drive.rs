@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let (arm, workspace) = scene.into_parts();
         let problem = Problem::new(arm, workspace, START, TARGETS[0].1)?;
         let plan = plan(&problem, &Options::default())?;
-        let path = plan.report().path.clone().ok_or("there is no plan")?;
+        let path = plan.waypoints().ok_or("there is no plan")?;
         let first = [path[1][0] - path[0][0], path[1][1] - path[0][1]];
         let heading = first[1].atan2(first[0]);
 
@@ -96,7 +96,7 @@ fn along_cells(
         let planner = planner.with(Setting::GridSearch, |settings| settings.grid_search = search);
         let planner = planner.with_cell_counts(CellCounts(cells));
         let plan = plan(&problem, &Options { levels: 1, ..Options::from(planner) })?;
-        let path = plan.report().path.clone().ok_or("there is no plan")?;
+        let path = plan.waypoints().ok_or("there is no plan")?;
         let first = [path[1][0] - path[0][0], path[1][1] - path[0][1]];
         let heading = first[1].atan2(first[0]);
         let mut driven =

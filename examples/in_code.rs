@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let plan = plan(&problem, &Options { planner: Planner::named(method), ..Options::default() })?;
         match plan.outcome() {
             Outcome::Found(motion) => {
-                let length = plan.report().length.unwrap_or_default();
+                let length = plan.length().unwrap_or_default();
                 println!("{method}: length {length:.3}, {:.3} s, certified", motion.duration());
             }
             Outcome::Infeasible(_) => println!("{method}: there is no path, proven"),

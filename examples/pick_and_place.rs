@@ -4,8 +4,8 @@
 //! cargo run --release --example pick_and_place -- robots/scara.urdf workspaces/tasks/table_mission.toml
 //! ```
 
-use cplan::engine::TaskPlan;
-use cplan::engine::task::{Event, TaskVerdict};
+use cplan::Outcome;
+use cplan::engine::task::Event;
 use cplan::{Options, Problem, plan};
 use std::error::Error;
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // IK solutions, grips and turns of the wrist are chosen together, for the least time of the whole.
     let plan = plan(&problem, &Options::default())?;
-    let TaskPlan { task, answer } = plan.task().ok_or("the world has no steps")?;
+    let (task, answer) = plan.task().ok_or("the world has no steps")?;
 
     // Of a task that cannot be done: the steps before the one that fails.
     for leg in &answer.legs {
@@ -35,16 +35,16 @@ fn main() -> Result<(), Box<dyn Error>> {
             None => {}
         }
     }
-    match &answer.verdict {
-        TaskVerdict::Found(()) => {
+    match &answer.outcome {
+        Outcome::Found(_) => {
             // All motions as one trajectory, with the arm standing still where steps end.
             if let Some(trajectory) = plan.trajectory() {
                 println!("{} samples, {:.3} s in all", trajectory.time.len(), trajectory.duration());
             }
             println!("no sequence of motions takes less than {:.3} s: proven", answer.lower_bound);
         }
-        TaskVerdict::Infeasible(why) => println!("step {} cannot be done: {:?}", why.step.number, why.reasons),
-        TaskVerdict::Unknown(why) => println!("step {}: unknown whether it can be done", why.step.number),
+        Outcome::Infeasible(why) => println!("step {} cannot be done: {:?}", why.step.number, why.reasons),
+        Outcome::Unknown(why) => println!("step {}: unknown whether it can be done", why.step.number),
     }
     Ok(())
 }

@@ -55,16 +55,17 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    fn new(py: Python<'_>, report: &cplan::engine::Report) -> PyResult<Option<Self>> {
-        let Some(motion) = report.trajectory.clone() else { return Ok(None) };
+    fn new(py: Python<'_>, plan: &cplan::Plan) -> PyResult<Option<Self>> {
+        let Some(motion) = plan.trajectory().cloned() else { return Ok(None) };
+        let joints = &plan.arm().joints;
         Ok(Some(Self {
             time: series(py, motion.time),
             position: array(py, motion.position)?,
             velocity: array(py, motion.velocity)?,
             acceleration: array(py, motion.acceleration)?,
-            joints: report.joints.clone(),
-            units: report.units.map(str::to_owned),
-            interpolation: report.interpolation.map(str::to_owned),
+            joints: joints.each_ref().map(|joint| joint.name.clone()),
+            units: joints.each_ref().map(|joint| joint.unit().to_owned()),
+            interpolation: Some(cplan::motion::interpolation(joints).to_owned()),
         }))
     }
 }
@@ -186,14 +187,14 @@ impl Plan {
 
     /// Name of the planner.
     #[getter]
-    fn planner(&self) -> &str {
-        &self.plan.report().planner
+    fn planner(&self) -> &'static str {
+        self.plan.options().planner.method().name()
     }
 
     /// The reason why there is no motion, or why the answer is unknown.
     #[getter]
-    fn reason(&self) -> Option<&str> {
-        self.plan.report().reason.as_deref()
+    fn reason(&self) -> Option<String> {
+        self.plan.reason()
     }
 
     /// Notes on the problem for the user, line by line.
@@ -275,7 +276,7 @@ impl Found {
     fn path(slf: PyRef<'_, Self>) -> PyResult<Option<Py<PyArray2<f64>>>> {
         let py = slf.py();
         let Plan { plan, path, .. } = &**slf.as_super();
-        let made = path.get_or_try_init(py, || plan.report().path.clone().map(|path| array(py, path)).transpose())?;
+        let made = path.get_or_try_init(py, || plan.waypoints().map(|path| array(py, path)).transpose())?;
         Ok(made.as_ref().map(|path| path.clone_ref(py)))
     }
 
@@ -284,41 +285,40 @@ impl Found {
     fn trajectory(slf: PyRef<'_, Self>) -> PyResult<Option<Py<Trajectory>>> {
         let py = slf.py();
         let Plan { plan, trajectory, .. } = &**slf.as_super();
-        let made = trajectory.get_or_try_init(py, || {
-            Trajectory::new(py, plan.report())?.map(|trajectory| Py::new(py, trajectory)).transpose()
-        })?;
+        let made = trajectory
+            .get_or_try_init(py, || Trajectory::new(py, plan)?.map(|trajectory| Py::new(py, trajectory)).transpose())?;
         Ok(made.as_ref().map(|trajectory| trajectory.clone_ref(py)))
     }
 
     /// Euclidean length of the path in joint space; for a task, the sum for all its motions.
     #[getter]
     fn length(slf: PyRef<'_, Self>) -> Option<f64> {
-        slf.as_super().plan.report().length
+        slf.as_super().plan.length()
     }
 
     /// Duration of the whole motion in seconds.
     #[getter]
     fn duration(slf: PyRef<'_, Self>) -> Option<f64> {
-        slf.as_super().plan.report().duration
+        slf.as_super().plan.duration()
     }
 
     /// Proven lower bound on the distance between arm and obstacles during the whole motion, in metres; None if no
     /// obstacle is within reach.
     #[getter]
     fn clearance(slf: PyRef<'_, Self>) -> Option<f64> {
-        slf.as_super().plan.report().clearance
+        slf.as_super().plan.clearance()
     }
 
     /// Proven lower bound on the length of all paths; None for planners that do not compute one.
     #[getter]
     fn lower_bound(slf: PyRef<'_, Self>) -> Option<f64> {
-        slf.as_super().plan.report().optimum.as_ref().map(|optimum| optimum.lower_bound)
+        slf.as_super().plan.bound().map(|bound| bound.lower)
     }
 
     /// Largest possible excess of the path over the shortest one, as a fraction.
     #[getter]
     fn gap(slf: PyRef<'_, Self>) -> Option<f64> {
-        slf.as_super().plan.report().optimum.as_ref().and_then(|optimum| optimum.gap)
+        slf.as_super().plan.bound().map(|bound| bound.gap()).filter(|gap| gap.is_finite())
     }
 }
 

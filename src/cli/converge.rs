@@ -6,8 +6,9 @@ use super::files::Files;
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
 use super::sinks::{self, Sink};
-use crate::engine::{FieldProblem, Problem};
-use crate::field::{Difference, Direction, Equation, Limits, Measure, Stencil, Stopping};
+use crate::cspace::ZonedGrid;
+use crate::engine::{Problem, field_on_cells};
+use crate::field::{Difference, Direction, Domain, Equation, Limits, Measure, Stencil, Stopping};
 use crate::grammar::{OrderName, direction, finite, positive, word};
 use crate::input;
 use crate::motion::write_whole_set;
@@ -91,9 +92,9 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
             "{world}: a world with steps has a field for each of its motions\n  cure: one with a start and a goal"
         ))
     })?;
-    let posed = FieldProblem::new(motion, args.cells as usize, args.limits)
+    let (space, domain) = field_on_cells(motion, args.cells as usize, args.limits)
         .map_err(|reason| Failure::Option(format!("{reason}\n  cure: more --cells")))?;
-    let setup = args.setup(title_of(problem.scene()), &posed).map_err(Failure::Option)?;
+    let setup = args.setup(title_of(problem.scene()), &space, &domain).map_err(Failure::Option)?;
     let measured = convergence(&setup, &mut |text| args.print.say(&format!("{text} ...")))
         .map_err(|error| Failure::Option(error.to_string()))?;
     let json = || sinks::pretty(&measured.to_json());
@@ -113,7 +114,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
 }
 
 impl ConvergeArgs {
-    fn setup<'a>(&self, title: String, posed: &'a FieldProblem) -> Result<Setup<'a>, String> {
+    fn setup<'a>(&self, title: String, space: &'a ZonedGrid, domain: &'a Domain) -> Result<Setup<'a>, String> {
         let oriented =
             |difference| EquationChoice::Oriented { direction: self.direction, epsilon: self.epsilon, difference };
         let mut choices = vec![
@@ -121,7 +122,7 @@ impl ConvergeArgs {
             ("oriented, central", oriented(Difference::Central)),
             ("oriented, upwind", oriented(Difference::Upwind)),
         ];
-        if !posed.space.zones.is_empty() {
+        if !space.zones.is_empty() {
             let local = |difference| EquationChoice::LocallyOriented { direction: Some(self.direction), difference };
             choices.extend([
                 ("local, central", local(Difference::Central)),
@@ -131,7 +132,7 @@ impl ConvergeArgs {
             ]);
         }
         let equations =
-            choices.into_iter().map(|(name, choice)| Ok((name.to_owned(), choice.on(&posed.space, Stencil::Square)?)));
+            choices.into_iter().map(|(name, choice)| Ok((name.to_owned(), choice.on(space, Stencil::Square)?)));
         let equations: Vec<(String, Equation)> = equations.collect::<Result<_, String>>()?;
         let in_cells = equations.iter().find_map(|(_, equation)| match equation {
             Equation::Oriented { direction, .. } => Some(*direction),
@@ -140,7 +141,7 @@ impl ConvergeArgs {
         let stopping = Stopping { measure: self.measure, below: self.tolerance, max_sweeps: self.max_sweeps as usize };
         Ok(Setup {
             title,
-            domain: &posed.domain,
+            domain: domain,
             equations,
             direction: in_cells.unwrap_or(self.direction),
             order: self.order.into(),

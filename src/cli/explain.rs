@@ -9,9 +9,9 @@ use super::sinks::{self, Sink};
 use super::values::time_limit;
 use crate::draw::View;
 use crate::engine::explain::{Explanation, Question, TIME_LIMIT, explain};
-use crate::engine::task::Impossible;
-use crate::engine::{Options, Plan, Problem, TaskPlan, plan};
-use crate::input::{self, DiagnosticKind, LoadedScene, Overrides, Query};
+use crate::engine::task::FailedStep;
+use crate::engine::{Options, Plan, Problem, plan};
+use crate::input::{self, DiagnosticKind, LoadedEnds, LoadedScene, Overrides};
 use crate::model::Status;
 use crate::output::PlanOutput as _;
 use crate::output::explained;
@@ -104,7 +104,7 @@ impl Explained {
                     }
                 }
                 Err(error) if error.diagnostics().iter().all(|found| found.kind == DiagnosticKind::Start) => {
-                    let Query { scene, start, goals, mut notes, .. } = loaded.start_alone(overrides)?;
+                    let LoadedEnds { scene, start, goals, mut notes, .. } = loaded.start_alone(overrides)?;
                     notes.push("no step can begin: this is about the start alone".into());
                     (Question::of_goals(scene, start, &goals), notes)
                 }
@@ -157,8 +157,8 @@ impl Explained {
 
 /// The motion of the step that fails, among objects as they lie then and with what is carried; and which step it is.
 fn failed_step(plan: &Plan) -> Option<(Question, String)> {
-    let TaskPlan { task, answer } = plan.task()?;
-    let Impossible { step, scene, from, ik_solutions, .. } = answer.impossible()?;
+    let (task, answer) = plan.task()?;
+    let FailedStep { step, scene, from, ik_solutions, .. } = answer.failed()?;
     let goals: GoalSet = ik_solutions.iter().map(|unreached| Segment::point(unreached.ik_solution)).collect();
     let what = step.action.describe(&task.objects);
     let note = format!("this is the motion of step {}, which fails: {what} ({})", step.number, step.place);

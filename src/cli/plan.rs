@@ -180,8 +180,8 @@ fn written(
             None
         }
     });
-    let certificate = certificate.as_ref().map(|(path, certificate)| (*path, certificate.as_str()));
-    let mut written = files.write(plan, certificate)?;
+    let member = certificate.as_ref().and_then(|(path, text)| Some((*path, serde_json::from_str(text).ok()?)));
+    let mut written = files.write(plan, member)?;
     let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.plays()));
     let seen = || {
         let view = if plays { plan.view_with_replay() } else { plan.view() };
@@ -202,7 +202,7 @@ fn written(
                 let mut progress = progress::pictures_done(path, &args.print);
                 write_whole(path, &format.bytes_with(view.get_or_insert_with(seen), &mut progress)?)?;
             }
-            Sink::Certificate(path) => match certificate {
+            Sink::Certificate(path) => match &certificate {
                 Some((_, certificate)) => write_whole(path, certificate.as_bytes())?,
                 None => continue,
             },

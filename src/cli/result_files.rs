@@ -6,6 +6,7 @@ use crate::engine::Plan;
 use crate::motion::{Format, check_writable, write_whole_set};
 use crate::output::FileFormat;
 use crate::output::PlanOutput as _;
+use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
 /// Digits of a step's number in file names, at least: so that names sort as the steps follow.
@@ -51,22 +52,23 @@ impl ResultFiles {
     ///
     /// # Errors
     /// I/O.
-    pub fn write(&self, plan: &Plan, certificate: Option<(&Path, &str)>) -> Result<Vec<String>, Failure> {
-        let report = plan.report();
+    pub fn write(&self, plan: &Plan, certificate: Option<(&Path, &RawValue)>) -> Result<Vec<String>, Failure> {
         let mut files = Vec::new();
         let mut names = Vec::new();
         for (format, path) in &self.results {
-            let is_parted = self.parts(*format) && report.trajectory.is_some();
-            let parts = is_parted.then(|| report.bytes_per_step(*format)).flatten();
+            let is_parted = self.parts(*format) && plan.trajectory().is_some();
+            let parts = is_parted.then(|| plan.encoded_per_step(*format)).flatten();
             if let Some(parts) = parts {
                 files.extend(parts.into_iter().zip(1..).map(|(bytes, number)| (self.part(path, number), bytes)));
                 names.push(self.span(path));
                 self.warn_of_more(path);
-            } else if let Some(bytes) = plan.bytes(FileFormat::Result(*format))? {
-                let bytes = match certificate {
-                    Some((into, certificate)) if into == path => with_certificate(bytes, certificate),
-                    _ => bytes,
-                };
+                continue;
+            }
+            let bytes = match certificate {
+                Some((into, certificate)) if into == path => Some(plan.to_json_with(certificate).into_bytes()),
+                _ => plan.bytes(FileFormat::Result(*format))?,
+            };
+            if let Some(bytes) = bytes {
                 files.push((path.clone(), bytes));
                 names.push(path.display().to_string());
             } else {
@@ -107,12 +109,4 @@ impl ResultFiles {
             sinks::say(&format!("warning: {} is left from another task, and perhaps more files", next.display()));
         }
     }
-}
-
-/// A result in JSON with a certificate as its last member.
-fn with_certificate(mut json: Vec<u8>, certificate: &str) -> Vec<u8> {
-    let end = json.iter().rposition(|byte| *byte == b'}').map_or(0, |end| json[..end].trim_ascii_end().len());
-    json.truncate(end);
-    json.extend(format!(",\n  \"certificate\": {}\n}}\n", certificate.trim_end()).bytes());
-    json
 }

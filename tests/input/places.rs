@@ -64,16 +64,16 @@ fn what_moves_together_plans_alike() {
     let by_corners = format!("{ends}{robot}[[obstacle]]\npolygon = [{}]\n", corners(shelf.map(placed)));
     let planned = |world: &str| {
         let problem = Problem::of_scene(scene("planar_2r", world), &Overrides::default()).unwrap();
-        plan(&problem, &Options::default()).unwrap().report().clone()
+        plan(&problem, &Options::default()).unwrap()
     };
     let [own, by_frame, by_corners] = [own, by_frame, by_corners].map(|world| planned(&world));
     for moved in [&by_frame, &by_corners] {
-        let [length, own_length] = [moved, &own].map(|report| report.length.unwrap());
+        let [length, own_length] = [moved, &own].map(|plan| plan.length().unwrap());
         assert!((length - own_length).abs() < 1e-3 * own_length, "{length} {own_length}");
-        let [clear, own_clear] = [moved, &own].map(|report| report.clearance.unwrap());
+        let [clear, own_clear] = [moved, &own].map(|plan| plan.clearance().unwrap());
         assert!((clear - own_clear).abs() < 1e-3, "{clear} {own_clear}");
     }
-    assert!((by_frame.length.unwrap() - by_corners.length.unwrap()).abs() < 1e-9);
+    assert!((by_frame.length().unwrap() - by_corners.length().unwrap()).abs() < 1e-9);
 }
 
 #[test]

@@ -111,7 +111,7 @@ fn followed(arm: &Arm, obstacles: Vec<Obstacle>, start: [f64; 2], goal: [f64; 2]
     let Ok(problem) = Problem::new(arm.clone(), workspace, start, goal) else { return false };
     let plan = plan(&problem, &Options { bounded: false, ..Options::default() }).unwrap();
     let Outcome::Found(_) = plan.outcome() else { return false };
-    let path = plan.report().path.clone().unwrap();
+    let path = plan.waypoints().unwrap();
     let floor = Floor::new(problem.scene().clone());
     let heading = (path[1][1] - path[0][1]).atan2(path[1][0] - path[0][0]);
     let behind = [start[0] - AHEAD * heading.cos(), start[1] - AHEAD * heading.sin()];

@@ -74,7 +74,7 @@ fn cells_of_the_wave_and_of_a_star_are_followed() {
             let planner = Planner::named(Method::Wavefront).with_path(PathKind::Own).with_space(space);
             let planner = planner.with(Setting::GridSearch, |s| s.grid_search = search);
             let options = Options { levels: 1, ..Options::from(planner.with_cell_counts(CellCounts(cells))) };
-            let path = plan(&problem, &options).unwrap().report().path.clone().expect("cells");
+            let path = plan(&problem, &options).unwrap().waypoints().expect("cells");
             let heading = (path[1][1] - path[0][1]).atan2(path[1][0] - path[0][0]);
             let behind = [start[0] - AHEAD * heading.cos(), start[1] - AHEAD * heading.sin()];
             let mut driven = Robot::new(&floor, behind, heading);

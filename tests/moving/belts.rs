@@ -183,7 +183,7 @@ pub fn replayed(task: &Task, answer: &TaskAnswer, looks: usize) -> Result<(f64, 
         let before = world.released;
         world.finish(leg, [q[0], q[1]], arrival).map_err(say)?;
         clock = arrival + leg.step.dwell;
-        let goes_on = answer.impossible().is_none() || !std::ptr::eq(leg, &answer.legs[answer.legs.len() - 1]);
+        let goes_on = answer.failed().is_none() || !std::ptr::eq(leg, &answer.legs[answer.legs.len() - 1]);
         for k in (0..=10).take_while(|_| goes_on) {
             let time = arrival + leg.step.dwell * f64::from(k) / 10.0;
             see(world.room([q[0], q[1]], time, [None, before]), time);

@@ -19,7 +19,7 @@ fn what_is_found_is_free_at_all_times_and_hardly_later_than_waiting_at_the_start
     for world in Moving::all(seeds(16)) {
         let plan = plan(&world.asked(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Outcome::Found(trajectory) = plan.outcome() else { continue };
-        let timing = plan.report().moving.as_ref().expect("of a world in which something moves");
+        let timing = plan.timing().expect("of a world in which something moves");
         found += 1;
         waited += usize::from(!timing.waits.is_empty());
         detours += usize::from(timing.ways > 1);

@@ -49,7 +49,7 @@ fn flooded(worlds: impl Iterator<Item = Moving>) -> (usize, usize) {
             cplan::plan(&world.standing(), &Options { bounded: false, ..Options::default() }).expect("a plan");
         let Some(trajectory) = standing.trajectory() else { panic!("{}: there was a way", world.name) };
         assert!(trajectory.duration() > 0.0);
-        let path = standing.report().path.as_ref().expect("a path");
+        let path = standing.waypoints().expect("a path");
         let path = Path::new(path.iter().map(|&q| q.into()).collect());
         assert!(!gets_through(&world, &path), "{}: a flood gets through", world.name);
     }

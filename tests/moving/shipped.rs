@@ -18,7 +18,7 @@ fn shipped_worlds_come_out_as_they_say() {
         let name = file.file_stem().unwrap().to_string_lossy();
         match (said("# expect:"), plan.outcome()) {
             ("found", Outcome::Found(_)) => {
-                let timing = plan.report().moving.as_ref().expect("something moves");
+                let timing = plan.timing().expect("something moves");
                 assert!(timing.free_until.is_none() && timing.clearance.is_some_and(|kept| kept > 0.0), "{name}");
             }
             ("unknown", Outcome::Unknown(reason)) => assert!(reason.contains("proven: along"), "{name}: {reason}"),
@@ -36,7 +36,8 @@ fn the_duration_beside_its_bound_is_that_of_the_motion() {
         Problem::load(root.join("robots/planar_2r.urdf"), root.join("workspaces/moving/crossing.toml")).unwrap();
     let drive = Drive { optimize: Objective::Time, ..Drive::default() };
     let plan = plan(&problem, &Options { drive, ..Options::default() }).unwrap();
-    let (duration, fastest) = (plan.trajectory().unwrap().duration(), plan.report().fastest.unwrap());
+    let (duration, fastest) =
+        (plan.trajectory().unwrap().duration(), plan.motion().unwrap().1.outcome.found().unwrap().fastest.unwrap());
     assert_eq!(fastest.duration, duration);
     assert!(duration > 2.9 && fastest.lower_bound < duration);
 }

@@ -7,7 +7,7 @@ use crate::common::disc;
 use crate::common::random::{seeds, usual};
 use crate::solid::{Solid, V};
 use crate::world::KINDS;
-use cplan::engine::task::{TaskVerdict, plan};
+use cplan::engine::task::plan;
 use cplan::geometry::{Point, Vector};
 use cplan::model::{
     Action, Arm, Course, Heights, Holding, Item, Object, Obstacle, Outcome, Shape, Step, Task, Workspace,
@@ -26,10 +26,16 @@ fn what_is_found_is_free_at_all_times_and_picks_what_is_there() {
         for task in KINDS.iter().filter_map(|kind| drawn(kind, seed)) {
             let answer = plan(&task, &Options::default(), &mut |_| ());
             let name = format!("{} {seed}", task.arm.joints.each_ref().map(|joint| joint.name.clone()).concat());
-            match answer.verdict.status() {
+            match answer.outcome.status() {
                 Status::Found => {
                     found += 1;
-                    waited += usize::from(answer.timing.as_ref().is_some_and(|timing| !timing.waits.is_empty()));
+                    waited += usize::from(
+                        answer
+                            .outcome
+                            .found()
+                            .and_then(|motion| motion.timing.as_ref())
+                            .is_some_and(|timing| !timing.waits.is_empty()),
+                    );
                     match replayed(&task, &answer, BETWEEN) {
                         Ok((least, what)) => assert!(least > -1e-9, "{name}: {least} m, {what}"),
                         Err(what) => panic!("{name}: {what}"),
@@ -101,7 +107,7 @@ fn a_pick_is_hardly_later_than_brute_force_finds() {
         let answer = plan(&task, &Options::default(), &mut |_| ());
         let Some(least) = soonest(&task) else { continue };
         compared += 1;
-        assert_eq!(answer.verdict.status(), Status::Found, "seed {seed}: picked at {least} s by brute force");
+        assert_eq!(answer.outcome.status(), Status::Found, "seed {seed}: picked at {least} s by brute force");
         let end = answer.duration();
         later = later.max(end - least);
         assert!(end <= least + 3.0 * STEP, "seed {seed}: at {end} s, brute force at {least} s");
@@ -198,13 +204,13 @@ fn what_is_proven_of_tasks_among_what_moves() {
     task.objects[0].course = Some(Course::conveyor([2.0, -3.0], [0.0, 0.5]).expect("a course"));
     task.objects[0].at = task.objects[0].course.as_ref().expect("a course").pose(0.0);
     let answer = plan(&task, &Options::default(), &mut |_| ());
-    let Outcome::Infeasible(why) = &answer.verdict else { panic!("{:?}", answer.verdict) };
+    let Outcome::Infeasible(why) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert!(why.reasons[0].contains("\"bottle\" is never within the arm's reach"), "{:?}", why.reasons);
     // It passes within reach, but not at that time.
     task.objects[0].course = Some(Course::conveyor([1.0, -3.0], [0.0, 0.5]).expect("a course"));
     let found = plan(&task, &Options::default(), &mut |_| ());
-    assert_eq!(found.verdict, TaskVerdict::Found(()));
+    assert_eq!(found.failed(), None);
     let Item::Step(Step { action: Action::Pick { when, .. }, .. }) = &mut task.items[0] else { panic!("a pick") };
     *when = vec![[0.0, 1.0]];
-    assert_eq!(plan(&task, &Options::default(), &mut |_| ()).verdict.status(), Status::Infeasible);
+    assert_eq!(plan(&task, &Options::default(), &mut |_| ()).outcome.status(), Status::Infeasible);
 }

@@ -1,7 +1,8 @@
 //! Bounds on the optimum, against closed forms, published figures and the paths of every other planner.
 
 use crate::common::{self, Benchmark, asked, disc, obstacle, q, rr, scene, shipped_feasible};
-use cplan::engine::{Answer, Bound, Criterion, Method, Planner, Space, Verdict, bound, solve};
+use cplan::Outcome;
+use cplan::engine::{Answer, Bound, Criterion, Method, Planner, Space, bound, solve};
 use cplan::geometry::{Convex, Point};
 use cplan::model::MotionProblem;
 use cplan::search::{Motions, least_length};
@@ -24,14 +25,14 @@ fn answer_by(method: Method, problem: &MotionProblem, criterion: Criterion, gap:
 }
 
 fn path(answer: &Answer) -> &Path {
-    match &answer.verdict {
-        Verdict::Found(certified) => certified.path(),
+    match &answer.outcome {
+        Outcome::Found(certified) => certified.path(),
         other => panic!("{other:?}"),
     }
 }
 
 fn bounded(answer: &Answer) -> Bound {
-    answer.bound.unwrap_or_else(|| panic!("no bound: {:?} {:?}", answer.verdict, answer.history))
+    answer.bound().unwrap_or_else(|| panic!("no bound: {:?} {:?}", answer.outcome, answer.history))
 }
 
 #[test]
@@ -71,7 +72,7 @@ fn no_planner_finds_a_path_below_the_bound() {
         let metrics = CRITERIA.map(|criterion| criterion.metric(problem.scene().arm()));
         let lower = CRITERIA.map(|criterion| bounded(&answer(&problem, criterion, Some(0.01))).lower);
         for method in Method::ALL.into_iter().filter(|&method| method != Method::Harmonic) {
-            if let Verdict::Found(found) = solve(&problem, &method.into(), &mut |_| {}).verdict {
+            if let Outcome::Found(found) = solve(&problem, &method.into(), &mut |_| {}).outcome {
                 for (metric, lower) in metrics.into_iter().zip(lower) {
                     let length = metric.length(found.path());
                     assert!(lower <= length, "{name}, {method}, {metric:?}: {lower} above {length}");
@@ -177,7 +178,7 @@ fn gantries_find_their_way_into_spirals() {
 fn a_detour_has_a_gap() {
     let problem = common::problem(Benchmark::A);
     let shortest = answer(&problem, Criterion::Euclidean, Some(1e-3));
-    let Verdict::Found(other) = solve(&problem, &Method::Wavefront.into(), &mut |_| {}).verdict else {
+    let Outcome::Found(other) = solve(&problem, &Method::Wavefront.into(), &mut |_| {}).outcome else {
         panic!("problem A has a path")
     };
     let gap = bound(&problem, other.path(), Metric::Euclidean, 1e-4).gap();

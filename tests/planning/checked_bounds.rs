@@ -3,8 +3,9 @@
 use crate::common::random::{seeds, usual};
 use crate::common::{self, Benchmark, shipped_feasible};
 use crate::random_worlds::world;
+use cplan::Outcome;
 use cplan::check::{CheckedBound, LengthClaim};
-use cplan::engine::{Bound, Criterion, Method, Planner, Verdict, solve};
+use cplan::engine::{Bound, Criterion, Method, Planner, solve};
 use cplan::model::MotionProblem;
 use cplan::search::{Motions, claimed_length};
 use cplan::space::Metric;
@@ -17,8 +18,8 @@ const UNSEEN: f64 = 1e-6;
 fn length(problem: &MotionProblem, criterion: Criterion) -> Option<f64> {
     let planner = Planner::named(Method::Shortest).with_criterion(criterion);
     let answer = solve(problem, &planner.into(), &mut |_| {});
-    let Bound { upper, .. } = answer.bound?;
-    matches!(answer.verdict, Verdict::Found(_)).then_some(upper)
+    let Bound { upper, .. } = answer.bound()?;
+    matches!(answer.outcome, Outcome::Found(_)).then_some(upper)
 }
 
 fn claim(problem: &MotionProblem, metric: Metric, limit: f64) -> LengthClaim {

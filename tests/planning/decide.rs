@@ -2,8 +2,9 @@
 
 use crate::common::{asked, placed, q, recheck, rr, wall};
 use cplan::Options;
+use cplan::Outcome;
 use cplan::check::certify;
-use cplan::engine::{Method, Verdict, decide, solve};
+use cplan::engine::{Method, decide, solve};
 use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};
 use cplan::model::{Heights, MotionProblem, Obstacle, Shape, Workspace};
@@ -39,7 +40,7 @@ fn ring(count: usize, folding: f64) -> MotionProblem {
 fn a_way_among_20_000_pieces_is_found_and_certified_among_all_of_them() {
     let problem = ring(20_000, 3.0);
     let verdict = decide(&problem, 20_000);
-    let Verdict::Found(path) = verdict else { panic!("an arm that folds gets there: {verdict:?}") };
+    let Outcome::Found(path) = verdict else { panic!("an arm that folds gets there: {verdict:?}") };
     assert!(certify(problem.scene(), path.path().clone(), 0.0).is_ok());
     let certified_ends = [path.path().start(), path.path().goal()];
     assert!(
@@ -54,7 +55,7 @@ fn a_way_among_20_000_pieces_is_found_and_certified_among_all_of_them() {
 fn a_way_closed_by_20_000_pieces_is_proven_closed_by_boxes_of_true_pairs() {
     let problem = ring(20_000, 0.3);
     let verdict = decide(&problem, 20_000);
-    let Verdict::Infeasible(proof) = verdict else { panic!("a stiff arm stays in its gap: {verdict:?}") };
+    let Outcome::Infeasible(proof) = verdict else { panic!("a stiff arm stays in its gap: {verdict:?}") };
     let scene = problem.scene();
     assert_eq!(recheck(proof.stuck(), scene, problem.start(), problem.goals(), 0.0), Ok(()));
     assert!(!proof.stuck().is_empty());
@@ -72,8 +73,8 @@ fn what_slabs_see_closed_is_proven_closed() {
     let files = ["robots/rail_arm.urdf", "workspaces/slot_closed.toml"].map(|file| root.join(file));
     let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
     let first = solve(&problem, &Options { boxes: 10_000, ..Method::First.into() }, &mut |_| {});
-    for verdict in [decide(&problem, 20_000), first.verdict] {
-        let Verdict::Infeasible(proof) = verdict else { panic!("it is closed: {verdict:?}") };
+    for proof in [decide(&problem, 20_000).infeasible(), first.outcome.infeasible()] {
+        let proof = proof.expect("it is closed");
         assert!(proof.stuck().len() < 1000, "{}", proof.stuck().len());
         assert_eq!(recheck(proof.stuck(), problem.scene(), problem.start(), problem.goals(), 0.0), Ok(()));
     }
@@ -89,7 +90,7 @@ fn what_takes_more_boxes_than_allowed_is_left_open() {
     std::fs::write(&world, closed.replace("0.03995", "0.04")).unwrap();
     let problem = input::load(root.join("robots/rail_arm.urdf"), &world, &Overrides::default()).unwrap().problem;
     for allowed in [5_000, 20_000] {
-        let Verdict::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not tell") };
+        let Outcome::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not tell") };
         let boxes: usize = reason.split(' ').next().and_then(|word| word.parse().ok()).expect(&reason);
         // The last boxes are halved all at once.
         assert!(boxes <= 2 * allowed + 100, "{reason}");

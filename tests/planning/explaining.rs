@@ -10,7 +10,7 @@
 use crate::common::random::{seeds, usual};
 use crate::random_worlds::world::{KINDS, world};
 use cplan::engine::explain::{BlockingSet, Cure, Element, Question, Side, blocking_set, explain};
-use cplan::engine::{Method, Planner, Verdict, decide, solve};
+use cplan::engine::{Method, Planner, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, Outcome, OutlineSource, Part, Scene, Workspace,
@@ -77,7 +77,7 @@ fn faults(problem: &MotionProblem, set: &BlockingSet) -> Vec<String> {
     for element in &elements {
         let others: Vec<Element> = elements.iter().filter(|other| *other != element).copied().collect();
         let known = set.without(*element);
-        let truth = engine::solve(&among(problem, &others), &Options::default(), &mut |_| ()).verdict.status();
+        let truth = engine::solve(&among(problem, &others), &Options::default(), &mut |_| ()).outcome.status();
         if truth != Status::Found && (known == Status::Found || truth == Status::Infeasible) {
             faults.push(format!("{element:?} is not needed of {elements:?}: {truth}"));
         }
@@ -94,7 +94,7 @@ fn blocking_sets_are_irreducible() {
         let mut seen = 0;
         for seed in seeds(1).start.. {
             let Some(problem) = world(kind, seed) else { continue };
-            let Verdict::Infeasible(proof) = decide(&problem, BOXES) else { continue };
+            let Outcome::Infeasible(proof) = decide(&problem, BOXES) else { continue };
             let clock = Instant::now();
             let set = blocking_set(&Question::from(&problem), Some(proof), [BOXES, BOXES_AT_LAST]);
             times.push(clock.elapsed());
@@ -134,7 +134,7 @@ fn blocking_sets_of_degenerate_worlds() {
     let thin = [("RR", 39), ("RR", 253), ("RP", 615), ("PP", 862), ("PR", 28), ("PR", 684), ("PR", 874)];
     for (kind, seed) in long_ways.into_iter().chain(thin) {
         let problem = world(kind, seed).expect("a world");
-        let Verdict::Infeasible(proof) = decide(&problem, BOXES) else { panic!("{kind} {seed} has a motion") };
+        let Outcome::Infeasible(proof) = decide(&problem, BOXES) else { panic!("{kind} {seed} has a motion") };
         let set = blocking_set(&Question::from(&problem), Some(proof), [BOXES, BOXES_AT_LAST]);
         assert!(set.is_irreducible(), "{kind} {seed}: {:?}", set.elements());
         assert_eq!(faults(&problem, &set), Vec::<String>::new(), "{kind} {seed}");
@@ -307,8 +307,8 @@ fn rescaled(problem: &MotionProblem, scale: f64, turns: [f64; 2]) -> MotionProbl
 #[test]
 fn what_is_said_of_lengths_holds_for_paths_of_another_planner() {
     let (by_graph, mut seen) = (Options { planner: Planner::named(Method::Visibility), ..Options::default() }, 0);
-    let graph = |problem: &MotionProblem| match solve(problem, &by_graph, &mut |_| ()).verdict {
-        Verdict::Found(path) => Some(path.path().length()),
+    let graph = |problem: &MotionProblem| match solve(problem, &by_graph, &mut |_| ()).outcome {
+        Outcome::Found(path) => Some(path.path().length()),
         _ => None,
     };
     for seed in seeds(4) {
@@ -323,7 +323,7 @@ fn what_is_said_of_lengths_holds_for_paths_of_another_planner() {
             let problem = rescaled(&few, scale, turns);
             let explanation = explain(&Question::from(&problem), &Options::default());
             let Outcome::Found(shaped) = &explanation.outcome else { continue };
-            let whole = shaped.answer.bound.expect("a bound");
+            let whole = shaped.answer.bound().expect("a bound");
             let name = format!("{kind} {seed} at {scale}");
             let slack = 1e-12 * whole.upper;
             if let Some(length) = graph(&problem) {

@@ -8,9 +8,9 @@ use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::random_worlds::oracle::Oracle;
 use crate::random_worlds::world::{KINDS, world};
-use cplan::engine::Method;
+use cplan::engine::{Method, Motion};
 use cplan::model::Status;
-use cplan::motion::{Drive, Objective, Trajectory};
+use cplan::motion::{Blends, Drive, Objective, Trajectory};
 use cplan::space::{Configuration, Path};
 use cplan::{Options, Plan, Planner, Problem, plan};
 
@@ -82,9 +82,13 @@ fn judge(problem: &Problem, plan: &Plan, jerk: [Option<f64>; 2], what: &str) {
         }
     }
     assert!(!is_smooth || before.iter().all(|pull| pull.abs() < 1e-3), "{what}: ends with {before:?}");
-    let stated = plan.report().clearance.unwrap_or(f64::INFINITY) - scene.workspace().clearance;
+    let stated = plan.clearance().unwrap_or(f64::INFINITY) - scene.workspace().clearance;
     let found = Oracle::new(scene).violation(&Path::new(places), stated.min(1e9) - ROUNDING, 1e-3);
     assert!(found.is_none(), "{what}: stated {stated}, {found:?}");
+}
+
+fn motion(plan: &Plan) -> &Motion {
+    plan.motion().unwrap().1.outcome.found().unwrap()
 }
 
 #[test]
@@ -96,7 +100,7 @@ fn motions_of_random_worlds() {
         let Some(problem) = world(kind, 7000 + seed).map(Problem::from) else { continue };
         let plain = plan(&problem, &Options { planner: Planner::named(Method::First), ..Options::default() }).unwrap();
         // Straight ways are as fast as can be.
-        if plain.status() != Status::Found || plain.report().path.as_ref().is_some_and(|path| path.len() < 3) {
+        if plain.status() != Status::Found || plain.waypoints().is_some_and(|path| path.len() < 3) {
             continue;
         }
         let what = format!("{kind} {seed}");
@@ -112,8 +116,8 @@ fn motions_of_random_worlds() {
         let gentle = plan(&problem, &Options { jerk: Some(jerk), drive, ..Options::default() }).unwrap();
         judge(&problem, &gentle, jerk, &format!("{what}, fastest, jerk {jerk:?}"));
 
-        let duration = |plan: &Plan| plan.report().duration.unwrap();
-        let bound = |plan: &Plan| plan.report().fastest.unwrap().lower_bound;
+        let duration = |plan: &Plan| plan.duration().unwrap();
+        let bound = |plan: &Plan| motion(plan).fastest.unwrap().lower_bound;
         // What no motion undercuts, none of these does; limits on jerks make nothing faster.
         assert!(bound(&fastest) <= duration(&fastest) * (1.0 + 1e-9), "{what}");
         assert!(bound(&fastest) <= duration(&plain).min(duration(&along)).min(duration(&gentle)), "{what}");
@@ -125,8 +129,8 @@ fn motions_of_random_worlds() {
         assert!(duration(&along) <= duration(&stopping) * (1.0 + 1e-9), "{what}");
         smooth += usize::from(duration(&along) < duration(&stopping));
         faster += usize::from(duration(&fastest) < 0.99 * duration(&plain));
-        let corners = along.report().path.as_ref().map_or(0, |path| path.len() - 2);
-        stops += usize::from(corners > 0 && along.report().blends.unwrap().count == 0);
+        let corners = along.waypoints().map_or(0, |path| path.len() - 2);
+        stops += usize::from(corners > 0 && Blends::of(&motion(&along).timed.curve).count == 0);
         gains.push(1.0 - duration(&fastest) / duration(&plain));
     }
     gains.sort_by(f64::total_cmp);

@@ -5,8 +5,9 @@ use crate::common::random::{seeds, usual};
 use crate::random_tasks::replay;
 use assert_cmd::Command;
 use cplan::Options;
+use cplan::Outcome;
 use cplan::engine::Method;
-use cplan::engine::task::{TaskAnswer, TaskVerdict, plan};
+use cplan::engine::task::{TaskAnswer, plan};
 use cplan::geometry::Point;
 use cplan::input::{Overrides, load_scene};
 use cplan::model::{Action, Heights, Item, Object, Step, Task};
@@ -204,23 +205,27 @@ fn free_orders_agree_with_trying_all() {
         let by_order = ORDERS.map(|order| {
             let items = order.iter().flat_map(|&pair| pairs[pair].clone().map(Item::Step)).collect();
             let answer = planned(&Task { items, ..free.clone() });
-            (answer.verdict == TaskVerdict::Found(())).then(|| answer.duration())
+            (answer.failed().is_none()).then(|| answer.duration())
         });
         let best = by_order.iter().flatten().copied().fold(f64::INFINITY, f64::min);
         let answer = planned(&free);
-        let done = answer.verdict == TaskVerdict::Found(());
-        assert_eq!(done, best.is_finite(), "seed {seed}: {:?} for {by_order:?}", answer.verdict);
+        let done = answer.failed().is_none();
+        assert_eq!(done, best.is_finite(), "seed {seed}: {:?} for {by_order:?}", answer.outcome);
         if let Err(violation) = replay::replay(&free, &answer, done) {
             panic!("seed {seed}: {violation}");
         }
-        assert!(!done || answer.exact && (answer.duration() - best).abs() < 1e-9, "seed {seed}: {best}");
+        assert!(
+            !done
+                || answer.outcome.found().is_some_and(|motion| motion.exact) && (answer.duration() - best).abs() < 1e-9,
+            "seed {seed}: {best}"
+        );
 
         let many = among_many(&free, pairs);
         let answer = planned(&many);
-        match &answer.verdict {
-            TaskVerdict::Found(()) => assert!(done, "seed {seed}: done, but no order can be"),
-            TaskVerdict::Infeasible(_) => assert!(!done, "seed {seed}: infeasible, but {by_order:?}"),
-            TaskVerdict::Unknown(why) => assert!(!done, "seed {seed}: {by_order:?}, but {why:?}"),
+        match &answer.outcome {
+            Outcome::Found(_) => assert!(done, "seed {seed}: done, but no order can be"),
+            Outcome::Infeasible(_) => assert!(!done, "seed {seed}: infeasible, but {by_order:?}"),
+            Outcome::Unknown(why) => assert!(!done, "seed {seed}: {by_order:?}, but {why:?}"),
         }
         if let Err(violation) = replay::replay(&many, &answer, done) {
             panic!("seed {seed}, many: {violation}");
@@ -228,7 +233,7 @@ fn free_orders_agree_with_trying_all() {
         some += u64::from(done && by_order.contains(&None));
         file_fails += u64::from(done && by_order[0].is_none());
         none += u64::from(!done);
-        proven += u64::from(matches!(answer.verdict, TaskVerdict::Infeasible(_)));
+        proven += u64::from(matches!(answer.outcome, Outcome::Infeasible(_)));
     }
     println!(
         "{some} with orders that fail, {file_fails} with the file's; {none} without any, {proven} of these proven"

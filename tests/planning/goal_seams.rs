@@ -4,7 +4,8 @@
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::common::{asked, disc, rr, scene, wall};
-use cplan::engine::{Method, Planner, Verdict, solve};
+use cplan::Outcome;
+use cplan::engine::{Method, Planner, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{MotionProblem, Scene};
 use cplan::space::{Configuration, GoalSet, JointRange, Path, Segment};
@@ -92,9 +93,9 @@ fn world(seed: u64) -> Option<(MotionProblem, Segment)> {
 }
 
 fn found(problem: &MotionProblem, planner: Planner) -> Option<Path> {
-    match solve(problem, &planner.into(), &mut |_| {}).verdict {
-        Verdict::Found(path) => Some(path.path().clone()),
-        Verdict::Infeasible(_) | Verdict::Unknown(_) => None,
+    match solve(problem, &planner.into(), &mut |_| {}).outcome {
+        Outcome::Found(path) => Some(path.path().clone()),
+        Outcome::Infeasible(_) | Outcome::Unknown(_) => None,
     }
 }
 

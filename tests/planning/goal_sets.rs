@@ -4,7 +4,8 @@ use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::common::{arm, asked, disc, joint, link, recheck, rectangle, scene, wall};
 use cplan::Options;
-use cplan::engine::{Method, Verdict, solve};
+use cplan::Outcome;
+use cplan::engine::{Method, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, JointType, MotionProblem, Scene, inverse};
 use cplan::search::{Connectivity, Motions, connectivity, least_length, slab_connectivity};
@@ -144,16 +145,16 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             }
         }
         let answer = solve(&problem, &Method::Visibility.into(), &mut |_| {});
-        match &answer.verdict {
-            Verdict::Found(path) => {
+        match &answer.outcome {
+            Outcome::Found(path) => {
                 let end = path.path().goal();
                 assert!(problem.goals().contains(&topology, end, 1e-9), "seed {seed}: {end} is no goal");
                 slid += u64::from(problem.goals().pieces().iter().any(|goals| !goals.is_point()));
-                let bound = answer.bound.expect("visibility bounds what it finds");
+                let bound = answer.bound().expect("visibility bounds what it finds");
                 for &goal in &connected {
                     let single = asked(problem.scene().clone(), problem.start(), goal);
                     let other = solve(&single, &Method::Visibility.into(), &mut |_| {});
-                    let Verdict::Found(path) = &other.verdict else { continue };
+                    let Outcome::Found(path) = &other.outcome else { continue };
                     let length = path.path().length();
                     assert!(
                         bound.lower <= length * (1.0 + 1e-9),
@@ -169,8 +170,8 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                     assert!(bound.upper <= most, "seed {seed}: {} beside {length} to {goal}", bound.upper);
                 }
             }
-            Verdict::Infeasible(_) => assert!(connected.is_empty(), "seed {seed}: a false proof"),
-            Verdict::Unknown(reason) => assert!(connected.is_empty(), "seed {seed}: {reason}"),
+            Outcome::Infeasible(_) => assert!(connected.is_empty(), "seed {seed}: a false proof"),
+            Outcome::Unknown(reason) => assert!(connected.is_empty(), "seed {seed}: {reason}"),
         }
     }
     assert!(!usual() || worlds >= 40 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
@@ -182,12 +183,12 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
 fn a_short_way_through_a_narrow_passage_is_preferred_to_a_long_way_round() {
     let problem = world(9_083_322_546_425_692_186).expect("a world");
     let answer = solve(&problem, &Method::Visibility.into(), &mut |_| {});
-    let bound = answer.bound.expect("visibility bounds what it finds");
+    let bound = answer.bound().expect("visibility bounds what it finds");
     assert!(bound.gap() < 0.05, "{bound:?}");
     assert!(0.85 < bound.lower && bound.upper < 0.95, "{bound:?}");
     // The first level by itself knows the long way only, and says so.
     let hasty = solve(&problem, &Options { levels: 1, ..Method::Visibility.into() }, &mut |_| {});
-    let bound = hasty.bound.expect("visibility bounds what it finds");
+    let bound = hasty.bound().expect("visibility bounds what it finds");
     assert!(bound.lower < 0.95 && bound.upper > 5.0, "{bound:?}");
 }
 
@@ -197,16 +198,16 @@ fn planners_agree_about_sets_of_goals() {
     for seed in seeds(15).map(|seed| seed + 1_000) {
         let Some(problem) = world(seed) else { continue };
         let verdicts = Method::ALL.map(|method| {
-            let verdict = solve(&problem, &method.into(), &mut |_| {}).verdict;
-            if let Verdict::Found(path) = &verdict {
+            let verdict = solve(&problem, &method.into(), &mut |_| {}).outcome;
+            if let Outcome::Found(path) = &verdict {
                 let end = path.path().goal();
                 let topology = problem.scene().arm().topology();
                 assert!(problem.goals().contains(&topology, end, 1e-9), "seed {seed}, {method}: {end} is no goal");
             }
             verdict
         });
-        let found = verdicts.iter().any(|verdict| matches!(verdict, Verdict::Found(_)));
-        let infeasible = verdicts.iter().any(|verdict| matches!(verdict, Verdict::Infeasible(_)));
+        let found = verdicts.iter().any(|verdict| matches!(verdict, Outcome::Found(_)));
+        let infeasible = verdicts.iter().any(|verdict| matches!(verdict, Outcome::Infeasible(_)));
         assert!(!(found && infeasible), "seed {seed}");
     }
 }
@@ -240,11 +241,11 @@ fn joints_about_one_axis_share_the_angle() {
     let open = problem(1.9);
     assert_eq!(open.goals().pieces().len(), 2, "{:?}", open.goals());
     for method in Method::ALL {
-        let Verdict::Infeasible(proof) = solve(&barred, &method.into(), &mut |_| {}).verdict else {
+        let Outcome::Infeasible(proof) = solve(&barred, &method.into(), &mut |_| {}).outcome else {
             panic!("{method}: link 2 has to pass the obstacle")
         };
         assert_eq!(recheck(proof.stuck(), &scene, start, barred.goals(), 0.0), Ok(()), "{method}");
-        let Verdict::Found(path) = solve(&open, &method.into(), &mut |_| {}).verdict else {
+        let Outcome::Found(path) = solve(&open, &method.into(), &mut |_| {}).outcome else {
             panic!("{method}: the other way round is free")
         };
         let end = path.path().goal();

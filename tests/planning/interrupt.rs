@@ -1,7 +1,8 @@
 //! Plans that are stopped: nothing comes of them but that they were, and nothing is left of them.
 
+use cplan::Outcome;
 use cplan::engine::task::plan;
-use cplan::engine::{Answer, Method, Options, Planner, Verdict, solve};
+use cplan::engine::{Answer, Method, Options, Planner, solve};
 use cplan::input::{Overrides, load, load_scene};
 use cplan::interrupt::{Interrupt, Interrupted};
 use cplan::model::MotionProblem;
@@ -22,10 +23,10 @@ fn options(method: Method) -> Options {
 
 /// What an answer says, without the times it took.
 fn said(answer: &Answer) -> (Proposal, String) {
-    let verdict = match &answer.verdict {
-        Verdict::Found(path) => format!("{:?}", path.path().waypoints()),
-        Verdict::Infeasible(proof) => format!("{:?}", proof.stuck()),
-        Verdict::Unknown(reason) => reason.clone(),
+    let verdict = match &answer.outcome {
+        Outcome::Found(path) => format!("{:?}", path.path().waypoints()),
+        Outcome::Infeasible(proof) => format!("{:?}", proof.stuck()),
+        Outcome::Unknown(unknown) => unknown.to_string(),
     };
     (answer.run.outcome.clone(), verdict)
 }

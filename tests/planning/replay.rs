@@ -1,7 +1,7 @@
 //! How planners came to their answers: what is told of it is what happened.
 
 use crate::common::shipped_feasible;
-use cplan::engine::{Method, Phase, Replay, Setting, Shows, SlabBoxes, Verdict};
+use cplan::engine::{Method, Phase, Replay, Setting, Shows, SlabBoxes};
 use cplan::planner::{GridSearch, PathKind, Trace};
 use cplan::space::Configuration;
 use cplan::{Options, Plan, Planner, Problem, plan};
@@ -45,17 +45,16 @@ fn there(shows: &Shows, trace: &Trace) -> Option<usize> {
 fn every_planner_tells_how_it_came_to_its_path() {
     for method in Method::ALL {
         let plan = asked("planar_2r", "workbench", method);
-        let made = plan.motion().unwrap();
-        let (answer, phases) = (&made.answer, replayed(&plan));
-        let Verdict::Found(path) = &answer.verdict else { panic!("{method} finds it") };
+        let ((_, answer), phases) = (plan.motion().unwrap(), replayed(&plan));
+        let Some(path) = answer.path() else { panic!("{method} finds it") };
         assert_eq!(phases.last().unwrap().shows, Shows::Path, "{method}");
         assert!(phases.len() > 1, "{method} saw something before");
         for Phase { shows, events, caption } in &phases {
             match shows {
-                Shows::Path => assert_eq!(*events, path.path().waypoints().len()),
+                Shows::Path => assert_eq!(*events, path.waypoints().len()),
                 Shows::Own(own) => {
-                    assert_eq!(answer.path, PathKind::Taut);
-                    assert!(own.length() >= path.path().length() - 1e-9, "{method} pulls its path taut");
+                    assert_eq!(answer.path_kind, PathKind::Taut);
+                    assert!(own.length() >= path.length() - 1e-9, "{method} pulls its path taut");
                 }
                 Shows::Slabs(_) | Shows::Sweeps(_) => {}
                 _ => assert_eq!(there(shows, &answer.drawn()), Some(*events), "{method}: {caption}"),
@@ -71,8 +70,7 @@ fn searches_are_told_in_the_order_in_which_they_went() {
     for search in GridSearch::ALL {
         let planner = Planner::named(Method::Wavefront).with(Setting::GridSearch, |s| s.grid_search = search);
         let plan = asked("planar_2r", "shelf", planner);
-        let Trace::Wavefront { cells, labels, expanded, forward: false } = &plan.motion().unwrap().answer.run.trace
-        else {
+        let Trace::Wavefront { cells, labels, expanded, forward: false } = &plan.motion().unwrap().1.run.trace else {
             panic!("a wavefront")
         };
         assert_eq!(expanded.is_empty(), search == GridSearch::Wave);
@@ -124,7 +122,7 @@ fn boxes_of_slabs_are_what_they_are_said_to_be() {
 #[test]
 fn a_proof_is_told_box_by_box() {
     let plan = asked("planar_2r_continuous", "no_path", Method::Shortest);
-    let proof = plan.motion().unwrap().answer.verdict.proof().unwrap().stuck().len();
+    let proof = plan.motion().unwrap().1.outcome.infeasible().unwrap().stuck().len();
     let last = replayed(&plan).pop().unwrap();
     assert_eq!((last.shows, last.events), (Shows::Proof, proof));
 }
@@ -149,7 +147,7 @@ fn a_field_is_told_between_its_sweeps() {
     let plan = asked("planar_2r", "shelf", planner);
     let phases = replayed(&plan);
     let Some(Phase { shows: Shows::Sweeps(sweeps), .. }) = phases.first() else { panic!("{phases:?}") };
-    let total = plan.motion().unwrap().answer.run.size.figures()[1].1;
+    let total = plan.motion().unwrap().1.run.size.figures()[1].1;
     assert!(sweeps.frames.is_sorted_by(|a, b| a.0 < b.0) && sweeps.frames.last().unwrap().0 == total);
     let reached = |values: &[f64]| values.iter().filter(|value| value.is_finite()).count();
     assert!(sweeps.frames.is_sorted_by_key(|(_, values)| reached(values)), "a sweep takes nothing back");

@@ -2,8 +2,9 @@
 
 use crate::common::random::{seeds, usual};
 use crate::random_worlds::world;
+use cplan::Outcome;
 use cplan::check::certify;
-use cplan::engine::{Method, Verdict, solve};
+use cplan::engine::{Method, solve};
 use cplan::search::{Motions, least_length};
 use cplan::space::Metric;
 
@@ -21,18 +22,18 @@ fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
             let clearance = problem.scene().workspace().clearance;
             let [own, first, graph] = [Method::Shortest, Method::First, Method::Visibility]
                 .map(|method| solve(&problem, &method.into(), &mut |_| {}));
-            let Verdict::Found(path) = &own.verdict else {
-                assert!(!matches!(first.verdict, Verdict::Found(_)), "{kind} {seed}: {:?}", own.verdict);
-                assert!(!matches!(graph.verdict, Verdict::Found(_)), "{kind} {seed}: {:?}", own.verdict);
+            let Outcome::Found(path) = &own.outcome else {
+                assert!(!matches!(first.outcome, Outcome::Found(_)), "{kind} {seed}: {:?}", own.outcome);
+                assert!(!matches!(graph.outcome, Outcome::Found(_)), "{kind} {seed}: {:?}", own.outcome);
                 continue;
             };
             found += 1;
             assert!(certify(problem.scene(), path.path().clone(), clearance).is_ok(), "{kind} {seed}");
-            let given = own.bound.expect("it is bounded");
+            let given = own.bound().expect("it is bounded");
             assert_eq!(given.upper, path.path().length(), "{kind} {seed}");
             wide += u32::from(given.gap() > 1e-4);
             for other in [&first, &graph] {
-                let Verdict::Found(other) = &other.verdict else { continue };
+                let Outcome::Found(other) = &other.outcome else { continue };
                 let length = other.path().length();
                 assert!(given.lower <= length * (1.0 + 1e-9), "{kind} {seed}: {given:?}, yet {length}");
                 assert!(given.upper <= length * (1.0 + 1e-4), "{kind} {seed}: {given:?} above {length}");

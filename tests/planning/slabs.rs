@@ -4,8 +4,9 @@ use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, convex, disc, inside, joint, link, problem, q, recheck, rectangle,
     rr, scene, wall,
 };
-use cplan::check::{Cell, certify};
-use cplan::engine::{Method, Verdict, decide, solve};
+use cplan::Outcome;
+use cplan::check::{Cell, CertifiedPath, CheckedProof, certify};
+use cplan::engine::{Method, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{JointType, Scene};
@@ -244,24 +245,28 @@ fn shipped_workspaces_are_answered_as_they_say() {
         }
         for verdict in [decide(&problem, BOXES), shortest(&problem)] {
             match verdict {
-                Verdict::Found(path) => assert!(feasible && path.clearance() >= clearance, "{}", file.display()),
-                Verdict::Infeasible(_) => assert!(!feasible, "{}", file.display()),
-                Verdict::Unknown(why) => panic!("{}: {why}", file.display()),
+                Outcome::Found(path) => assert!(feasible && path.clearance() >= clearance, "{}", file.display()),
+                Outcome::Infeasible(_) => assert!(!feasible, "{}", file.display()),
+                Outcome::Unknown(why) => panic!("{}: {why}", file.display()),
             }
         }
     }
     assert!(undecided.is_empty() && files.len() > 20, "{undecided:?} of {}", files.len());
 }
 
-fn shortest(problem: &cplan::model::MotionProblem) -> Verdict {
-    solve(problem, &Method::Shortest.into(), &mut |_| {}).verdict
+fn shortest(problem: &cplan::model::MotionProblem) -> Outcome<CertifiedPath, CheckedProof> {
+    match solve(problem, &Method::Shortest.into(), &mut |_| {}).outcome {
+        Outcome::Found(found) => Outcome::Found(found.certified),
+        Outcome::Infeasible(proof) => Outcome::Infeasible(proof),
+        Outcome::Unknown(unknown) => Outcome::Unknown(unknown.reason),
+    }
 }
 
 #[test]
 fn short_paths_are_within_a_ten_thousandth_of_the_optimum() {
     for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
         let problem = problem(which);
-        let Verdict::Found(certified) = shortest(&problem) else { panic!("{which:?}") };
+        let Outcome::Found(certified) = shortest(&problem) else { panic!("{which:?}") };
         let length = certified.path().length();
         // The published optima have four digits behind the point.
         assert!(length > optimum - 1e-4 && length < optimum * 1.0001 + 1e-4, "{which:?}: {length}");

@@ -1,8 +1,9 @@
 //! The benchmark problems whose answers are published, with every planner.
 
 use crate::common::{Benchmark, asked, benchmark, problem, q, rectangle, rr, scene, shipped_feasible};
+use cplan::Outcome;
 use cplan::cspace::Proves;
-use cplan::engine::{Answer, GridSpace, Method, Options, Planner, Space, Verdict, solve};
+use cplan::engine::{Answer, GridSpace, Method, Options, Planner, Space, solve};
 use cplan::space::JointRange;
 
 fn answer(which: Benchmark, method: Method) -> Answer {
@@ -12,8 +13,8 @@ fn answer(which: Benchmark, method: Method) -> Answer {
 /// Length of the path, which must be found.
 fn length(which: Benchmark, method: Method) -> f64 {
     let answer = answer(which, method);
-    let Verdict::Found(certified) = &answer.verdict else {
-        panic!("{which:?} by {method}: {:?}\n{:?}", answer.verdict, answer.history);
+    let Outcome::Found(certified) = &answer.outcome else {
+        panic!("{which:?} by {method}: {:?}\n{:?}", answer.outcome, answer.history);
     };
     assert!(certified.clearance() > 0.0);
     certified.path().length()
@@ -65,11 +66,11 @@ fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
         {
             let planner = Planner::named(method).with_space(GridSpace::Sampled);
             let answer = solve(&problem(which), &planner.into(), &mut |_| {});
-            match (&answer.verdict, optimum) {
-                (Verdict::Found(path), Some(optimum)) => {
+            match (&answer.outcome, optimum) {
+                (Outcome::Found(path), Some(optimum)) => {
                     assert!(path.clearance() > 0.0 && path.path().length() >= optimum - 1e-3, "{which:?} by {method}");
                 }
-                (Verdict::Infeasible(proof), None) => assert!(!proof.stuck().is_empty()),
+                (Outcome::Infeasible(proof), None) => assert!(!proof.stuck().is_empty()),
                 (verdict, _) => panic!("{which:?} by {method}: {verdict:?}, {:?}", answer.history),
             }
             let Space::Grid(grid) = &answer.space else { panic!("{method} works on cells") };
@@ -86,14 +87,14 @@ fn coarse_samples_are_never_the_last_word() {
     let options = Options { levels: 1, ..planner.into() };
     let (mut found, mut unknown) = (0, 0);
     for (name, problem) in shipped_feasible() {
-        match solve(&problem, &options, &mut |_| {}).verdict {
-            Verdict::Found(path) => {
+        match solve(&problem, &options, &mut |_| {}).outcome {
+            Outcome::Found(path) => {
                 found += 1;
                 let clearance = problem.scene().workspace().clearance;
                 assert!(path.clearance() > 0.0 && path.clearance() >= clearance, "{name}");
             }
-            Verdict::Infeasible(_) => panic!("{name} has a way"),
-            Verdict::Unknown(_) => unknown += 1,
+            Outcome::Infeasible(_) => panic!("{name} has a way"),
+            Outcome::Unknown(_) => unknown += 1,
         }
     }
     assert!(found > 0 && unknown > 0, "{found} found, {unknown} unknown");
@@ -104,7 +105,7 @@ fn closed_ways_are_proven_closed() {
     for which in [Benchmark::Inf, Benchmark::T] {
         for method in Method::ALL {
             let answer = answer(which, method);
-            assert!(matches!(answer.verdict, Verdict::Infeasible(_)), "{which:?} by {method}: {:?}", answer.verdict);
+            assert!(matches!(answer.outcome, Outcome::Infeasible(_)), "{which:?} by {method}: {:?}", answer.outcome);
         }
     }
 }
@@ -118,8 +119,8 @@ fn ends_with_little_room_are_answered_at_the_first_level() {
         let problem = asked(scene.clone(), start, goal);
         for method in Method::ALL {
             let answer = solve(&problem, &Options { levels: 1, ..method.into() }, &mut |_| {});
-            let Verdict::Found(certified) = &answer.verdict else {
-                panic!("{method} from {start:?}: {:?}\n{:?}", answer.verdict, answer.history);
+            let Outcome::Found(certified) = &answer.outcome else {
+                panic!("{method} from {start:?}: {:?}\n{:?}", answer.outcome, answer.history);
             };
             assert_eq!(certified.path().start(), start, "{method}");
             assert!(problem.scene().arm().topology().distance(certified.path().goal(), goal) < 1e-9, "{method}");
@@ -137,6 +138,6 @@ fn a_start_without_room_to_spare_is_answered() {
     for method in [Method::Visibility, Method::Trapezoid] {
         let answer = solve(&problem, &Options { levels: 1, boxes: 1000, ..method.into() }, &mut |_| {});
         // Exactly as much as is asked for can be no more than undecided.
-        assert!(!matches!(answer.verdict, Verdict::Found(_)), "{method}");
+        assert!(!matches!(answer.outcome, Outcome::Found(_)), "{method}");
     }
 }

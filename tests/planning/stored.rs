@@ -241,7 +241,7 @@ fn corners_that_rounding_has_bent_are_read() {
 #[test]
 fn a_scene_with_a_payload_is_data_too() {
     let made = plan(&world("table_mission"), &Options::default()).unwrap();
-    let legs = &made.task().unwrap().answer.legs;
+    let legs = &made.task().unwrap().1.legs;
     let leg = legs.iter().find(|leg| leg.carried.is_some()).unwrap();
     let read: Scene = serde_json::from_str(&serde_json::to_string(&*leg.scene).unwrap()).unwrap();
     assert!(read == *leg.scene);

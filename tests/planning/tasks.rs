@@ -5,7 +5,8 @@
 
 use crate::common::recheck;
 use crate::random_tasks::replay;
-use cplan::engine::task::{TaskAnswer, TaskVerdict, plan};
+use cplan::Outcome;
+use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
 use cplan::geometry::Point;
 use cplan::input::{self, Overrides};
@@ -52,12 +53,12 @@ fn every_task_gives_its_stated_outcome() {
         let (task, expect) = load(&file);
         let name = file.file_stem().unwrap().display().to_string();
         let answer = planned(&task);
-        let outcome = match &answer.verdict {
-            TaskVerdict::Found(()) => "done",
-            TaskVerdict::Infeasible(_) => "infeasible",
-            TaskVerdict::Unknown(_) => "unknown",
+        let outcome = match &answer.outcome {
+            Outcome::Found(_) => "done",
+            Outcome::Infeasible(_) => "infeasible",
+            Outcome::Unknown(_) => "unknown",
         };
-        assert_eq!(outcome, expect, "{name}: {:?}", answer.verdict);
+        assert_eq!(outcome, expect, "{name}: {:?}", answer.outcome);
         replay::replay(&task, &answer, outcome == "done").unwrap_or_else(|what| panic!("{name}: {what}"));
         if outcome == "done" {
             assert_eq!(answer.legs.len(), task.steps().count(), "{name}");
@@ -79,8 +80,8 @@ fn holding_level_or_rigid_makes_the_difference() {
     };
     assert_eq!(differ(&level), differ(&rigid));
     assert!(level.objects.iter().all(|o| o.holding == Holding::Level));
-    assert_eq!(planned(&level).verdict, TaskVerdict::Found(()));
-    assert!(matches!(planned(&rigid).verdict, TaskVerdict::Infeasible(_)));
+    assert_eq!(planned(&level).failed(), None);
+    assert!(matches!(planned(&rigid).outcome, Outcome::Infeasible(_)));
 }
 
 /// Empty-handed the arm passes where it does not with the board.
@@ -88,7 +89,7 @@ fn holding_level_or_rigid_makes_the_difference() {
 fn carrying_closes_a_passage() {
     let task = shipped("board_and_gate");
     let answer = planned(&task);
-    let TaskVerdict::Infeasible(impossible) = &answer.verdict else { panic!("{:?}", answer.verdict) };
+    let Outcome::Infeasible(impossible) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!(impossible.step.number, 3, "the board is what does not pass");
     assert_eq!(answer.legs.len(), 2, "the way there and back is done before");
     // What is said of the motion that fails bears checking: a gantry has one IK solution for a place, its coordinates.
@@ -106,7 +107,7 @@ fn carrying_closes_a_passage() {
 fn reasons_name_the_motions_that_were_tried() {
     let task = shipped("slot_rigid");
     let answer = planned(&task);
-    let TaskVerdict::Infeasible(impossible) = &answer.verdict else { panic!("{:?}", answer.verdict) };
+    let Outcome::Infeasible(impossible) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!((impossible.ik_solutions.len(), impossible.reasons.len()), (2, 4));
     let from = format!("from joints ({:.4}, {:.4}) rad to (", impossible.from[0], impossible.from[1]);
     assert_eq!(impossible.reasons.iter().filter(|reason| reason.starts_with(&from)).count(), 2);
@@ -145,7 +146,7 @@ fn the_greedy_choice_of_ik_solutions_is_slower() {
             let there = Step { action: Action::Move(Goal::Joints(*q)), dwell: 0.0, ..step.clone() };
             let items = taken.iter().cloned().chain([Item::Step(there), Item::Step(step.clone())]).collect();
             let answer = planned(&Task { items, ..task.clone() });
-            (answer.verdict == TaskVerdict::Found(())).then(|| (answer.duration(), *q))
+            (answer.failed().is_none()).then(|| (answer.duration(), *q))
         };
         let all = ik_solutions(&task, step);
         let (seconds, q) =
@@ -170,7 +171,7 @@ fn identical_cycles_are_planned_once() {
     let cycle = |cycle| first.iter().chain([&home]).map(move |step| Item::Step(Step { cycle, ..step.clone() }));
     task.items = (1..=50).flat_map(cycle).collect();
     let answer = planned(&task);
-    assert_eq!(answer.verdict, TaskVerdict::Found(()));
+    assert_eq!(answer.failed(), None);
     assert_eq!(answer.legs.len(), 150);
     assert!(answer.motions < 60, "{} motions", answer.motions);
 }

@@ -2,8 +2,9 @@
 //! found paths a sweep by parry2d.
 
 use crate::common::recheck;
+use cplan::Outcome;
 use cplan::check::{ProofBox, read_proof};
-use cplan::engine::{Method, Verdict, solve};
+use cplan::engine::{Method, solve};
 use cplan::geometry::Convex;
 use cplan::input::{self, Overrides};
 use cplan::model::{MotionProblem, Scene};
@@ -102,8 +103,8 @@ fn open_ways_are_found_by(method: Method) {
     for (what, robot) in TWINS {
         let problem = load(&format!("{what}_open"), robot);
         let answer = solve(&problem, &method.into(), &mut |_| {});
-        let Verdict::Found(certified) = &answer.verdict else {
-            panic!("{what} by {method}: {:?}", answer.verdict);
+        let Outcome::Found(certified) = &answer.outcome else {
+            panic!("{what} by {method}: {:?}", answer.outcome);
         };
         assert_eq!(first_contact(problem.scene(), certified.path()), None, "{what} by {method}");
     }
@@ -130,7 +131,7 @@ fn the_sweep_sees_contacts() {
     for (what, robot) in TWINS.into_iter().filter(|(what, _)| *what != "limits") {
         let (open, closed) = (load(&format!("{what}_open"), robot), load(&format!("{what}_closed"), robot));
         let answer = solve(&open, &Method::Visibility.into(), &mut |_| {});
-        let Verdict::Found(certified) = &answer.verdict else { panic!("{what}") };
+        let Outcome::Found(certified) = &answer.outcome else { panic!("{what}") };
         assert!(first_contact(closed.scene(), certified.path()).is_some(), "{what}");
     }
 }

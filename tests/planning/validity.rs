@@ -5,7 +5,8 @@ use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::common::{asked, disc, link, obstacle, placed, q, rectangle, rr, wall};
 use crate::random_worlds::world;
-use cplan::engine::{Method, Verdict, solve};
+use cplan::Outcome;
+use cplan::engine::{Method, solve};
 use cplan::geometry::{
     Convex, ConvexError, Orientation, Point, Polygon, PolygonError, RingError, SimplePolygon, Vector, orientation,
 };
@@ -224,7 +225,7 @@ fn no_problem_is_made_of_what_has_no_true_answer() {
     // Of a segment some may be blocked.
     let through = GoalSet::from(Segment::new(free, q(PI / 4.0, 0.3)));
     let problem = MotionProblem::new(scene(), free, through).expect("some of it is free");
-    assert!(matches!(solve(&problem, &Method::Visibility.into(), &mut |_| {}).verdict, Verdict::Found(_)));
+    assert!(matches!(solve(&problem, &Method::Visibility.into(), &mut |_| {}).outcome, Outcome::Found(_)));
     // What keeps less than the clearance is not free either.
     let near = scene().with_clearance(0.7).expect("a clearance");
     let touched = MotionProblem::new(near, q(0.0, 0.5), free).expect_err("it is too near").to_string();

@@ -4,7 +4,8 @@
 //! `# expect: infeasible`). A line `# unknown: wavefront harmonic` names planners whose finest resolution may not do: they
 //! may answer either as stated or unknown, never the contrary.
 
-use cplan::engine::{Method, Verdict, solve};
+use cplan::Outcome;
+use cplan::engine::{Method, solve};
 use cplan::input::{self, Overrides};
 use cplan::model::MotionProblem;
 use std::path::{Path, PathBuf};
@@ -65,8 +66,8 @@ fn check(method: Method) {
     let mut told = [0, 0];
     for Shipped { name, problem, expect, unknown } in &all {
         let answer = solve(problem, &method.into(), &mut |_| {});
-        match (&answer.verdict, expect.as_str()) {
-            (Verdict::Found(certified), "found") => {
+        match (&answer.outcome, expect.as_str()) {
+            (Outcome::Found(certified), "found") => {
                 let path = certified.path();
                 assert_eq!(path.start(), problem.start(), "{name}");
                 let topology = problem.scene().arm().topology();
@@ -77,11 +78,11 @@ fn check(method: Method) {
                 assert!(sampled >= certified.clearance(), "{name}: sampled {sampled}");
                 told[0] += 1;
             }
-            (Verdict::Infeasible(proof), "infeasible") => {
+            (Outcome::Infeasible(proof), "infeasible") => {
                 assert!(!proof.stuck().is_empty(), "{name}");
                 told[1] += 1;
             }
-            (Verdict::Unknown(_), _) if unknown.iter().any(|name| name == method.name()) => {}
+            (Outcome::Unknown(_), _) if unknown.iter().any(|name| name == method.name()) => {}
             (verdict, _) => wrong.push(format!("{name}: expected {expect}, got {verdict:?}\n{:?}", answer.history)),
         }
     }
@@ -139,8 +140,8 @@ fn the_visibility_path_is_the_shortest_up_to_the_margin() {
         if expect != "found" {
             continue;
         }
-        let length = |method: Method| match solve(&problem, &method.into(), &mut |_| {}).verdict {
-            Verdict::Found(path) => path.path().length(),
+        let length = |method: Method| match solve(&problem, &method.into(), &mut |_| {}).outcome {
+            Outcome::Found(path) => path.path().length(),
             other => panic!("{name}: {other:?}"),
         };
         let shortest = length(Method::Visibility);

@@ -148,7 +148,7 @@ fn an_arm_and_a_world_in_code() {
     let reached = motion.position.last().unwrap();
     assert!((reached[0] + 0.8).abs() < 1e-9 && reached[1].abs() < 1e-9, "{reached:?}");
     // Stretched through the wall it cannot be: link 2 has to fold, so the way is longer than straight.
-    assert!(made.report().length.unwrap() > 1.6 + 1e-3);
+    assert!(made.length().unwrap() > 1.6 + 1e-3);
     let blocked = Problem::new(arm(), world(), [0.0, 0.0], [-0.8, 0.0]).expect_err("in the wall");
     assert!(blocked.to_string().contains("wall"), "{blocked}");
     assert!(Arm::rr([1.0, f64::NAN], 0.1).is_err() && Arm::rr([1.0, 1.0], -0.1).is_err());

@@ -42,10 +42,4 @@ impl Clock {
     pub fn stages(&self) -> &[(&'static str, Duration)] {
         &self.stages
     }
-
-    /// The same in milliseconds.
-    #[must_use]
-    pub fn milliseconds(&self) -> Vec<(String, f64)> {
-        self.stages.iter().map(|(name, time)| ((*name).to_owned(), time.as_secs_f64() * 1e3)).collect()
-    }
 }

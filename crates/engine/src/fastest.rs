@@ -2,8 +2,7 @@
 
 use super::options::Options;
 use super::setting::Criterion;
-use super::{Answer, Verdict, bound, solve};
-use cplan_core::check::CertifiedPath;
+use super::{BoundedPath, bound, solve};
 use cplan_core::model::MotionProblem;
 use cplan_core::space::Metric;
 use cplan_motion::{Fastest, Limits, Timed, TimingError, least_duration};
@@ -15,22 +14,21 @@ const GAP: f64 = 1e-3;
 /// speed, if it is a planner that can be asked for them; and a lower bound on the time of every motion.
 pub(super) fn fastest(
     problem: &MotionProblem,
-    answer: &Answer,
-    certified: &CertifiedPath,
+    path: &BoundedPath,
     options: &Options,
 ) -> Result<(Timed, Option<Fastest>), TimingError> {
     let scene = problem.scene();
-    let mut best = options.drive.along(scene, certified, 1.0)?;
+    let mut best = options.drive.along(scene, &path.certified, 1.0)?;
     for criterion in [Criterion::Time, Criterion::Euclidean] {
         let planner = options.planner.with_criterion(criterion);
         if planner == options.planner {
             continue;
         }
         let other = solve(problem, &Options { planner, bounded: false, ..*options }, &mut |_| {});
-        if let Verdict::Found(path) = &other.verdict
-            && path.path() != certified.path()
+        if let Some(other) = other.outcome.found()
+            && other.path() != path.path()
         {
-            let timed = options.drive.along(scene, path, 1.0)?;
+            let timed = options.drive.along(scene, &other.certified, 1.0)?;
             if timed.trajectory.duration() < best.trajectory.duration() {
                 best = timed;
             }
@@ -38,7 +36,7 @@ pub(super) fn fastest(
     }
     let joints = &scene.arm().joints;
     let metric = Metric::Time { speeds: joints.each_ref().map(|joint| joint.velocity) };
-    let known = answer.bound.filter(|bound| bound.metric == metric).map(|bound| bound.lower);
+    let known = path.bound.filter(|bound| bound.metric == metric).map(|bound| bound.lower);
     let length = || known.unwrap_or_else(|| bound(problem, best.curve.curve().path(), metric, GAP).lower);
     let duration = best.trajectory.duration();
     let fastest = options.bounded.then(|| Fastest::new(duration, least_duration(length(), &Limits::from(joints))));

@@ -7,7 +7,7 @@ use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
 use cplan_motion::FieldReport;
 
 /// The field that was asked for and what came of it.
-pub(super) fn field_report(planner: &FieldPlanner, answer: &Answer) -> FieldReport {
+pub(super) fn field_report<F>(planner: &FieldPlanner, answer: &Answer<F>) -> FieldReport {
     let limits = if planner.limits == Limits::High { "high" } else { "reflecting" };
     let base = match planner.field {
         FieldChoice::Khatib(Khatib { attraction, repulsion, saturated }) => FieldReport {
@@ -74,7 +74,7 @@ fn equation_report(equation: EquationChoice) -> FieldReport {
     }
 }
 
-fn relaxed(report: FieldReport, relaxation: &Relaxation, answer: &Answer) -> FieldReport {
+fn relaxed<F>(report: FieldReport, relaxation: &Relaxation, answer: &Answer<F>) -> FieldReport {
     let factor = if let Space::Grid(grid) = &answer.space { Some(relaxation.factor(grid.cells)) } else { None };
     let (name, order, factor) = match relaxation.scheme {
         Scheme::Simultaneous { factor: 1.0 } => ("jacobi", None, None),

@@ -2,26 +2,27 @@
 
 use super::ladder::Request;
 use super::settle::decide;
-use super::{Answer, Method, Space, Stages, Verdict};
+use super::{Answer, Method, Space, Stages};
+use cplan_core::check::{CertifiedPath, CheckedProof};
+use cplan_core::model::Outcome;
 use cplan_core::planner::{PathKind, Proposal, Run, Size, Trace};
 use cplan_interrupt::Instant;
 
 /// Answers a request by [`decide`].
 pub(super) fn solve(Request { problem, options, .. }: Request) -> Answer {
     let clock = Instant::now();
-    let verdict = decide(problem, options.boxes);
+    let decided = decide(problem, options.boxes);
     let stages = Stages { query: clock.elapsed(), ..Stages::default() };
-    answer(Method::First, verdict, stages)
+    answer(Method::First, decided, stages)
 }
 
-/// An answer of a method that builds no space, from its verdict alone.
-pub(super) fn answer(method: Method, verdict: Verdict, stages: Stages) -> Answer {
-    let outcome = match &verdict {
-        Verdict::Found(path) => Proposal::Found(path.path().clone()),
-        Verdict::Infeasible(_) => Proposal::NoPath,
-        Verdict::Unknown(reason) => Proposal::GaveUp(reason.clone()),
+/// An answer of a method that builds no space, from what it found alone.
+pub(super) fn answer(method: Method, decided: Outcome<CertifiedPath, CheckedProof>, stages: Stages) -> Answer {
+    let (proposal, outcome) = match decided {
+        Outcome::Found(path) => (Proposal::Found(path.path().clone()), Outcome::Found(path.into())),
+        Outcome::Infeasible(proof) => (Proposal::NoPath, Outcome::Infeasible(proof)),
+        Outcome::Unknown(reason) => (Proposal::GaveUp(reason.clone()), Outcome::Unknown(reason.into())),
     };
-    let run = Run { outcome, trace: Trace::Slices { free: Vec::new() }, size: Size::Nothing, note: None };
-    let (history, witness, bound) = (Vec::new(), None, None);
-    Answer { method, verdict, path: PathKind::Taut, witness, bound, history, run, space: Space::Scene, stages }
+    let run = Run { outcome: proposal, trace: Trace::Slices { free: Vec::new() }, size: Size::Nothing, note: None };
+    Answer { method, outcome, path_kind: PathKind::Taut, history: Vec::new(), run, space: Space::Scene, stages }
 }

@@ -4,10 +4,10 @@ use super::admission::{Admit, Ends};
 use super::bound::{Bound, bound};
 use super::rungs::{Described, grid_cells, polygons, zoned_cells};
 use super::settle::decide;
-use super::{Answer, Options, Settings, Space, Stages, Verdict};
-use cplan_core::check::{CertifiedPath, Rejection, certify};
+use super::{Answer, BoundedPath, Options, Settings, Space, Stages, Unknown};
+use cplan_core::check::{CertifiedPath, CheckedProof, Rejection, certify};
 use cplan_core::cspace::{Grid, Regions, ZonedGrid, has_exact_polygons};
-use cplan_core::model::{MotionProblem, Scene};
+use cplan_core::model::{MotionProblem, Outcome, Scene};
 use cplan_core::planner::{Note, Planner, Proposal, Query, Run, Visibility};
 use cplan_core::space::{Metric, Path, Segment};
 use cplan_fields::FieldChoice;
@@ -38,12 +38,13 @@ pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMu
     let near = MotionProblem::trusted(near, problem.start(), problem.goals().clone());
     let mut answer = answered(&near, options, progress);
     let among_all = |path: &CertifiedPath| certify(scene, path.path().clone(), scene.workspace().clearance).ok();
-    answer.witness = answer.witness.as_ref().and_then(among_all);
-    if let Verdict::Found(path) = &mut answer.verdict {
-        match among_all(path) {
-            Some(certified) => *path = certified,
+    match &mut answer.outcome {
+        Outcome::Found(path) => match among_all(&path.certified) {
+            Some(certified) => path.certified = certified,
             None => return answered(problem, options, progress),
-        }
+        },
+        Outcome::Infeasible(_) => {}
+        Outcome::Unknown(unknown) => unknown.witness = unknown.witness.as_ref().and_then(among_all),
     }
     answer
 }
@@ -103,7 +104,7 @@ where
     P::Space: Into<Space> + Described + Admit,
 {
     let (method, metric) = (options.planner.method(), options.planner.metric(problem.scene().arm()));
-    let mut climb = Climb { problem, options, metric, level: 0, stages: Stages::default(), path: None, bound: None };
+    let mut climb = Climb { problem, options, metric, level: 0, stages: Stages::default(), path: None };
     let mut history = Vec::new();
     let mut last: Option<(Run, P::Space)> = None;
     let mut known = None;
@@ -137,7 +138,7 @@ where
         history.push(failure);
         if level == 0 && climb.path.is_none() {
             known = settle(problem, options.boxes.min(FIRST_BOXES), &mut climb.stages);
-            if let Some(Verdict::Infeasible(_)) = known {
+            if let Some(Outcome::Infeasible(_)) = known {
                 break;
             }
         }
@@ -159,18 +160,17 @@ where
     let hint = if is_coarse && !sweeps_end { "; more --cells or --levels may show one" } else { "" };
     let finest = if sweeps_end { "the resolution that its sweeps allow" } else { "its finest resolution" };
     let unknown = || format!("{method} found no certified path at {finest} ({}){hint}", why());
-    let (verdict, witness) = match (path, known) {
-        (Some(path), _) => (Verdict::Found(path), None),
-        (None, Some(Verdict::Infeasible(proof))) => (Verdict::Infeasible(proof), None),
-        (None, Some(Verdict::Found(witness))) => {
+    let outcome = match (path, known) {
+        (Some(path), _) => Outcome::Found(path),
+        (None, Some(Outcome::Infeasible(proof))) => Outcome::Infeasible(proof),
+        (None, Some(Outcome::Found(witness))) => {
             let reason = "there is a path (certified by subdivision), which this planner's space does not show";
-            (Verdict::Unknown(format!("{reason}: {}", unknown())), Some(witness))
+            Outcome::Unknown(Unknown { reason: format!("{reason}: {}", unknown()), witness: Some(witness) })
         }
-        (None, _) => (Verdict::Unknown(unknown()), None),
+        (None, _) => Outcome::Unknown(unknown().into()),
     };
-    let (kind, bound) = (options.planner.path_kind(), climb.bound);
-    let stages = climb.stages;
-    Answer { method, verdict, path: kind, witness, bound, history, run, space: space.into(), stages }
+    let (path_kind, stages) = (options.planner.path_kind(), climb.stages);
+    Answer { method, outcome, path_kind, history, run, space: space.into(), stages }
 }
 
 /// What is known on the way up the ladder.
@@ -180,10 +180,8 @@ struct Climb<'a> {
     metric: Metric,
     level: usize,
     stages: Stages,
-    /// The best certified path so far.
-    path: Option<CertifiedPath>,
-    /// How far it is from the optimum at the most, by all levels together.
-    bound: Option<Bound>,
+    /// The best certified path so far, with a bound by all levels together.
+    path: Option<BoundedPath>,
 }
 
 impl Climb<'_> {
@@ -197,7 +195,7 @@ impl Climb<'_> {
         match self.certified(ends, proposal) {
             Ok(path) => {
                 self.keep(path);
-                let excess = self.bound.map_or_else(String::new, |bound| percent(bound.gap()));
+                let excess = self.bound().map_or_else(String::new, |bound| percent(bound.gap()));
                 self.unless_content(format!("its path is longer than the bound by {excess}"))
             }
             Err(rejection) => {
@@ -212,7 +210,7 @@ impl Climb<'_> {
         let gap = self.options.planner.gap().or((self.level < LAST_LOOK).then_some(WIDE));
         // A search that takes any path takes this one.
         let gap = gap.filter(|_| self.options.planner.optimises());
-        let wants_more = self.bound.zip(gap).is_some_and(|(bound, gap)| bound.gap() > gap);
+        let wants_more = self.bound().zip(gap).is_some_and(|(bound, gap)| bound.gap() > gap);
         (self.path.is_none() || wants_more).then_some(failure)
     }
 
@@ -226,24 +224,29 @@ impl Climb<'_> {
         certified
     }
 
+    /// How far the best path is from the optimum at the most.
+    fn bound(&self) -> Option<Bound> {
+        self.path.as_ref().and_then(|path| path.bound)
+    }
+
     /// Keeps a path if it is the best so far, and bounds it where the method is after the optimum.
-    fn keep(&mut self, path: CertifiedPath) {
+    fn keep(&mut self, certified: CertifiedPath) {
         if !self.options.bounded || !self.options.planner.method().optimises() {
-            self.path = Some(path);
+            self.path = Some(certified.into());
             return;
         }
         let clock = Instant::now();
         let (metric, gap) = (self.metric, self.options.planner.gap());
-        let upper = metric.length(path.path());
+        let upper = metric.length(certified.path());
         // What no motion is below does not depend on the path: once is enough.
-        let found = self.bound.map_or_else(
-            || bound(self.problem, path.path(), metric, gap.map_or(CLOSE, |gap| CLOSE.min(gap / 2.0))),
+        let best = self.bound();
+        let found = best.map_or_else(
+            || bound(self.problem, certified.path(), metric, gap.map_or(CLOSE, |gap| CLOSE.min(gap / 2.0))),
             |best| Bound { upper, ..best },
         );
         self.stages.bound += clock.elapsed();
-        if self.bound.is_none_or(|best| found.upper < best.upper) {
-            self.path = Some(path);
-            self.bound = Some(found);
+        if best.is_none_or(|best| found.upper < best.upper) {
+            self.path = Some(BoundedPath { certified, bound: Some(found) });
         }
     }
 }
@@ -265,11 +268,11 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
 }
 
 /// Whether there is a path at all, whatever a planner's space shows; none if that is not known.
-fn settle(problem: &MotionProblem, boxes: usize, stages: &mut Stages) -> Option<Verdict> {
+fn settle(problem: &MotionProblem, boxes: usize, stages: &mut Stages) -> Option<Outcome<CertifiedPath, CheckedProof>> {
     let clock = Instant::now();
-    let verdict = decide(problem, boxes);
+    let decided = decide(problem, boxes);
     stages.prove += clock.elapsed();
-    (!matches!(verdict, Verdict::Unknown(_))).then_some(verdict)
+    (!matches!(decided, Outcome::Unknown(_))).then_some(decided)
 }
 
 pub(super) fn explain(scene: &Scene, rejection: Rejection) -> String {

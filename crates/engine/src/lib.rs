@@ -15,7 +15,7 @@
 //!
 //! The path that a planner proposes is certified. What fails is refined and planned again; after the first failure, and
 //! at the end, [`cplan_proofs`] looks for a proof that there is no path. Should it find a path instead, which the
-//! planner's space does not show, the answer stays unknown, and says so ([`Answer::witness`]).
+//! planner's space does not show, the answer stays unknown, and says so ([`Unknown::witness`]).
 //!
 //! # Replays
 //!
@@ -37,6 +37,7 @@
 //! `--gap` two levels at the most, where the interval is wider than 5 %.
 
 mod admission;
+mod answer;
 mod bound;
 mod cell_counts;
 mod certificate;
@@ -44,14 +45,13 @@ mod clock;
 mod corners;
 pub mod explain;
 mod fastest;
-mod field_problem;
+mod field_cells;
 mod field_report;
 pub mod findings;
 mod first;
 mod grid_space;
-mod kind;
 mod ladder;
-mod motion_plan;
+mod motion;
 mod moving;
 mod options;
 mod plan;
@@ -71,33 +71,26 @@ mod subdivision;
 pub mod task;
 mod thinned;
 
+pub use answer::{Answer, BoundedPath, Unknown};
 pub use bound::{Bound, bound, checked_bound};
 pub use cell_counts::CellCounts;
 pub use certificate::{NoCertificate, certificate_of_recording};
-pub use field_problem::FieldProblem;
+pub use field_cells::field_on_cells;
 pub use grid_space::GridSpace;
-pub use kind::Kind;
 pub use ladder::solve;
-pub use motion_plan::MotionPlan;
+pub use motion::Motion;
 pub use moving::{Timing, Wait};
 pub use options::{LEVELS, NamedJoints, Options};
-pub use plan::{Plan, PlanError, Refutation, TaskPlan, plan, plan_with};
+pub use plan::{Detail, Plan, PlanError, Refutation, plan, plan_with};
 pub use planner::Planner;
 pub use problem::{Problem, ProblemError};
 pub use reach::{Access, MOST_PLACES, Reach, Solution, reach};
 pub use registry::{Descriptor, Family, Method};
 pub use replay::{Phase, Replay, Shows, SlabBoxes, Sweeps};
-pub use result::{Choice, Report, TaskFigures};
 pub use setting::{CELLS, Criterion, FIRST_CELLS, MOST_MARGIN, NEAREST, SAMPLES, Setting, Settings};
 pub use settle::decide;
 
-use cplan_core::check::CertifiedPath;
-pub use cplan_core::check::Verdict;
 use cplan_core::cspace::{Grid, Regions};
-use cplan_core::planner::{PathKind, Planner as _, Run, Trace, Visibility};
-use cplan_core::space::Configuration;
-use std::borrow::Cow;
-use std::cmp::Ordering;
 use std::ops::Add;
 use std::time::Duration;
 
@@ -146,53 +139,5 @@ impl Add for Stages {
             prove: self.prove + other.prove,
             bound: self.bound + other.bound,
         }
-    }
-}
-
-/// A visibility graph of more corners than this is drawn as far as it was searched: more lines make a grey surface.
-const MOST_CORNERS: usize = 5_000;
-
-/// A verdict and how it came about.
-#[derive(Debug, Clone)]
-pub struct Answer {
-    /// Which planner was asked.
-    pub method: Method,
-    /// What was found out: a path, a proof, or neither.
-    pub verdict: Verdict,
-    /// Which of the method's paths was asked for.
-    pub path: PathKind,
-    /// Where the verdict is unknown: a certified path by slabs or boxes, which the method's space does not show. Then the
-    /// question whether there is one is settled, but not by the method that was asked.
-    pub witness: Option<CertifiedPath>,
-    /// How far the path is from the optimum at the most; of visibility planners that found one.
-    pub bound: Option<Bound>,
-    /// What became of each attempt before the last, coarse to fine, in words.
-    pub history: Vec<String>,
-    /// The planner's last run.
-    pub run: Run,
-    /// What it worked on.
-    pub space: Space,
-    /// Where the time went.
-    pub stages: Stages,
-}
-
-impl Answer {
-    /// What to draw of the planner's work: its trace; to that of a visibility graph all arcs between corners are added, which
-    /// takes the time to find them.
-    #[must_use]
-    pub fn drawn(&self) -> Cow<'_, Trace> {
-        if let (Trace::Roadmap { edges, whole: false }, Space::Regions(regions)) = (&self.run.trace, &self.space) {
-            let map = Visibility::default().build(regions);
-            if map.corners() <= MOST_CORNERS {
-                // Those that were searched end at start and goals too, and may be directed the other way.
-                let key = |[a, b]: [Configuration; 2]| [a[0], a[1], b[0], b[1]];
-                let directed = |[a, b]: [Configuration; 2]| if key([a, b]) <= key([b, a]) { [a, b] } else { [b, a] };
-                let mut arcs: Vec<_> = map.arcs().into_iter().chain(edges.iter().copied()).map(directed).collect();
-                arcs.sort_by(|&a, &b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal));
-                arcs.dedup();
-                return Cow::Owned(Trace::Roadmap { edges: arcs, whole: true });
-            }
-        }
-        Cow::Borrowed(&self.run.trace)
     }
 }

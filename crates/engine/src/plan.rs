@@ -1,13 +1,11 @@
 //! The front door: from a problem and options to a plan.
 
 use super::clock::Clock;
-use super::motion_plan::MotionPlan;
-use super::options::Options;
-use super::problem::{Asked, Problem};
-use super::result::Report;
-use super::result::search_used;
-use super::task::{FailedStep, MessageError, TaskAnswer, TaskReplay, plan as plan_task};
-use super::{Answer, GridSpace, Kind, Replay, solve};
+use super::motion::{Motion, driven};
+use super::options::{NamedJoints, Options};
+use super::problem::{MotionOrTask, Problem};
+use super::task::{self, FailedStep, MessageError, Messages, TaskAnswer, TaskMotion, TaskReplay};
+use super::{Answer, Replay, solve};
 use cplan_core::check::CheckedProof;
 use cplan_core::model::{Arm, MotionProblem, Outcome, RobotJoints, Status, Task};
 use cplan_motion::{TimingError, Trajectory};
@@ -70,19 +68,28 @@ pub enum Refutation<'a> {
 pub struct Plan {
     problem: Problem,
     options: Options,
-    /// What was made, and of what. The problem is asked with the options' own limits.
-    made: Kind<Box<MotionPlan>, TaskPlan>,
-    report: Report,
+    detail: Box<Detail>,
     clock: Clock,
 }
 
-/// What became of a task.
+/// What was planned, with the limits asked for, and its answer.
 #[derive(Debug, Clone)]
-pub struct TaskPlan {
-    /// The task, with the limits asked for.
-    pub task: Task,
-    /// The answer.
-    pub answer: TaskAnswer,
+#[expect(clippy::large_enum_variant, reason = "a plan has one, in a box")]
+pub enum Detail {
+    /// A single motion.
+    Motion {
+        /// The problem.
+        problem: MotionProblem,
+        /// Its answer.
+        answer: Answer<Motion>,
+    },
+    /// A sequence of steps.
+    Task {
+        /// The task.
+        task: Task,
+        /// Its answer.
+        answer: TaskAnswer,
+    },
 }
 
 /// Plans: a certified motion, a proof that there is none, or neither within the options' effort. Milliseconds, as a rule.
@@ -108,49 +115,25 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
         return Err(PlanError::Robot(lack));
     }
     let mut clock = Clock::after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
-    let (made, mut report) = match problem.asked() {
-        Asked::Motion(motion) => {
-            let (motion, answer) = solve_with(motion, options, &mut clock, progress);
-            let (made, mut report) = MotionPlan::timed(motion, answer, options)?;
-            report.name_joints(&named(problem, options), options.accelerations)?;
-            clock.stage("trajectory");
-            (Kind::Motion(Box::new(made)), report)
-        }
-        Asked::Task((task, _)) => {
-            let mut task = task.clone();
-            options.override_limits(&mut task.arm);
-            let answer = plan_task(&task, options, progress);
-            clock.stage("plan");
-            let mut report = Report::of_task(options.planner.method().name(), &task, &answer);
-            report.name_all(&named(problem, options), &task, &answer, options.accelerations)?;
-            clock.stage("report");
-            (Kind::Task(TaskPlan { task, answer }), report)
-        }
+    let detail = match problem.content() {
+        MotionOrTask::Motion(motion) => plan_motion(motion, options, &mut clock, progress)?,
+        MotionOrTask::Task(task, _) => plan_task(task, &named(problem, options), options, &mut clock, progress)?,
     };
-    report.search = search_used(&options.planner);
-    report.space = options.planner.space().and_then(GridSpace::told);
-    report.assumed = problem.robot().assumed.clone();
-    if options.drive.torque {
-        report.assumed.acceleration.clear();
-    }
-    if options.timings {
-        report.timings = clock.milliseconds();
-    }
-    Ok(Plan { problem: problem.clone(), options: *options, made, report, clock })
+    Ok(Plan { problem: problem.clone(), options: *options, detail: Box::new(detail), clock })
 }
 
-/// The problem with the limits asked for, and its answer.
-fn solve_with(
+/// Plans a single motion.
+fn plan_motion(
     motion: &MotionProblem,
     options: &Options,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
-) -> (MotionProblem, Answer) {
-    let mut motion = motion.clone();
-    options.override_limits(motion.arm_mut());
-    let answer = solve(&motion, options, progress);
+) -> Result<Detail, PlanError> {
+    let mut problem = motion.clone();
+    options.override_limits(problem.arm_mut());
+    let answer = solve(&problem, options, progress);
     clock.solved(&answer.stages);
-    if let (Some(bound), Some(gap)) = (&answer.bound, options.planner.gap())
+    if let (Some(bound), Some(gap)) = (answer.bound(), options.planner.gap())
         && bound.gap() > gap
     {
         progress(&format!(
@@ -161,14 +144,42 @@ fn solve_with(
             options.levels
         ));
     }
-    (motion, answer)
+    let answer = driven(&problem, answer, options)?;
+    if let Some(motion) = answer.outcome.found().filter(|_| options.accelerations) {
+        motion.timed.trajectory.check_accelerations().map_err(MessageError::from)?;
+    }
+    clock.stage("trajectory");
+    Ok(Detail::Motion { problem, answer })
+}
+
+/// Plans the steps of a task. Messages can name the robot's joints then.
+fn plan_task(
+    task: &Task,
+    robot: &RobotJoints,
+    options: &Options,
+    clock: &mut Clock,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Detail, PlanError> {
+    let mut task = task.clone();
+    options.override_limits(&mut task.arm);
+    let answer = task::plan(&task, options, progress);
+    clock.stage("plan");
+    if let Some(TaskMotion { sequence, .. }) = answer.outcome.found() {
+        let messages = Messages::new(robot, &task, &answer.legs, sequence)?;
+        if options.accelerations {
+            sequence.trajectory.check_accelerations().map_err(MessageError::from)?;
+            messages.check_accelerations(robot)?;
+        }
+    }
+    clock.stage("report");
+    Ok(Detail::Task { task, answer })
 }
 
 /// The joints that messages name.
-fn named<'a>(problem: &'a Problem, options: &Options) -> Cow<'a, RobotJoints> {
+pub(super) fn named<'a>(problem: &'a Problem, options: &Options) -> Cow<'a, RobotJoints> {
     match options.joints {
-        super::NamedJoints::All => Cow::Borrowed(&problem.robot().joints),
-        super::NamedJoints::Planned => {
+        NamedJoints::All => Cow::Borrowed(&problem.robot().joints),
+        NamedJoints::Planned => {
             let names = problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
             Cow::Owned(RobotJoints::planned(&names))
         }
@@ -176,28 +187,37 @@ fn named<'a>(problem: &'a Problem, options: &Options) -> Cow<'a, RobotJoints> {
 }
 
 impl Plan {
-    /// The answer: a certified motion; a proof that there is none; or why neither is known.
+    /// Returns the answer: a certified motion; a proof that there is none; or why neither is known.
     #[must_use]
-    pub fn outcome(&self) -> Outcome<&Trajectory, Refutation<'_>, &str> {
-        let Report { trajectory, proof, task, reason, .. } = &self.report;
-        let step = task.as_ref().and_then(|task| task.failed.as_ref()).map(Refutation::Step);
-        match (self.status(), trajectory, proof.as_ref().map(Refutation::Motion).or(step)) {
-            (Status::Found, Some(trajectory), _) => Outcome::Found(trajectory),
-            (Status::Infeasible, _, Some(refutation)) => Outcome::Infeasible(refutation),
-            _ => Outcome::Unknown(reason.as_deref().unwrap_or_default()),
+    pub fn outcome(&self) -> Outcome<&Trajectory, Refutation<'_>> {
+        let reason = || self.reason().unwrap_or_default();
+        match &*self.detail {
+            Detail::Motion { answer, .. } => match &answer.outcome {
+                Outcome::Found(motion) => Outcome::Found(&motion.timed.trajectory),
+                Outcome::Infeasible(proof) => Outcome::Infeasible(Refutation::Motion(proof)),
+                Outcome::Unknown(_) => Outcome::Unknown(reason()),
+            },
+            Detail::Task { answer, .. } => match &answer.outcome {
+                Outcome::Found(motion) => Outcome::Found(&motion.sequence.trajectory),
+                Outcome::Infeasible(failed) => Outcome::Infeasible(Refutation::Step(failed)),
+                Outcome::Unknown(_) => Outcome::Unknown(reason()),
+            },
         }
     }
 
     /// Which of the three answers it is.
     #[must_use]
     pub fn status(&self) -> Status {
-        self.report.status()
+        match &*self.detail {
+            Detail::Motion { answer, .. } => answer.outcome.status(),
+            Detail::Task { answer, .. } => answer.outcome.status(),
+        }
     }
 
     /// The motion, if there is one.
     #[must_use]
     pub fn trajectory(&self) -> Option<&Trajectory> {
-        self.report.trajectory.as_ref()
+        self.outcome().found().copied()
     }
 
     /// What was asked.
@@ -218,54 +238,43 @@ impl Plan {
         self.clock.stages()
     }
 
-    /// Verdict, bound, path and trace of a single motion.
+    /// Returns a single motion and its answer.
     #[must_use]
-    pub fn motion(&self) -> Option<&MotionPlan> {
-        self.made.motion().map(Box::as_ref)
+    pub fn motion(&self) -> Option<(&MotionProblem, &Answer<Motion>)> {
+        if let Detail::Motion { problem, answer } = &*self.detail { Some((problem, answer)) } else { None }
+    }
+
+    /// Returns a task and its answer.
+    #[must_use]
+    pub fn task(&self) -> Option<(&Task, &TaskAnswer)> {
+        if let Detail::Task { task, answer } = &*self.detail { Some((task, answer)) } else { None }
+    }
+
+    /// Returns the motion or the task, and its answer.
+    #[must_use]
+    pub fn detail(&self) -> &Detail {
+        &self.detail
     }
 
     /// How the planner came to its answer; of single motions. Some of it is computed for this alone.
     #[must_use]
     pub fn replay(&self) -> Option<Replay> {
-        self.motion().map(|plan| Replay::new(&plan.problem, &self.options, &plan.answer))
+        self.motion().map(|(problem, answer)| Replay::new(problem, &self.options, answer))
     }
 
     /// How the planner came to the motions of a task, which are planned again for this; none among what moves, where ways are tried in time.
     #[must_use]
     pub fn task_replay(&self) -> Option<TaskReplay> {
-        let standing = self.task().filter(|plan| !plan.task.has_movers());
-        standing.map(|plan| TaskReplay::new(&plan.task, &self.options, &plan.answer))
-    }
-
-    /// Steps and their motions, of a task.
-    #[must_use]
-    pub fn task(&self) -> Option<&TaskPlan> {
-        self.made.task()
-    }
-
-    /// The plan of a motion, or of a task.
-    #[must_use]
-    pub fn made(&self) -> &Kind<Box<MotionPlan>, TaskPlan> {
-        &self.made
+        let standing = self.task().filter(|(task, _)| !task.has_movers());
+        standing.map(|(task, answer)| TaskReplay::new(task, &self.options, answer))
     }
 
     /// The arm, with the limits asked for.
+    #[must_use]
     pub fn arm(&self) -> &Arm {
-        match &self.made {
-            Kind::Motion(plan) => plan.problem.scene().arm(),
-            Kind::Task(plan) => &plan.task.arm,
+        match &*self.detail {
+            Detail::Motion { problem, .. } => problem.scene().arm(),
+            Detail::Task { task, .. } => &task.arm,
         }
-    }
-
-    /// The result as a JSON object, a line a field, as interface and book describe it.
-    #[must_use]
-    pub fn to_json(&self) -> String {
-        self.report.json()
-    }
-
-    /// The result's fields.
-    #[must_use]
-    pub fn report(&self) -> &Report {
-        &self.report
     }
 }

@@ -1,6 +1,5 @@
 //! What is asked: a motion, or a sequence of steps, of a robot in a world.
 
-use super::Kind;
 use cplan_core::model::{Arm, MotionProblem, MotionProblemError, RobotJoints, Scene, SceneError, Task, Workspace};
 use cplan_core::space::{Configuration, GoalSet};
 use cplan_interrupt::Instant;
@@ -15,7 +14,7 @@ use thiserror::Error;
 /// cheap to clone. For serde it is its model; what is read is checked as what is made in code, and numbers keep all their bits.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    what: Arc<Asked>,
+    content: Arc<MotionOrTask>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
     /// Time that it took to read.
@@ -33,8 +32,13 @@ pub enum ProblemError {
     Ends(#[from] MotionProblemError),
 }
 
-/// What is to be done. With a task comes the arm, empty-handed, among obstacles and objects where they lie at first: for pictures.
-pub type Asked = Kind<MotionProblem, (Task, Scene)>;
+/// A motion, or a task with the arm, empty-handed, among obstacles and objects where they lie initially.
+#[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "a problem shares one")]
+pub(super) enum MotionOrTask {
+    Motion(MotionProblem),
+    Task(Task, Scene),
+}
 
 impl Problem {
     /// Reads a robot (URDF) and a world (TOML).
@@ -87,10 +91,9 @@ impl Problem {
         Self { read_in: Some(begun.elapsed()), ..self }
     }
 
-    /// The motion or the task that is asked for.
-    #[must_use]
-    pub fn asked(&self) -> &Asked {
-        &self.what
+    /// Returns the motion or the task that is asked for.
+    pub(super) fn content(&self) -> &MotionOrTask {
+        &self.content
     }
 
     /// The time that reading the files took, if it was read from files.
@@ -101,22 +104,22 @@ impl Problem {
     /// The arm among its obstacles; of a task as they lie at first.
     #[must_use]
     pub fn scene(&self) -> &Scene {
-        match &*self.what {
-            Asked::Motion(motion) => motion.scene(),
-            Asked::Task((_, scene)) => scene,
+        match &*self.content {
+            MotionOrTask::Motion(motion) => motion.scene(),
+            MotionOrTask::Task(_, scene) => scene,
         }
     }
 
     /// The motion, if it is a single one.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionProblem> {
-        self.what.motion()
+        if let MotionOrTask::Motion(motion) = &*self.content { Some(motion) } else { None }
     }
 
     /// The task, if it is one.
     #[must_use]
     pub fn task(&self) -> Option<&Task> {
-        self.what.task().map(|(task, _)| task)
+        if let MotionOrTask::Task(task, _) = &*self.content { Some(task) } else { None }
     }
 
     /// How the robot was read.
@@ -131,20 +134,20 @@ impl Problem {
         &self.notes
     }
 
-    pub(super) fn read(what: Asked, robot: RobotReport, notes: Vec<String>) -> Self {
-        Self { what: Arc::new(what), robot: Arc::new(robot), notes: notes.into(), read_in: None }
+    pub(super) fn read(content: MotionOrTask, robot: RobotReport, notes: Vec<String>) -> Self {
+        Self { content: Arc::new(content), robot: Arc::new(robot), notes: notes.into(), read_in: None }
     }
 }
 
 impl From<Loaded> for Problem {
     fn from(Loaded { problem, robot, notes }: Loaded) -> Self {
-        Self::read(Asked::Motion(problem), robot, notes)
+        Self::read(MotionOrTask::Motion(problem), robot, notes)
     }
 }
 
 impl From<LoadedTask> for Problem {
     fn from(LoadedTask { task, scene, robot, notes }: LoadedTask) -> Self {
-        Self::read(Asked::Task((task, scene)), robot, notes)
+        Self::read(MotionOrTask::Task(task, scene), robot, notes)
     }
 }
 
@@ -153,6 +156,6 @@ impl From<MotionProblem> for Problem {
     fn from(motion: MotionProblem) -> Self {
         let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
         let robot = RobotReport { joints: RobotJoints::planned(&names), ..RobotReport::default() };
-        Self::read(Asked::Motion(motion), robot, Vec::new())
+        Self::read(MotionOrTask::Motion(motion), robot, Vec::new())
     }
 }

@@ -1,9 +1,8 @@
 //! Where the tip can get, with which solutions of the inverse kinematics, from a home configuration: certified, or proven impossible.
 
-use super::Verdict;
 use super::settle::decide;
 use cplan_core::check::certify;
-use cplan_core::model::{Arm, MotionProblem, Scene, inverse};
+use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, inverse};
 use cplan_core::space::{Configuration, GoalSet, Measure, Metric, Path, Segment};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
@@ -213,9 +212,9 @@ fn joins(scene: &Scene, from: Configuration, to: Configuration) -> bool {
 fn asked(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> (Access, Option<Configuration>) {
     let Ok(problem) = MotionProblem::new(scene.clone(), home, to) else { return (Access::Unknown, None) };
     match decide(&problem, BOXES) {
-        Verdict::Found(path) => (Access::Reachable, Some(path.path().goal())),
-        Verdict::Infeasible(_) => (Access::Unreachable, None),
-        Verdict::Unknown(_) => (Access::Unknown, None),
+        Outcome::Found(path) => (Access::Reachable, Some(path.path().goal())),
+        Outcome::Infeasible(_) => (Access::Unreachable, None),
+        Outcome::Unknown(_) => (Access::Unknown, None),
     }
 }
 

@@ -6,9 +6,9 @@
 
 use super::admission::Ends;
 use super::ladder::FIRST_BOXES;
-use super::{Answer, Options, Space, Verdict, solve};
+use super::{Answer, BoundedPath, Options, Space, solve};
 use cplan_core::cspace::ZonedGrid;
-use cplan_core::model::MotionProblem;
+use cplan_core::model::{MotionProblem, Outcome};
 use cplan_core::planner::{CellKind, GraphKind, Note, PathKind, Proposal, Size, Trace};
 use cplan_core::space::{Configuration, Path};
 use cplan_fields::{Device, Measure, RELATIVE_TOLERANCE, Stopping, relax_watched};
@@ -104,12 +104,12 @@ const CELLS: usize = 48;
 impl Replay {
     /// The replay of an answer to a problem that was asked with these options.
     #[must_use]
-    pub fn new(problem: &MotionProblem, options: &Options, answer: &Answer) -> Self {
+    pub fn new<F: AsRef<BoundedPath>>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Self {
         let mut phases = Phases(Vec::new());
         phases.of_trace(problem, options, answer);
-        match &answer.verdict {
-            Verdict::Found(path) => phases.of_path(problem, options, answer, path.path()),
-            Verdict::Infeasible(proof) => phases.add(
+        match &answer.outcome {
+            Outcome::Found(found) => phases.of_path(problem, options, answer, found.as_ref()),
+            Outcome::Infeasible(proof) => phases.add(
                 proof.stuck().len(),
                 format!(
                     "{} of colliding configurations separate start and goal: there is no path",
@@ -117,7 +117,7 @@ impl Replay {
                 ),
                 Shows::Proof,
             ),
-            Verdict::Unknown(_) => {}
+            Outcome::Unknown(_) => {}
         }
         Self { phases: phases.0 }
     }
@@ -138,7 +138,7 @@ impl Phases {
     }
 
     /// What the planner saw.
-    fn of_trace(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer) {
+    fn of_trace<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>) {
         let graph = match answer.run.size {
             Size::Graph { nodes, .. } => nodes,
             _ => 0,
@@ -251,18 +251,19 @@ impl Phases {
     }
 
     /// The field after some of its sweeps, where it is relaxed on the CPU.
-    fn of_sweeps(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer) {
+    fn of_sweeps<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>) {
         let Some(found) = sweeps(problem, options, answer) else { return };
         let caption = format!("The field, sweep by sweep: {} in all", found.frames.last().map_or(0, |frame| frame.0));
         self.add(found.frames.len(), caption, Shows::Sweeps(found));
     }
 
     /// The path as it was found, and as it is.
-    fn of_path(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer, path: &Path) {
-        let own =
-            (answer.path == PathKind::Taut && answer.method.has_own_path()).then(|| own_path(problem, options, answer));
+    fn of_path<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>, found: &BoundedPath) {
+        let path = found.path();
+        let own = (answer.path_kind == PathKind::Taut && answer.method.has_own_path())
+            .then(|| own_path(problem, options, answer));
         let own = own.flatten().filter(|own| own.waypoints() != path.waypoints());
-        let caption = match (&own, answer.bound, answer.path) {
+        let caption = match (&own, found.bound, answer.path_kind) {
             (Some(_), ..) => "The path, pulled taut and certified".to_owned(),
             (None, Some(bound), _) => {
                 format!("The path: certified, at most {} longer than the shortest", percent(bound.gap()))
@@ -277,7 +278,7 @@ impl Phases {
 }
 
 /// The path before it is pulled taut: the planner is asked for its own, in the space of the answer.
-fn own_path(problem: &MotionProblem, options: &Options, answer: &Answer) -> Option<Path> {
+fn own_path<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Option<Path> {
     let levels = answer.history.len() + 1;
     let planner = options.planner.with_path(PathKind::Own);
     let boxes = if let Space::Scene = answer.space { options.boxes } else { options.boxes.min(FIRST_BOXES) };
@@ -288,7 +289,7 @@ fn own_path(problem: &MotionProblem, options: &Options, answer: &Answer) -> Opti
 }
 
 /// Relaxes the field once more, watching it.
-fn sweeps(problem: &MotionProblem, options: &Options, answer: &Answer) -> Option<Sweeps> {
+fn sweeps<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Option<Sweeps> {
     let planner = options.planner.field()?;
     let FieldChoice::Relaxed { equation, relaxation, measure, tolerance, max_sweeps, on: Device::Cpu, stencil } =
         planner.field

@@ -1,11 +1,10 @@
 //! Whether there is a path at all: by slabs of joint 1, else by boxes.
 
-use super::Verdict;
 use super::ladder::explain;
 use super::subdivision::certified;
 use super::thinned::Thinned;
-use cplan_core::check::{CheckedProof, Disconnection};
-use cplan_core::model::{MotionProblem, Pair};
+use cplan_core::check::{CertifiedPath, CheckedProof, Disconnection};
+use cplan_core::model::{MotionProblem, Outcome, Pair};
 use cplan_proofs::{Connectivity, connectivity, slab_connectivity, slimmed};
 
 /// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
@@ -46,7 +45,7 @@ const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 /// Unknown is no last word: [`super::solve`] knows other ways, and more boxes may tell, but among thousands of pieces: there no more
 /// than a second's worth of each are looked at.
 #[must_use]
-pub fn decide(problem: &MotionProblem, boxes: usize) -> Verdict {
+pub fn decide(problem: &MotionProblem, boxes: usize) -> Outcome<CertifiedPath, CheckedProof> {
     let pairs = |problem: &MotionProblem| problem.scene().pairs().len();
     if pairs(problem) <= MANY_PAIRS {
         let for_smaller = (boxes >= AT_FIRST[1]).then_some(BOXES_FOR_SMALLER.max(boxes));
@@ -59,9 +58,9 @@ pub fn decide(problem: &MotionProblem, boxes: usize) -> Verdict {
     };
     for lattice in LATTICES {
         let thinned = Thinned::new(problem, lattice * problem.scene().arm().reach());
-        let verdict = asked(problem, &thinned.problem, &|pair| thinned.in_truth(pair), limited(&thinned.problem));
-        if !matches!(verdict, Verdict::Unknown(_)) {
-            return verdict;
+        let decided = asked(problem, &thinned.problem, &|pair| thinned.in_truth(pair), limited(&thinned.problem));
+        if !matches!(decided, Outcome::Unknown(_)) {
+            return decided;
         }
     }
     asked(problem, problem, &|pair| pair, limited(problem))
@@ -77,7 +76,12 @@ struct Limits {
 }
 
 /// What slabs and boxes say of `some`, which is `problem` or some of it; `in_truth` names its pairs in `problem`.
-fn asked(problem: &MotionProblem, some: &MotionProblem, in_truth: &dyn Fn(Pair) -> Pair, limits: Limits) -> Verdict {
+fn asked(
+    problem: &MotionProblem,
+    some: &MotionProblem,
+    in_truth: &dyn Fn(Pair) -> Pair,
+    limits: Limits,
+) -> Outcome<CertifiedPath, CheckedProof> {
     let (scene, start, goals) = (some.scene(), some.start(), some.goals());
     let clearance = scene.workspace().clearance;
     let by_boxes = |boxes: usize| judged(problem, in_truth, connectivity(scene, start, goals, clearance, boxes));
@@ -86,32 +90,36 @@ fn asked(problem: &MotionProblem, some: &MotionProblem, in_truth: &dyn Fn(Pair) 
     let either = |slabs: usize, boxes: usize| match (by_slabs(slabs, proof), limits.for_smaller) {
         // There is none, but slabs take no end of boxes to state it.
         (Connectivity::Undecided { closed: true, .. }, Some(for_smaller)) => match by_boxes(for_smaller) {
-            Verdict::Unknown(_) => judged(problem, in_truth, by_slabs(slabs, LARGEST_PROOF)),
+            Outcome::Unknown(_) => judged(problem, in_truth, by_slabs(slabs, LARGEST_PROOF)),
             known => known,
         },
         (answer, _) => match judged(problem, in_truth, answer) {
-            Verdict::Unknown(_) => by_boxes(boxes),
+            Outcome::Unknown(_) => by_boxes(boxes),
             known => known,
         },
     };
     let [slabs, boxes] = AT_FIRST;
     match either(limits.slabs.min(slabs), limits.boxes.min(boxes)) {
-        Verdict::Unknown(_) if limits.slabs > slabs || limits.boxes > boxes => either(limits.slabs, limits.boxes),
-        verdict => verdict,
+        Outcome::Unknown(_) if limits.slabs > slabs || limits.boxes > boxes => either(limits.slabs, limits.boxes),
+        decided => decided,
     }
 }
 
 /// What a search's answer is worth.
-fn judged(problem: &MotionProblem, in_truth: &dyn Fn(Pair) -> Pair, answer: Connectivity) -> Verdict {
+fn judged(
+    problem: &MotionProblem,
+    in_truth: &dyn Fn(Pair) -> Pair,
+    answer: Connectivity,
+) -> Outcome<CertifiedPath, CheckedProof> {
     match answer {
         Connectivity::Connected(channel) => certified(problem, &channel).map_or_else(
-            |rejection| Verdict::Unknown(format!("its path is not certified: {}", explain(problem.scene(), rejection))),
-            Verdict::Found,
+            |rejection| Outcome::Unknown(format!("its path is not certified: {}", explain(problem.scene(), rejection))),
+            Outcome::Found,
         ),
         Connectivity::Disconnected(proof) => checked(problem, proof.of_pairs(in_truth))
-            .map_or_else(|| Verdict::Unknown("the proof that there is none does not hold".into()), Verdict::Infeasible),
+            .map_or_else(|| Outcome::Unknown("the proof that there is none does not hold".into()), Outcome::Infeasible),
         Connectivity::Undecided { boxes, .. } => {
-            Verdict::Unknown(format!("{boxes} boxes do not tell whether there is a path"))
+            Outcome::Unknown(format!("{boxes} boxes do not tell whether there is a path"))
         }
     }
 }

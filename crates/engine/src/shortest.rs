@@ -11,9 +11,9 @@ use super::corners::fewer_corners;
 use super::first::answer;
 use super::ladder::{CLOSE, FIRST_BOXES, Request, by_visibility};
 use super::settle::decide;
-use super::{Answer, Method, Options, Stages, Verdict};
+use super::{Answer, BoundedPath, Method, Options, Stages};
 use cplan_core::check::{CertifiedPath, certify};
-use cplan_core::model::MotionProblem;
+use cplan_core::model::{MotionProblem, Outcome};
 use cplan_core::planner::{Size, Trace};
 use cplan_interrupt::Instant;
 use cplan_proofs::{Motions, Proposed, Refused, short_motion};
@@ -44,8 +44,8 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let clock = Instant::now();
     let first = decide(problem, options.boxes.min(FIRST_BOXES));
     let stages = Stages { query: clock.elapsed(), ..Stages::default() };
-    if matches!(first, Verdict::Found(_))
-        && problem.scene().arm().is_gantry()
+    if problem.scene().arm().is_gantry()
+        && let Outcome::Found(_) = first
         && problem.scene().pairs().len() <= FEW_POLYGONS
         && let Some(answer) = among_polygons(problem, options, stages)
     {
@@ -53,37 +53,36 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     }
     let mut by_graph = || by_visibility(Request { problem, options, progress });
     let (own, by_graph) = match first {
-        Verdict::Infeasible(_) => return answer(Method::Shortest, first, stages),
+        Outcome::Infeasible(_) => return answer(Method::Shortest, first, stages),
         // Among so many pieces polygons, which cover them by fewer, are the better way.
-        Verdict::Found(_) if problem.scene().pairs().len() > MOST_PAIRS => {
+        Outcome::Found(_) if problem.scene().pairs().len() > MOST_PAIRS => {
             let by_graph = by_graph();
             let own = answer(Method::Shortest, first, stages);
             (own, by_graph)
         }
-        Verdict::Found(path) => {
+        Outcome::Found(path) => {
             let own = shorter(problem, options, path, stages);
             if is_content(&own, options) {
                 return own;
             }
             (own, by_graph())
         }
-        Verdict::Unknown(_) => {
+        Outcome::Unknown(_) => {
             let by_graph = by_graph();
-            let Verdict::Found(path) = &by_graph.verdict else {
+            let Outcome::Found(path) = &by_graph.outcome else {
                 return Answer { stages: by_graph.stages + stages, ..by_graph };
             };
-            (shorter(problem, options, path.clone(), stages), by_graph)
+            (shorter(problem, options, path.certified.clone(), stages), by_graph)
         }
     };
-    let length = |answer: &Answer| match &answer.verdict {
-        Verdict::Found(path) => metric.length(path.path()),
-        _ => f64::INFINITY,
-    };
-    let lower = [&own, &by_graph].into_iter().filter_map(|answer| answer.bound).map(|b| b.lower).fold(0.0, f64::max);
+    let length = |answer: &Answer| answer.path().map_or(f64::INFINITY, |path| metric.length(path));
+    let lower = [&own, &by_graph].into_iter().filter_map(|answer| answer.bound()).map(|b| b.lower).fold(0.0, f64::max);
     let stages = own.stages + by_graph.stages;
     let mut best = if length(&own) <= length(&by_graph) { own } else { by_graph };
     best.stages = stages;
-    best.bound = best.bound.map(|bound| Bound { lower, ..bound });
+    if let Outcome::Found(BoundedPath { bound: Some(bound), .. }) = &mut best.outcome {
+        bound.lower = lower;
+    }
     best
 }
 
@@ -99,16 +98,15 @@ fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) ->
     let options = &Options { planner, ..*options };
     let mut answer = by_visibility(Request { problem, options, progress: &mut |_| () });
     answer.stages = answer.stages + stages;
-    let Verdict::Found(path) = &answer.verdict else { return None };
+    let path = answer.outcome.found()?;
     if !is_content(&answer, options) {
         return None;
     }
     let (metric, clock) = (planner.metric(scene.arm()), Instant::now());
     let upper = metric.length(path.path());
-    let room = room(upper, answer.bound.map(|bound| bound.lower), gap);
+    let room = room(upper, path.bound.map(|bound| bound.lower), gap);
     if let Some(fewer) = fewer_corners(scene, path.path(), metric, room) {
-        answer.bound = answer.bound.map(|bound| Bound { upper: metric.length(fewer.path()), ..bound });
-        answer.verdict = Verdict::Found(fewer);
+        answer.outcome = Outcome::Found(path.replaced_by(fewer));
     }
     answer.stages.query += clock.elapsed();
     Some(answer)
@@ -116,7 +114,7 @@ fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) ->
 
 /// Whether there is nothing to be made better.
 fn is_content(answer: &Answer, options: &Options) -> bool {
-    !options.bounded || answer.bound.is_some_and(|bound| bound.gap() <= options.planner.gap().unwrap_or(CLOSE))
+    !options.bounded || answer.bound().is_some_and(|bound| bound.gap() <= options.planner.gap().unwrap_or(CLOSE))
 }
 
 /// The answer that begins with a first path: a shorter one in its place, if one is found and certified.
@@ -172,8 +170,10 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
     }
     stages.bound += bounding.took;
     stages.query += clock.elapsed() - bounding.took;
-    let mut answer = answer(Method::Shortest, Verdict::Found(path), stages);
-    answer.bound = options.bounded.then_some(Bound { metric, lower: bounding.lower, upper });
+    let mut answer = answer(Method::Shortest, Outcome::Found(path), stages);
+    if let Outcome::Found(path) = &mut answer.outcome {
+        path.bound = options.bounded.then_some(Bound { metric, lower: bounding.lower, upper });
+    }
     if !free.is_empty() {
         answer.run.size = Size::Slices { slices: free.len() };
         answer.run.trace = Trace::Slices { free };

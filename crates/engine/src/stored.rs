@@ -6,30 +6,38 @@
 //! A plan is a problem, options and the result. Only `check` certifies, so nothing that a file states is believed: reading plans
 //! again and compares. The same input gives the same output, so a difference is a change of the file, or another version's answer.
 
-use super::Kind;
 use super::options::Options;
 use super::plan::{Plan, plan};
-use super::problem::{Asked, Problem};
+use super::problem::{MotionOrTask, Problem};
 use cplan_core::model::{Driver, MotionProblem, RobotJoints, Scene, Task, TaskError, ToolJoint};
 use cplan_robot::RobotReport;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
+use std::borrow::Cow;
 
 /// What a problem is made of.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct ProblemRecord<W> {
-    asked: W,
+struct ProblemRecord<'a> {
+    asked: TargetRecord<'a>,
     robot: RobotReport,
     notes: Vec<String>,
 }
 
+/// What is asked for.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum TargetRecord<'a> {
+    Motion(Cow<'a, MotionProblem>),
+    Task(Cow<'a, Task>),
+}
+
 impl Serialize for Problem {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let asked = match self.asked() {
-            Asked::Motion(motion) => Kind::Motion(motion),
-            Asked::Task((task, _)) => Kind::Task(task),
+        let asked = match self.content() {
+            MotionOrTask::Motion(motion) => TargetRecord::Motion(Cow::Borrowed(motion)),
+            MotionOrTask::Task(task, _) => TargetRecord::Task(Cow::Borrowed(task)),
         };
         ProblemRecord { asked, robot: self.robot().clone(), notes: self.notes().to_vec() }.serialize(serializer)
     }
@@ -37,25 +45,25 @@ impl Serialize for Problem {
 
 impl<'de> Deserialize<'de> for Problem {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let ProblemRecord { asked, robot, notes } =
-            ProblemRecord::<Kind<MotionProblem, Task>>::deserialize(deserializer)?;
+        let ProblemRecord { asked, robot, notes } = ProblemRecord::deserialize(deserializer)?;
         if !are_joints(&robot.joints) {
             return Err(D::Error::custom(
                 "the robot's joints need finite numbers within their ranges, and planned ones are 0 and 1",
             ));
         }
-        let asked = match asked {
-            Kind::Motion(motion) => Asked::Motion(motion),
-            Kind::Task(mut task) => {
+        let content = match asked {
+            TargetRecord::Motion(motion) => MotionOrTask::Motion(motion.into_owned()),
+            TargetRecord::Task(task) => {
+                let mut task = task.into_owned();
                 task.hold_shapes();
                 let scene: Result<Scene, TaskError> = task.check();
                 if robot.joints.stroke.is_some() && robot.joints.stroke != task.stroke {
                     return Err(D::Error::custom("the robot's stroke is not the task's"));
                 }
-                Asked::Task((task, scene.map_err(D::Error::custom)?))
+                MotionOrTask::Task(task, scene.map_err(D::Error::custom)?)
             }
         };
-        Ok(Self::read(asked, robot, notes))
+        Ok(Self::read(content, robot, notes))
     }
 }
 
@@ -100,7 +108,7 @@ impl<'de> Deserialize<'de> for Plan {
 
 /// The result without the times that it took, which differ from run to run.
 fn result(plan: &Plan) -> serde_json::Result<Value> {
-    let mut result = serde_json::to_value(plan.report())?;
+    let mut result = serde_json::to_value(plan.result(&[]))?;
     if let Value::Object(fields) = &mut result {
         fields.remove("timings");
     }

@@ -2,10 +2,10 @@
 
 use super::ladder::{Request, explain};
 use super::settle::checked;
-use super::{Answer, Method, Space, Stages, Verdict};
+use super::{Answer, Method, Space, Stages, Unknown};
 use cplan_core::check::CertifiedPath;
 use cplan_core::check::{Rejection, certify};
-use cplan_core::model::MotionProblem;
+use cplan_core::model::{MotionProblem, Outcome};
 use cplan_core::planner::{PathKind, Proposal, Run, Size, Trace};
 use cplan_core::space::{Configuration, Path, Portal, funnel_path, nearest_end};
 use cplan_geometry::Point;
@@ -24,7 +24,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let trace = trace(&exploration);
     stages.query = clock.elapsed();
     let clock = Instant::now();
-    let (outcome, verdict) = match exploration.answer {
+    let (proposal, outcome) = match exploration.answer {
         Connectivity::Connected(channel) => {
             let certified = match options.planner.path_kind() {
                 PathKind::Own | PathKind::Middles => certify(scene, channel.path(), clearance),
@@ -32,35 +32,32 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
             };
             stages.certify = clock.elapsed();
             match certified {
-                Ok(path) => (Proposal::Found(path.path().clone()), Verdict::Found(path)),
+                Ok(path) => (Proposal::Found(path.path().clone()), Outcome::Found(path.into())),
                 Err(rejection) => {
                     let reason = format!("its path is not certified: {}", explain(scene, rejection));
-                    (Proposal::Found(channel.path()), Verdict::Unknown(reason))
+                    (Proposal::Found(channel.path()), Outcome::Unknown(reason.into()))
                 }
             }
         }
         Connectivity::Disconnected(proof) => {
             let proof = checked(problem, proof);
             stages.prove = clock.elapsed();
-            let refused = || Verdict::Unknown("its proof does not hold".into());
-            let verdict = proof.map_or_else(refused, Verdict::Infeasible);
-            (Proposal::NoPath, verdict)
+            let refused = || Outcome::Unknown("its proof does not hold".to_owned().into());
+            (Proposal::NoPath, proof.map_or_else(refused, Outcome::Infeasible))
         }
         Connectivity::Undecided { boxes, .. } => {
             let reason = format!("{boxes} boxes do not tell whether there is a path");
-            (Proposal::GaveUp(reason.clone()), Verdict::Unknown(reason))
+            (Proposal::GaveUp(reason.clone()), Outcome::Unknown(reason.into()))
         }
     };
-    if let Verdict::Unknown(reason) = &verdict {
+    if let Outcome::Unknown(Unknown { reason, .. }) = &outcome {
         progress(&format!("{}: {reason}", Method::Subdivision));
     }
-    let run = Run { outcome, trace, size, note: None };
+    let run = Run { outcome: proposal, trace, size, note: None };
     Answer {
         method: Method::Subdivision,
-        verdict,
-        path: options.planner.path_kind(),
-        witness: None,
-        bound: None,
+        outcome,
+        path_kind: options.planner.path_kind(),
         history: Vec::new(),
         run,
         space: Space::Scene,

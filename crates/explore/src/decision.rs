@@ -8,9 +8,9 @@ use super::settings::Strategy;
 use super::wall::{self, Heading, Place};
 use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::cspace::Grid;
-use cplan_core::model::{MotionProblem, Scene};
+use cplan_core::model::{MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, GoalSet, Path, Segment};
-use cplan_engine::{Options, Verdict, solve};
+use cplan_engine::{Options, Unknown, solve};
 use cplan_harmonic::{Component, Lattice, harmonic_way};
 use cplan_interrupt::checkpoint;
 use cplan_text::{counted, listed};
@@ -269,16 +269,16 @@ impl Explorer<'_> {
             Ok(problem) => problem,
             Err(ending) => return Decision::Done(ending),
         };
-        let optimistic = match solve(&problem, &self.settings.options, &mut |_| ()).verdict {
-            Verdict::Found(path) => path,
-            Verdict::Infeasible(proof) => {
+        let optimistic = match solve(&problem, &self.settings.options, &mut |_| ()).outcome {
+            Outcome::Found(path) => path,
+            Outcome::Infeasible(proof) => {
                 let boxes = counted(proof.stuck().len(), "box");
                 let why =
                     format!("proven: separated from the goal by {boxes} of configurations that meet what was seen");
                 return Decision::Done(Ending::Unreachable(why));
             }
             // Its planner may give up, as in a trap: others see farther.
-            Verdict::Unknown(_) => return self.detour(goals, &BTreeSet::new()),
+            Outcome::Unknown(_) => return self.detour(goals, &BTreeSet::new()),
         };
         let places = places(optimistic.path(), self.sensor.step);
         let (motions, mut free) = (straight_motions(&self.solid), vec![self.at]);
@@ -344,12 +344,14 @@ impl Explorer<'_> {
             Err(ending) => return Decision::Done(ending),
         };
         let options = Options { bounded: false, ..Options::default() };
-        Decision::Done(match solve(&problem, &options, &mut |_| ()).verdict {
-            Verdict::Found(path) => return Decision::Go(path, None),
-            Verdict::Infeasible(_) => {
+        Decision::Done(match solve(&problem, &options, &mut |_| ()).outcome {
+            Outcome::Found(path) => return Decision::Go(path.certified, None),
+            Outcome::Infeasible(_) => {
                 Ending::Unreachable("nothing new can be seen, and in what is known there is no way: proven".into())
             }
-            Verdict::Unknown(why) => Ending::Unknown(format!("nothing new can be seen, and in what is known {why}")),
+            Outcome::Unknown(Unknown { reason, .. }) => {
+                Ending::Unknown(format!("nothing new can be seen, and in what is known {reason}"))
+            }
         })
     }
 }

@@ -10,7 +10,7 @@ use super::survey::Survey;
 use cplan_core::check::{CertifiedPath, certify};
 use cplan_core::model::{MotionProblem, Scene, Sensor};
 use cplan_core::space::{Configuration, Draws, GoalSet, Path};
-use cplan_engine::{Options, Verdict, solve};
+use cplan_engine::{Options, solve};
 use cplan_interrupt::Instant;
 use cplan_interrupt::checkpoint;
 use cplan_motion::Trajectory;
@@ -119,10 +119,7 @@ pub fn explore(
 fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet, settings: &Settings) -> Option<f64> {
     let problem = MotionProblem::new(scene.clone(), start, goals.clone()).ok()?;
     let options = Options { bounded: false, levels: settings.options.levels, ..Options::default() };
-    match solve(&problem, &options, &mut |_| ()).verdict {
-        Verdict::Found(path) => Some(path.path().length()),
-        Verdict::Infeasible(_) | Verdict::Unknown(_) => None,
-    }
+    solve(&problem, &options, &mut |_| ()).path().map(Path::length)
 }
 
 /// The state of the arm, and its knowledge.

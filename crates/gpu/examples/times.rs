@@ -5,7 +5,7 @@
 //! The source does not publish its states of play. Here the field is empty, with a goal in the middle of one end and
 //! ten robots for the local drifts. So the rows are of the same kind, but sweep counts differ.
 
-use cplan_gpu::{Edge, Gpu, GpuError, Multigrid, Problem, Settings, Stencil, Sweep};
+use cplan_gpu::{Edge, Gpu, GpuError, GridEquations, Multigrid, Settings, Stencil, Sweep};
 use std::time::Instant;
 
 /// Rows and columns of the source's field.
@@ -32,7 +32,7 @@ fn local(i: usize, j: usize) -> [f64; 2] {
 }
 
 /// Walls of value 1 around, a goal of value 0.
-fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result<Problem, GpuError> {
+fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result<GridEquations, GpuError> {
     let side = |b: f64| if is_upwind { 1.0 + b.max(0.0) } else { 1.0 + 0.5 * b };
     let weights = |cell: usize| {
         let b = drift(cell / columns, cell % columns);
@@ -44,7 +44,7 @@ fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result
     let stencil = if is_plain { Stencil::Mean } else { Stencil::Weights((0..rows * columns).map(weights).collect()) };
     let mut unknown = vec![true; rows * columns];
     unknown[rows / 2 * columns + columns - 1] = false;
-    Problem::new([rows, columns], [Edge::Wall; 2], 1.0, vec![0.0; rows * columns], unknown, stencil)
+    GridEquations::new([rows, columns], [Edge::Wall; 2], 1.0, vec![0.0; rows * columns], unknown, stencil)
 }
 
 /// Returns `4 / (2 + sqrt(4 - c^2))`, where `c` is the sum of the cosines of pi divided by the number of cells (Young

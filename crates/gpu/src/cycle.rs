@@ -3,7 +3,7 @@
 use super::buffers::blocks;
 use super::levels::Level;
 use super::relax::turns;
-use super::{Edge, Gpu, GpuError, Problem};
+use super::{Edge, Gpu, GpuError, GridEquations};
 
 /// Sweeps before and after each correction.
 const SMOOTHING: usize = 2;
@@ -58,7 +58,7 @@ impl Cycle {
         let stage = |k: usize| {
             let level = &levels[k];
             let coarse = levels.get(k + 1).map_or([0; 2], |coarse| coarse.cells);
-            let odd = Problem::odd_circles(level.cells, level.edges);
+            let odd = GridEquations::odd_circles(level.cells, level.edges);
             let mirrors = u32::from(level.edges[0] == Edge::Mirror) + 2 * u32::from(level.edges[1] == Edge::Mirror);
             let [rows, columns] = level.cells.map(|n| n as u32);
             let [coarse_rows, coarse_columns] = coarse.map(|n| n as u32);

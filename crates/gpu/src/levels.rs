@@ -1,6 +1,6 @@
 //! A hierarchy of coarser grids with their equations.
 
-use super::{Edge, Problem};
+use super::{Edge, GridEquations};
 
 /// Factor by which the diffusion between blocks of 2 x 2 cells is reduced. In open space, 2 would be exact, because
 /// block centres are twice as far apart. A slightly smaller value keeps corrections small where blocks meet walls, so
@@ -25,8 +25,8 @@ pub(super) struct Level {
 const BACK: [usize; 4] = [1, 0, 3, 2];
 
 impl Level {
-    /// Creates the finest level: the problem's weights, with `1 - weight` on mirrored sides.
-    pub fn finest(problem: &Problem, weights: impl Fn(usize) -> [f64; 4]) -> Self {
+    /// The finest: the problem's weights, `1 - weight` for sides at which the cell meets itself.
+    pub fn finest(problem: &GridEquations, weights: impl Fn(usize) -> [f64; 4]) -> Self {
         let count = problem.values.len();
         let mut level =
             Self { cells: problem.cells, edges: problem.edges, own: vec![0.0; count], sides: vec![[0.0; 4]; count] };

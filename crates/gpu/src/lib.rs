@@ -13,7 +13,7 @@
 //!
 //! // A row between 1 and 0: the values in between are on a straight line.
 //! let unknown = vec![false, true, true, false];
-//! let problem = Problem::new([1, 4], [Edge::Mirror; 2], 0.0, vec![1.0, 0.0, 0.0, 0.0], unknown, Stencil::Weights(
+//! let problem = GridEquations::new([1, 4], [Edge::Mirror; 2], 0.0, vec![1.0, 0.0, 0.0, 0.0], unknown, Stencil::Weights(
 //!     vec![[0.0, 0.0, 0.5, 0.5]; 4],
 //! ))?;
 //! let gpu = Gpu::open()?;
@@ -48,12 +48,12 @@ mod gpu;
 mod half;
 mod levels;
 mod multigrid;
-mod problem;
+mod grid_equations;
 mod relax;
 mod rule;
 
 pub use gpu::{Gpu, GpuError};
+pub use grid_equations::{Edge, GridEquations, Stencil};
 pub use multigrid::{Multigrid, Solution};
-pub use problem::{Edge, Problem, Stencil};
 pub use relax::Relaxed;
 pub use rule::{Ending, Measure, Settings, Sweep};

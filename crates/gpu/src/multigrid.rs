@@ -3,7 +3,7 @@
 use super::buffers::watched;
 use super::cycle::Cycle;
 use super::levels::Level;
-use super::{Gpu, GpuError, Problem, Stencil};
+use super::{Gpu, GpuError, GridEquations, Stencil};
 use cplan_interrupt::checkpoint;
 
 /// Stopping rule of multigrid.
@@ -53,10 +53,10 @@ impl Gpu {
     /// 2`.
     ///
     /// # Errors
-    /// [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear; [`GpuError::TooLarge`],
-    /// [`GpuError::Failed`]. A failure to converge is not an error: see [`Solution::converged`]. Central differences
-    /// with drifts of 2 or more per cell, or unknowns that no given value reaches, may not converge.
-    pub fn solve(&self, problem: &Problem, settings: &Multigrid) -> Result<Solution, GpuError> {
+    /// [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear; [`GpuError::TooLarge`], [`GpuError::Failed`]. That it does
+    /// not converge (drifts by central differences of 2 and more a cell, unknowns that no given value reaches) is no error:
+    /// [`Solution::converged`] says so.
+    pub fn solve(&self, problem: &GridEquations, settings: &Multigrid) -> Result<Solution, GpuError> {
         let weights = |cell: usize| match &problem.stencil {
             Stencil::Weights(weights) => weights[cell],
             Stencil::Mean | Stencil::Altered(_) => [0.25; 4],
@@ -117,7 +117,7 @@ impl Gpu {
 
 /// Computes the residual of each cell, and the greatest one as a fraction of the greatest value. `O(cells)`.
 fn residual(
-    problem: &Problem,
+    problem: &GridEquations,
     finest: &Level,
     weights: &impl Fn(usize) -> [f64; 4],
     values: &[f64],

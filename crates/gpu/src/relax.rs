@@ -3,7 +3,7 @@
 use super::buffers::{blocks, watched};
 use super::half::Half;
 use super::rule::{Rule, State};
-use super::{Ending, Gpu, GpuError, Problem, Settings, Stencil, Sweep};
+use super::{Ending, Gpu, GpuError, GridEquations, Settings, Stencil, Sweep};
 use cplan_interrupt::checkpoint;
 
 /// A relaxed field.
@@ -57,7 +57,7 @@ impl Gpu {
     /// # Errors
     /// [`GpuError::Refused`] for settings that make no sense, [`GpuError::Diverged`], [`GpuError::TooLarge`], [`GpuError::Failed`].
     /// A relaxation that does not converge is no error: its [`Ending`] says so.
-    pub fn relax(&self, problem: &Problem, settings: &Settings) -> Result<Relaxed, GpuError> {
+    pub fn relax(&self, problem: &GridEquations, settings: &Settings) -> Result<Relaxed, GpuError> {
         if let Some(refusal) = settings.refusal() {
             return Err(refusal);
         }
@@ -69,10 +69,10 @@ impl Gpu {
         watched(&self.device, || self.relax_all(problem, settings))
     }
 
-    fn relax_all(&self, problem: &Problem, settings: &Settings) -> Result<Relaxed, GpuError> {
+    fn relax_all(&self, problem: &GridEquations, settings: &Settings) -> Result<Relaxed, GpuError> {
         let half = Half::new(problem.cells);
         let [across, down] = blocks(half.half, half.rows);
-        let odd = Problem::odd_circles(problem.cells, problem.edges);
+        let odd = GridEquations::odd_circles(problem.cells, problem.edges);
         let turns = turns(odd, across * down);
         let rule = rule(problem, settings, half, odd, turns.len() as u32 * across * down);
         let start = half.spread(|cell| problem.values[cell] as f32);
@@ -156,13 +156,13 @@ fn greatest(values: &[f64]) -> f32 {
     values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs())) as f32
 }
 
-/// Returns the bound above which values count as diverged.
-fn beyond(problem: &Problem) -> f32 {
+/// Above this, values are lost.
+fn beyond(problem: &GridEquations) -> f32 {
     let greatest = greatest(&problem.values).max(problem.outside.abs() as f32);
     if greatest > 0.0 { (BEYOND * greatest).min(f32::MAX / 2.0) } else { BEYOND }
 }
 
-fn diverged(values: &[f64], problem: &Problem, sweeps: u32) -> GpuError {
+fn diverged(values: &[f64], problem: &GridEquations, sweeps: u32) -> GpuError {
     let bound = f64::from(beyond(problem));
     // NaN also counts as diverged. The first such value may have been overwritten; then report the greatest.
     let lost = values.iter().position(|value| value.is_nan() || value.abs() > bound);
@@ -171,7 +171,7 @@ fn diverged(values: &[f64], problem: &Problem, sweeps: u32) -> GpuError {
     GpuError::Diverged { sweeps, cell: [at / problem.cells[1], at % problem.cells[1]], value: values[at] }
 }
 
-fn rule(problem: &Problem, settings: &Settings, half: Half, odd: u32, blocks: u32) -> Rule {
+fn rule(problem: &GridEquations, settings: &Settings, half: Half, odd: u32, blocks: u32) -> Rule {
     let [low, high] = settings.clamp.map_or([-f32::MAX, f32::MAX], |range| range.map(|bound| bound as f32));
     Rule {
         rows: half.rows as u32,

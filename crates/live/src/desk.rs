@@ -1,77 +1,29 @@
 //! The session of one page: a text, edited by the page, and the answers to its requests.
 
 use super::Host;
+use super::answer::{Answering, Deadlines, Spent, refused, time_up};
 use super::blocked;
 use super::contours::Contours;
 use super::document::Document;
 use super::files;
 use super::menus;
 use super::options::Options;
+use super::pace::Pace;
 use super::protocol::{
     About, AnswerReply, Ask, Begin, Files, JointReply, Message, Pair, PieceReply, Reply, Request, WorldReply,
 };
-use super::result;
-use cplan_core::model::{Arm, Goal, Scene, inverse, within};
-use cplan_core::space::{Configuration, JointRange, Measure, Metric, Segment};
-use cplan_engine::{Method, Problem};
+use cplan_core::model::{Arm, inverse, within};
+use cplan_core::space::{Configuration, JointRange};
+use cplan_engine::Method;
 use cplan_geometry::Point;
 use cplan_interrupt::{Instant, Interrupt, Interrupted};
 use cplan_world::{LoadedScene, Overrides};
-use serde::Deserialize;
-use std::cell::Cell;
 use std::sync::Arc;
-use std::time::Duration;
-
-/// Time for a plan during a drag. Drawing the picture, with or without a plan, takes a little longer. In total, a page
-/// should be updated ten times per second.
-const DRAG_TIME: Duration = Duration::from_millis(60);
-
-/// Number of requests during a drag for which no plan is tried, after a plan that was not finished in time.
-const UNTRIED: u32 = 7;
-
-/// Time for the picture without a plan, when the time for the plan is up: as much again, but within these limits.
-const SHOW_TIME: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(5)];
 
 /// Number of bisection steps towards a place that the tip does not reach.
 const BISECTIONS: usize = 24;
 
-/// The stages of a request whose time is up already. Some hosts can stop slow work only by ending the program with all
-/// its state; a new instance then does the rest of the request.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Spent {
-    /// No stage: do everything.
-    #[default]
-    Nothing,
-    /// The time for the plan: show the picture without a plan.
-    Plan,
-    /// The time for everything.
-    All,
-}
-
-/// The remaining time, from now on.
-struct Left {
-    /// Time for a plan during a drag.
-    drag: Duration,
-    /// Time for a plan.
-    plan: Duration,
-    /// Time for a plan and for the picture that is shown instead.
-    show: Duration,
-}
-
-impl Spent {
-    /// Returns the remaining time if a plan may take `time`.
-    fn left(self, time: Duration) -> Left {
-        let show = time.clamp(SHOW_TIME[0], SHOW_TIME[1]);
-        match self {
-            Self::Nothing => Left { drag: DRAG_TIME, plan: time, show: time + show },
-            Self::Plan => Left { drag: Duration::ZERO, plan: Duration::ZERO, show },
-            Self::All => Left { drag: Duration::ZERO, plan: Duration::ZERO, show: Duration::ZERO },
-        }
-    }
-}
-
-/// A page's text and its content.
+/// A page's text and what it says.
 pub struct Desk {
     /// Initial state of the program.
     own: Arc<Host>,
@@ -83,27 +35,6 @@ pub struct Desk {
     scene: LoadedScene,
     contours: Contours,
     pace: Pace,
-}
-
-/// A record of whether plans keep up with a drag. Plans that do not would only delay the rest of the page.
-#[derive(Default)]
-struct Pace {
-    untried: Cell<u32>,
-}
-
-impl Pace {
-    /// Plans, unless recent plans were too slow.
-    fn tries<T>(&self, plan: impl FnOnce() -> Result<T, Interrupted>) -> Option<Result<T, Interrupted>> {
-        if self.untried.get() > 0 {
-            self.untried.update(|left| left - 1);
-            return None;
-        }
-        let result = plan();
-        if matches!(result, Err(Interrupted::TimeUp)) {
-            self.untried.set(UNTRIED);
-        }
-        Some(result)
-    }
 }
 
 impl Desk {
@@ -191,8 +122,8 @@ impl Desk {
         let host = match files {
             None => Arc::clone(&own),
             Some(files) => {
-                let limited = Interrupt::new().by(Instant::now() + spent.left(own.time).plan);
-                let brought = limited.run(|| Host::brought(files.clone(), own.time));
+                let deadlines = Deadlines::new(&Interrupt::new(), spent, own.time);
+                let brought = deadlines.plan.run(|| Host::brought(files.clone(), own.time));
                 Arc::new(brought.unwrap_or_else(|_| Err(time_up(own.time)))?)
             }
         };
@@ -209,9 +140,9 @@ impl Desk {
         (interrupt, spent): (&Interrupt, Spent),
         tell: &mut dyn FnMut(Reply),
     ) {
-        // Newer requests do not stop it, because they may refer to the text that it loads.
-        let limited = Interrupt::new().by(Instant::now() + spent.left(self.host.time).plan);
-        let read = limited.run(|| self.host.read(text)).unwrap_or_else(|_| Err(time_up(self.host.time)));
+        // Newer requests do not stop it: they may speak of what it loads.
+        let deadlines = Deadlines::new(&Interrupt::new(), spent, self.host.time);
+        let read = deadlines.plan.run(|| self.host.read(text)).unwrap_or_else(|_| Err(time_up(self.host.time)));
         match read {
             Ok((document, scene)) => {
                 (self.document, self.scene) = (document, scene);
@@ -248,95 +179,37 @@ impl Desk {
         spent: Spent,
         tell: &mut dyn FnMut(AnswerReply),
     ) -> Result<AnswerReply, Interrupted> {
-        let (begun, left) = (Instant::now(), spent.left(self.host.time));
-        let refused = |about: About, error: String| {
-            Ok(AnswerReply { error: Some(error), about: Some(about), ..AnswerReply::default() })
-        };
+        let deadlines = Deadlines::new(interrupt, spent, self.host.time);
         let options = match Options::parse(&ask.options) {
             Ok(options) => options,
-            Err(error) => return refused(About::Options, error),
+            Err(error) => return Ok(refused(About::Options, error)),
         };
         let text = match self.text(ask) {
             Ok(text) => text,
-            Err(error) => return refused(About::World, error),
+            Err(error) => return Ok(refused(About::World, error)),
         };
         let source = self.host.world.with_text(text.as_str());
-        let limited = interrupt.clone().by(begun + left.plan);
-        // A picture that replaces an answer must not take much longer than the answer would have.
-        let showing = interrupt.clone().by(begun + left.show);
-        let late = || Ok(late(self.host.time));
-        let loaded = match showing.run(|| self.scene.edited(&self.host.urdf, source)) {
+        let loaded = match deadlines.show.run(|| self.scene.edited(&self.host.urdf, source)) {
             Ok(Ok(loaded)) => loaded,
             Ok(Err(error)) => return Ok(blocked::unread(&error)),
-            Err(stopped) => return or_late(stopped, late),
+            Err(stopped) => return deadlines.late(stopped),
         };
-        let toml = ask.is_final.then_some(text);
         let options = match options.within(&loaded.scene) {
             Ok(options) => options,
-            Err(error) => return refused(About::Options, error),
+            Err(error) => return Ok(refused(About::Options, error)),
         };
+        let toml = ask.is_final.then_some(text);
+        let (contours, think) = (&self.contours, ask.think);
+        let answering = Answering { options, contours, deadlines: &deadlines, think, toml };
         if loaded.has_steps() {
-            let problem = match Problem::of_scene(loaded, &Overrides::default()) {
-                Ok(problem) => problem,
-                Err(error) => return refused(About::World, error.to_string()),
-            };
-            return match limited.run(|| result::in_full(&problem, options, &self.contours, ask.think)) {
-                Ok(Ok(answer)) => Ok(AnswerReply { toml, ..answer }),
-                Ok(Err(error)) => refused(About::Options, error),
-                Err(stopped) => Ok(AnswerReply { toml, ..or_late(stopped, late)? }),
-            };
+            return answering.task(loaded);
         }
-        let bare = |scene: &Scene, ends: (Configuration, &[Segment]), status: &str| {
-            let shown = showing.run(|| result::bare(scene, ends, status, &self.contours));
-            shown.or_else(|stopped| or_late(stopped, || Ok(AnswerReply::default())))
-        };
-        let asked = loaded.clone().problem(&Overrides::default());
-        let problem = match asked.map(Problem::from) {
-            Ok(problem) => problem,
+        match loaded.clone().problem(&Overrides::default()) {
+            Ok(problem) if ask.is_final => answering.in_full(problem, tell),
+            Ok(problem) => answering.quick(problem, &self.pace),
             Err(error) => {
-                let start =
-                    ask.state.as_ref().and_then(|state| self.begin(state.start)).or_else(|| self.document.start());
-                let at = start.map_or_else(Configuration::zeros, Configuration::from);
-                let refusal = blocked::refusal(&loaded, &error, at);
-                let goal: Vec<_> = match loaded.given() {
-                    [_, Some(Goal::Joints(q))] => vec![Segment::point(q)],
-                    _ => Vec::new(),
-                };
-                let shown = bare(&loaded.scene, (at, &goal), "not planned")?;
-                return Ok(AnswerReply { toml, start, view: shown.view, ..refusal });
-            }
-        };
-        let Some(motion) = problem.motion() else { return refused(About::World, "this world has steps".into()) };
-        let (start, goals) = (motion.start(), motion.goals().pieces());
-        let places = |answer: AnswerReply| {
-            let goals = goals.iter().map(|goal| goal.nearest(Measure::from(Metric::Euclidean), start).into()).collect();
-            AnswerReply { start: Some(start.into()), goals, ..answer }
-        };
-        let (scene, ends) = (problem.scene(), (start, goals));
-        if !ask.is_final {
-            let planning = interrupt.clone().by(begun + left.drag);
-            let plan = || result::quick(&problem, options, &self.contours);
-            return match self.pace.tries(|| planning.run(plan)) {
-                Some(Ok(Ok(answer))) => Ok(places(answer)),
-                Some(Ok(Err(error))) => refused(About::Options, error),
-                Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
-                None | Some(Err(Interrupted::TimeUp)) => {
-                    let reason = Some("not decided while something moves".into());
-                    Ok(places(AnswerReply { reason, ..bare(scene, ends, "planning")? }))
-                }
-            };
-        }
-        match limited.run(|| result::bare(scene, ends, "planning", &self.contours)) {
-            Ok(shown) => tell(places(shown)),
-            Err(Interrupted::TimeUp) => {}
-            Err(Interrupted::Set) => return Err(Interrupted::Set),
-        }
-        match limited.run(|| result::in_full(&problem, options, &self.contours, ask.think)) {
-            Ok(Ok(answer)) => Ok(AnswerReply { toml, ..places(answer) }),
-            Ok(Err(error)) => refused(About::Options, error),
-            Err(stopped) => {
-                let AnswerReply { verdict, reason, .. } = or_late(stopped, late)?;
-                Ok(places(AnswerReply { verdict, reason, toml, ..bare(scene, ends, "unknown")? }))
+                let start = ask.state.as_ref().and_then(|state| self.begin(state.start));
+                answering.blocked(&loaded, &error, start.or_else(|| self.document.start()))
             }
         }
     }
@@ -359,8 +232,8 @@ impl Desk {
         let options = Options::parse(&ask.options)?;
         let source = self.host.world.with_text(text.as_str());
         let loaded = self.scene.edited(&self.host.urdf, source).map_err(|error| error.to_string())?;
-        let limited = interrupt.clone().by(Instant::now() + spent.left(self.host.time).plan);
-        match limited.run(|| files::content(loaded, &options, format)) {
+        let deadlines = Deadlines::new(interrupt, spent, self.host.time);
+        match deadlines.plan.run(|| files::content(loaded, &options, format)) {
             Ok(content) => Ok((format!("plan.{format}"), content?)),
             Err(Interrupted::Set) => Err("the file is not made: the page has changed since".into()),
             Err(Interrupted::TimeUp) => Err(format!("the file is not made: {}", time_up(self.host.time))),
@@ -388,22 +261,8 @@ impl Desk {
     }
 }
 
-/// Returns the answer if the time is up.
-fn late(limit: Duration) -> AnswerReply {
-    AnswerReply { verdict: Some("unknown"), reason: Some(time_up(limit)), ..AnswerReply::default() }
-}
-
-/// Calls `late` if the time is up. Returns the interruption if there is a newer request.
-fn or_late<T>(stopped: Interrupted, late: impl FnOnce() -> Result<T, Interrupted>) -> Result<T, Interrupted> {
-    if stopped == Interrupted::TimeUp { late() } else { Err(stopped) }
-}
-
-fn time_up(limit: Duration) -> String {
-    format!("not decided within {} s", limit.as_secs_f64())
-}
-
-/// Returns the IK solution within the limits that puts the tip at a place and is nearest to `near`. If there is none,
-/// it follows the straight line from the current place of the tip as far as the tip can follow.
+/// The IK solution within the limits that puts the tip at a place and is nearest to some configuration; where it does not reach
+/// that far, as far as it can on the straight way from where the tip is then.
 fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
     let reached = |tip: Point| nearest_ik_solution(arm, tip, near);
     if let Some(q) = reached(tip) {

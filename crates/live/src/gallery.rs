@@ -160,7 +160,7 @@ impl Gallery {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cplan_engine::{MotionPlan, Options, Plan, Problem, plan};
+    use cplan_engine::{Options, Plan, Problem, plan};
     use cplan_robot::Source;
     use cplan_world::{Overrides, scene_from};
     use std::collections::BTreeSet;
@@ -189,8 +189,8 @@ mod tests {
 
     /// Judges a solution as the page does.
     fn is_solved(puzzle: &Puzzle, plan: &Plan) -> bool {
-        let Some(MotionPlan { problem, answer, .. }) = plan.motion() else { return false };
-        let bound = answer.bound.map_or(0.0, |bound| bound.lower);
+        let Some((problem, answer)) = plan.motion() else { return false };
+        let bound = answer.bound().map_or(0.0, |bound| bound.lower);
         let clearance = problem.scene().workspace().clearance;
         plan.status().name() == puzzle.verdict
             && puzzle.length.is_none_or(|length| bound >= length)

@@ -28,6 +28,7 @@
 //!   (problems, shown in place), `scene` (state and history), `edit` (pointer and keys), `controls`, `live`.
 
 mod alone;
+mod answer;
 mod blocked;
 mod contours;
 mod desk;
@@ -36,6 +37,7 @@ mod files;
 mod gallery;
 mod menus;
 mod options;
+mod pace;
 mod page;
 mod protocol;
 mod result;
@@ -43,7 +45,8 @@ mod result;
 pub mod serve;
 
 pub use alone::Alone;
-pub use desk::{Desk, Spent};
+pub use answer::Spent;
+pub use desk::Desk;
 pub use options::Options;
 pub use page::{page, page_alone};
 pub use protocol::{Ask, Files, Message, Reply, Request};

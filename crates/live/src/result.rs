@@ -5,7 +5,7 @@ use super::protocol::{AnswerReply, Figures};
 use cplan_core::cspace::CObstacle;
 use cplan_core::model::{Scene, Status};
 use cplan_core::space::{Configuration, Segment};
-use cplan_engine::{MotionPlan, Options, Problem, Verdict, plan};
+use cplan_engine::{Detail, Options, Problem, plan};
 use cplan_view::output;
 use cplan_view::output::{replayed, view_with};
 use cplan_view::{Picture, View};
@@ -25,25 +25,24 @@ pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, cont
 /// The reason, if the requested trajectory cannot be made.
 pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
     let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
-    let report = plan.report();
-    let Some(MotionPlan { problem, answer, .. }) = plan.motion() else {
+    let Some((problem, answer)) = plan.motion() else {
         return Err("steps are not planned while something moves".into());
     };
     let contours = contours.of(problem.scene());
     let mut picture = Picture {
         trace: Some(&answer.run.trace),
-        proof: answer.verdict.proof(),
-        status: output::status(&answer.verdict).into(),
+        proof: answer.outcome.infeasible(),
+        status: output::status(plan.status()).into(),
         ending: Some(plan.status()),
         ..picture(problem.scene(), problem.start(), problem.goals().pieces(), &contours)
     };
-    let mut figures = Figures { clearance: report.clearance, ..Figures::of_size(answer.run.size) };
-    if let Verdict::Found(path) = &answer.verdict {
-        figures.length = Some(options.planner.metric(problem.scene().arm()).length(path.path()));
-        picture.paths.push((answer.method.to_string(), path.path()));
+    let mut figures = Figures { clearance: plan.clearance(), ..Figures::of_size(answer.run.size) };
+    if let Some(path) = answer.path() {
+        figures.length = Some(options.planner.metric(problem.scene().arm()).length(path));
+        picture.paths.push((answer.method.to_string(), path));
     }
     let view = drawn(&View::of_picture(&picture));
-    Ok(AnswerReply { reason: report.reason.clone(), figures, view, ..judged(plan.status()) })
+    Ok(AnswerReply { reason: plan.reason(), figures, view, ..judged(plan.status()) })
 }
 
 fn picture<'a>(
@@ -77,21 +76,22 @@ fn drawn(view: &View) -> Option<Box<RawValue>> {
 /// The reason, if the requested trajectory cannot be made.
 pub fn in_full(problem: &Problem, options: &Options, contours: &Contours, think: bool) -> Result<AnswerReply, String> {
     let plan = plan(problem, options).map_err(|error| error.to_string())?;
-    let report = plan.report();
     let view = view_with(&plan, |scene| contours.of(scene));
     let view = if think { replayed(&plan, view) } else { view };
-    let figures = if let Some(MotionPlan { answer, .. }) = plan.motion() {
-        Figures {
-            length: answer.bound.map(|bound| bound.upper).or(report.length),
-            lower_bound: answer.bound.map(|bound| bound.lower),
-            ..Figures::of_size(answer.run.size)
+    let bound = plan.bound();
+    let (size, length) = match plan.detail() {
+        Detail::Motion { answer, .. } => {
+            (answer.run.size.to_string(), bound.map(|bound| bound.upper).or_else(|| plan.length()))
         }
-    } else {
-        let motions = report.task.as_ref().map_or(0, |task| task.motions);
-        Figures::of_size(format!("{motions} motions planned"))
+        Detail::Task { answer, .. } => (format!("{} motions planned", answer.motions), None),
     };
-    let figures =
-        Figures { clearance: report.clearance, closest: report.closest.clone(), duration: report.duration, ..figures };
-    let reason = report.reason.clone();
-    Ok(AnswerReply { reason, figures, view: drawn(&view), ..judged(plan.status()) })
+    let figures = Figures {
+        length,
+        lower_bound: bound.map(|bound| bound.lower),
+        clearance: plan.clearance(),
+        closest: plan.closest(),
+        duration: plan.duration(),
+        ..Figures::of_size(size)
+    };
+    Ok(AnswerReply { reason: plan.reason(), figures, view: drawn(&view), ..judged(plan.status()) })
 }

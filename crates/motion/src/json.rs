@@ -1,7 +1,6 @@
 //! The layout of results in JSON.
 
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::{CompactFormatter, Formatter};
 use std::io::{self, Write};
 
@@ -16,15 +15,6 @@ pub fn line_a_field(object: &impl Serialize) -> String {
     object.serialize(&mut serializer).expect("string keys and a buffer that takes all");
     text.push(b'\n');
     String::from_utf8(text).expect("JSON is UTF-8")
-}
-
-/// Pairs of a name and a value as one object, in their order.
-pub fn as_map<S: Serializer>(pairs: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
-    let mut map = serializer.serialize_map(Some(pairs.len()))?;
-    for (key, value) in pairs {
-        map.serialize_entry(key, value)?;
-    }
-    map.end()
 }
 
 /// The outermost object's fields on lines of their own, all within them compact with a blank after each comma and colon.

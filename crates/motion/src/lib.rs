@@ -103,7 +103,7 @@ pub use csv::csv;
 pub use drive::{Drive, Objective};
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
-pub use json::{as_map, line_a_field};
+pub use json::line_a_field;
 pub use least::least_duration;
 pub use limits::Limits;
 pub use message::{AccelerationJump, JointMotion};

@@ -206,13 +206,13 @@ impl Study {
         if let (Some(motion), true) = (problem.motion(), self.measures.iter().all(|measure| measure.is_of_the_path())) {
             // The path is known before it is driven along.
             let answer = solve(motion, &self.options, &mut |_| ());
-            let measured = self.measures.iter().map(|measure| measure.of_path(&answer)).collect();
-            return Ok((answer.verdict.status().into(), answer.verdict.reason(), measured));
+            let (length, bound) = (answer.path().map(|path| path.length()), answer.bound());
+            let measured = self.measures.iter().map(|measure| measure.of_path(length, bound)).collect();
+            return Ok((answer.outcome.status().into(), answer.reason(), measured));
         }
         let plan = plan(&problem, &self.options).map_err(|error| error.to_string())?;
-        let report = plan.report();
-        let measured = self.measures.iter().map(|measure| measure.of(report)).collect();
-        Ok((plan.status().into(), report.reason.clone(), measured))
+        let measured = self.measures.iter().map(|measure| measure.of(&plan)).collect();
+        Ok((plan.status().into(), plan.reason(), measured))
     }
 
     /// Computes the rows of these layouts on several threads. Passes each to `each` in order, as soon as possible.

@@ -1,7 +1,6 @@
 //! Measures of layouts, and conditions on them.
 
-use cplan_core::model::Outcome;
-use cplan_engine::{Answer, Report};
+use cplan_engine::{Bound, Plan};
 use std::fmt;
 
 /// A number that a plan has.
@@ -55,16 +54,12 @@ impl Measure {
         found.ok_or_else(|| format!("\"{name}\" is not measured; there is {}", names()))
     }
 
-    /// Returns its value in a result.
-    pub(super) fn of(self, report: &Report) -> Option<f64> {
-        let bound = || report.optimum.as_ref().map(|optimum| optimum.lower_bound);
+    /// What a plan has of it.
+    pub(super) fn of(self, plan: &Plan) -> Option<f64> {
         match self {
-            Self::Length => report.length,
-            // In the metric that was asked for, which may not be that of lengths.
-            Self::OverBound => report.optimum.as_ref().and_then(|optimum| over(optimum.length, optimum.lower_bound)),
-            Self::LowerBound => bound(),
-            Self::Clearance => report.clearance,
-            Self::Duration => report.duration,
+            Self::Clearance => plan.clearance(),
+            Self::Duration => plan.duration(),
+            Self::Length | Self::OverBound | Self::LowerBound => self.of_path(plan.length(), plan.bound()),
         }
     }
 }
@@ -75,17 +70,13 @@ impl Measure {
         matches!(self, Self::Length | Self::OverBound | Self::LowerBound)
     }
 
-    /// Returns its value in an answer.
-    pub(super) fn of_path(self, answer: &Answer) -> Option<f64> {
-        let length = || match &answer.verdict {
-            Outcome::Found(certified) => Some(certified.path().length()),
-            _ => None,
-        };
-        let bound = || answer.bound.as_ref().map(|bound| bound.lower);
+    /// What a path of this length, with this bound, has of it.
+    pub(super) fn of_path(self, length: Option<f64>, bound: Option<Bound>) -> Option<f64> {
         match self {
-            Self::Length => length(),
-            Self::OverBound => answer.bound.as_ref().and_then(|bound| over(bound.upper, bound.lower)),
-            Self::LowerBound => bound(),
+            Self::Length => length,
+            // In the metric that was asked for, which may not be that of lengths.
+            Self::OverBound => bound.and_then(|bound| over(bound.upper, bound.lower)),
+            Self::LowerBound => bound.map(|bound| bound.lower),
             Self::Clearance | Self::Duration => None,
         }
     }

@@ -59,7 +59,7 @@ pub use explorable::Explorable;
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
-pub use query::Query;
+pub use query::LoadedEnds;
 pub use schema::toml_schema;
 pub use suite::{Asked, LeftOut, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;

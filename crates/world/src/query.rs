@@ -7,7 +7,7 @@ use cplan_robot::{DiagnosticKind, InputError, RobotReport};
 
 /// Scene, start and goal, and how they were read.
 #[derive(Debug, Clone)]
-pub struct Query {
+pub struct LoadedEnds {
     /// The arm among its obstacles.
     pub scene: Scene,
     /// The start, free or not.
@@ -25,7 +25,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// When the world has steps; when start or goal is missing, or a start of the tip is not reached by just one IK solution.
-    pub fn query(self, overrides: &Overrides) -> Result<Query, InputError> {
+    pub fn query(self, overrides: &Overrides) -> Result<LoadedEnds, InputError> {
         if self.has_steps() {
             return Err(self.has_no_goal(overrides).into());
         }
@@ -38,16 +38,16 @@ impl LoadedScene {
                 *q = loaded.at_limits("the goal", *q, &mut notes);
             }
         }
-        Ok(Query { scene: loaded.scene, start, goals, robot: loaded.robot, notes })
+        Ok(LoadedEnds { scene: loaded.scene, start, goals, robot: loaded.robot, notes })
     }
     /// Returns a query that stays at the start, for worlds with steps, too.
     ///
     /// # Errors
-    /// If the start is missing, or a start given for the tip does not have exactly one IK solution.
-    pub fn start_alone(self, overrides: &Overrides) -> Result<Query, InputError> {
+    /// When the start is missing, or one of the tip is not reached by just one IK solution.
+    pub fn start_alone(self, overrides: &Overrides) -> Result<LoadedEnds, InputError> {
         let loaded = self.keeping(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, _) = loaded.start(overrides, &mut notes)?;
-        Ok(Query { scene: loaded.scene, start, goals: vec![Goal::Joints(start)], robot: loaded.robot, notes })
+        Ok(LoadedEnds { scene: loaded.scene, start, goals: vec![Goal::Joints(start)], robot: loaded.robot, notes })
     }
 }

@@ -4,10 +4,11 @@
 
 mod draft;
 
+use cplan::Outcome;
 use cplan::check::{CertifiedPath, Disconnection, certify};
 use cplan::geometry::Convex;
 use cplan::model::{JointType, MotionProblem, Scene};
-use cplan::engine::{Method, Verdict, solve};
+use cplan::engine::{Method, solve};
 use cplan::{Options, Planner};
 use cplan::space::{Configuration, Path};
 use draft::Draft;
@@ -104,12 +105,12 @@ fuzz_target!(|draft: Draft| {
     let chosen = Method::ALL[usize::from(draft.method) % Method::ALL.len()];
     let (mut found, mut infeasible) = (false, false);
     for method in [chosen, Method::Subdivision] {
-        match solve(&problem, &options(method), &mut |_| {}).verdict {
-            Verdict::Found(path) => {
+        match solve(&problem, &options(method), &mut |_| {}).outcome {
+            Outcome::Found(path) => {
                 check_path(&problem, &path);
                 found = true;
             }
-            Verdict::Infeasible(proof) => {
+            Outcome::Infeasible(proof) => {
                 let clearance = problem.scene().workspace().clearance;
                 let claim = Disconnection::new(proof.stuck().to_vec());
                 claim.checked(problem.scene(), problem.start(), problem.goals(), clearance).expect("the proof holds");
@@ -120,7 +121,7 @@ fuzz_target!(|draft: Draft| {
                 }
                 infeasible = true;
             }
-            Verdict::Unknown(_) => {}
+            Outcome::Unknown(_) => {}
         }
     }
     assert!(!(found && infeasible), "found, and proven infeasible");

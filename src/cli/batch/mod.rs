@@ -8,7 +8,7 @@ use super::exit::DONE;
 use super::failure::Failure;
 use super::sinks;
 use super::values::time_limit;
-use crate::engine::Report;
+use crate::engine::Plan;
 use crate::model::Status;
 use crate::text::plain_json;
 use clap::builder::PossibleValuesParser;
@@ -50,7 +50,7 @@ pub struct BatchArgs {
     pub jobs: u16,
     /// Fields of results to write, such as status,length; all, if none is named.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(Report::FIELDS))]
+        value_parser = PossibleValuesParser::new(Plan::FIELDS))]
     pub fields: Vec<String>,
     /// Time for each problem [default: as long as it takes].
     #[arg(long, value_name = "SECONDS", value_parser = time_limit, allow_hyphen_values = true)]
@@ -124,7 +124,7 @@ fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
 fn row(answer: Answer, fields: &[String]) -> (String, bool) {
     let Answer { id, is_object, plan } = answer;
     let text = match plan {
-        Ok(Planned::Done(plan)) => text(&Row { id, answer: plan.report().only(fields) }),
+        Ok(Planned::Done(plan)) => text(&Row { id, answer: plan.result(fields) }),
         Ok(Planned::Stopped(reason)) => text(&Row { id, answer: Stopped { status: Status::Unknown, reason } }),
         Err(failure) => text(&Row { id, answer: ErrorJson::of_failure(&failure) }),
     };

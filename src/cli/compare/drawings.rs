@@ -114,5 +114,5 @@ fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
 fn proof(problem: &MotionProblem, comparison: &Comparison) -> Option<CheckedProof> {
     let is_proven = comparison.rows.iter().any(|row| row.outcome == Status::Infeasible);
     let made = is_proven.then(|| plan(&Problem::from(problem.clone()), &Options::default()))?.ok()?;
-    made.motion()?.answer.verdict.proof().cloned()
+    made.motion()?.1.outcome.infeasible().cloned()
 }

@@ -4,8 +4,8 @@ use super::cases::{Case, Cases};
 use crate::cli::memory::MemoryMeter;
 use crate::cli::progress::Progress;
 use crate::cli::sinks;
-use crate::engine::{MotionPlan, Options, PlanError, Problem, Verdict, bound, plan, plan_with};
-use crate::model::{MotionProblem, Status};
+use crate::engine::{Motion, Options, PlanError, Problem, bound, plan, plan_with};
+use crate::model::{MotionProblem, Outcome, Status};
 use crate::parallel::in_order;
 use crate::planner::PathKind;
 use crate::report::{Comparison, OtherPath, Row};
@@ -124,7 +124,7 @@ impl Runner<'_> {
         };
         let mut row = Row::new(entry.label.clone(), options.planner.method().descriptor().family, Status::Unknown);
         let mut path = None;
-        if let Some(MotionPlan { answer, curve, .. }) = made.motion() {
+        if let Some((_, answer)) = made.motion() {
             let stages = answer.stages;
             let seconds = |time: Duration| (!time.is_zero()).then_some(time.as_secs_f64());
             row = Row {
@@ -137,20 +137,20 @@ impl Runner<'_> {
                 memory,
                 note: answer.run.note,
                 path_kind: options.planner.path_kind(),
-                outcome: answer.verdict.status(),
+                outcome: answer.outcome.status(),
                 ..row
             };
-            match &answer.verdict {
-                Verdict::Found(certified) => {
-                    row.length = Some(certified.path().length());
-                    row.pieces = Some(certified.path().segments().count());
-                    row.clearance = curve.as_ref().map(|curve| curve.clearance()).filter(|c| c.is_finite());
-                    row.duration = made.report().duration;
+            match &answer.outcome {
+                Outcome::Found(Motion { path: found, .. }) => {
+                    row.length = made.length();
+                    row.pieces = Some(found.path().segments().count());
+                    row.clearance = made.clearance();
+                    row.duration = made.duration();
                     row.other_path = other_path(&problem, options)?;
-                    path = Some(certified.path().clone());
+                    path = Some(found.path().clone());
                 }
-                Verdict::Infeasible(_) => {}
-                Verdict::Unknown(reason) => row.reason = Some(reason.clone()),
+                Outcome::Infeasible(_) => {}
+                Outcome::Unknown(unknown) => row.reason = Some(unknown.reason.clone()),
             }
         }
         self.progress.done();
@@ -165,14 +165,7 @@ fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>,
     }
     let kind = if options.planner.path_kind() == PathKind::Own { PathKind::Taut } else { PathKind::Own };
     let made = plan(problem, &Options { planner: options.planner.with_path(kind), ..*options })?;
-    let found = made.motion().and_then(|plan| match (&plan.answer.verdict, &plan.curve) {
-        (Verdict::Found(certified), Some(curve)) => Some((certified, curve)),
-        _ => None,
-    });
-    Ok(found.map(|(certified, curve)| OtherPath {
-        length: certified.path().length(),
-        clearance: Some(curve.clearance()).filter(|c| c.is_finite()),
-    }))
+    Ok(made.length().map(|length| OtherPath { length, clearance: made.clearance() }))
 }
 
 /// What no motion is shorter than, within a gap if it can be; none without a path.

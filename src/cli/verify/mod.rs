@@ -10,7 +10,7 @@ use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::draw::{Picture, View};
 use crate::engine::certificate_of_recording;
-use crate::engine::findings::{MotionFindings, Verdict, verify};
+use crate::engine::findings::{Judgement, MotionFindings, verify};
 use crate::input::{self, Digests, JointValues, Overrides, TipPoint};
 use crate::model::Scene;
 use crate::motion::write_whole;
@@ -116,7 +116,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
                 let why = format!("joint \"{joint}\" moves, and certificates are about the arm's two joints");
                 sinks::say(&format!("warning: {} is not written: {why}", path.display()));
             }
-            Sink::Certificate(path) if matches!(findings.verdict, Verdict::Free) => {
+            Sink::Certificate(path) if matches!(findings.verdict, Judgement::Free) => {
                 let (start, goals) = if args.anywhere { (None, Vec::new()) } else { loaded.ends(&overrides(args))? };
                 let (steps, asked) = (recorded.steps.as_deref(), (&overrides(args), &about));
                 let task = steps.map(|_| loaded.clone().task(&overrides(args))).transpose()?;
@@ -133,9 +133,9 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         }
     }
     let code = match findings.verdict {
-        Verdict::Free => DONE,
-        Verdict::Undecided => UNKNOWN,
-        Verdict::Collision | Verdict::Limits | Verdict::Task | Verdict::Ends | Verdict::Claims => REFUTED,
+        Judgement::Free => DONE,
+        Judgement::Undecided => UNKNOWN,
+        Judgement::Collision | Judgement::Limits | Judgement::Task | Judgement::Ends | Judgement::Claims => REFUTED,
     };
     args.print.tell(code, || sinks::pretty(&findings), || text::summary(scene.arm(), recording, &findings))?;
     Ok(code)

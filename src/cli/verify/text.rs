@@ -2,7 +2,7 @@
 
 use crate::check::Limit;
 use crate::engine::findings::{
-    EncounterFinding, LimitFinding, MomentFinding, MotionFindings, StepFinding, Verdict, WayFinding,
+    EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings, StepFinding, WayFinding,
 };
 use crate::model::Arm;
 use crate::output::{Line, StepLine, configuration, laid_out, step_lines};
@@ -46,7 +46,7 @@ fn when(m: &MomentFinding) -> String {
 }
 
 /// What is met on the way.
-fn way(arm: &Arm, way: &WayFinding, verdict: Verdict) -> Vec<Line> {
+fn way(arm: &Arm, way: &WayFinding, verdict: Judgement) -> Vec<Line> {
     let place = |e: &EncounterFinding| {
         format!("{} {}, {}", e.pair, when(&e.moment), configuration(arm, e.moment.configuration.into()))
     };
@@ -67,7 +67,7 @@ fn way(arm: &Arm, way: &WayFinding, verdict: Verdict) -> Vec<Line> {
             lines.push(("clearance", seen));
         }
         (Some(clearance), None) => lines.push(("clearance", format!("{} m proven", at_least(clearance, 6)))),
-        (None, None) if verdict != Verdict::Collision && way.undecided.is_none() => {
+        (None, None) if verdict != Judgement::Collision && way.undecided.is_none() => {
             lines.push(("clearance", "nothing can be hit".into()));
         }
         _ => {}
@@ -127,16 +127,16 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
         let carried = step.carried.as_ref().map_or("empty-handed".into(), |object| format!("carrying \"{object}\""));
         let turn = step.turn.as_ref().map_or(String::new(), |turn| format!(", turn in {:.3} s", turn.seconds));
         let found = match (step.verdict, step.clearance()) {
-            (Verdict::Free, Some(clearance)) => format!("clearance {} m", nonzero(clearance, 4)),
-            (Verdict::Free, None) => "nothing can be hit".into(),
-            (Verdict::Collision, _) => "collides".into(),
-            (Verdict::Task | Verdict::Ends | Verdict::Claims, _) => "not as asked for".into(),
-            (Verdict::Limits, _) => "breaks limits".into(),
-            (Verdict::Undecided, _) => "undecided".into(),
+            (Judgement::Free, Some(clearance)) => format!("clearance {} m", nonzero(clearance, 4)),
+            (Judgement::Free, None) => "nothing can be hit".into(),
+            (Judgement::Collision, _) => "collides".into(),
+            (Judgement::Task | Judgement::Ends | Judgement::Claims, _) => "not as asked for".into(),
+            (Judgement::Limits, _) => "breaks limits".into(),
+            (Judgement::Undecided, _) => "undecided".into(),
         };
         let motion = format!("{:.3} s{turn}, {found}", step.seconds);
         let columns = [format!("{}{cycle}", step.step), step.action.clone(), carried, motion];
-        StepLine { cycle: step.cycle, matters: step.verdict != Verdict::Free, columns }
+        StepLine { cycle: step.cycle, matters: step.verdict != Judgement::Free, columns }
     };
     step_lines(&steps.iter().map(line).collect::<Vec<_>>())
 }
@@ -149,13 +149,13 @@ fn result(findings: &MotionFindings) -> String {
         None => "the whole motion, ".into(),
     };
     match findings.verdict {
-        Verdict::Free => format!("free{kept}: {whole}proven"),
-        Verdict::Collision if required > 0.0 => "collision, or nearer than the clearance to keep: proven".into(),
-        Verdict::Collision => "collision: proven".into(),
-        Verdict::Task => "not the task that the world asks for".into(),
-        Verdict::Ends => "does not lead from the start to the goal".into(),
-        Verdict::Claims => "free, but the file says of it what is false".into(),
-        Verdict::Limits => "limits are broken".into(),
-        Verdict::Undecided => "undecided".into(),
+        Judgement::Free => format!("free{kept}: {whole}proven"),
+        Judgement::Collision if required > 0.0 => "collision, or nearer than the clearance to keep: proven".into(),
+        Judgement::Collision => "collision: proven".into(),
+        Judgement::Task => "not the task that the world asks for".into(),
+        Judgement::Ends => "does not lead from the start to the goal".into(),
+        Judgement::Claims => "free, but the file says of it what is false".into(),
+        Judgement::Limits => "limits are broken".into(),
+        Judgement::Undecided => "undecided".into(),
     }
 }

@@ -2,7 +2,8 @@
 
 use super::robot;
 use crate::common::reference::published;
-use cplan::engine::{Method, Verdict, solve};
+use cplan::Outcome;
+use cplan::engine::{Method, solve};
 use cplan::geometry::Point;
 use cplan::input::{LineMap, Overrides, PreferenceMap, load};
 use cplan::model::{MotionProblem, Preference, Region, Shape};
@@ -50,7 +51,7 @@ fn the_gantry_finds_its_way_in_all_three() {
         let problem = problem(&data, map, preferences, start);
         for method in Method::ALL {
             let answer = solve(&problem, &method.into(), &mut |_| {});
-            let Verdict::Found(path) = &answer.verdict else { panic!("map {map}, {method}: {:?}", answer.history) };
+            let Outcome::Found(path) = &answer.outcome else { panic!("map {map}, {method}: {:?}", answer.history) };
             assert_eq!(path.path().start(), problem.start());
             let topology = problem.scene().arm().topology();
             assert!(problem.goals().contains(&topology, path.path().goal(), 1e-9), "map {map}, {method}");
@@ -66,7 +67,7 @@ fn there_is_no_way_out_of_a_letter() {
     let problem = problem(&data, 1, 1, [-9.0, 6.5]);
     for method in Method::ALL {
         let answer = solve(&problem, &method.into(), &mut |_| {});
-        assert!(matches!(answer.verdict, Verdict::Infeasible(_)), "{method}: {:?}", answer.history);
+        assert!(matches!(answer.outcome, Outcome::Infeasible(_)), "{method}: {:?}", answer.history);
     }
 }
 

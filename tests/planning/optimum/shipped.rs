@@ -2,7 +2,8 @@
 
 use super::{ROUNDING, bound};
 use crate::common::shipped_feasible;
-use cplan::engine::{Method, Planner, Verdict, solve};
+use cplan::Outcome;
+use cplan::engine::{Method, Planner, solve};
 use cplan::space::Metric;
 
 /// The gap asked for, and to the best known path, which is itself within a thousandth of the optimum.
@@ -14,7 +15,7 @@ fn bounds_come_near_the_best_known_paths() {
     let mut far = Vec::new();
     for (name, problem) in shipped_feasible() {
         let planner = Planner::named(Method::Visibility).with_gap(1e-3);
-        let Verdict::Found(found) = solve(&problem, &planner.into(), &mut |_| {}).verdict else {
+        let Outcome::Found(found) = solve(&problem, &planner.into(), &mut |_| {}).outcome else {
             panic!("{name}: no path")
         };
         let length = found.path().length();

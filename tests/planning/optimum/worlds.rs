@@ -3,7 +3,7 @@
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{all_kinds, asked, convex, disc, inside, rectangle, scene, wall};
 use crate::random_worlds::world;
-use cplan::engine::{Criterion, Method, Options, Planner, Verdict, decide, solve};
+use cplan::engine::{Criterion, Method, Options, Planner, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::MotionProblem;
 use cplan::space::{GoalSet, Path};
@@ -21,14 +21,14 @@ fn motions(problem: &MotionProblem) -> Vec<Path> {
         let planner = Planner::named(method).with_criterion(criterion).with_margin(1e-4).with_cells(128);
         Options { levels: 2, boxes: 5000, ..planner.into() }
     };
-    let mut verdicts = vec![decide(problem, SLABS)];
+    let solved = |method, criterion| solve(problem, &options(method, criterion), &mut |_| {}).path().cloned();
+    let mut paths = vec![decide(problem, SLABS).found().map(|found| found.path().clone())];
     for method in [Method::Shortest, Method::Visibility] {
-        verdicts.extend(CRITERIA.map(|criterion| solve(problem, &options(method, criterion), &mut |_| {}).verdict));
+        paths.extend(CRITERIA.map(|criterion| solved(method, criterion)));
     }
     let others = [Method::Trapezoid, Method::Wavefront, Method::Subdivision];
-    verdicts.extend(others.map(|method| solve(problem, &options(method, Criterion::Euclidean), &mut |_| {}).verdict));
-    let found = |verdict| if let Verdict::Found(found) = verdict { Some(found.path().clone()) } else { None };
-    verdicts.into_iter().filter_map(found).collect()
+    paths.extend(others.map(|method| solved(method, Criterion::Euclidean)));
+    paths.into_iter().flatten().collect()
 }
 
 /// No bound is above any motion that is known.

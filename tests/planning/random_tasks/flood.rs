@@ -6,7 +6,8 @@ use super::task;
 use crate::common::asked;
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, times};
-use cplan::engine::{Method, Options, Verdict, solve};
+use cplan::Outcome;
+use cplan::engine::{Method, Options, solve};
 use cplan::model::{Grip, Holding, Payload, Scene, Task};
 use cplan::space::Configuration;
 use nalgebra::Point2;
@@ -129,16 +130,16 @@ fn payloads_are_judged_like_a_flood_fill() {
         decisive += u64::from(surely || !perhaps);
         let problem = asked(scene, start, goal);
         let options = Options { levels: 4, boxes: 20_000, bounded: false, ..Method::Visibility.into() };
-        match solve(&problem, &options, &mut |_| {}).verdict {
-            Verdict::Found(_) => {
+        match solve(&problem, &options, &mut |_| {}).outcome {
+            Outcome::Found(_) => {
                 found += 1;
                 assert!(perhaps, "seed {seed}: found, but the flood does not get there");
             }
-            Verdict::Infeasible(_) => {
+            Outcome::Infeasible(_) => {
                 infeasible += 1;
                 assert!(!surely, "seed {seed}: infeasible, but the flood gets there");
             }
-            Verdict::Unknown(_) => {}
+            Outcome::Unknown(_) => {}
         }
     }
     println!("{found} found, {infeasible} infeasible, {decisive} decided by the flood");

@@ -4,24 +4,23 @@
 use super::{options, task};
 use crate::common::random::{seeds, times};
 use cplan::check::{CollisionCheck, ReplayedStep};
-use cplan::engine::task::{TaskAnswer, TaskVerdict, plan};
-use cplan::engine::{Options, Report};
-use cplan::model::{RecordedStep, RecordedTurn, Task};
+use cplan::engine::Options;
+use cplan::engine::task::{TaskAnswer, TaskMotion, plan};
+use cplan::model::{RecordedStep, RecordedTurn};
 use cplan::motion::Drive;
 use cplan::space::{Configuration, Recording};
 
 /// What a result file says.
-fn record(task: &Task, answer: &TaskAnswer) -> (Recording, Vec<RecordedStep>) {
-    let report = Report::of_task("visibility", task, answer);
-    let trajectory = report.trajectory.as_ref().unwrap();
+fn record(answer: &TaskAnswer, TaskMotion { sequence, .. }: &TaskMotion) -> (Recording, Vec<RecordedStep>) {
+    let trajectory = &sequence.trajectory;
     let rows = |rows: &[[f64; 2]]| rows.iter().map(|q| Configuration::new(q[0], q[1])).collect::<Vec<_>>();
     let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
     let recording = Recording::new(position, Some(trajectory.time.clone()), Some(velocity)).unwrap();
-    let steps = report.task.as_ref().unwrap().steps.iter().map(|step| RecordedStep {
-        number: step.step,
-        cycle: step.cycle,
-        samples: step.first_sample.unwrap()..=step.last_sample.unwrap(),
-        turn: step.turn.as_ref().map(|turn| RecordedTurn { from: turn.from, to: turn.to, seconds: turn.seconds }),
+    let steps = answer.legs.iter().zip(&sequence.samples).map(|(leg, samples)| RecordedStep {
+        number: leg.step.number,
+        cycle: leg.step.cycle,
+        samples: samples.clone(),
+        turn: leg.turn.map(|(turn, seconds)| RecordedTurn { from: turn.from, to: turn.to, seconds }),
     });
     (recording, steps.collect())
 }
@@ -38,11 +37,9 @@ fn what_is_planned_is_judged_free() {
     for seed in seeds(100) {
         let task = task::task(seed);
         let answer = plan(&task, &options, &mut |_| {});
-        if answer.verdict != TaskVerdict::Found(()) {
-            continue;
-        }
+        let Some(motion) = answer.outcome.found() else { continue };
         done += 1;
-        let (recording, steps) = record(&task, &answer);
+        let (recording, steps) = record(&answer, motion);
         let judge = cplan::check::replay(&task, &recording, &steps);
         assert_eq!(judge.departure(), None, "seed {seed}");
         let mut clearance = f64::INFINITY;

@@ -10,7 +10,8 @@ pub mod replay;
 pub mod task;
 
 use crate::common::random::seeds;
-use cplan::engine::task::{TaskVerdict, plan};
+use cplan::Outcome;
+use cplan::engine::task::plan;
 use cplan::engine::{Method, Options};
 use cplan::motion::Drive;
 
@@ -35,13 +36,13 @@ fn what_is_planned_can_be_done() {
     for seed in seeds(200) {
         let task = task::task(seed);
         let answer = plan(&task, &options(), &mut |_| {});
-        match &answer.verdict {
-            TaskVerdict::Found(()) => found.done += 1,
-            TaskVerdict::Infeasible(_) => found.infeasible += 1,
-            TaskVerdict::Unknown(_) => found.unknown += 1,
+        match &answer.outcome {
+            Outcome::Found(_) => found.done += 1,
+            Outcome::Infeasible(_) => found.infeasible += 1,
+            Outcome::Unknown(_) => found.unknown += 1,
         }
         found.legs += answer.legs.len();
-        let all = matches!(answer.verdict, TaskVerdict::Found(()));
+        let all = answer.failed().is_none();
         if let Err(violation) = replay::replay(&task, &answer, all) {
             panic!("seed {seed}: {violation}");
         }
@@ -58,7 +59,7 @@ fn what_is_planned_for_another_task_is_refused() {
     for seed in seeds(40) {
         let task = task::task(seed);
         let answer = plan(&task, &options(), &mut |_| {});
-        if answer.verdict != TaskVerdict::Found(()) {
+        if answer.failed().is_some() {
             continue;
         }
         done += 1;

@@ -21,7 +21,8 @@ pub mod solid;
 pub mod world;
 
 use crate::common::random::seeds;
-use cplan::engine::{Answer, Method, Options, Planner, Verdict, solve};
+use cplan::Outcome;
+use cplan::engine::{Answer, Method, Options, Planner, solve};
 use cplan::model::MotionProblem;
 use flood::{Truth, connected};
 use oracle::Oracle;
@@ -93,10 +94,10 @@ impl Run {
 
 /// What is wrong with an answer, if anything.
 fn lie(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
-    match &answer.verdict {
-        Verdict::Unknown(_) => None,
-        Verdict::Infeasible(_) => (truth == Truth::Connected).then(|| "infeasible, yet connected".into()),
-        Verdict::Found(certified) => {
+    match &answer.outcome {
+        Outcome::Unknown(_) => None,
+        Outcome::Infeasible(_) => (truth == Truth::Connected).then(|| "infeasible, yet connected".into()),
+        Outcome::Found(certified) => {
             let path = certified.path();
             let topology = problem.scene().arm().topology();
             if truth == Truth::Disconnected {
@@ -151,22 +152,22 @@ fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
         if run.long && time > SLOW {
             println!("slow: {kind} {seed} {method} {time:.1?} {:?}", answer.stages);
         }
-        match &answer.verdict {
-            Verdict::Found(path) => {
+        match &answer.outcome {
+            Outcome::Found(path) => {
                 count.found += 1;
                 lengths[i] = Some((path.path().length(), path.clearance(), answer.history.len()));
             }
-            Verdict::Infeasible(_) => {
+            Outcome::Infeasible(_) => {
                 count.infeasible += 1;
                 infeasible = Some(method);
             }
-            Verdict::Unknown(why) => {
+            Outcome::Unknown(why) => {
                 count.unknown += 1;
                 count.unknown_yet_decided += usize::from(truth != Truth::Undecided);
                 println!("unknown: {kind} {seed} {method} ({truth:?}): {why} {:?}", answer.history);
             }
         }
-        lower.extend(answer.bound.map(|bound| (bound.lower, method)));
+        lower.extend(answer.bound().map(|bound| (bound.lower, method)));
         if let Some(lie) = lie(problem, &oracle, truth, &answer) {
             lies.push(format!("{kind} {seed} {method}: {lie}"));
         }

@@ -3,10 +3,11 @@
 use super::scenes::{TURN, arm, block, capsule, circle, interval, polygon};
 use super::{inspected, pages, words};
 use crate::common::{convex, disc};
+use cplan::Outcome;
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::draw::{Picture, TaskPicture, View};
 use cplan::engine::Method;
-use cplan::engine::task::{Event, TaskAnswer, TaskVerdict, plan};
+use cplan::engine::task::{Event, TaskAnswer, plan};
 use cplan::geometry::{Point, Pose};
 use cplan::model::{
     Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, Workspace, Wrist,
@@ -112,13 +113,13 @@ fn answer(task: &Task) -> TaskAnswer {
 }
 
 fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {
-    let status = match answer.verdict {
-        TaskVerdict::Found(()) => "found, certified",
-        TaskVerdict::Infeasible(_) => "impossible, proven",
-        TaskVerdict::Unknown(_) => "unknown",
+    let status = match answer.outcome {
+        Outcome::Found(_) => "found, certified",
+        Outcome::Infeasible(_) => "impossible, proven",
+        Outcome::Unknown(_) => "unknown",
     };
     let title = vec![format!("{name}: test arm"), format!("visibility: {:.2} s", answer.duration())];
-    let (ending, facts) = (Some(answer.verdict.status()), Vec::new());
+    let (ending, facts) = (Some(answer.outcome.status()), Vec::new());
     let view = View::of_task(&TaskPicture {
         title,
         status: status.into(),
@@ -161,17 +162,17 @@ fn follows(name: &str, task: &Task, answer: &TaskAnswer, view: &View) {
     }
     // After all steps nothing is carried; where one fails, its world shows the configurations that were tried.
     let last = &worlds[motions[legs.len()]["world"].as_u64().unwrap() as usize];
-    if answer.impossible().is_none() {
+    if answer.failed().is_none() {
         assert!(last["payload"].is_null() && motions[legs.len()]["path"].is_null());
     } else {
-        let tried = answer.impossible().map_or(0, |fails| fails.ik_solutions.len());
+        let tried = answer.failed().map_or(0, |fails| fails.ik_solutions.len());
         assert_eq!(last["unreached"].as_array().unwrap().len(), tried);
     }
 }
 
 fn done(name: &str, task: &Task) -> String {
     let answer = answer(task);
-    assert_eq!(answer.verdict, TaskVerdict::Found(()));
+    assert_eq!(answer.failed(), None);
     drawn(name, task, &answer)
 }
 
@@ -285,7 +286,7 @@ fn payloads_are_drawn_where_they_are() {
         let objects = vec![object("part", false, holding, [1.2, -0.5])];
         let task = task(objects, fixed(), &[pick(0), turn_to(1.8, 0.7)], 1);
         let answer = answer(&task);
-        assert_eq!(answer.verdict, TaskVerdict::Found(()));
+        assert_eq!(answer.failed(), None);
         let text = drawn(name, &task, &answer);
         let color = color_of(&text, "part");
         let frames = frames(&text);
@@ -414,7 +415,7 @@ fn the_motion_that_fails_is_drawn() {
     obstacles.push(polygon("block", &[(-1.2, 0.35), (-1.1, 0.35), (-1.1, 0.45), (-1.2, 0.45)]));
     let blocked = task(held(Holding::Level), obstacles, &[pick(0), place(-1.1, 0.4)], 1);
     let answer = answer(&blocked);
-    let TaskVerdict::Infeasible(why) = &answer.verdict else { panic!("{:?}", answer.verdict) };
+    let Outcome::Infeasible(why) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!((why.step.number, why.ik_solutions.len()), (2, 2));
     assert_eq!(why.from, answer.legs[0].timed.curve.curve().path().goal());
     assert_eq!(why.scene.payload().map(|payload| payload.object.as_str()), Some("part"));

@@ -1,28 +1,27 @@
 //! Our own outputs in all formats, as they are and tampered with.
 
-use cplan::check::{CollisionCheck, Excess, Limit, blend, check_collision, limits_kept};
-use cplan::engine::{Method, Report, Verdict, solve};
+use cplan::check::{CollisionCheck, Excess, Limit, check_collision, limits_kept};
+use cplan::engine::{Method, Plan, Problem, plan};
 use cplan::input::{self, LoadedScene, Overrides, load_recording, load_scene};
-use cplan::motion::{Format, Limits, Timed, Trajectory, time};
+use cplan::model::RobotJoints;
+#[cfg(feature = "mcap")]
+use cplan::motion::mcap;
+use cplan::motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
 use cplan::space::{Configuration, Path, Recording};
+use serde_json::Value;
 use std::path::PathBuf;
 
 fn root(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// A shipped workspace and the path found in it.
-fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Report)> {
+/// A shipped workspace and the motion found in it.
+fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Plan)> {
     let files = [root(&format!("robots/{robot}.urdf")), root(&format!("workspaces/{world}.toml"))];
-    let loaded = input::load(&files[0], &files[1], &Overrides::default()).unwrap();
-    let joints = &loaded.problem.scene().arm().joints;
-    let answer = solve(&loaded.problem, &Method::Visibility.into(), &mut |_| {});
-    let Verdict::Found(certified) = &answer.verdict else { return None };
-    let scene = loaded.problem.scene();
-    let curve = blend(scene, certified, f64::INFINITY, scene.workspace().clearance);
-    let Timed { curve, trajectory } = time(curve, &Limits::from(joints), 0.01).unwrap();
-    let report = Report::found("visibility", joints, &curve, trajectory);
-    Some((load_scene(&files[0], &files[1]).unwrap(), report))
+    let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
+    let plan = plan(&Problem::from(problem), &Method::Visibility.into()).unwrap();
+    plan.trajectory()?;
+    Some((load_scene(&files[0], &files[1]).unwrap(), plan))
 }
 
 /// What `verify` reads, each with a name.
@@ -57,14 +56,14 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
         let text = std::fs::read_to_string(&file).unwrap();
         let Some(robot) = text.lines().find_map(|l| l.strip_prefix("# robot: ")) else { continue };
         let name = file.file_stem().unwrap().to_str().unwrap();
-        let Some((scene, report)) = planned(robot.trim(), name) else { continue };
+        let Some((scene, plan)) = planned(robot.trim(), name) else { continue };
         for &(format, file) in FORMATS {
-            let recording = read(&scene, file, written(format, &report));
+            let recording = read(&scene, file, &plan.encoded(format).unwrap());
             let (verdict, broken) = judge(&scene, &recording);
             let CollisionCheck::Free { clearance, .. } = verdict else { panic!("{name}, {file}: {verdict:?}") };
             assert_eq!(broken, [], "{name}, {file}");
             // The same motion: the bounds differ by how the search went, both at least 0.9 of the truth.
-            if let Some(certified) = report.clearance {
+            if let Some(certified) = plan.clearance() {
                 assert!(clearance >= 0.9 * certified && certified >= 0.9 * clearance, "{name}, {file}: {clearance}");
             }
         }
@@ -73,41 +72,54 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
     assert!(checked >= 10, "only {checked} workspaces");
 }
 
-/// The file's content.
-fn written(format: Format, report: &Report) -> Vec<u8> {
-    report.bytes(format).unwrap()
+/// The file's content, with another motion in place of the plan's.
+fn written(format: Format, plan: &Plan, motion: &Trajectory) -> Vec<u8> {
+    let names = plan.arm().joints.each_ref().map(|joint| joint.name.clone());
+    let message = JointMotion::new(&RobotJoints::planned(&names), motion, true).without_accelerations();
+    match format {
+        Format::Json => {
+            let mut result: Value = serde_json::from_str(&plan.to_json()).unwrap();
+            result["trajectory"] = serde_json::to_value(motion).unwrap();
+            result.to_string().into_bytes()
+        }
+        Format::Csv => csv(&names, motion, false, None).into_bytes(),
+        Format::Yaml => ros_yaml(&message).into_bytes(),
+        #[cfg(feature = "mcap")]
+        Format::Mcap => mcap(&[(&message, 0.0)], None),
+    }
 }
 
-fn shelf() -> (LoadedScene, Report) {
+fn shelf() -> (LoadedScene, Plan) {
     planned("planar_2r", "shelf").expect("has a path")
-}
-
-fn with(report: &Report, change: impl FnOnce(&mut Trajectory)) -> Report {
-    let mut report = report.clone();
-    change(report.trajectory.as_mut().unwrap());
-    report
 }
 
 #[test]
 fn tampered_results_are_caught() {
-    let (scene, report) = shelf();
-    let read = |report: &Report, format: Format, name| judge(&scene, &read(&scene, name, written(format, report)));
+    let (scene, plan) = shelf();
+    let motion = plan.trajectory().unwrap();
+    let read =
+        |motion: &Trajectory, format: Format, name| judge(&scene, &read(&scene, name, written(format, &plan, motion)));
+    let with = |change: &dyn Fn(&mut Trajectory)| {
+        let mut motion = motion.clone();
+        change(&mut motion);
+        motion
+    };
     let kinds = |broken: &[Excess]| broken.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>();
 
     // Twice as fast in the same shape: speeds double, accelerations quadruple.
-    let fast = with(&report, |t| {
+    let fast = with(&|t| {
         t.time.iter_mut().for_each(|t| *t /= 2.0);
         t.velocity.iter_mut().flatten().for_each(|v| *v *= 2.0);
         t.acceleration.iter_mut().flatten().for_each(|a| *a *= 4.0);
     });
-    let last = report.trajectory.as_ref().unwrap().time.len() - 1;
-    let times = report.trajectory.as_ref().unwrap().time.clone();
+    let last = motion.time.len() - 1;
+    let times = motion.time.clone();
     // One sample moved into the shelf: contact before it, and after the sample before.
     let at = last / 2;
-    let hit = with(&report, |t| t.position[at] = [0.15, 0.08]);
+    let hit = with(&|t| t.position[at] = [0.15, 0.08]);
     assert!(scene.scene.clearance(Configuration::new(0.15, 0.08)) < -0.1);
-    let pushed = with(&report, |t| t.velocity[0][1] = 0.25);
-    let thrown = with(&report, |t| t.velocity[last][0] = -0.25);
+    let pushed = with(&|t| t.velocity[0][1] = 0.25);
+    let thrown = with(&|t| t.velocity[last][0] = -0.25);
 
     for &(format, name) in FORMATS {
         let (verdict, broken) = read(&fast, format, name);
@@ -140,8 +152,8 @@ fn tampered_results_are_caught() {
 
 #[test]
 fn the_straight_way_collides_where_the_path_does_not() {
-    let (scene, report) = shelf();
-    let path = report.path.as_ref().unwrap();
+    let (scene, plan) = shelf();
+    let path = plan.waypoints().unwrap();
     let (a, b) = (path[0], path[path.len() - 1]);
     let csv = format!("shoulder,elbow\n{},{}\n{},{}\n", a[0], a[1], b[0], b[1]);
     let (verdict, broken) = judge(&scene, &read(&scene, "ends.csv", &csv));

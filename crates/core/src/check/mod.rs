@@ -31,7 +31,6 @@ mod motion;
 mod proof;
 mod span;
 mod vicinity;
-mod verdict;
 
 pub use blends::{CertifiedCurve, Rounding, blend};
 pub use cell::Cell;
@@ -39,5 +38,4 @@ pub use deviation::{Bounded, Deviation, Posture, STUCK_ROUNDING};
 pub use motion::{CertifiedPath, Nearest, Rejection, StraightMotions, certify};
 pub use proof::{CheckedProof, Disconnection, ProofBox, ProofError, ProofFormatError, StuckBox, read_proof};
 pub use span::{Place, Span};
-pub use verdict::Verdict;
 pub use vicinity::Vicinity;

@@ -35,6 +35,34 @@ impl<F, I, U> Outcome<F, I, U> {
             Outcome::Unknown(why) => Outcome::Unknown(why),
         }
     }
+
+    /// Returns the same answer with what `with` makes of what was found.
+    #[must_use]
+    pub fn map<G>(self, with: impl FnOnce(F) -> G) -> Outcome<G, I, U> {
+        match self {
+            Outcome::Found(found) => Outcome::Found(with(found)),
+            Outcome::Infeasible(proof) => Outcome::Infeasible(proof),
+            Outcome::Unknown(why) => Outcome::Unknown(why),
+        }
+    }
+
+    /// Returns what was found, if that is the answer.
+    #[must_use]
+    pub fn found(&self) -> Option<&F> {
+        if let Outcome::Found(found) = self { Some(found) } else { None }
+    }
+
+    /// Returns what proves that there is none, if that is the answer.
+    #[must_use]
+    pub fn infeasible(&self) -> Option<&I> {
+        if let Outcome::Infeasible(proof) = self { Some(proof) } else { None }
+    }
+
+    /// Returns why neither is known, if that is the answer.
+    #[must_use]
+    pub fn unknown(&self) -> Option<&U> {
+        if let Outcome::Unknown(why) = self { Some(why) } else { None }
+    }
 }
 
 /// Which of the three answers it is.

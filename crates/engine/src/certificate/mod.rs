@@ -8,13 +8,12 @@ mod task;
 pub use motion::recorded as certificate_of_recording;
 
 use super::bound::{claim, motions};
-use super::motion_plan::MotionPlan;
-use super::task::TaskVerdict;
-use super::{Kind, Plan, TaskPlan};
+use super::task::{TaskAnswer, step_reports};
+use super::{Answer, Bound, Detail, Motion, Plan};
 use bound::{LeastLength, Ways};
 use contacts::Contacts;
 use cplan_core::check::{Cell, StuckBox};
-use cplan_core::model::{Arm, MotionProblem, Scene, Status, inverse};
+use cplan_core::model::{Arm, MotionProblem, Outcome, Scene, Status, Task, inverse};
 use cplan_core::space::{Configuration, JointRange, Metric, Segment, Topology};
 use cplan_geometry::cross;
 use cplan_proofs::bound::ClosedSegment;
@@ -58,59 +57,67 @@ impl Plan {
     /// # Errors
     /// [`NoCertificate`].
     pub fn certificate(&self, asked: &Overrides, files: Option<&Digests>) -> Result<String, NoCertificate> {
-        let plan = match self.made() {
-            Kind::Motion(plan) => plan,
-            Kind::Task(plan) => return self.certificate_of_task(plan, asked, files),
-        };
-        let problem = &plan.problem;
-        let mut contacts = Contacts::new(problem.scene());
-        let (answer, evidence) = match (self.trajectory(), plan.answer.verdict.proof()) {
-            (Some(trajectory), _) => {
-                let mut evidence = vec![motion::evidence(problem.scene().arm(), trajectory)];
-                evidence.extend(least_length(plan, asked, &mut contacts).into_iter().flatten());
-                ("found", evidence)
-            }
-            (None, Some(proof)) => {
-                let stuck = [proof.stuck(), &ruled_out(problem).0].concat();
-                let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
-                ("infeasible", vec![("boxes", lines(&boxes))])
-            }
-            (None, None) => return Err(NoCertificate::Answer(self.status())),
-        };
-        let said = [about(files, problem.scene().arm()), said(problem, asked)].concat();
-        Ok(written(answer, said, contacts.named().into_iter().chain(evidence)))
+        match self.detail() {
+            Detail::Motion { problem, answer } => certificate_of_motion(problem, answer, asked, files),
+            Detail::Task { task, answer } => certificate_of_task(task, answer, asked, files),
+        }
     }
+}
 
-    /// The same of a task.
-    fn certificate_of_task(
-        &self,
-        TaskPlan { task, answer }: &TaskPlan,
-        asked: &Overrides,
-        files: Option<&Digests>,
-    ) -> Result<String, NoCertificate> {
-        if matches!(answer.verdict, TaskVerdict::Infeasible(_)) {
-            return Err(NoCertificate::Task);
+fn certificate_of_motion(
+    problem: &MotionProblem,
+    answer: &Answer<Motion>,
+    asked: &Overrides,
+    files: Option<&Digests>,
+) -> Result<String, NoCertificate> {
+    let mut contacts = Contacts::new(problem.scene());
+    let (word, evidence) = match &answer.outcome {
+        Outcome::Found(motion) => {
+            let mut evidence = vec![motion::evidence(problem.scene().arm(), &motion.timed.trajectory)];
+            let bound = motion.path.bound.and_then(|bound| least_length(problem, &bound, asked, &mut contacts));
+            evidence.extend(bound.into_iter().flatten());
+            ("found", evidence)
         }
-        task::checkable(task)?;
-        let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
-        let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
-        let said = about(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
-        match (self.trajectory(), &self.report().task) {
-            (Some(trajectory), Some(figures)) => {
-                let evidence = [motion::evidence(&task.arm, trajectory), task::steps(&figures.steps)];
-                Ok(written("found", said, evidence))
-            }
-            _ => Err(NoCertificate::Answer(self.status())),
+        Outcome::Infeasible(proof) => {
+            let stuck = [proof.stuck(), &ruled_out(problem).0].concat();
+            let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
+            ("infeasible", vec![("boxes", lines(&boxes))])
         }
+        Outcome::Unknown(_) => return Err(NoCertificate::Answer(Status::Unknown)),
+    };
+    let said = [about(files, problem.scene().arm()), said(problem, asked)].concat();
+    Ok(written(word, said, contacts.named().into_iter().chain(evidence)))
+}
+
+fn certificate_of_task(
+    task: &Task,
+    answer: &TaskAnswer,
+    asked: &Overrides,
+    files: Option<&Digests>,
+) -> Result<String, NoCertificate> {
+    if matches!(answer.outcome, Outcome::Infeasible(_)) {
+        return Err(NoCertificate::Task);
     }
+    task::checkable(task)?;
+    let Outcome::Found(motion) = &answer.outcome else { return Err(NoCertificate::Answer(Status::Unknown)) };
+    let start = asked.start.map(|_| ("start", json!(inward(&task.arm.topology(), task.start))));
+    let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
+    let said = about(files, &task.arm).into_iter().chain(start).chain(clearance).collect();
+    let (steps, _) = step_reports(task, answer);
+    let evidence = [motion::evidence(&task.arm, &motion.sequence.trajectory), task::steps(&steps)];
+    Ok(written("found", said, evidence))
 }
 
 /// That no motion is shorter than the bound, up to a hair; none where nothing is known of that, or goals are a curve.
 ///
 /// To one configuration, or to wherever the tip is at the place that was asked for: then the boxes about those of these configurations that are
 /// not free come first.
-fn least_length(plan: &MotionPlan, asked: &Overrides, contacts: &mut Contacts) -> Option<Evidence> {
-    let (problem, stated) = (&plan.problem, plan.answer.bound.as_ref()?);
+fn least_length(
+    problem: &MotionProblem,
+    stated: &Bound,
+    asked: &Overrides,
+    contacts: &mut Contacts,
+) -> Option<Evidence> {
     let motions = motions(problem, stated.metric);
     let topology = problem.scene().arm().topology();
     let Ends { to, goals, boxes } = Ends::of(problem, asked)?;

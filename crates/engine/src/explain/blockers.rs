@@ -2,9 +2,9 @@
 
 use super::change::Change;
 use super::element::Element;
-use super::question::{Decision, Question};
+use super::question::Question;
 use cplan_core::check::{CertifiedPath, CheckedProof, Disconnection, StuckBox};
-use cplan_core::model::{Scene, Status};
+use cplan_core::model::{Outcome, Scene, Status};
 use cplan_interrupt::checkpoint;
 
 /// Sets that are looked for at most, one after the other.
@@ -122,7 +122,7 @@ pub fn blocking_sets(question: &Question, proof: Option<CheckedProof>, boxes: [u
         }
         gone.extend(obstacles);
         let rest = question.without(&gone);
-        let Decision::Closed(proof) = rest.answer(boxes[0]) else { break };
+        let Outcome::Infeasible(proof) = rest.answer(boxes[0]) else { break };
         sets.push(blocking_set(&rest, proof, boxes));
     }
     sets
@@ -150,9 +150,9 @@ impl Filter<'_> {
     fn try_without(&mut self, some: &[Element]) -> Result<(), Option<CertifiedPath>> {
         let set: Vec<Element> = self.set.iter().filter(|element| !some.contains(element)).copied().collect();
         match self.among(&set).answer(self.boxes) {
-            Decision::Open(path) => Err(Some(*path)),
-            Decision::Unknown(_) => Err(None),
-            Decision::Closed(proof) => {
+            Outcome::Found(path) => Err(Some(path)),
+            Outcome::Unknown(_) => Err(None),
+            Outcome::Infeasible(proof) => {
                 self.set = set;
                 self.refine(proof);
                 Ok(())

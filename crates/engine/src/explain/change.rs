@@ -1,9 +1,9 @@
 //! The smallest change of a single blocker that opens a way.
 
 use super::element::Element;
-use super::question::{Decision, Question, farthest};
+use super::question::{Question, farthest};
 use super::threshold::{Threshold, threshold};
-use cplan_core::model::Obstacle;
+use cplan_core::model::{Obstacle, Outcome};
 use cplan_geometry::{Convex, Point, Vector};
 use nalgebra::Translation2;
 use serde::Serialize;
@@ -169,7 +169,7 @@ fn moving(
     let most = farthest(question.scene());
     let (mut below, mut step) = (0.0, 4.0 * fine);
     let open = loop {
-        let opens = |k: &usize| matches!(ask(*k as f64 / DIRECTIONS as f64, step), Decision::Open(_));
+        let opens = |k: &usize| matches!(ask(*k as f64 / DIRECTIONS as f64, step), Outcome::Found(_));
         let open: Vec<f64> = (0..DIRECTIONS).filter(opens).map(|k| k as f64 / DIRECTIONS as f64).collect();
         if !open.is_empty() {
             break open;
@@ -182,11 +182,11 @@ fn moving(
     let mut best: Option<(f64, Threshold)> = None;
     let better = |share: f64, best: &mut Option<(f64, Threshold)>| {
         let most = best.as_ref().map_or(step, |(_, known)| known.opens - fine);
-        if most <= 0.0 || !matches!(ask(share, most), Decision::Open(_)) {
+        if most <= 0.0 || !matches!(ask(share, most), Outcome::Found(_)) {
             return;
         }
         // In this direction a smaller step may be known not to do.
-        let from = if below < most && matches!(ask(share, below), Decision::Closed(_)) { below } else { 0.0 };
+        let from = if below < most && matches!(ask(share, below), Outcome::Infeasible(_)) { below } else { 0.0 };
         if let Some(found) = threshold(from, most, fine, |by| ask(share, by)) {
             *best = Some((share, found));
         }

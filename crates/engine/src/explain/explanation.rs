@@ -4,9 +4,9 @@ use super::blockers::{BlockingSet, blocking_sets};
 use super::bottleneck::{Bottleneck, bottleneck};
 use super::change::{Among, Change, changes};
 use super::ends::{BlockedEnd, OutOfReach, blocked_ends};
-use super::question::{Decision, Question};
+use super::question::Question;
 use super::shaping::{Saving, savings};
-use crate::{Options, Verdict, solve};
+use crate::{Options, Unknown, solve};
 use cplan_core::check::CheckedProof;
 use cplan_core::model::{Outcome, Status};
 
@@ -67,11 +67,11 @@ pub fn explain(question: &Question, options: &Options) -> Explanation {
     let answer = question.problem().map(|problem| solve(&problem, options, &mut |_| ()));
     let started = question.started();
     let closed = |proof: Option<CheckedProof>| Outcome::Infeasible(closed(&started, proof));
-    let outcome = match answer.as_ref().map(|answer| &answer.verdict) {
+    let outcome = match answer.as_ref().map(|answer| &answer.outcome) {
         None => closed(None),
-        Some(Verdict::Infeasible(proof)) => closed(Some(proof.clone())),
-        Some(Verdict::Unknown(reason)) => Outcome::Unknown(reason.clone()),
-        Some(Verdict::Found(_)) => {
+        Some(Outcome::Infeasible(proof)) => closed(Some(proof.clone())),
+        Some(Outcome::Unknown(Unknown { reason, .. })) => Outcome::Unknown(reason.clone()),
+        Some(Outcome::Found(_)) => {
             let answer = answer.expect("it was just looked at");
             let savings = savings(&started, &answer, options);
             Outcome::Found(Shaped { answer: Box::new(answer), savings })
@@ -96,7 +96,7 @@ fn closed(question: &Question, proof: Option<CheckedProof>) -> Closed {
         let others: Vec<_> = all.iter().filter(|element| !elements.contains(element)).copied().collect();
         for blocker in &mut set.blockers {
             let element = blocker.element;
-            let opens = matches!(question.without(&[element]).answer(BOXES), Decision::Open(_));
+            let opens = matches!(question.without(&[element]).answer(BOXES), Outcome::Found(_));
             blocker.changes = match opens {
                 true => changes(question, element, Among::World, BOXES),
                 false => changes(&question.without(&others), element, Among::Set, BOXES),

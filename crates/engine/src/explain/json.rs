@@ -63,12 +63,12 @@ fn of_found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Value {
         with(of_element(scene, element), more)
     };
     let mut object = Map::new();
-    if let Some(bound) = answer.bound {
+    if let Some(bound) = answer.bound() {
         object.insert("length".into(), json!(bound.upper));
         object.insert("lower_bound".into(), json!(bound.lower));
     }
     object.insert("shaped_by".into(), savings.iter().map(saving).collect());
-    if let crate::Verdict::Found(path) = &answer.verdict {
+    if let Some(path) = answer.outcome.found().map(|path| &path.certified) {
         object.insert("path".into(), path.path().waypoints().iter().map(|q| json!(pair(*q))).collect());
         if let Some(nearest) = path.nearest() {
             let tight = json!({

@@ -37,6 +37,6 @@ pub use change::{Among, Change, Cure, changes};
 pub use element::{Element, Side};
 pub use ends::{BlockedEnd, End, OutOfReach, blocked_ends};
 pub use explanation::{Closed, Explanation, Shaped, explain};
-pub use question::{Decision, HARDLY_ANY, Question, TIME_LIMIT, Target};
+pub use question::{HARDLY_ANY, Question, TIME_LIMIT, Target};
 pub use shaping::{Saving, savings};
 pub use threshold::Threshold;

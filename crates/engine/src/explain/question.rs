@@ -1,9 +1,9 @@
 //! What is asked, also where start or goal is not free, and the same with less in the way.
 
 use super::element::{Element, Side, widened};
-use crate::{Verdict, decide};
+use crate::decide;
 use cplan_core::check::{CertifiedPath, CheckedProof};
-use cplan_core::model::{Arm, Goal, JointType, MotionProblem, Scene, Workspace, area_goals, inverse};
+use cplan_core::model::{Arm, Goal, JointType, MotionProblem, Outcome, Scene, Workspace, area_goals, inverse};
 use cplan_core::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::{Convex, Point};
 use cplan_interrupt::{Instant, Interrupt};
@@ -57,17 +57,6 @@ pub struct Question {
     time_limit: Option<Duration>,
     /// When that time is up, once its clock runs.
     deadline: Option<Instant>,
-}
-
-/// What is decided of a question.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Decision {
-    /// A certified path.
-    Open(Box<CertifiedPath>),
-    /// There is none: proven by boxes, or start or goals are not free themselves.
-    Closed(Option<CheckedProof>),
-    /// Neither is known.
-    Unknown(String),
 }
 
 impl From<&MotionProblem> for Question {
@@ -192,13 +181,13 @@ impl Question {
 
     /// By slabs and boxes, of these no more than so many.
     #[must_use]
-    pub fn answer(&self, boxes: usize) -> Decision {
-        let Some(problem) = self.problem() else { return Decision::Closed(None) };
+    pub fn answer(&self, boxes: usize) -> Outcome<CertifiedPath, Option<CheckedProof>> {
+        let Some(problem) = self.problem() else { return Outcome::Infeasible(None) };
         match self.in_time(|| decide(&problem, boxes)) {
-            None => Decision::Unknown("the time is up".into()),
-            Some(Verdict::Found(path)) => Decision::Open(Box::new(path)),
-            Some(Verdict::Infeasible(proof)) => Decision::Closed(Some(proof)),
-            Some(Verdict::Unknown(reason)) => Decision::Unknown(reason),
+            None => Outcome::Unknown("the time is up".into()),
+            Some(Outcome::Found(path)) => Outcome::Found(path),
+            Some(Outcome::Infeasible(proof)) => Outcome::Infeasible(Some(proof)),
+            Some(Outcome::Unknown(reason)) => Outcome::Unknown(reason),
         }
     }
 

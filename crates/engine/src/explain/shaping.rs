@@ -2,7 +2,7 @@
 
 use super::element::Element;
 use super::question::Question;
-use crate::{Answer, Bound, Options, Verdict, solve};
+use crate::{Answer, Bound, Options, solve};
 use cplan_interrupt::checkpoint;
 
 /// What makes the shortest path longer.
@@ -22,13 +22,13 @@ pub struct Saving {
 /// path is looked for without each in turn, until the question's time is up.
 #[must_use]
 pub fn savings(question: &Question, answer: &Answer, options: &Options) -> Vec<Saving> {
-    let Some(whole) = answer.bound else { return Vec::new() };
+    let Some(whole) = answer.bound() else { return Vec::new() };
     let mut savings = Vec::new();
     for element in Element::all(question.scene()) {
         checkpoint();
         let Some(problem) = question.just_without(&[element]).problem() else { continue };
         let Some(without) = question.in_time(|| solve(&problem, options, &mut |_| ())) else { break };
-        if let (Verdict::Found(_), Some(Bound { lower, upper, .. })) = (&without.verdict, without.bound) {
+        if let Some(Bound { lower, upper, .. }) = without.bound() {
             let (at_least, at_most) = (whole.lower - upper, whole.upper - lower);
             if at_least > 0.0 {
                 savings.push(Saving { element, length: upper, at_least, at_most });

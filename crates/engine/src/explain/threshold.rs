@@ -1,7 +1,7 @@
 //! How much of a change opens a way, between a certified path and a proof.
 
-use super::question::Decision;
-use cplan_core::check::CertifiedPath;
+use cplan_core::check::{CertifiedPath, CheckedProof};
+use cplan_core::model::Outcome;
 use cplan_interrupt::checkpoint;
 
 /// Where a way opens as something is changed more and more.
@@ -21,9 +21,9 @@ pub(super) fn threshold(
     closed: f64,
     most: f64,
     tolerance: f64,
-    mut ask: impl FnMut(f64) -> Decision,
+    mut ask: impl FnMut(f64) -> Outcome<CertifiedPath, Option<CheckedProof>>,
 ) -> Option<Threshold> {
-    if !matches!(ask(closed), Decision::Closed(_)) {
+    if !matches!(ask(closed), Outcome::Infeasible(_)) {
         return None;
     }
     let mut known = Known { closed, below: closed, open: None };
@@ -50,7 +50,7 @@ pub(super) fn threshold(
     while unknown - known.closed > tolerance {
         let by = f64::midpoint(known.closed, unknown);
         match ask(by) {
-            Decision::Closed(_) => known.closed = by,
+            Outcome::Infeasible(_) => known.closed = by,
             _ => unknown = by,
         }
     }
@@ -68,12 +68,12 @@ struct Known {
 }
 
 impl Known {
-    fn learn(&mut self, by: f64, answer: Decision) {
+    fn learn(&mut self, by: f64, answer: Outcome<CertifiedPath, Option<CheckedProof>>) {
         checkpoint();
         match answer {
-            Decision::Open(path) => self.open = Some((by, *path)),
-            Decision::Closed(_) => (self.closed, self.below) = (by, by),
-            Decision::Unknown(_) => self.below = by,
+            Outcome::Found(path) => self.open = Some((by, path)),
+            Outcome::Infeasible(_) => (self.closed, self.below) = (by, by),
+            Outcome::Unknown(_) => self.below = by,
         }
     }
 }

@@ -7,7 +7,7 @@ mod task;
 
 pub use configuration::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
 use motion::Broken;
-pub use motion::{EncounterFinding, LimitFinding, MomentFinding, MotionFindings, Verdict, WayFinding};
+pub use motion::{EncounterFinding, Judgement, LimitFinding, MomentFinding, MotionFindings, WayFinding};
 pub use task::{StepFinding, TurnContactFinding, TurnFinding};
 
 use cplan_core::model::{Claims, HeldMotion, RecordedStep, Scene};
@@ -93,8 +93,8 @@ fn judge_motion(
     let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);
     let misses = ends_kept(scene.arm(), recording, start, &goals);
     let false_claims = claims_kept(scene, recording, claims, &collision_check);
-    let findings = findings.but(Verdict::Undecided, untold.into_iter().flatten().collect());
-    Ok(findings.but(Verdict::Ends, misses).but(Verdict::Claims, false_claims))
+    let findings = findings.but(Judgement::Undecided, untold.into_iter().flatten().collect());
+    Ok(findings.but(Judgement::Ends, misses).but(Judgement::Claims, false_claims))
 }
 
 /// Judges the recording as the task of the world.

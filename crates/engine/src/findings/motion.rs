@@ -9,7 +9,7 @@ use serde::Serialize;
 /// What is found in a word, the worst last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Verdict {
+pub enum Judgement {
     /// Proven free and within all limits that can be judged.
     Free,
     /// Neither proven free nor proven to collide.
@@ -26,18 +26,18 @@ pub enum Verdict {
     Collision,
 }
 
-impl Verdict {
+impl Judgement {
     /// As it is written in JSON.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
-            Verdict::Free => "free",
-            Verdict::Collision => "collision",
-            Verdict::Limits => "limits",
-            Verdict::Undecided => "undecided",
-            Verdict::Task => "task",
-            Verdict::Ends => "ends",
-            Verdict::Claims => "claims",
+            Judgement::Free => "free",
+            Judgement::Collision => "collision",
+            Judgement::Limits => "limits",
+            Judgement::Undecided => "undecided",
+            Judgement::Task => "task",
+            Judgement::Ends => "ends",
+            Judgement::Claims => "claims",
         }
     }
 }
@@ -46,7 +46,7 @@ impl Verdict {
 #[derive(Debug, Clone, Serialize)]
 pub struct MotionFindings {
     /// In a word.
-    pub verdict: Verdict,
+    pub verdict: Judgement,
     /// Names of the joints, base to tip.
     pub joints: [String; 2],
     /// Units of the joints' values: `rad` or `m`.
@@ -204,7 +204,7 @@ impl MotionFindings {
     pub(super) fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
         let joints = &scene.arm().joints;
         Self {
-            verdict: Verdict::Free,
+            verdict: Judgement::Free,
             joints: joints.each_ref().map(|j| j.name.clone()),
             units: joints.each_ref().map(Joint::unit),
             samples: recording.positions().len(),
@@ -221,7 +221,7 @@ impl MotionFindings {
     }
 
     /// With faults of a kind, if there are any.
-    pub(super) fn but(mut self, verdict: Verdict, faults: Vec<impl ToString>) -> Self {
+    pub(super) fn but(mut self, verdict: Judgement, faults: Vec<impl ToString>) -> Self {
         if !faults.is_empty() {
             self.verdict = self.verdict.max(verdict);
         }
@@ -237,12 +237,12 @@ impl MotionFindings {
 }
 
 /// What to say of a motion in a word.
-pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[Excess]) -> Verdict {
+pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[Excess]) -> Judgement {
     match collision_check {
-        CollisionCheck::Collision { .. } => Verdict::Collision,
-        _ if !broken.is_empty() => Verdict::Limits,
-        CollisionCheck::Free { .. } => Verdict::Free,
-        CollisionCheck::Undecided(_) => Verdict::Undecided,
+        CollisionCheck::Collision { .. } => Judgement::Collision,
+        _ if !broken.is_empty() => Judgement::Limits,
+        CollisionCheck::Free { .. } => Judgement::Free,
+        CollisionCheck::Undecided(_) => Judgement::Undecided,
     }
 }
 

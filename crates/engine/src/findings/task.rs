@@ -1,6 +1,6 @@
 //! What is found of a task, step by step.
 
-use super::motion::{Broken, LimitFinding, MotionFindings, Verdict, WayFinding, limits, verdict};
+use super::motion::{Broken, Judgement, LimitFinding, MotionFindings, WayFinding, limits, verdict};
 use cplan_core::model::{AssumedLimits, Claims, RecordedStep, Scene, Task};
 use cplan_core::space::Recording;
 use cplan_motion::recorded::{Departure, Replay, ReplayedStep, ReplayedTurn, step_claims_kept, task_claims_kept};
@@ -20,7 +20,7 @@ pub struct StepFinding {
     /// The object that is carried during the motion.
     pub carried: Option<String>,
     /// In a word.
-    pub verdict: Verdict,
+    pub verdict: Judgement,
     /// The sample with which its motion begins, from 0.
     pub first_sample: usize,
     /// The sample with which it ends.
@@ -75,12 +75,12 @@ impl StepFinding {
         let name = |object: usize| task.objects[object].name.clone();
         let turn = replayed.turn.map(|turn| TurnFinding::new(scene, &turn));
         let of_turn = match &turn {
-            Some(TurnFinding { contact: Some(_), .. }) => Verdict::Collision,
-            _ => Verdict::Free,
+            Some(TurnFinding { contact: Some(_), .. }) => Judgement::Collision,
+            _ => Judgement::Free,
         };
         let joints = &scene.arm().joints;
         let broken = Broken::new(joints, broken, assumed);
-        let of_faults = if faults.is_empty() { Verdict::Free } else { Verdict::Task };
+        let of_faults = if faults.is_empty() { Judgement::Free } else { Judgement::Task };
         Self {
             step: step.number,
             cycle: step.cycle,
@@ -147,8 +147,8 @@ pub(super) fn judged(
         false_claims.extend(task_claims_kept(task, recording, recorded, &happened, claims));
     }
     let departure = replay.departure().map(Departure::to_string);
-    let of_departure = if departure.is_some() { Verdict::Task } else { Verdict::Free };
-    let worst = steps.iter().map(|step| step.verdict).max().unwrap_or(Verdict::Free);
+    let of_departure = if departure.is_some() { Judgement::Task } else { Judgement::Free };
+    let worst = steps.iter().map(|step| step.verdict).max().unwrap_or(Judgement::Free);
     let of_step = |step: &StepFinding| {
         let name = step.name();
         step.faults.iter().map(move |fault| format!("{name}: {fault}")).collect::<Vec<_>>()
@@ -164,7 +164,7 @@ pub(super) fn judged(
         notes,
         ..MotionFindings::of_nothing(scene, recording)
     }
-    .but(Verdict::Claims, false_claims)
+    .but(Judgement::Claims, false_claims)
 }
 
 /// What is met on the whole way.

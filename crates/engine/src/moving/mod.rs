@@ -16,9 +16,9 @@ pub(super) use blocked::Movers;
 pub use schedule::{Demand, Scheduled, Wait};
 
 use super::options::Options;
-use super::{Verdict, solve};
+use super::solve;
 use cplan_core::check::{CertifiedPath, Nearest, certify};
-use cplan_core::model::{MotionProblem, Scene};
+use cplan_core::model::{MotionProblem, Outcome, Scene};
 use cplan_core::space::{Configuration, GoalSet, Interpolation, Recording, Segment};
 use cplan_motion::recorded::{CollisionCheck, certify_in_time, met_in_time};
 use cplan_motion::{Limits, Timed, TimingError, Trajectory};
@@ -116,7 +116,7 @@ pub fn in_time(
         around = next;
         let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
         let looser = Options { bounded: false, planner, ..*options };
-        let Verdict::Found(other) = solve(&around, &looser, &mut |_| ()).verdict else { break };
+        let Outcome::Found(other) = solve(&around, &looser, &mut |_| ()).outcome else { break };
         let Ok(other) = certify(scene, other.path().clone(), scene.workspace().clearance) else { break };
         let whole = options.drive.along(scene, &other, demand.speed)?;
         way = Some((other, whole));

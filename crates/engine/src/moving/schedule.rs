@@ -106,11 +106,78 @@ struct Stops<'a> {
     legs: BTreeMap<(usize, usize), Timed>,
 }
 
-/// A way to be at a stop in one of its safe intervals: when, from which other and when that was left.
+/// A stop and one of its safe intervals, by number.
+type SafeStop = (usize, usize);
+
+/// When the arm arrives at a stop; from which other, and when that was left.
 #[derive(Debug, Clone, Copy)]
 struct Arrival {
     time: f64,
-    from: Option<(usize, usize, f64)>,
+    from: Option<(SafeStop, f64)>,
+}
+
+/// A way from the first stop to the last.
+struct Way {
+    /// The stops, and when each is left; the last, when it is reached.
+    stops: Vec<(usize, f64)>,
+    /// Until when the arm may stay at the last.
+    free_until: f64,
+}
+
+/// The earliest known arrivals, and those from which the search goes on.
+struct Reached {
+    known: BTreeMap<SafeStop, Arrival>,
+    open: BinaryHeap<Reverse<(Ordered, usize, usize)>>,
+    /// What does not reach the goal for good sooner than this is of no use.
+    soonest_for_good: f64,
+}
+
+impl Reached {
+    fn from_the_start(soonest_for_good: f64) -> Self {
+        let mut reached = Self { known: BTreeMap::new(), open: BinaryHeap::new(), soonest_for_good };
+        reached.arrive((0, 0), Arrival { time: 0.0, from: None }, false);
+        reached
+    }
+
+    /// Takes the earliest arrival from which the search has not gone on yet.
+    fn next(&mut self) -> Option<(SafeStop, f64)> {
+        loop {
+            let Reverse((Ordered(time), stop, interval)) = self.open.pop()?;
+            // A later one than this may be left from before.
+            if self.known[&(stop, interval)].time >= time {
+                return Some(((stop, interval), time));
+            }
+        }
+    }
+
+    /// Whether nothing as early is known.
+    fn is_improved_by(&self, at: SafeStop, time: f64) -> bool {
+        self.known.get(&at).is_none_or(|known| known.time > time)
+    }
+
+    /// Keeps an arrival that is earlier than what is known.
+    fn arrive(&mut self, at: SafeStop, arrival: Arrival, is_for_good: bool) {
+        if !self.is_improved_by(at, arrival.time) {
+            return;
+        }
+        if is_for_good {
+            self.soonest_for_good = self.soonest_for_good.min(arrival.time);
+        }
+        self.known.insert(at, arrival);
+        self.open.push(Reverse((Ordered(arrival.time), at.0, at.1)));
+    }
+
+    /// The stops up to an arrival, and when each is left; the last, when it is reached.
+    fn stops_to(&self, end: SafeStop) -> Vec<(usize, f64)> {
+        let mut stops = vec![(end.0, self.known[&end].time)];
+        let mut at = end;
+        while let Some((from, departs)) = self.known[&at].from {
+            stops.push((from.0, departs));
+            at = from;
+        }
+        stops.reverse();
+        stops
+    }
 }
 
 /// The earliest motion along a path, from rest to rest between some places on it at which it may wait; none if there is none, or none that ends for
@@ -142,7 +209,7 @@ pub fn schedule(
     let metric = Metric::Time { speeds };
     let gone = at.iter().map(|&distance| metric.length(&path.path().part(0.0, distance))).collect();
     let mut stops = Stops { movers, path, drive, effort, demand, at, gone, safe, legs };
-    let Some((way, free_until)) = stops.search(before)? else { return Ok(None) };
+    let Some(Way { stops: way, free_until }) = stops.search(before)? else { return Ok(None) };
     let (timed, waits) = stops.driven(&way)?;
     Ok(Some(Scheduled { timed, waits, free_until }))
 }
@@ -165,79 +232,75 @@ impl Stops<'_> {
         least_duration((self.gone[to] - self.gone[from]).abs(), &limits)
     }
 
-    /// The earliest way to the last stop, as stops and the times at which they are left (the last: reached), and until when it is safe there.
-    #[expect(clippy::type_complexity, reason = "the stops of a way with their times, and one time more")]
-    fn search(&mut self, before: f64) -> Result<Option<(Vec<(usize, f64)>, f64)>, TimingError> {
-        let last = self.at.len() - 1;
-        let mut known: BTreeMap<(usize, usize), Arrival> = BTreeMap::new();
-        let mut open = BinaryHeap::new();
+    /// Finds the earliest way to the last stop, of those that do not end for good after `before`.
+    fn search(&mut self, before: f64) -> Result<Option<Way>, TimingError> {
         // At the start the interval that holds time 0 is the first.
         if self.safe[0].first().is_none_or(|first| first[0] > 0.0) {
             return Ok(None);
         }
-        known.insert((0, 0), Arrival { time: 0.0, from: None });
-        open.push(Reverse((Ordered(0.0), 0, 0)));
+        let last = self.at.len() - 1;
+        let mut reached = Reached::from_the_start(before);
         let mut fallback = None;
-        // What does not reach the goal for good sooner than this is of no use.
-        let mut soonest_for_good = before;
-        while let Some(Reverse((Ordered(time), stop, interval))) = open.pop() {
-            if known[&(stop, interval)].time < time {
-                continue;
-            }
+        while let Some((at, time)) = reached.next() {
+            let (stop, interval) = at;
             if stop == last {
-                let until = self.stays(interval, time);
-                if until == f64::INFINITY {
-                    return Ok(Some((way(&known, (stop, interval)), until)));
+                let free_until = self.stays(interval, time);
+                if free_until == f64::INFINITY {
+                    return Ok(Some(Way { stops: reached.stops_to(at), free_until }));
                 }
-                if self.demand.arrival.is_none() {
-                    fallback = fallback.or_else(|| Some((way(&known, (stop, interval)), until)));
+                if self.demand.arrival.is_none() && fallback.is_none() {
+                    fallback = Some(Way { stops: reached.stops_to(at), free_until });
                 }
                 continue;
             }
-            let (leaves_by, backward) = (self.safe[stop][interval][1], self.effort.backward);
+            let backward = self.effort.backward;
             // The goal first: what is known to be reached sooner needs no other way.
             for next in (0..=last).rev().filter(|&next| next != stop && (backward || next > stop)) {
-                let soonest = time + self.least(stop, next);
-                let onwards = self.least(next, last);
-                let is_target = |&k: &usize| {
-                    let [begins, ends] = self.safe[next][k];
-                    let is_of_use = next == last || soonest.max(begins) + onwards < soonest_for_good;
-                    is_of_use && ends >= soonest && known.get(&(next, k)).is_none_or(|known| known.time > soonest)
-                };
-                let targets: Vec<usize> = (0..self.safe[next].len()).filter(is_target).collect();
-                if targets.is_empty() {
-                    continue;
-                }
-                let trajectory = &self.leg(stop, next)?.trajectory;
-                let lasts = trajectory.duration();
-                let pieces = trajectory.pieces();
-                // When to depart for each of them.
-                let windows: Vec<(usize, Interval)> = targets
-                    .into_iter()
-                    .map(|target| {
-                        let [begins, ends] = self.safe[next][target];
-                        let by = leaves_by.min(ends - lasts).min(soonest_for_good - onwards - lasts);
-                        (target, [time.max(begins - lasts), by])
-                    })
-                    .filter(|(_, [from, to])| from <= to)
-                    .collect();
-                let (Some((_, [first, _])), Some((_, [_, end]))) = (windows.first(), windows.last()) else { continue };
-                let blocked = blocked_departures(self.movers, &pieces, [*first, *end]);
-                for (target, [from, to]) in windows {
-                    let Some(departs) = first_departure(&blocked, from, to) else { continue };
-                    let ends = self.safe[next][target][1];
-                    let arrives = departs + lasts;
-                    if known.get(&(next, target)).is_none_or(|known| arrives < known.time) {
-                        if next == last && (ends == f64::INFINITY || self.demand.arrival.is_some()) {
-                            soonest_for_good = soonest_for_good.min(arrives);
-                        }
-                        known.insert((next, target), Arrival { time: arrives, from: Some((stop, interval, departs)) });
-                        open.push(Reverse((Ordered(arrives), next, target)));
-                    }
-                }
+                self.depart(&mut reached, at, time, next)?;
             }
         }
         Ok(fallback)
+    }
+
+    /// Departs for another stop, for each of its safe intervals as early as that is possible.
+    fn depart(
+        &mut self,
+        reached: &mut Reached,
+        (stop, interval): SafeStop,
+        time: f64,
+        next: usize,
+    ) -> Result<(), TimingError> {
+        let last = self.at.len() - 1;
+        let (soonest, onwards) = (time + self.least(stop, next), self.least(next, last));
+        let is_target = |&k: &usize| {
+            let [begins, ends] = self.safe[next][k];
+            let is_of_use = next == last || soonest.max(begins) + onwards < reached.soonest_for_good;
+            is_of_use && ends >= soonest && reached.is_improved_by((next, k), soonest)
+        };
+        let targets: Vec<usize> = (0..self.safe[next].len()).filter(is_target).collect();
+        if targets.is_empty() {
+            return Ok(());
+        }
+        let leaves_by = self.safe[stop][interval][1];
+        let trajectory = &self.leg(stop, next)?.trajectory;
+        let (lasts, pieces) = (trajectory.duration(), trajectory.pieces());
+        let window = |target: usize| {
+            let [begins, ends] = self.safe[next][target];
+            let by = leaves_by.min(ends - lasts).min(reached.soonest_for_good - onwards - lasts);
+            (target, [time.max(begins - lasts), by])
+        };
+        let windows: Vec<(usize, Interval)> =
+            targets.into_iter().map(window).filter(|(_, [from, to])| from <= to).collect();
+        let (Some((_, [first, _])), Some((_, [_, end]))) = (windows.first(), windows.last()) else { return Ok(()) };
+        let blocked = blocked_departures(self.movers, &pieces, [*first, *end]);
+        for (target, [from, to]) in windows {
+            let Some(departs) = first_departure(&blocked, from, to) else { continue };
+            let is_endless = self.safe[next][target][1] == f64::INFINITY;
+            let is_for_good = next == last && (is_endless || self.demand.arrival.is_some());
+            let arrival = Arrival { time: departs + lasts, from: Some(((stop, interval), departs)) };
+            reached.arrive((next, target), arrival, is_for_good);
+        }
+        Ok(())
     }
 
     /// Until when the arm may stay at the goal that it reaches at a time; for ever, as far as anybody asks, where it is to arrive in time.
@@ -288,18 +351,6 @@ impl Stops<'_> {
         }
         Ok((Timed { curve, trajectory }, waits))
     }
-}
-
-/// The stops of a way, and when each is left; the last, when it is reached.
-fn way(known: &BTreeMap<(usize, usize), Arrival>, end: (usize, usize)) -> Vec<(usize, f64)> {
-    let mut stops = vec![(end.0, known[&end].time)];
-    let mut at = end;
-    while let Some((stop, interval, departs)) = known[&at].from {
-        stops.push((stop, departs));
-        at = (stop, interval);
-    }
-    stops.reverse();
-    stops
 }
 
 /// The arm at a distance along a path.

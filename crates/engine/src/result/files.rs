@@ -1,25 +1,26 @@
 //! The result in the formats of files.
 
-use super::{Report, TaskFigures};
+use crate::plan::{Detail, Plan, named};
 use crate::task::Messages;
 use cplan_motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
 #[cfg(feature = "mcap")]
 use cplan_motion::{Stage, mcap};
 
-impl Report {
-    /// The result as a file in this format holds it; none if the format holds nothing but a trajectory and there is none. All but
+impl Plan {
+    /// Returns the result as a file in this format holds it; none if the format holds nothing but a trajectory and there is none. All but
     /// MCAP are text in UTF-8.
     ///
     /// Tables of tasks have a column with the number of each sample's step among those that are done, from 1. ROS 2 messages hold the
     /// motion as one, recordings, which show nothing here (see `PlanOutput::bytes` of the crate `view`), a message for each step: its motion, and the turns of the wrist and strokes of the tool after it.
     #[must_use]
-    pub fn bytes(&self, format: Format) -> Option<Vec<u8>> {
+    pub fn encoded(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
-            Format::Json => self.json().into_bytes(),
+            Format::Json => self.to_json().into_bytes(),
             Format::Csv => {
-                let numbers = |task: &TaskFigures| task.step_of_sample.iter().map(|step| step + 1).collect::<Vec<_>>();
-                let numbers = self.task.as_deref().map(numbers);
-                csv(&self.joints, self.trajectory.as_ref()?, self.accelerations, numbers.as_deref()).into_bytes()
+                let motion = self.task().and_then(|(_, answer)| answer.outcome.found());
+                let steps: Option<Vec<usize>> =
+                    motion.map(|motion| motion.sequence.steps().into_iter().map(|step| step + 1).collect());
+                self.table(self.trajectory()?, steps.as_deref()).into_bytes()
             }
             Format::Yaml => ros_yaml(&self.messages()?.whole).into_bytes(),
             #[cfg(feature = "mcap")]
@@ -27,7 +28,7 @@ impl Report {
         })
     }
 
-    /// The result as a recording, with what there is to see if that is given.
+    /// Returns the result as a recording, with what there is to see if that is given.
     #[cfg(feature = "mcap")]
     #[must_use]
     pub fn recording(&self, stage: Option<&Stage>) -> Option<Vec<u8>> {
@@ -35,18 +36,15 @@ impl Report {
         Some(mcap(&steps.iter().map(|(begin, motion)| (motion, *begin)).collect::<Vec<_>>(), stage))
     }
 
-    /// The same for the motion of each step of a task alone, on a clock of its own and without standing still. None of a single
+    /// Returns the same for the motion of each step of a task alone, on a clock of its own and without standing still. None of a single
     /// motion, and if that format is not for single trajectories.
     #[must_use]
-    pub fn bytes_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
-        let task = self.task.as_ref()?;
+    pub fn encoded_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
+        let (_, answer) = self.task()?;
         let text: Vec<String> = match format {
             Format::Csv => {
-                let motions = task.timed.iter().map(|timed| &timed.trajectory).zip(1..);
-                let table = |(motion, number): (&Trajectory, usize)| {
-                    csv(&self.joints, motion, self.accelerations, Some(&vec![number; motion.time.len()]))
-                };
-                motions.map(table).collect()
+                let motions = answer.legs.iter().map(|leg| &leg.timed.trajectory).zip(1..);
+                motions.map(|(motion, number)| self.table(motion, Some(&vec![number; motion.time.len()]))).collect()
             }
             Format::Yaml => self.messages()?.steps.iter().map(|(_, motion)| ros_yaml(motion)).collect(),
             _ => return None,
@@ -54,15 +52,25 @@ impl Report {
         Some(text.into_iter().map(String::into_bytes).collect())
     }
 
+    /// A motion as a table; `steps` has the number of each sample's step.
+    fn table(&self, motion: &Trajectory, steps: Option<&[usize]>) -> String {
+        let joints = self.arm().joints.each_ref().map(|joint| joint.name.clone());
+        csv(&joints, motion, self.options().accelerations, steps)
+    }
+
     /// What messages hold; a single motion is one step.
     fn messages(&self) -> Option<Messages> {
-        let messages = match &self.task {
-            Some(task) => task.messages.clone()?,
-            None => {
-                let whole = JointMotion::new(&self.robot, self.trajectory.as_ref()?, true);
+        let robot = named(self.problem(), self.options());
+        let messages = match self.detail() {
+            Detail::Motion { answer, .. } => {
+                let whole = JointMotion::new(&robot, &answer.outcome.found()?.timed.trajectory, true);
                 Messages { steps: vec![(0.0, whole.clone())], whole }
             }
+            // Planning has refused what messages cannot name.
+            Detail::Task { task, answer } => {
+                Messages::new(&robot, task, &answer.legs, &answer.outcome.found()?.sequence).ok()?
+            }
         };
-        Some(if self.accelerations { messages } else { messages.without_accelerations() })
+        Some(if self.options().accelerations { messages } else { messages.without_accelerations() })
     }
 }

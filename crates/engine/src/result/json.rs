@@ -1,10 +1,21 @@
 //! The result as JSON: which fields, in which order.
+//!
+//! What a script relies on is always there, `path`, `length`, `clearance` and `trajectory` as null if there is none; the rest is left out if there
+//! is none of it. Numbers are finite; radians for a revolute joint and metres for a prismatic one, and seconds.
 
-use super::Report;
-use cplan_core::model::AssumedLimits;
-use cplan_motion::{Trajectory, as_map, line_a_field};
+use super::finite;
+use crate::field_report::field_report;
+use crate::motion::Motion;
+use crate::plan::{Detail, Plan};
+use crate::task::{FailedStepReport, TaskAnswer, TaskMotion, step_reports};
+use crate::{Answer, GridSpace};
+use cplan_core::model::{AssumedLimits, Joint, MotionProblem, Task};
+use cplan_motion::{Blends, Optimum, Trajectory, interpolation, line_a_field};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
+use serde_json::value::RawValue;
+use std::collections::BTreeMap;
+use std::time::Duration;
 
 /// Fields one after the other.
 struct Fields<'a, M> {
@@ -15,14 +26,14 @@ struct Fields<'a, M> {
 
 impl<M: SerializeMap> Fields<'_, M> {
     fn put(&mut self, name: &'static str, value: &(impl Serialize + ?Sized)) -> Result<(), M::Error> {
-        debug_assert!(Report::FIELDS.contains(&name), "{name} is not listed");
+        debug_assert!(Plan::FIELDS.contains(&name), "{name} is not listed");
         let is_written = self.only.is_empty() || self.only.iter().any(|only| only == name);
         if is_written { self.map.serialize_entry(name, value) } else { Ok(()) }
     }
 
     /// Leaves it out if there is none.
-    fn some<T: Serialize>(&mut self, name: &'static str, value: Option<&T>) -> Result<(), M::Error> {
-        value.map_or(Ok(()), |value| self.put(name, value))
+    fn some(&mut self, name: &'static str, value: Option<impl Serialize>) -> Result<(), M::Error> {
+        value.map_or(Ok(()), |value| self.put(name, &value))
     }
 }
 
@@ -32,45 +43,152 @@ struct Samples<'a> {
     #[serde(flatten)]
     trajectory: &'a Trajectory,
     #[serde(skip_serializing_if = "Option::is_none")]
-    step: Option<&'a [usize]>,
+    step: Option<Vec<usize>>,
 }
 
 /// Limits that nobody gives, by joint and in words.
 #[derive(Serialize)]
-struct AssumedInWords<'a> {
+struct AssumedInWords {
     #[serde(flatten)]
-    limits: &'a AssumedLimits,
+    limits: AssumedLimits,
     notes: Vec<String>,
 }
 
 /// Stages with their milliseconds.
-struct Stages<'a>(&'a [(String, f64)]);
+struct Stages<'a>(&'a [(&'static str, Duration)]);
 
 impl Serialize for Stages<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        as_map(self.0, serializer)
+        serializer.collect_map(self.0.iter().map(|(stage, time)| (stage, time.as_secs_f64() * 1e3)))
     }
 }
 
-/// Some fields of a result.
-struct Only<'a> {
-    report: &'a Report,
+/// Some fields of a plan's result.
+struct PlanResult<'a> {
+    plan: &'a Plan,
     fields: &'a [String],
+    /// Goes behind the fields, as it is.
+    certificate: Option<&'a RawValue>,
 }
 
-impl Serialize for Only<'_> {
+impl Serialize for PlanResult<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.report.write(self.fields, serializer)
+        let mut fields = Fields { map: serializer.serialize_map(None)?, only: self.fields };
+        self.head(&mut fields)?;
+        match self.plan.detail() {
+            Detail::Motion { problem, answer } => self.motion(&mut fields, problem, answer)?,
+            Detail::Task { task, answer } => self.task(&mut fields, task, answer)?,
+        }
+        if let Some(certificate) = self.certificate {
+            fields.map.serialize_entry("certificate", certificate)?;
+        }
+        fields.map.end()
     }
 }
 
-impl Serialize for Report {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.write(&[], serializer)
+impl PlanResult<'_> {
+    /// What was asked, and which answer it is.
+    fn head<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
+        let Self { plan, .. } = self;
+        let (planner, name) = (&plan.options().planner, &plan.problem().scene().workspace().name);
+        fields.put("status", &plan.status())?;
+        fields.some("name", Some(name).filter(|name| !name.is_empty()))?;
+        fields.put("planner", planner.method().name())?;
+        fields.some("search", plan.search())?;
+        fields.some("space", planner.space().and_then(GridSpace::told))?;
+        fields.put("joints", &plan.arm().joints.each_ref().map(|joint| &joint.name))?;
+        fields.put("units", &plan.arm().joints.each_ref().map(Joint::unit))?;
+        fields.some("assumed", self.assumed_in_words())?;
+        fields.some("reason", plan.reason())
+    }
+
+    /// The limits that nobody gives, and what is said of them everywhere.
+    fn assumed_in_words(&self) -> Option<AssumedInWords> {
+        let mut limits = self.plan.problem().robot().assumed.clone();
+        if self.plan.options().drive.torque {
+            limits.acceleration.clear();
+        }
+        let joints = self.plan.arm().joints.each_ref().map(|joint| (joint.name.as_str(), joint.unit()));
+        (!limits.is_empty()).then(|| AssumedInWords { notes: limits.notes(joints), limits })
+    }
+
+    fn motion<M: SerializeMap>(
+        &self,
+        fields: &mut Fields<M>,
+        problem: &MotionProblem,
+        answer: &Answer<Motion>,
+    ) -> Result<(), M::Error> {
+        let Self { plan, .. } = self;
+        let motion = answer.outcome.found();
+        fields.some("proof", answer.outcome.infeasible())?;
+        let witness = answer.outcome.unknown().and_then(|unknown| unknown.witness.as_ref());
+        fields.some("path_exists", witness.map(|_| true))?;
+        fields.some("path_kind", motion.map(|_| answer.path_kind.name()))?;
+        fields.put("path", &plan.waypoints())?;
+        let free = free_joints(problem);
+        fields.some("free_joints", Some(free).filter(|joints| !joints.is_empty()))?;
+        fields.put("length", &plan.length())?;
+        fields.some("optimum", plan.bound().map(Optimum::from))?;
+        fields.some("fastest", motion.and_then(|motion| motion.fastest))?;
+        fields.some("moving", plan.timing())?;
+        fields.put("certified", &motion.is_some())?;
+        fields.put("clearance", &plan.clearance())?;
+        fields.some("closest", plan.closest())?;
+        fields.some("field", plan.options().planner.field().map(|field| field_report(field, answer)))?;
+        let size: BTreeMap<_, _> = answer.run.size.figures().into_iter().collect();
+        fields.some("size", Some(size).filter(|size| !size.is_empty()))?;
+        self.timings(fields)?;
+        fields.some("blends", motion.map(|motion| Blends::of(&motion.timed.curve)))?;
+        fields.some("duration", plan.duration())?;
+        self.trajectory(fields, plan.trajectory().map(|trajectory| Samples { trajectory, step: None }))
+    }
+
+    /// The path of a task stands behind its steps, not before what is proven of it.
+    fn task<M: SerializeMap>(&self, fields: &mut Fields<M>, task: &Task, answer: &TaskAnswer) -> Result<(), M::Error> {
+        let Self { plan, .. } = self;
+        let motion = answer.outcome.found();
+        fields.some("failed", answer.failed().map(|failed| FailedStepReport::new(task, failed)))?;
+        fields.some("moving", plan.timing())?;
+        fields.put("certified", &motion.is_some())?;
+        fields.put("clearance", &plan.clearance())?;
+        fields.some("duration", plan.duration())?;
+        fields.some("lower_bound", finite(answer.least_seconds()))?;
+        fields.some("gap", answer.gap())?;
+        fields.some("choice", motion.map(|motion| if motion.exact { "fastest" } else { "good" }))?;
+        fields.put("motions", &answer.motions)?;
+        let (steps, events) = step_reports(task, answer);
+        fields.put("steps", &steps)?;
+        fields.put("events", &events)?;
+        fields.put("path", &plan.waypoints())?;
+        fields.put("length", &plan.length())?;
+        self.timings(fields)?;
+        let samples = motion.map(|TaskMotion { sequence, .. }| Samples {
+            trajectory: &sequence.trajectory,
+            step: Some(sequence.steps()),
+        });
+        self.trajectory(fields, samples)
+    }
+
+    fn timings<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
+        let Self { plan, .. } = self;
+        fields.some("timings", plan.options().timings.then(|| Stages(plan.timings())))
+    }
+
+    /// The motion in time, and how to read it between its samples.
+    fn trajectory<M: SerializeMap>(&self, fields: &mut Fields<M>, samples: Option<Samples>) -> Result<(), M::Error> {
+        fields.some("interpolation", samples.as_ref().map(|_| interpolation(&self.plan.arm().joints)))?;
+        fields.put("trajectory", &samples)
     }
 }
 
-impl Report {
+/// The names of the joints that the goal, the tip at a place, leaves free: the path's last waypoint says which values were chosen.
+fn free_joints(problem: &MotionProblem) -> Vec<&str> {
+    let goals = problem.goals().pieces();
+    let is_free = |k: &usize| goals.iter().any(|goals| goals.ends()[0][*k] != goals.ends()[1][*k]);
+    (0..2).filter(is_free).map(|k| problem.scene().arm().joints[k].name.as_str()).collect()
+}
+
+impl Plan {
     /// The names of all fields that results can have.
     pub const FIELDS: [&str; 35] = [
         "status",
@@ -112,69 +230,20 @@ impl Report {
 
     /// The result with these fields alone, in their usual order; with all where none is named.
     #[must_use]
-    pub fn only<'a>(&'a self, fields: &'a [String]) -> impl Serialize + 'a {
-        Only { report: self, fields }
+    pub fn result<'a>(&'a self, fields: &'a [String]) -> impl Serialize + 'a {
+        PlanResult { plan: self, fields, certificate: None }
     }
 
-    /// The limits that nobody gives, and what is said of them everywhere.
-    fn assumed_in_words(&self) -> Option<AssumedInWords<'_>> {
-        let joints = [0, 1].map(|k| (self.joints[k].as_str(), self.units[k]));
-        let limits = Some(&self.assumed).filter(|assumed| !assumed.is_empty())?;
-        Some(AssumedInWords { limits, notes: limits.notes(joints) })
-    }
-
-    /// The path of a single motion stands before what is proven of it, that of a task behind its steps.
-    fn write<S: Serializer>(&self, only: &[String], serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = Fields { map: serializer.serialize_map(None)?, only };
-        fields.put("status", &self.status)?;
-        fields.some("name", self.name.as_ref())?;
-        fields.put("planner", &self.planner)?;
-        fields.some("search", self.search.as_ref())?;
-        fields.some("space", self.space.as_ref())?;
-        fields.put("joints", &self.joints)?;
-        fields.put("units", &self.units)?;
-        fields.some("assumed", self.assumed_in_words().as_ref())?;
-        fields.some("reason", self.reason.as_ref())?;
-        fields.some("proof", self.proof.as_ref())?;
-        fields.some("failed", self.task.as_ref().and_then(|task| task.failed.as_ref()))?;
-        fields.some("path_exists", self.path_exists.as_ref())?;
-        fields.some("path_kind", self.path_kind.as_ref())?;
-        if self.task.is_none() {
-            fields.put("path", &self.path)?;
-            fields.some("free_joints", Some(&self.free_joints).filter(|joints| !joints.is_empty()))?;
-            fields.put("length", &self.length)?;
-        }
-        fields.some("optimum", self.optimum.as_ref())?;
-        fields.some("fastest", self.fastest.as_ref())?;
-        fields.some("moving", self.moving.as_ref())?;
-        fields.put("certified", &self.certified)?;
-        fields.put("clearance", &self.clearance)?;
-        fields.some("closest", self.closest.as_ref())?;
-        fields.some("field", self.field.as_ref())?;
-        fields.some("size", Some(&self.size).filter(|size| !size.is_empty()))?;
-        if let Some(task) = &self.task {
-            fields.some("duration", self.duration.as_ref())?;
-            fields.some("lower_bound", task.lower_bound.as_ref())?;
-            fields.some("gap", task.gap.as_ref())?;
-            fields.some("choice", task.choice.as_ref())?;
-            fields.put("motions", &task.motions)?;
-            fields.put("steps", &task.steps)?;
-            fields.put("events", &task.events)?;
-            fields.put("path", &self.path)?;
-            fields.put("length", &self.length)?;
-        }
-        fields.some("timings", Some(&Stages(&self.timings)).filter(|_| !self.timings.is_empty()))?;
-        fields.some("blends", self.blends.as_ref())?;
-        fields.some("duration", self.duration.as_ref().filter(|_| self.task.is_none()))?;
-        fields.some("interpolation", self.interpolation.as_ref())?;
-        let step = self.task.as_ref().map(|task| &task.step_of_sample[..]);
-        fields.put("trajectory", &self.trajectory.as_ref().map(|trajectory| Samples { trajectory, step }))?;
-        fields.map.end()
-    }
-
-    /// The result as a JSON object, a line a field. Numbers have as many digits as it takes to read the same `f64` back.
+    /// The result as a JSON object, a line a field, as interface and book describe it. Numbers have as many digits as it takes to read the same
+    /// `f64` back.
     #[must_use]
-    pub fn json(&self) -> String {
-        line_a_field(self)
+    pub fn to_json(&self) -> String {
+        line_a_field(&self.result(&[]))
+    }
+
+    /// Returns the same with a [`Plan::certificate`] as its last member.
+    #[must_use]
+    pub fn to_json_with(&self, certificate: &RawValue) -> String {
+        line_a_field(&PlanResult { plan: self, fields: &[], certificate: Some(certificate) })
     }
 }

@@ -1,189 +1,114 @@
-//! What became of a problem, for files and for people: one result, whether it is a single motion or the steps of a task.
+//! What is read off a plan: its figures, its JSON and its files.
 
 mod files;
 mod json;
-mod task;
 
-pub use task::{Choice, TaskFigures};
-
-use super::Bound;
 use super::moving::Timing;
-use super::task::MessageError;
-use super::{Planner, Setting, Settings};
-use cplan_core::check::{CertifiedCurve, CheckedProof};
-use cplan_core::model::{AssumedLimits, Joint, RobotJoints, Status};
+use super::plan::{Detail, Plan};
+use super::task::FailedStep;
+use super::{Bound, Planner, Setting, Settings};
+use cplan_core::model::{Status, Task};
 use cplan_core::planner::VisibilityGraph;
-use cplan_core::space::Metric;
-use cplan_motion::{Blends, Fastest, FieldReport, Optimum, SearchUsed, Trajectory, interpolation};
-use std::collections::BTreeMap;
+use cplan_core::space::{Metric, Path};
+use cplan_motion::{Optimum, SearchUsed, Trajectory};
 
-/// The result of a run. What of it a script relies on is always in its JSON, `path`, `length`, `clearance` and `trajectory` as null if
-/// there is none; the rest is left out when `None` or empty. Of a task all that is optional and of a single motion is empty.
-///
-/// Numbers are finite; radians for a revolute joint and metres for a prismatic one, and seconds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Report {
-    /// Private, so that only what has found a certified motion can say "found".
-    status: Status,
-    /// Title of the workspace.
-    pub name: Option<String>,
-    /// Name of the planner; of a task that of its single motions.
-    pub planner: String,
-    /// How the wavefront planner searched its grids, or another its roadmap.
-    pub search: Option<SearchUsed>,
-    /// How the cells of the planner's grids were decided, if not by exact slices: `sampled`, which proves nothing by itself.
-    pub space: Option<&'static str>,
-    /// Names of the joints in the URDF, base to tip.
-    pub joints: [String; 2],
-    /// Unit of each joint's value: `rad` or `m`.
-    pub units: [&'static str; 2],
-    /// Limits that the timing takes for want of given ones.
-    pub assumed: AssumedLimits,
-    /// Why there is no motion, or why none is known.
-    pub reason: Option<String>,
-    /// Of an infeasible problem: boxes of colliding configurations that separate the start from all goals.
-    pub proof: Option<CheckedProof>,
-    /// Whether there is a path all the same, certified by another method than the one that was asked: `true`, of unknown
-    /// results only, and left out where nothing is known.
-    pub path_exists: Option<bool>,
-    /// Which of the planner's paths it is: `own` or `taut`.
-    pub path_kind: Option<&'static str>,
-    /// Waypoints, straight segments between them: what the motion follows, but for its blends; of a task those of all its motions.
-    pub path: Option<Vec<[f64; 2]>>,
-    /// Joints of which the goal, the tip at a place, takes any value: the path's last waypoint says which was chosen.
-    pub free_joints: Vec<String>,
-    /// Euclidean length of the path in joint space.
-    pub length: Option<f64>,
-    /// How far the path is from the optimum at the most, if the planner tells.
-    pub optimum: Option<Optimum>,
-    /// How far the motion is from the fastest at the most, if that was asked for.
-    pub fastest: Option<Fastest>,
-    /// How the motion gets by what moves, if anything does.
-    pub moving: Option<Timing>,
-    /// Whether all of the continuous motion was shown free of collision; false without a motion, and if not all steps can be done.
-    pub certified: bool,
-    /// Proven lower bound on the distance between arm and obstacles all the time, metres. None without a motion, and where nothing
-    /// can be hit: then it is infinite, for which JSON has no word.
-    pub clearance: Option<f64>,
-    /// The link and the obstacle that come closest, in words.
-    pub closest: Option<String>,
-    /// The field that was followed, if one was chosen.
-    pub field: Option<FieldReport>,
-    /// How much the planner built: `nodes` and `edges`, `cells` and `sweeps`, `windows` or `expanded` ones.
-    pub size: BTreeMap<&'static str, usize>,
-    /// Stages in the order in which they ran, with the milliseconds that each took; empty unless asked for, because they
-    /// differ from run to run and nothing else in a result does.
-    pub timings: Vec<(String, f64)>,
-    /// The path's corners that the motion rounds; none without a path.
-    pub blends: Option<Blends>,
-    /// Of the whole motion, seconds.
-    pub duration: Option<f64>,
-    /// How to read the trajectory between its samples.
-    pub interpolation: Option<&'static str>,
-    /// The whole motion in time; none where there is none.
-    pub trajectory: Option<Trajectory>,
-    /// What is said of a task besides; none of a single motion.
-    pub task: Option<Box<TaskFigures>>,
-    /// The joints that ROS 2 messages name: at first the two planned ones.
-    robot: RobotJoints,
-    /// Whether tables and messages have accelerations; see [`Trajectory::check_accelerations`].
-    accelerations: bool,
+impl Plan {
+    /// Returns why there is no motion, or why none is known; none if there is one.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        match self.detail() {
+            Detail::Motion { answer, .. } => answer.reason(),
+            Detail::Task { task, answer } => answer.failed().map(|failed| reason(task, failed, self.status())),
+        }
+    }
+
+    /// Returns the waypoints that the motion follows, but for its blends: straight segments between them. Of a task those of all its motions.
+    #[must_use]
+    pub fn waypoints(&self) -> Option<Vec<[f64; 2]>> {
+        match self.detail() {
+            Detail::Motion { answer, .. } => answer.path().map(waypoints),
+            Detail::Task { answer, .. } => {
+                answer.outcome.found()?;
+                let mut whole: Vec<[f64; 2]> = Vec::new();
+                // Each motion begins where the one before ends.
+                for path in answer.legs.iter().map(|leg| waypoints(leg.path())) {
+                    let shared = usize::from(whole.last() == path.first());
+                    whole.extend(&path[shared..]);
+                }
+                Some(whole)
+            }
+        }
+    }
+
+    /// Returns the Euclidean length of the path in joint space; of a task that of all its motions.
+    #[must_use]
+    pub fn length(&self) -> Option<f64> {
+        match self.detail() {
+            Detail::Motion { answer, .. } => answer.path().map(Path::length),
+            Detail::Task { answer, .. } => {
+                answer.outcome.found().map(|_| answer.legs.iter().map(|leg| leg.path().length()).sum())
+            }
+        }
+    }
+
+    /// Returns how long the motion takes, seconds.
+    #[must_use]
+    pub fn duration(&self) -> Option<f64> {
+        self.trajectory().map(Trajectory::duration)
+    }
+
+    /// Returns a proven lower bound on the distance between arm and obstacles all the time, metres. None without a motion, and where nothing
+    /// can be hit.
+    #[must_use]
+    pub fn clearance(&self) -> Option<f64> {
+        match self.detail() {
+            Detail::Motion { answer, .. } => answer.outcome.found().map(|motion| motion.timed.curve.clearance()),
+            Detail::Task { answer, .. } => answer.outcome.found().map(|_| answer.clearance()),
+        }
+        .and_then(finite)
+    }
+
+    /// Returns the link and the obstacle that come closest in a single motion, in words.
+    #[must_use]
+    pub fn closest(&self) -> Option<String> {
+        let (problem, answer) = self.motion()?;
+        let nearest = answer.outcome.found()?.timed.curve.nearest()?;
+        Some(problem.scene().describe(nearest.contact.pair))
+    }
+
+    /// Returns how far the path of a single motion is from the optimum at the most, if the planner tells.
+    #[must_use]
+    pub fn bound(&self) -> Option<Bound> {
+        self.motion().and_then(|(_, answer)| answer.bound())
+    }
+
+    /// Returns how the motion gets by what moves, if anything does.
+    #[must_use]
+    pub fn timing(&self) -> Option<&Timing> {
+        match self.detail() {
+            Detail::Motion { answer, .. } => answer.outcome.found()?.timing.as_ref(),
+            Detail::Task { answer, .. } => answer.outcome.found()?.timing.as_ref(),
+        }
+    }
+
+    /// Returns how the planner searched its grid, or its roadmap if that is not by the usual search.
+    #[must_use]
+    pub fn search(&self) -> Option<SearchUsed> {
+        search_used(&self.options().planner)
+    }
 }
 
-impl Report {
-    /// A run that found a path, whose motion follows `curve` as `trajectory` says. What is optional and not known here (name, closest pair, size,
-    /// timings) is left empty, for the caller to fill.
-    #[must_use]
-    pub fn found(planner: &str, joints: &[Joint; 2], curve: &CertifiedCurve, trajectory: Trajectory) -> Self {
-        let (path, clearance) = (curve.curve().path(), curve.clearance());
-        Self {
-            path: Some(path.waypoints().iter().map(|q| [q[0], q[1]]).collect()),
-            length: Some(path.length()),
-            clearance: finite(clearance),
-            blends: Some(Blends::of(curve)),
-            ..Self::moving(planner, joints, trajectory)
-        }
-    }
+fn waypoints(path: &Path) -> Vec<[f64; 2]> {
+    path.waypoints().iter().map(|q| [q[0], q[1]]).collect()
+}
 
-    /// A run that proved that there is no path.
-    #[must_use]
-    pub fn infeasible(planner: &str, joints: &[Joint; 2], reason: String) -> Self {
-        Self { reason: Some(reason), ..Self::bare(Status::Infeasible, planner, joints) }
-    }
-
-    /// A run that found no path and ruled none out.
-    #[must_use]
-    pub fn unknown(planner: &str, joints: &[Joint; 2], reason: String) -> Self {
-        Self { reason: Some(reason), ..Self::bare(Status::Unknown, planner, joints) }
-    }
-
-    /// A run that found a motion.
-    fn moving(planner: &str, joints: &[Joint; 2], trajectory: Trajectory) -> Self {
-        Self {
-            certified: true,
-            duration: Some(trajectory.duration()),
-            interpolation: Some(interpolation(joints)),
-            trajectory: Some(trajectory),
-            ..Self::bare(Status::Found, planner, joints)
-        }
-    }
-
-    fn bare(status: Status, planner: &str, joints: &[Joint; 2]) -> Self {
-        let names = joints.each_ref().map(|joint| joint.name.clone());
-        Self {
-            status,
-            name: None,
-            planner: planner.to_owned(),
-            search: None,
-            space: None,
-            robot: RobotJoints::planned(&names),
-            joints: names,
-            units: joints.each_ref().map(Joint::unit),
-            assumed: AssumedLimits::default(),
-            reason: None,
-            proof: None,
-            path_exists: None,
-            path_kind: None,
-            path: None,
-            free_joints: Vec::new(),
-            length: None,
-            optimum: None,
-            fastest: None,
-            moving: None,
-            certified: false,
-            clearance: None,
-            closest: None,
-            field: None,
-            size: BTreeMap::new(),
-            timings: Vec::new(),
-            blends: None,
-            duration: None,
-            interpolation: None,
-            trajectory: None,
-            task: None,
-            accelerations: false,
-        }
-    }
-
-    /// Lets messages name these joints, and tables and messages have accelerations or not.
-    ///
-    /// # Errors
-    /// Accelerations that jump, of the arm or of the tool.
-    pub fn name_joints(&mut self, robot: &RobotJoints, accelerations: bool) -> Result<(), MessageError> {
-        self.robot = robot.clone();
-        self.accelerations = accelerations;
-        let messages = self.task.as_ref().and_then(|task| task.messages.as_ref());
-        if let Some(trajectory) = self.trajectory.as_ref().filter(|_| accelerations) {
-            trajectory.check_accelerations()?;
-            messages.map_or(Ok(()), |messages| messages.check_accelerations(robot))?;
-        }
-        Ok(())
-    }
-
-    /// How the run ended.
-    #[must_use]
-    pub fn status(&self) -> Status {
-        self.status
+/// Which step fails, in a sentence.
+fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> String {
+    let cycle = if step.cycle > 1 { format!(" of cycle {}", step.cycle) } else { String::new() };
+    let which = format!("step {}{cycle}, {} ({})", step.number, step.action.describe(&task.objects), step.place);
+    match status {
+        Status::Infeasible => format!("proven: {which} cannot be done, nor can the task in any other way"),
+        _ => format!("unknown: no way to do {which} was found, and none ruled out"),
     }
 }
 
@@ -204,8 +129,7 @@ impl From<Bound> for Optimum {
 }
 
 /// How a planner searches its grid, or its roadmap if that is not by the usual search.
-#[must_use]
-pub fn search_used(planner: &Planner) -> Option<SearchUsed> {
+fn search_used(planner: &Planner) -> Option<SearchUsed> {
     let Settings { grid_search, ties, forward, neighborhood, .. } = planner.settings();
     if planner.method().reads(Setting::GridSearch) {
         return Some(SearchUsed {

@@ -1,9 +1,12 @@
 //! What becomes of a task.
 
-use super::impossible::Impossible;
+use super::failed_step::FailedStep;
+use super::sequence::Sequence;
 use super::stroke::ToolStroke;
 use crate::Timing;
+use crate::result::finite;
 use cplan_core::model::{Outcome, Scene, Step};
+use cplan_core::space::Path;
 use cplan_geometry::Pose;
 use cplan_motion::Timed;
 use cplan_motion::recorded::WristTurn;
@@ -61,6 +64,12 @@ pub struct Leg {
 }
 
 impl Leg {
+    /// Returns the path of the motion, without blends.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        self.timed.curve.curve().path()
+    }
+
     /// Seconds from the beginning of the task to the end of the motion.
     #[must_use]
     pub fn arrival(&self) -> f64 {
@@ -116,37 +125,64 @@ impl Leg {
     }
 }
 
-/// What became of a task: all steps can be done as planned; it cannot be done, whatever the IK solutions and the order: proven; or
-/// neither is known within the effort. Both name the step that fails.
-pub type TaskVerdict = Outcome<(), Impossible, Impossible>;
+/// All steps of a task, done one after the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TaskMotion {
+    /// Their motions as one.
+    pub sequence: Sequence,
+    /// Whether no other choice of IK solutions, turns and order is faster with the motions that this planner finds.
+    pub exact: bool,
+    /// How the arm gets by what moves, if anything does; on the clock of the task.
+    pub timing: Option<Timing>,
+}
 
-/// The answer to a task and how it came about.
+impl TaskMotion {
+    /// Returns how long it takes.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.sequence.trajectory.duration()
+    }
+}
+
+/// The outcome of a task, and how the search came to it.
 #[derive(Debug, Clone)]
 pub struct TaskAnswer {
-    /// What was found out: a sequence, a proof, or neither.
-    pub verdict: TaskVerdict,
+    /// The motion that does all steps; or the step that fails, whatever the IK solutions and the order: proven, or not known to be possible
+    /// within the effort.
+    pub outcome: Outcome<TaskMotion, FailedStep, FailedStep>,
     /// The steps in the order in which they are done: all, or those before the one that fails.
     pub legs: Vec<Leg>,
     /// No sequence of motions that does the whole task, from rest to rest at each step, takes less: proven, seconds.
     pub lower_bound: f64,
-    /// Whether no other choice of IK solutions, turns and order is faster with the motions that this planner finds.
-    pub exact: bool,
     /// Motions that were planned, those that were not needed in the end included.
     pub motions: usize,
     /// Nodes of the search that were expanded.
     pub expanded: usize,
-    /// How the arm gets by what moves, if anything does and all is done; on the clock of the task.
-    pub timing: Option<Timing>,
 }
 
 impl TaskAnswer {
-    /// The step that fails, if one does.
+    /// Returns the step that fails, if one does.
     #[must_use]
-    pub fn impossible(&self) -> Option<&Impossible> {
-        match &self.verdict {
-            TaskVerdict::Found(()) => None,
-            TaskVerdict::Infeasible(impossible) | TaskVerdict::Unknown(impossible) => Some(impossible),
+    pub fn failed(&self) -> Option<&FailedStep> {
+        match &self.outcome {
+            Outcome::Found(_) => None,
+            Outcome::Infeasible(failed) | Outcome::Unknown(failed) => Some(failed),
         }
+    }
+
+    /// Returns the lower bound on the seconds of the task, at most what it takes.
+    #[must_use]
+    pub fn least_seconds(&self) -> f64 {
+        // Both are sums of the same times where nothing is in the way, in different order.
+        self.outcome.found().map_or(self.lower_bound, |motion| motion.seconds().min(self.lower_bound))
+    }
+
+    /// Returns by which share the task may take longer than the fastest, at most: `duration / lower_bound - 1`. None if not all steps are
+    /// done, and where the bound is 0 and the duration is not.
+    #[must_use]
+    pub fn gap(&self) -> Option<f64> {
+        let (seconds, least) = (self.outcome.found()?.seconds(), self.least_seconds());
+        finite(if seconds == least { 0.0 } else { seconds / least - 1.0 })
     }
 
     /// Seconds from the beginning to the end of the last step.

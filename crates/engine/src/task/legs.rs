@@ -4,9 +4,9 @@ use super::least_time::rest_to_rest;
 use super::state::{Candidate, Held, State};
 use super::stroke::{ToolStroke, stroke};
 use crate::settle::LARGE_PROOF;
-use crate::{Answer, Options, Verdict, solve};
+use crate::{Answer, BoundedPath, Options, Unknown, solve};
 use cplan_core::check::{CertifiedPath, CheckedProof, certify};
-use cplan_core::model::{Grip, MotionProblem, Scene, Step, Task};
+use cplan_core::model::{Grip, MotionProblem, Outcome, Scene, Step, Task};
 use cplan_core::space::{Configuration, Path};
 use cplan_geometry::Pose;
 use cplan_motion::recorded::{WristTurn, wrist_turn};
@@ -354,7 +354,7 @@ pub(super) fn planned_again(
     let mut last = None;
     let found = among_few(scene, own, |among| {
         let (_, answer) = last.insert(asked(only(scene, own, among)));
-        found(answer.verdict.clone())
+        found(answer.outcome.clone())
     });
     match found {
         Some(Ok(_)) => last,
@@ -405,15 +405,15 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
 /// The planner's path from one configuration to another.
 fn path(scene: &Scene, from: Configuration, to: Configuration, options: &Options) -> Result<CertifiedPath, Refusal> {
     let problem = MotionProblem::trusted(scene.clone(), from, to);
-    found(solve(&problem, options, &mut |_| {}).verdict)
+    found(solve(&problem, options, &mut |_| {}).outcome)
 }
 
 /// The path that was found, or why there is none.
-fn found(verdict: Verdict) -> Result<CertifiedPath, Refusal> {
-    match verdict {
-        Verdict::Found(path) => Ok(path),
-        Verdict::Infeasible(proof) => Err(Refusal::barred(proof)),
-        Verdict::Unknown(reason) => Err(Refusal::new(reason, false)),
+fn found(outcome: Outcome<BoundedPath, CheckedProof, Unknown>) -> Result<CertifiedPath, Refusal> {
+    match outcome {
+        Outcome::Found(path) => Ok(path.certified),
+        Outcome::Infeasible(proof) => Err(Refusal::barred(proof)),
+        Outcome::Unknown(unknown) => Err(Refusal::new(unknown.reason, false)),
     }
 }
 

@@ -4,13 +4,12 @@
 //! What the whole does for these pairs is a way for the part, too: the arm passes the same configurations among fewer obstacles,
 //! carries nothing where it carried something else, and link 2 is free to meet what it went to, or let go of, for longer.
 
-use super::answer::TaskVerdict;
 use super::heuristic::Heuristic;
 use super::legs::Legs;
 use super::plan::{Found, limits};
 use super::search::{Ending, Search};
 use crate::Options;
-use cplan_core::model::{Action, Item, Shape, Task};
+use cplan_core::model::{Action, Item, Outcome, Shape, Task};
 use std::collections::BTreeSet;
 
 /// Motions that are planned for one part.
@@ -46,9 +45,9 @@ pub(super) fn impossible(
             return None;
         }
         let mut found = Found::of(&mut search, ending, true);
-        let TaskVerdict::Infeasible(impossible) = &mut found.verdict else { return None };
+        let Outcome::Infeasible(failed) = &mut found.outcome else { return None };
         let names: Vec<String> = part.iter().map(|&pair| name(task, item, pair)).collect();
-        impossible
+        failed
             .reasons
             .push(format!("this holds in any order, even with no other objects than {}", names.join(" and ")));
         // They were done in a world with less in it.

@@ -1,15 +1,17 @@
 //! From a task to its answer: which search is made, and how long.
 
 use super::among_movers;
-use super::answer::{TaskAnswer, TaskVerdict};
+use super::answer::{Leg, TaskAnswer, TaskMotion};
+use super::failed_step::FailedStep;
 use super::heuristic::Heuristic;
 use super::legs::Legs;
-use super::order::{Orders, Outcome};
+use super::order::{OrderSearch, Orders};
 use super::part;
 use super::search::{Ending, Limits, Search};
+use super::sequence::Sequence;
 use super::state::State;
 use crate::Options;
-use cplan_core::model::{Item, Task};
+use cplan_core::model::{Item, Outcome, Task};
 use std::collections::BTreeSet;
 
 /// Motions that are planned, and nodes that are expanded, while a search insists on the fastest choice where the order is
@@ -93,7 +95,7 @@ impl Planning<'_, '_> {
         }
         self.expanded += search.expanded();
         let found = self.settled();
-        if !matches!(found.verdict, TaskVerdict::Unknown(_)) {
+        if !matches!(found.outcome, Outcome::Unknown(_)) {
             return self.answer(found);
         }
         // There may still be an order that the search for one has missed.
@@ -113,10 +115,10 @@ impl Planning<'_, '_> {
     /// In an order that is settled on.
     fn settled(&mut self) -> Found {
         let mut orders = Orders::of_file(self.task);
-        let outcome = orders.search(&mut self.legs, self.progress);
-        let mut best = match outcome {
-            Outcome::Promising => Some(self.in_orders(&orders, f64::INFINITY)).filter(Found::is_done),
-            Outcome::Stuck { .. } | Outcome::Elsewhere => None,
+        let search = orders.search(&mut self.legs, self.progress);
+        let mut best = match search {
+            OrderSearch::Promising => Some(self.in_orders(&orders, f64::INFINITY)).filter(Found::is_done),
+            OrderSearch::Stuck { .. } | OrderSearch::Elsewhere => None,
         };
         // The file's own order, unless it takes longer, or little less, or is known not to work.
         let file = Orders::of_file(self.task);
@@ -135,9 +137,11 @@ impl Planning<'_, '_> {
         if let Some(best) = best {
             return self.improved(orders, best);
         }
-        let proof = match &outcome {
-            Outcome::Stuck { item, pairs } => part::impossible(self.task, *item, pairs, self.options, self.progress),
-            Outcome::Promising | Outcome::Elsewhere => None,
+        let proof = match &search {
+            OrderSearch::Stuck { item, pairs } => {
+                part::impossible(self.task, *item, pairs, self.options, self.progress)
+            }
+            OrderSearch::Promising | OrderSearch::Elsewhere => None,
         };
         proof.unwrap_or_else(|| self.in_orders(&orders, f64::INFINITY))
     }
@@ -179,16 +183,17 @@ impl Planning<'_, '_> {
         found
     }
 
-    fn answer(self, Found { verdict, legs, exact, .. }: Found) -> TaskAnswer {
+    fn answer(self, Found { outcome, legs, exact, .. }: Found) -> TaskAnswer {
+        let outcome = outcome.map(|()| TaskMotion { sequence: Sequence::of(&legs), exact, timing: None });
         let (motions, expanded) = (self.legs.planned(), self.expanded);
-        TaskAnswer { verdict, legs, lower_bound: self.lower_bound, exact, motions, expanded, timing: None }
+        TaskAnswer { outcome, legs, lower_bound: self.lower_bound, motions, expanded }
     }
 }
 
 /// What a search has found.
 pub(super) struct Found {
-    pub verdict: TaskVerdict,
-    pub legs: Vec<super::answer::Leg>,
+    pub outcome: Outcome<(), FailedStep, FailedStep>,
+    pub legs: Vec<Leg>,
     /// Whether no other choice is faster, or may be possible.
     pub exact: bool,
     /// Seconds that it takes; infinite if not all can be done.
@@ -200,21 +205,21 @@ impl Found {
     pub fn of(search: &mut Search, ending: Ending, exact: bool) -> Self {
         if let Ending::Done(node) = ending {
             let (legs, seconds) = (search.legs(node), search.seconds(node));
-            return Self { verdict: TaskVerdict::Found(()), legs, exact, seconds };
+            return Self { outcome: Outcome::Found(()), legs, exact, seconds };
         }
         if ending == Ending::Spent {
             search.give_up();
         }
-        let (impossible, node, proven) = search.failure();
-        let verdict = match proven && exact {
-            true => TaskVerdict::Infeasible(impossible),
-            false => TaskVerdict::Unknown(impossible),
+        let (failed, node, proven) = search.failure();
+        let outcome = match proven && exact {
+            true => Outcome::Infeasible(failed),
+            false => Outcome::Unknown(failed),
         };
-        Self { verdict, legs: search.legs(node), exact, seconds: f64::INFINITY }
+        Self { outcome, legs: search.legs(node), exact, seconds: f64::INFINITY }
     }
 
     fn is_done(&self) -> bool {
-        self.verdict == TaskVerdict::Found(())
+        matches!(self.outcome, Outcome::Found(()))
     }
 }
 

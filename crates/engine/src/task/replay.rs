@@ -68,7 +68,8 @@ impl MotionReplay {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Plan, Problem, Verdict, plan};
+    use crate::{Plan, Problem, plan};
+    use cplan_core::model::Outcome;
     use cplan_robot::Source;
     use cplan_world::{Overrides, scene_from};
 
@@ -92,24 +93,24 @@ mod tests {
         ] {
             let options = Options::default();
             let plan = planned(urdf, world, &options);
-            let task = plan.task().unwrap();
-            for leg in &task.answer.legs {
+            let (task, answer) = plan.task().unwrap();
+            for leg in &answer.legs {
                 let path = leg.timed.curve.curve().path();
-                let ends = [path.start(), task.task.arm.topology().wrap(path.goal())];
-                let own = task.task.workspace.obstacles.len();
-                let Some((problem, answer)) = planned_again(&leg.scene, own, ends, &of_legs(&options)) else {
+                let ends = [path.start(), task.arm.topology().wrap(path.goal())];
+                let own = task.workspace.obstacles.len();
+                let Some((problem, again)) = planned_again(&leg.scene, own, ends, &of_legs(&options)) else {
                     straight += 1;
                     assert_eq!(path.waypoints().len(), 2, "{world}");
                     continue;
                 };
                 among_few += usize::from(problem.scene() != &*leg.scene);
-                let Verdict::Found(found) = &answer.verdict else { panic!("{world}: no path") };
+                let Outcome::Found(found) = &again.outcome else { panic!("{world}: no path") };
                 let (told, real) = (found.path().waypoints(), path.waypoints());
                 assert_eq!(told.len(), real.len(), "{world}, step {}", leg.step.number);
                 assert!(told.iter().zip(real).all(|(a, b)| (a - b).norm() < 1e-9), "{world}, step {}", leg.step.number);
             }
             let replay = plan.task_replay().unwrap();
-            assert_eq!(replay.legs.len(), task.answer.legs.len());
+            assert_eq!(replay.legs.len(), answer.legs.len());
             assert!(replay.legs.iter().all(|&told| told < replay.motions.len()));
             assert!(replay.motions.iter().all(|told| told.replay.phases.last().unwrap().shows == Shows::Path));
         }

@@ -4,8 +4,8 @@
 //! most need none.
 
 use super::answer::Leg;
+use super::failed_step::{FailedStep, Refused, farthest};
 use super::heuristic::Heuristic;
-use super::impossible::{Impossible, Refused, farthest};
 use super::least_time::least_time;
 use super::legs::{Legs, Motion, Refusal};
 use super::state::{Candidate, State};
@@ -256,15 +256,15 @@ impl<'a, 'l> Search<'a, 'l> {
     }
 
     /// Why no more can be done than the steps to a node, and whether that is proven of all there is, if the search ran dry.
-    pub fn failure(&mut self) -> (Impossible, usize, bool) {
+    pub fn failure(&mut self) -> (FailedStep, usize, bool) {
         let state = |node: usize| match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(&**state),
             Stage::Pending(_) => None,
         };
         let (task, legs) = (self.task, &mut *self.legs);
-        let (impossible, node) = farthest(&task.arm, &self.refused, state, |from, step| legs.scene(task, from, step));
+        let (failed, node) = farthest(&task.arm, &self.refused, state, |from, step| legs.scene(task, from, step));
         let proven = self.complete && self.refused.iter().all(|refused| refused.refusal.proven);
-        (impossible, node, proven)
+        (failed, node, proven)
     }
 
     /// The state that a node has reached.

@@ -5,7 +5,7 @@ use cplan_motion::Trajectory;
 use std::ops::RangeInclusive;
 
 /// The whole motion of a task, standing still where steps end.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sequence {
     /// All motions, one after the other.
     pub trajectory: Trajectory,
@@ -15,20 +15,20 @@ pub struct Sequence {
 }
 
 impl Sequence {
-    /// The motions of these steps; none without steps.
+    /// The motions of these steps.
     #[must_use]
-    pub fn of(legs: &[Leg]) -> Option<Self> {
-        let (first, others) = legs.split_first()?;
-        let mut trajectory = first.timed.trajectory.clone();
-        let mut samples = vec![0..=trajectory.time.len() - 1];
-        let mut rest = first.rest();
-        for leg in others {
-            trajectory.then(rest, &leg.timed.trajectory);
-            samples.push(trajectory.time.len() - leg.timed.trajectory.time.len()..=trajectory.time.len() - 1);
+    pub fn of(legs: &[Leg]) -> Self {
+        let mut sequence = Self::default();
+        let mut rest = 0.0;
+        for leg in legs {
+            let motion = &leg.timed.trajectory;
+            sequence.trajectory.then(rest, motion);
+            let end = sequence.trajectory.time.len();
+            sequence.samples.push(end - motion.time.len()..=end - 1);
             rest = leg.rest();
         }
-        trajectory.stand(rest);
-        Some(Self { trajectory, samples })
+        sequence.trajectory.stand(rest);
+        sequence
     }
 
     /// Seconds from the beginning to that of a step's motion, to the end of that, and to the end of the step.

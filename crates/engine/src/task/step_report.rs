@@ -1,13 +1,16 @@
-//! The steps of a task in its result.
+//! The steps of a task as its result has them in JSON.
 
-use super::answer::{Event, Leg};
+use super::answer::{Event, Leg, TaskAnswer};
+use super::failed_step::{FailedStep, RefusedIkSolution};
 use super::sequence::Sequence;
 use super::stroke::ToolStroke;
 use crate::result::finite;
+use cplan_core::check::CheckedProof;
 use cplan_core::model::{Action, Task};
 use cplan_motion::Blends;
 use cplan_motion::recorded::WristTurn;
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// What a step does, in one word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -100,7 +103,7 @@ pub struct StepReport {
 
 impl StepReport {
     /// Of step `index` of a sequence, whose trajectory is among the results if `is_whole`.
-    pub fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize, is_whole: bool) -> Self {
+    fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize, is_whole: bool) -> Self {
         let curve = &leg.timed.curve;
         let path = curve.curve().path();
         let name = |object: usize| task.objects[object].name.clone();
@@ -136,6 +139,18 @@ impl StepReport {
             last_sample: is_whole.then_some(*samples.end()),
         }
     }
+}
+
+/// The steps of an answer, and what the gripper does in them.
+pub fn step_reports(task: &Task, answer: &TaskAnswer) -> (Vec<StepReport>, Vec<EventReport>) {
+    let (sequence, is_whole) = match answer.outcome.found() {
+        Some(motion) => (Cow::Borrowed(&motion.sequence), true),
+        None => (Cow::Owned(Sequence::of(&answer.legs)), false),
+    };
+    let legs = || answer.legs.iter().enumerate();
+    let steps = legs().map(|(index, leg)| StepReport::new(task, leg, &sequence, index, is_whole));
+    let events = legs().filter_map(|(index, leg)| EventReport::new(task, leg, &sequence, index));
+    (steps.collect(), events.collect())
 }
 
 /// What the gripper does, in one word.
@@ -179,7 +194,7 @@ pub struct EventReport {
 
 impl EventReport {
     /// Of step `index` of a sequence, if the gripper does something in it.
-    pub fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize) -> Option<Self> {
+    fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize) -> Option<Self> {
         let happens = leg.event?;
         let [_, arrival, end] = sequence.times(index);
         let tip = task.arm.tip_at(leg.timed.curve.curve().path().goal());
@@ -200,5 +215,66 @@ impl EventReport {
             tip: [tip.x, tip.y],
             pose,
         })
+    }
+}
+
+/// An IK solution at a step's target that the arm cannot take, or is not known to.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct IkSolutionReport {
+    /// The values of both joints, radians or metres.
+    pub joints: [f64; 2],
+    /// Why the arm cannot take it, in words.
+    pub reason: String,
+    /// Boxes of colliding configurations that separate it from where the arm stands, where that is the reason.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof: Option<CheckedProof>,
+}
+
+impl From<&RefusedIkSolution> for IkSolutionReport {
+    fn from(RefusedIkSolution { ik_solution, reason, proof }: &RefusedIkSolution) -> Self {
+        Self { joints: [ik_solution[0], ik_solution[1]], reason: reason.clone(), proof: proof.clone() }
+    }
+}
+
+/// A step that cannot be done, or is not known to be possible.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FailedStepReport {
+    /// Its number in the world file, from 1.
+    pub step: usize,
+    /// Which repetition of it this is, from 1.
+    pub cycle: usize,
+    /// What it does, ...
+    pub action: ActionName,
+    /// ... and the same in a few words.
+    pub description: String,
+    /// Where it stands in the world file: file, line and column.
+    pub place: String,
+    /// Why, with the motions that were tried, as [`FailedStep::reasons`] has it.
+    pub reasons: Vec<String>,
+    /// The object that is carried then.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub carried: Option<String>,
+    /// Joint values after the steps before.
+    pub from: [f64; 2],
+    /// The IK solutions that were tried from there; none if no IK solution within the joint limits reaches the target.
+    #[serde(rename = "postures")]
+    pub ik_solutions: Vec<IkSolutionReport>,
+}
+
+impl FailedStepReport {
+    /// The first step of a task that cannot be done, and why.
+    pub fn new(task: &Task, why: &FailedStep) -> Self {
+        let FailedStep { step, reasons, scene, from, ik_solutions } = why;
+        Self {
+            step: step.number,
+            cycle: step.cycle,
+            action: (&step.action).into(),
+            description: step.action.describe(&task.objects),
+            place: step.place.clone(),
+            reasons: reasons.clone(),
+            carried: scene.payload().map(|payload| payload.object.clone()),
+            from: [from[0], from[1]],
+            ik_solutions: ik_solutions.iter().map(IkSolutionReport::from).collect(),
+        }
     }
 }

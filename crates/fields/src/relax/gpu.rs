@@ -5,7 +5,7 @@ use super::stencil::Weighted;
 use super::sweeps::{hint, refusal, unknowns};
 use super::{Boundary, Cell, Convergence, Difference, Domain, Equation, Measure, Order, RelaxError, Relaxation};
 use super::{Relaxed, Scheme, Stopping};
-use cplan_gpu::{Edge, Ending, Gpu, GpuError, Problem, Settings, Stencil, Sweep};
+use cplan_gpu::{Edge, Ending, Gpu, GpuError, GridEquations, Settings, Stencil, Sweep};
 use std::sync::OnceLock;
 
 /// Returns the GPU of this process, which is opened on first use.
@@ -110,7 +110,7 @@ impl Field<'_> {
             Boundary::Reflecting => Edge::Mirror,
         });
         let values = std::mem::take(&mut self.values);
-        let problem = Problem::new(domain.cells(), edges, domain.levels().obstacle, values, unknown, stencil);
+        let problem = GridEquations::new(domain.cells(), edges, domain.levels().obstacle, values, unknown, stencil);
         let relaxed = problem.and_then(|problem| gpu.relax(&problem, &self.settings)).map_err(|e| self.error(e))?;
         let sweeps = relaxed.sweeps as usize;
         let converged = relaxed.ending == Ending::Converged;

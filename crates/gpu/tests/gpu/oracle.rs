@@ -1,6 +1,6 @@
 //! Problems at random, relaxed one cell after the other in double precision, and solved by dense elimination.
 
-use cplan_gpu::{Edge, Measure, Problem, Settings, Stencil, Sweep};
+use cplan_gpu::{Edge, GridEquations, Measure, Settings, Stencil, Sweep};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -25,9 +25,9 @@ pub enum Kind {
 }
 
 impl Case {
-    pub fn problem(&self) -> Problem {
+    pub fn problem(&self) -> GridEquations {
         let Case { cells, edges, outside, values, unknown, stencil } = self.clone();
-        Problem::new(cells, edges, outside, values, unknown, stencil).unwrap()
+        GridEquations::new(cells, edges, outside, values, unknown, stencil).unwrap()
     }
 
     /// Returns the cells around a cell (possibly the same cell), with `None` outside.

@@ -150,7 +150,7 @@ fn nothing_to_do_is_done_at_once() {
 #[test]
 fn what_makes_no_sense_is_refused() {
     let Case { cells, edges, values, unknown, .. } = square(3);
-    let new = |values, stencil| cplan_gpu::Problem::new(cells, edges, 0.0, values, unknown.clone(), stencil);
+    let new = |values, stencil| cplan_gpu::GridEquations::new(cells, edges, 0.0, values, unknown.clone(), stencil);
     assert!(matches!(new(vec![0.0; 8], Stencil::Mean), Err(GpuError::Refused(_))));
     assert!(matches!(new(vec![f64::NAN; 9], Stencil::Mean), Err(GpuError::Refused(_))));
     assert!(matches!(new(values.clone(), Stencil::Altered(vec![0.0; 3])), Err(GpuError::Refused(_))));

@@ -4,7 +4,7 @@ use super::picture::{contours, title_of};
 use super::summary::{Line, configuration, goal_lines, laid_out};
 use crate::{Picture, Stuck, View};
 use cplan_core::model::{Outcome, Scene};
-use cplan_engine::Verdict;
+use cplan_engine::BoundedPath;
 use cplan_engine::explain::{
     Among, BlockedEnd, BlockingSet, Bottleneck, Change, Closed, Cure, Element, End, Explanation, OutOfReach, Shaped,
     TIME_LIMIT, Target,
@@ -36,10 +36,7 @@ pub fn view(explanation: &Explanation) -> View {
     let question = &explanation.question;
     let goals = question.ends();
     let (path, proof) = match &explanation.outcome {
-        Outcome::Found(Shaped { answer, .. }) => {
-            let path = if let Verdict::Found(path) = &answer.verdict { Some(path.path()) } else { None };
-            (path, None)
-        }
+        Outcome::Found(Shaped { answer, .. }) => (answer.path(), None),
         Outcome::Infeasible(Closed { proof, .. }) => (None, proof.as_ref()),
         Outcome::Unknown(_) => (None, None),
     };
@@ -104,7 +101,7 @@ fn facts(explanation: &Explanation) -> Vec<Line> {
 
 fn found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Vec<Line> {
     let mut lines = Vec::new();
-    if let Some(bound) = answer.bound {
+    if let Some(bound) = answer.bound() {
         let gap = percent(bound.gap());
         lines.push(("shortest", format!("length {:.4}; at most {gap} longer than the optimum, proven", bound.upper)));
     }
@@ -114,12 +111,15 @@ fn found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Vec<Line> {
         let by = format!("without {what} it would be {length:.4}: shorter by {least} at least, {most} at most");
         lines.push(("shaped by", by));
     }
-    if let Verdict::Found(path) = &answer.verdict
-        && let Some(nearest) = path.nearest()
+    if let Some(BoundedPath { certified, .. }) = answer.outcome.found()
+        && let Some(nearest) = certified.nearest()
     {
         let between = scene.describe(nearest.contact.pair);
         let at = configuration(scene.arm(), nearest.at);
-        lines.push(("tightest", format!("at least {} m, between {between} at {at}", at_least(path.clearance(), 6))));
+        lines.push((
+            "tightest",
+            format!("at least {} m, between {between} at {at}", at_least(certified.clearance(), 6)),
+        ));
     }
     lines
 }

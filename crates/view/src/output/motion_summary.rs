@@ -2,17 +2,17 @@
 
 use super::summary::{Line, Told, configuration, field, goal_lines, non_empty, torque};
 use cplan_core::check::CertifiedCurve;
-use cplan_core::model::{Arm, Scene};
+use cplan_core::model::{Arm, MotionProblem, Outcome, Scene};
 use cplan_core::planner::Proposal;
 use cplan_core::space::{Configuration, Metric};
 use cplan_engine::explain::{BlockingSet, Question, blocking_set};
-use cplan_engine::{Answer, Bound, MotionPlan, Plan, Space, Timing, Verdict, Wait};
-use cplan_motion::Fastest;
+use cplan_engine::{Answer, Bound, GridSpace, Motion, Plan, Space, Timing, Wait};
+use cplan_motion::{Fastest, Timed};
 use cplan_text::{at_least, counted, percent};
 
-/// Returns the result, the planner's run, start and goals.
-pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
-    let (scene, arm) = (plan.problem.scene(), whole.arm());
+/// What the planner found and did; start and goals.
+pub(super) fn told(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Told {
+    let (scene, arm) = (problem.scene(), plan.arm());
     let moving = match scene.workspace().movers.len() {
         0 => String::new(),
         count => format!(", {count} moving"),
@@ -20,71 +20,65 @@ pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
     let obstacles = counted(scene.workspace().obstacles.len(), "obstacle") + &moving;
     let mut asked = vec![
         ("world", format!("{}, {obstacles}", non_empty(&scene.workspace().name))),
-        ("start", configuration(arm, plan.problem.start())),
+        ("start", configuration(arm, problem.start())),
     ];
-    asked.extend(goal_lines(arm, plan.problem.goals()));
-    Told { found: found(whole, plan), asked }
+    asked.extend(goal_lines(arm, problem.goals()));
+    Told { found: found(plan, problem, answer), asked }
 }
 
-fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
-    let (MotionPlan { problem, answer, curve, timing }, report) = (plan, whole.report());
-    let mut lines = Vec::new();
-    match &answer.verdict {
-        Verdict::Found(certified) => {
-            let path = certified.path();
-            let kind = if answer.method.has_own_path() { format!(", {} path", answer.path) } else { String::new() };
-            let found = {
-                let pieces = counted(path.segments().count(), "straight piece");
-                format!("found and certified: {pieces}, length {:.4}{kind}", path.length())
-            };
-            lines.push(("result", found));
-            if problem.goals().pieces().iter().any(|goals| !goals.is_point()) {
-                lines.push(("reached", configuration(whole.arm(), path.goal())));
-            }
-            if let Some(bound) = &answer.bound {
-                lines.push(("optimum", optimum(bound)));
-            }
-        }
-        Verdict::Infeasible(_) => {
-            lines.push(("result", format!("there is no path; {}", report.reason.as_deref().unwrap_or_default())));
-        }
-        Verdict::Unknown(reason) => lines.push(("result", format!("unknown: {reason}"))),
-    }
-    if let (Some(curve), Some(trajectory)) = (curve, whole.trajectory()) {
-        let (samples, corners) = (trajectory.time.len(), corners(curve));
-        lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
-        lines.extend(torque(whole.arm(), trajectory));
-        lines.extend(report.fastest.as_ref().map(|fastest| ("fastest", least_time(fastest))));
-        lines.push(("clearance", clearance(problem.scene(), curve)));
-        lines.extend(timing.iter().flat_map(|timing| among_movers(whole.arm(), timing)));
-    }
-    let graph = whole.options().planner.graph().map(|graph| format!("{} graph", graph.name()));
-    let search: Vec<String> = report.search.iter().map(ToString::to_string).chain(graph).collect();
+fn found(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>) -> Vec<Line> {
+    let mut lines = match &answer.outcome {
+        Outcome::Found(motion) => motion_lines(problem, answer, motion),
+        Outcome::Infeasible(proof) => vec![("result", format!("there is no path; {}", proof.describe()))],
+        Outcome::Unknown(unknown) => vec![("result", format!("unknown: {}", unknown.reason))],
+    };
+    let graph = plan.options().planner.graph().map(|graph| format!("{} graph", graph.name()));
+    let search: Vec<String> = plan.search().iter().map(ToString::to_string).chain(graph).collect();
     let search = (!search.is_empty()).then(|| format!(" ({})", search.join(", ")));
-    let space = report.space.map(|space| format!(", {space}"));
+    let space = plan.options().planner.space().and_then(GridSpace::told).map(|space| format!(", {space}"));
     let how = search.unwrap_or_default() + &space.unwrap_or_default();
     lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
-    lines.extend(cells(whole, answer));
-    lines.extend(exact(whole, answer));
+    lines.extend(cells(plan, answer));
+    lines.extend(exact(plan, answer));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
-    lines.extend(field(whole.options()));
+    lines.extend(field(plan.options()));
     lines
 }
 
-/// Returns the number of cells, if it differs from the requested one.
-fn cells(whole: &Plan, answer: &Answer) -> Option<Line> {
+/// The motion that was found, and what is proven of it.
+fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
+    let (scene, arm, path) = (problem.scene(), problem.scene().arm(), motion.path.path());
+    let Timed { curve, trajectory } = &motion.timed;
+    let kind = if answer.method.has_own_path() { format!(", {} path", answer.path_kind) } else { String::new() };
+    let pieces = counted(path.segments().count(), "straight piece");
+    let mut lines = vec![("result", format!("found and certified: {pieces}, length {:.4}{kind}", path.length()))];
+    if problem.goals().pieces().iter().any(|goals| !goals.is_point()) {
+        lines.push(("reached", configuration(arm, path.goal())));
+    }
+    lines.extend(motion.path.bound.iter().map(|bound| ("optimum", optimum(bound))));
+    let (samples, corners) = (trajectory.time.len(), corners(curve));
+    lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
+    lines.extend(torque(arm, trajectory));
+    lines.extend(motion.fastest.as_ref().map(|fastest| ("fastest", least_time(fastest))));
+    lines.push(("clearance", clearance(scene, curve)));
+    lines.extend(motion.timing.iter().flat_map(|timing| among_movers(arm, timing)));
+    lines
+}
+
+/// How many cells there are, if they are not those that were asked for.
+fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Grid(grid) = &answer.space else { return None };
-    let asked = whole.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
+    let asked = plan.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
     let [used, asked] = [grid.cells, asked.0].map(|[a, b]| format!("{a} x {b}"));
     Some(("cells", format!("{used}: {asked} show no certified path")))
 }
 
-/// Describes the result of the attempt among exact polygons.
-fn exact(whole: &Plan, answer: &Answer) -> Option<Line> {
+/// What became of the attempt among exact polygons.
+fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Regions(_) = &answer.space else { return None };
-    let is_found = matches!(answer.verdict, Verdict::Found(_));
+    let is_found = matches!(answer.outcome, Outcome::Found(_));
     let Proposal::Found(path) = &answer.run.outcome else { return None };
-    (whole.options().planner.is_exact() && is_found).then(|| {
+    (plan.options().planner.is_exact() && is_found).then(|| {
         let length = path.length();
         let told = match answer.history[..] {
             [] => "the path lies among the exact polygons and touches none".to_owned(),
@@ -103,12 +97,11 @@ const BOXES: usize = 500;
 /// Largest number of pairs of shapes; with more of them, the decisions can take seconds.
 const FEW_PAIRS: usize = 1000;
 
-/// Returns the blocking obstacles if there is no motion, and if finding them takes only some milliseconds. `cplan
-/// explain` reports more.
-pub(super) fn blocked_by(plan: &MotionPlan) -> Option<Line> {
-    let (proof, scene) = (plan.answer.verdict.proof()?, plan.problem.scene());
+/// What is in the way, if there is no motion and that is soon told: some milliseconds. `cplan explain` has more to say.
+pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Option<Line> {
+    let (proof, scene) = (answer.outcome.infeasible()?, problem.scene());
     let is_small = scene.pairs().len() <= FEW_PAIRS;
-    let set = is_small.then(|| blocking_set(&Question::from(&plan.problem), Some(proof.clone()), [BOXES; 2]));
+    let set = is_small.then(|| blocking_set(&Question::from(problem), Some(proof.clone()), [BOXES; 2]));
     let told = set.filter(BlockingSet::is_irreducible).map(|set| set.describe(scene));
     Some(("blocked by", told.unwrap_or_else(|| "what `cplan explain` tells".into())))
 }

@@ -3,8 +3,9 @@
 use super::summary::facts;
 use crate::{DrawError, Moments, Picture, TaskPicture, View};
 use cplan_core::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
-use cplan_core::model::{Scene, Status};
-use cplan_engine::{Kind, MotionPlan, Options, Plan, TaskPlan, Verdict};
+use cplan_core::model::{MotionProblem, Outcome, Scene, Status, Task};
+use cplan_engine::task::TaskAnswer;
+use cplan_engine::{Answer, Detail, Motion, Options, Plan};
 use cplan_text::{at_least, counted};
 use std::path::Path;
 use thiserror::Error;
@@ -146,53 +147,52 @@ pub fn replayed(plan: &Plan, view: View) -> View {
 /// Returns the view with contours from `contours`, which returns the C-obstacles of single motions.
 #[must_use]
 pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -> View {
-    match plan.made() {
-        Kind::Motion(made) => motion_view(plan, made, &contours(made.problem.scene())),
-        Kind::Task(made) => View::of_task(&task_picture(plan, made)),
+    match plan.detail() {
+        Detail::Motion { problem, answer } => motion_view(plan, problem, answer, &contours(problem.scene())),
+        Detail::Task { task, answer } => View::of_task(&task_picture(plan, task, answer)),
     }
 }
 
-fn motion_view(plan: &Plan, made: &MotionPlan, contours: &[CObstacle]) -> View {
-    let (MotionPlan { problem, answer, curve, .. }, report) = (made, plan.report());
+fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, contours: &[CObstacle]) -> View {
     let scene = problem.scene();
     let moments =
-        report.duration.map_or_else(Vec::new, |duration| contours_in_time(scene, [0.0, duration], MOST_MOMENTS));
-    let outline = curve.as_ref().map(|curve| curve.outline());
-    let detail = match (report.length, &answer.verdict) {
-        (Some(length), _) => format!("{}: length {length:.4}, {}", answer.method, kept(report.clearance)),
-        (None, Verdict::Infeasible(_)) => {
-            let proven = answer.verdict.reason().unwrap_or_default();
-            format!("{}: there is no path; {proven}", answer.method)
+        plan.duration().map_or_else(Vec::new, |duration| contours_in_time(scene, [0.0, duration], MOST_MOMENTS));
+    let method = answer.method;
+    let outline = answer.outcome.found().map(|motion| motion.timed.curve.outline());
+    let detail = match &answer.outcome {
+        Outcome::Found(motion) => {
+            format!("{method}: length {:.4}, {}", motion.path.path().length(), kept(plan.clearance()))
         }
-        (None, _) => answer.method.to_string(),
+        Outcome::Infeasible(proof) => format!("{method}: there is no path; {}", proof.describe()),
+        Outcome::Unknown(_) => method.to_string(),
     };
     View::of_picture(&Picture {
         title: vec![title_of(scene), detail],
-        status: status(&answer.verdict).into(),
+        status: status(plan.status()).into(),
         ending: Some(plan.status()),
         facts: facts(plan),
         goals: problem.goals().pieces(),
-        paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
-        trajectory: report.trajectory.as_ref(),
+        paths: outline.iter().map(|path| (method.to_string(), path)).collect(),
+        trajectory: plan.trajectory(),
         trace: Some(&answer.drawn()),
-        proof: answer.verdict.proof(),
+        proof: answer.outcome.infeasible(),
         c_obstacles: contours,
         moments: &moments,
         ..Picture::new(scene, problem.start())
     })
 }
 
-/// Returns the content of the picture of a task.
-fn task_picture<'a>(plan: &'a Plan, made: &'a TaskPlan) -> TaskPicture<'a> {
-    let (TaskPlan { task, answer }, report) = (made, plan.report());
-    let steps = counted(answer.legs.len(), "step");
-    let (status, detail) = match (answer.verdict.status(), report.clearance) {
-        (Status::Found, clearance) => {
-            let (planner, seconds) = (&report.planner, answer.duration());
-            ("done, certified", format!("{planner}: {steps} in {seconds:.3} s, {}", kept(clearance)))
+/// What a picture of a task shows.
+fn task_picture<'a>(plan: &'a Plan, task: &'a Task, answer: &'a TaskAnswer) -> TaskPicture<'a> {
+    let (steps, planner) = (counted(answer.legs.len(), "step"), plan.options().planner.method());
+    let before = || format!("{planner}: {steps} before it");
+    let (status, detail) = match plan.status() {
+        Status::Found => {
+            let kept = kept(plan.clearance());
+            ("done, certified", format!("{planner}: {steps} in {:.3} s, {kept}", answer.duration()))
         }
-        (Status::Infeasible, _) => ("proven", format!("{}: {steps} before it", report.planner)),
-        (Status::Unknown, _) => ("unknown", format!("{}: {steps} before it", report.planner)),
+        Status::Infeasible => ("proven", before()),
+        Status::Unknown => ("unknown", before()),
     };
     TaskPicture {
         title: vec![title_of(plan.problem().scene()), detail],
@@ -208,11 +208,11 @@ fn task_picture<'a>(plan: &'a Plan, made: &'a TaskPlan) -> TaskPicture<'a> {
 
 /// Returns a verdict in a word or two.
 #[must_use]
-pub fn status(verdict: &Verdict) -> &'static str {
-    match verdict {
-        Verdict::Found(_) => "found, certified",
-        Verdict::Infeasible(_) => "no path: proven",
-        Verdict::Unknown(_) => "unknown",
+pub fn status(status: Status) -> &'static str {
+    match status {
+        Status::Found => "found, certified",
+        Status::Infeasible => "no path: proven",
+        Status::Unknown => "unknown",
     }
 }
 

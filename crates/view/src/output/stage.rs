@@ -1,10 +1,10 @@
 //! The scene of a recording: the arm's links, obstacles and objects, and their places over time.
 
 use crate::color::{GREY, INK, Rgb, obstacle as obstacle_color};
-use cplan_core::model::{Arm, Mover, Obstacle, Part, Workspace};
+use cplan_core::model::{Mover, Obstacle, Part, Task, Workspace};
 use cplan_core::space::Configuration;
-use cplan_engine::task::{Event, Leg};
-use cplan_engine::{Kind, Plan, TaskPlan};
+use cplan_engine::task::{Event, Leg, TaskAnswer};
+use cplan_engine::{Detail, Plan};
 use cplan_geometry::Pose;
 use cplan_motion::{Body, Solid, Stage};
 
@@ -14,11 +14,10 @@ const OBJECTS: usize = 3;
 
 /// Returns the bodies and their poses during the motion; `None` if there is no motion.
 pub(super) fn stage(plan: &Plan) -> Option<Stage> {
-    let (arm, report) = (plan.arm(), plan.report());
-    let trajectory = report.trajectory.as_ref()?;
-    let obstacles = match plan.made() {
-        Kind::Motion(made) => &made.problem.scene().workspace().obstacles,
-        Kind::Task(made) => &made.task.workspace.obstacles,
+    let (arm, trajectory) = (plan.arm(), plan.trajectory()?);
+    let obstacles = match plan.detail() {
+        Detail::Motion { problem, .. } => &problem.scene().workspace().obstacles,
+        Detail::Task { task, .. } => &task.workspace.obstacles,
     };
     let mut stage = Stage {
         plane: arm.plane,
@@ -27,10 +26,10 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
         size: arm.reach(),
     };
     for (number, link) in arm.links.iter().enumerate() {
-        // A payload is a separate body.
-        let parts = match plan.made() {
-            Kind::Motion(made) => made.problem.scene().own_parts(number),
-            Kind::Task(_) => &link.parts,
+        // A payload is a body of its own.
+        let parts = match plan.detail() {
+            Detail::Motion { problem, .. } => problem.scene().own_parts(number),
+            Detail::Task { .. } => &link.parts,
         };
         stage.bodies.push(of_link(&link.name, parts));
     }
@@ -39,11 +38,11 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
         let moved = poses.into_iter().enumerate().map(|(link, pose)| (time, LINKS + link, pose, 0.0));
         stage.poses.extend(moved);
     }
-    match plan.made() {
-        Kind::Motion(made) => with_movers(&mut stage, made.problem.scene().workspace(), &trajectory.time),
-        Kind::Task(made) => {
-            with_objects(&mut stage, arm, made, &trajectory.time);
-            with_movers(&mut stage, &made.task.workspace, &trajectory.time);
+    match plan.detail() {
+        Detail::Motion { problem, .. } => with_movers(&mut stage, problem.scene().workspace(), &trajectory.time),
+        Detail::Task { task, answer } => {
+            with_objects(&mut stage, task, answer, &trajectory.time);
+            with_movers(&mut stage, &task.workspace, &trajectory.time);
         }
     }
     stage.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -60,9 +59,8 @@ fn with_movers(stage: &mut Stage, workspace: &Workspace, times: &[f64]) {
     }
 }
 
-/// Adds objects: they lie or move at these times, are carried, and lie again.
-fn with_objects(stage: &mut Stage, arm: &Arm, plan: &TaskPlan, times: &[f64]) {
-    let TaskPlan { task, answer } = plan;
+/// Objects lie, or move as is told at these times, are carried, and lie again.
+fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f64]) {
     for (number, object) in task.objects.iter().enumerate() {
         let of_all = task.obstacle_number(number);
         let solid = Solid {
@@ -84,7 +82,7 @@ fn with_objects(stage: &mut Stage, arm: &Arm, plan: &TaskPlan, times: &[f64]) {
             let lift = task.objects[object].lift;
             let motion = &leg.timed.trajectory;
             stage.poses.extend(motion.time.iter().zip(&motion.position).map(|(&time, &q)| {
-                (leg.begin + time, OBJECTS + object, payload.pose(arm, Configuration::from(q)), lift)
+                (leg.begin + time, OBJECTS + object, payload.pose(&task.arm, Configuration::from(q)), lift)
             }));
         }
         if let (Some(Event::Release { object, pose }), Some(time)) = (leg.event, leg.event_time()) {

@@ -3,7 +3,7 @@
 use super::{motion_summary, task_summary};
 use cplan_core::model::{Arm, Joint};
 use cplan_core::space::{Configuration, GoalSet, JointRange, Segment};
-use cplan_engine::{Kind, Options, Plan};
+use cplan_engine::{Detail, Options, Plan};
 use cplan_motion::Trajectory;
 use cplan_text::{Columns, first_lines};
 use std::time::Duration;
@@ -46,7 +46,7 @@ pub fn range(joint: &Joint) -> String {
 #[must_use]
 pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
     let Told { found: mut lines, asked } = told(plan);
-    if let Some(blocked) = plan.made().motion().and_then(|made| motion_summary::blocked_by(made)) {
+    if let Some(blocked) = plan.motion().and_then(|(problem, answer)| motion_summary::blocked_by(problem, answer)) {
         lines.insert(1, blocked);
     }
     lines.extend(files.iter().map(|file| ("file", file.clone())));
@@ -74,9 +74,9 @@ pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
 }
 
 fn told(plan: &Plan) -> Told {
-    match plan.made() {
-        Kind::Motion(made) => motion_summary::told(plan, made),
-        Kind::Task(made) => task_summary::told(plan, made),
+    match plan.detail() {
+        Detail::Motion { problem, answer } => motion_summary::told(plan, problem, answer),
+        Detail::Task { task, answer } => task_summary::told(plan, task, answer),
     }
 }
 

@@ -3,14 +3,13 @@
 use super::motion_summary::among_movers;
 use super::step_lines::{StepLine, step_lines};
 use super::summary::{Line, Told, configuration, field, non_empty, torque};
-use cplan_core::model::{Arm, Task};
-use cplan_engine::task::{Leg, TaskAnswer};
-use cplan_engine::{Plan, Report, TaskPlan};
+use cplan_core::model::{Arm, Outcome, Task};
+use cplan_engine::Plan;
+use cplan_engine::task::{FailedStep, Leg, TaskAnswer, TaskMotion};
 use cplan_text::{at_least, counted, nonzero, percent};
 
-/// Returns the result of the steps, and start and steps.
-pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
-    let (TaskPlan { task, answer }, report) = (plan, whole.report());
+/// What came of the steps; start and steps.
+pub(super) fn told(plan: &Plan, task: &Task, answer: &TaskAnswer) -> Told {
     let moving = match (task.workspace.movers.len(), task.moving_at_first().count()) {
         (0, 0) => String::new(),
         (obstacles, objects) => format!(", {} moving", obstacles + objects),
@@ -22,11 +21,12 @@ pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
         ("start", configuration(&task.arm, task.start)),
     ];
     asked.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
-    let mut found = outcome(&task.arm, answer, report);
-    found.extend(clearance(answer, report));
-    found.extend(answer.timing.iter().flat_map(|timing| among_movers(&task.arm, timing)));
-    found.push(("planner", format!("{}: {motions} planned, {states} seen", report.planner)));
-    found.extend(field(whole.options()));
+    let mut found = match &answer.outcome {
+        Outcome::Found(motion) => motion_lines(&task.arm, answer, motion),
+        Outcome::Infeasible(failed) | Outcome::Unknown(failed) => failure_lines(plan, answer, failed),
+    };
+    found.push(("planner", format!("{}: {motions} planned, {states} seen", plan.options().planner.method())));
+    found.extend(field(plan.options()));
     Told { found, asked }
 }
 
@@ -52,46 +52,48 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
     [number, leg.step.action.describe(objects), carried, format!("{seconds:.3} s{turn}, {clearance}")]
 }
 
-/// Returns the verdict, and the proven bound on the time or the reasons of a failure.
-fn outcome(arm: &Arm, answer: &TaskAnswer, report: &Report) -> Vec<Line> {
+/// The step that fails, and why.
+fn failure_lines(plan: &Plan, answer: &TaskAnswer, failed: &FailedStep) -> Vec<Line> {
+    let mut lines = vec![("result", plan.reason().unwrap_or_default())];
+    lines.extend(failed.reasons.iter().map(|reason| ("why", reason.clone())));
     let count = counted(answer.legs.len(), "step");
-    let figures = report.task.as_ref();
-    let Some(duration) = report.duration else {
-        let mut lines = vec![("result", report.reason.clone().unwrap_or_default())];
-        let failed = figures.and_then(|figures| figures.failed.as_ref());
-        let reasons = failed.into_iter().flat_map(|failed| failed.reasons.iter().cloned());
-        lines.extend(reasons.map(|reason| ("why", reason)));
-        lines.push(("before it", format!("{count} can be done, in {:.3} s", answer.duration())));
-        return lines;
-    };
-    let samples = report.trajectory.as_ref().map_or(0, |trajectory| trajectory.time.len());
+    lines.push(("before it", format!("{count} can be done, in {:.3} s", answer.duration())));
+    lines
+}
+
+/// What is done, and what is proven of its time and its clearance.
+fn motion_lines(arm: &Arm, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line> {
+    let count = counted(answer.legs.len(), "step");
+    let trajectory = &motion.sequence.trajectory;
+    let samples = trajectory.time.len();
     let still: f64 = answer.legs.iter().map(Leg::rest).sum();
     let still = if still > 0.0 { format!(", {still:.3} s of it standing still") } else { String::new() };
-    let proven = match figures.and_then(|figures| figures.lower_bound.zip(figures.gap)) {
-        Some((lower, gap)) => format!(
+    let proven = match answer.gap() {
+        Some(gap) => format!(
             "proven: no sequence of motions takes less than {} s, so at most {} longer than the fastest",
-            at_least(lower, 3),
+            at_least(answer.least_seconds(), 3),
             percent(gap)
         ),
         None => "nothing is proven of the fastest".into(),
     };
-    let choice = if answer.exact {
+    let choice = if motion.exact {
         "no other postures, turns and order are faster with the motions of this planner"
     } else {
         "a good choice of postures, turns and order; not all were looked at"
     };
     let mut lines = vec![
         ("result", format!("done and certified: {count}")),
-        ("motion", format!("{duration:.3} s{still}, {samples} samples")),
+        ("motion", format!("{:.3} s{still}, {samples} samples", trajectory.duration())),
     ];
-    lines.extend(report.trajectory.as_ref().and_then(|trajectory| torque(arm, trajectory)));
+    lines.extend(torque(arm, trajectory));
     lines.extend([("optimum", proven), ("optimum", choice.into())]);
+    lines.extend(clearance(answer));
+    lines.extend(motion.timing.iter().flat_map(|timing| among_movers(arm, timing)));
     lines
 }
 
-/// Returns the clearance of the whole task, and the step in which it is least.
-fn clearance(answer: &TaskAnswer, report: &Report) -> Option<Line> {
-    report.trajectory.as_ref()?;
+/// What is kept all the time, and in which step it comes nearest.
+fn clearance(answer: &TaskAnswer) -> Option<Line> {
     let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
     let (step, cycle) = (least.step.number, least.step.cycle);
     let cycle = if cycle > 1 { format!(" of cycle {cycle}") } else { String::new() };

@@ -2,8 +2,8 @@
 
 use super::task_picture::TaskPicture;
 use crate::color::{BARRED, GREY, INK, Rgb};
-use cplan_core::model::{Object, Step};
-use cplan_engine::task::{Leg, TaskAnswer, TaskVerdict};
+use cplan_core::model::{Object, Outcome, Step};
+use cplan_engine::task::{Leg, TaskAnswer};
 
 /// Largest number of rows that are shown.
 const MOST: usize = 26;
@@ -32,7 +32,7 @@ impl Order {
     pub fn of(answer: &TaskAnswer) -> Self {
         let done = answer.legs.iter().map(|leg| leg.step.number);
         let mut order: Vec<usize> = Vec::new();
-        for number in done.chain(answer.impossible().map(|fails| fails.step.number)) {
+        for number in done.chain(answer.failed().map(|fails| fails.step.number)) {
             if !order.contains(&number) {
                 order.push(number);
             }
@@ -80,12 +80,12 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
         rows.truncate(1 + MOST);
         rows.push(Row::new("", text, "", GREY));
     }
-    if let Some(impossible) = picture.answer.impossible() {
-        let time = match picture.answer.verdict {
-            TaskVerdict::Infeasible(_) => "impossible",
+    if let Some(failed) = picture.answer.failed() {
+        let time = match picture.answer.outcome {
+            Outcome::Infeasible(_) => "impossible",
             _ => "unknown",
         };
-        let step = &impossible.step;
+        let step = &failed.step;
         rows.push(Row::new(order.number(step), order.describe(step, objects), time, BARRED));
     }
     rows
@@ -95,13 +95,13 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
 #[must_use]
 pub fn words(picture: &TaskPicture) -> (Vec<String>, String) {
     let mut lines = picture.title.clone();
-    let Some(impossible) = picture.answer.impossible() else { return (lines, picture.status.clone()) };
-    let (order, step) = (Order::of(picture.answer), &impossible.step);
+    let Some(failed) = picture.answer.failed() else { return (lines, picture.status.clone()) };
+    let (order, step) = (Order::of(picture.answer), &failed.step);
     let number = order.number(step);
     let round = if step.cycle > 1 { format!(", round {}", step.cycle) } else { String::new() };
     let status = format!("step {number}{round} fails: {}", picture.status);
     let heading = format!("step {number}, {}:", order.describe(step, &picture.task.objects));
-    let reasons = &impossible.reasons;
+    let reasons = &failed.reasons;
     if let [reason] = &reasons[..] {
         lines.push(format!("{heading} {reason}"));
         return (lines, status);

@@ -11,7 +11,7 @@ use super::task_picture::TaskPicture;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use crate::{FieldLines, color};
 use cplan_core::model::{Object, Obstacle, Scene, Task};
-use cplan_engine::task::{Event, Impossible, Leg, Sequence};
+use cplan_engine::task::{Event, FailedStep, Leg, Sequence};
 use cplan_geometry::Pose;
 use std::sync::Arc;
 
@@ -43,7 +43,7 @@ impl View {
             spans.resize(worlds.views.len(), [from, until]);
             (spans[world], from) = ([spans[world][0], until], until);
         }
-        let (world, label) = match picture.answer.impossible() {
+        let (world, label) = match picture.answer.failed() {
             Some(fails) => {
                 let label = format!("{} fails", order.named(&fails.step, &task.objects));
                 (worlds.failing(fails), label)
@@ -93,7 +93,7 @@ impl View {
             worlds: worlds.views,
             paths,
             motions,
-            clock: Sequence::of(legs).map(|sequence| Clock::new(&sequence.trajectory, grain)),
+            clock: (!legs.is_empty()).then(|| Clock::new(&Sequence::of(legs).trajectory, grain)),
             frames: Vec::new(),
             replay: Vec::new(),
             replays: Vec::new(),
@@ -114,7 +114,7 @@ fn panels(picture: &TaskPicture, order: &Order, paths: &[PathView], last: usize,
         PanelView { title: state.title(rounds, order), worlds, paths: numbers, start, fails: None }
     };
     let mut panels: Vec<PanelView> = states.iter().map(panel).collect();
-    let fails = picture.answer.impossible();
+    let fails = picture.answer.failed();
     if let Some(fails) = fails {
         let payload = describe(fails.scene.payload().map(|payload| payload.object.as_str()));
         let (number, cycle) = (order.number(&fails.step), fails.step.cycle);
@@ -192,8 +192,8 @@ impl Worlds<'_> {
         contours(all.iter().filter(|c| c.link == 1), self.grain)
     }
 
-    /// Adds the world of the step that fails, with the proofs.
-    fn failing(&mut self, fails: &Impossible) -> usize {
+    /// The world of the step that fails, with what proves that.
+    fn failing(&mut self, fails: &FailedStep) -> usize {
         let world = self.add(&fails.scene);
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
         let unreached = fails.ik_solutions.iter().map(|to| self.grain.configuration(to.ik_solution)).collect();

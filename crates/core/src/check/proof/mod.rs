@@ -15,6 +15,7 @@ use crate::model::{JointType, Pair, Scene};
 use crate::space::{Configuration, GoalSet, Topology};
 use cplan_geometry::{Vector, penetration_depth};
 use cplan_interrupt::checkpoint;
+use cplan_text::counted;
 use separation::not_separated;
 use serde::{Serialize, Serializer};
 use std::sync::Arc;
@@ -58,6 +59,13 @@ impl CheckedProof {
     #[must_use]
     pub fn stuck(&self) -> &[StuckBox] {
         &self.stuck
+    }
+
+    /// Returns what it proves, in words.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        let boxes = counted(self.stuck.len(), "box");
+        format!("proven: colliding configurations separate start and goal ({boxes})")
     }
 }
 

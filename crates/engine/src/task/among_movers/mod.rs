@@ -12,16 +12,17 @@
 mod passing;
 mod ways;
 
-use super::answer::{Event, Leg, TaskAnswer, TaskVerdict};
+use super::answer::{Event, Leg, TaskAnswer, TaskMotion};
+use super::failed_step::{FailedStep, Refused, farthest};
 use super::heuristic::Heuristic;
-use super::impossible::{Impossible, Refused, farthest};
 use super::legs::{Legs, Refusal, of_legs, unobstructed};
+use super::sequence::Sequence;
 use super::state::State;
 use crate::Options;
 use crate::moving::{Demand, InTime, Movers, Timing, Wait, in_time, stands};
 use crate::result::finite;
 use cplan_core::check::Posture;
-use cplan_core::model::{Action, Item, MotionProblem, Step, Task};
+use cplan_core::model::{Action, Item, MotionProblem, Outcome, Step, Task};
 use cplan_geometry::Ordered;
 use cplan_interrupt::checkpoint;
 use cplan_motion::{Limits, Timed, after_pause, nanoseconds, not_before, seconds};
@@ -55,17 +56,15 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
     let heuristic = Heuristic::new(task);
     let start = State::at_start(task);
     let lower_bound = heuristic.remaining(start.q, start.progress).max(last_passage(task));
-    let unplanned = |verdict| TaskAnswer {
-        verdict,
+    let refuted = |failed| TaskAnswer {
+        outcome: Outcome::Infeasible(failed),
         legs: Vec::new(),
         lower_bound,
-        exact: false,
         motions: 0,
         expanded: 0,
-        timing: None,
     };
-    if let Some(impossible) = out_of_reach(task, &start) {
-        return unplanned(TaskVerdict::Infeasible(impossible));
+    if let Some(failed) = out_of_reach(task, &start) {
+        return refuted(failed);
     }
     let mut search = Search {
         task,
@@ -81,22 +80,25 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
         motions: 0,
     };
     search.push(Node { parent: None, depth: 0, seconds: 0.0, stage: Stage::Reached(Box::new(start), None) });
-    let (verdict, last, timing) = match search.run(progress) {
-        Some(last) => (TaskVerdict::Found(()), last, search.timing(last)),
+    let (outcome, legs) = match search.run(progress) {
+        Some(last) => {
+            let legs = search.legs(last);
+            let motion = TaskMotion { sequence: Sequence::of(&legs), exact: false, timing: search.timing(last) };
+            (Outcome::Found(motion), legs)
+        }
         None => {
-            if let Some(impossible) = if_nothing_moved(task, options, progress) {
-                return unplanned(TaskVerdict::Infeasible(impossible));
+            if let Some(failed) = if_nothing_moved(task, options, progress) {
+                return refuted(failed);
             }
-            let (impossible, last) = search.failure();
-            (TaskVerdict::Unknown(impossible), last, None)
+            let (failed, last) = search.failure();
+            (Outcome::Unknown(failed), search.legs(last))
         }
     };
-    let (legs, motions, expanded) = (search.legs(last), search.motions, search.nodes.len());
-    TaskAnswer { verdict, legs, lower_bound, exact: false, motions, expanded, timing }
+    TaskAnswer { outcome, legs, lower_bound, motions: search.motions, expanded: search.nodes.len() }
 }
 
 /// That an object is never within reach when it is to be picked: proven.
-fn out_of_reach(task: &Task, start: &State) -> Option<Impossible> {
+fn out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
     let mut moving: Vec<usize> = start.moving.to_vec();
     let step = task.steps().find(|step| match &step.action {
         Action::Pick { object, grasp, when, .. } => {
@@ -106,7 +108,7 @@ fn out_of_reach(task: &Task, start: &State) -> Option<Impossible> {
         Action::Place { .. } | Action::Move(_) => false,
     })?;
     let name = &task.objects[step.action.picked()?].name;
-    Some(Impossible {
+    Some(FailedStep {
         step: step.clone(),
         reasons: vec![format!("\"{name}\" is never within the arm's reach when it is to be picked")],
         scene: Arc::new(start.scene(task, step.action.picked())),
@@ -116,15 +118,15 @@ fn out_of_reach(task: &Task, start: &State) -> Option<Impossible> {
 }
 
 /// That a task cannot be done even if nothing moves, where that is proven. Where objects would lie then that are picked on their way is not known.
-fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<Impossible> {
+fn if_nothing_moved(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<FailedStep> {
     if task.moving_at_first().next().is_some() {
         return None;
     }
     let mut standing = task.clone();
     standing.workspace.movers.clear();
-    match super::plan::plan(&standing, options, progress).verdict {
-        TaskVerdict::Infeasible(impossible) => Some(impossible),
-        TaskVerdict::Found(()) | TaskVerdict::Unknown(_) => None,
+    match super::plan::plan(&standing, options, progress).outcome {
+        Outcome::Infeasible(failed) => Some(failed),
+        Outcome::Found(_) | Outcome::Unknown(_) => None,
     }
 }
 
@@ -462,7 +464,7 @@ impl<'a> Search<'a> {
     }
 
     /// Why no more can be done than the steps to a node.
-    fn failure(&mut self) -> (Impossible, usize) {
+    fn failure(&mut self) -> (FailedStep, usize) {
         let state = |node: usize| match &self.nodes[node].stage {
             Stage::Reached(state, _) => Some(&**state),
             Stage::Pending(_) => None,

@@ -47,8 +47,8 @@ struct Group<'a> {
 /// Where an item of a task in a fixed order comes from: a group, and how many of its pairs come before.
 type Origin = Option<(usize, usize)>;
 
-/// What became of looking for an order.
-pub(super) enum Outcome {
+/// Result of the search for an order.
+pub(super) enum OrderSearch {
     /// Nothing is known that rules it out.
     Promising,
     /// None was found; these pairs of a group were in each other's way at last.
@@ -168,7 +168,7 @@ impl<'a> Orders<'a> {
     }
 
     /// Looks for orders that can be done.
-    pub fn search(&mut self, legs: &mut Legs, progress: &mut dyn FnMut(&str)) -> Outcome {
+    pub fn search(&mut self, legs: &mut Legs, progress: &mut dyn FnMut(&str)) -> OrderSearch {
         let most = legs.looked_at() + MOST_WAYS;
         for group in &mut self.groups {
             if group.pairs.len() <= MOST_ENDS {
@@ -180,11 +180,11 @@ impl<'a> Orders<'a> {
         let mut built = vec![false; self.groups.len()];
         loop {
             let (settled, origins) = self.with_origins();
-            let Err(failure) = walk(&settled, legs) else { return Outcome::Promising };
-            let Some((number, before)) = origins[failure.item] else { return Outcome::Elsewhere };
+            let Err(failure) = walk(&settled, legs) else { return OrderSearch::Promising };
+            let Some((number, before)) = origins[failure.item] else { return OrderSearch::Elsewhere };
             let group = &mut self.groups[number];
             let learned = group.learn(self.task, before, &failure.refusals);
-            let stuck = Outcome::Stuck { item: group.item, pairs: learned };
+            let stuck = OrderSearch::Stuck { item: group.item, pairs: learned };
             if built[number] || legs.looked_at() > most {
                 return stuck;
             }

@@ -11,10 +11,11 @@ pub use seen::{Boxes, Cells, FieldGrid, Roadmap};
 use super::picture::{PICTURE_TOLERANCE, contours};
 use cplan_core::check::{CertifiedCurve, CheckedProof};
 use cplan_core::cspace::{self, Polygon, Proves};
-use cplan_core::model::{Joint, Scene, Status};
+use cplan_core::model::{Joint, MotionProblem, Scene, Status, Task};
 use cplan_core::planner::{Trace, VisibilityGraph};
 use cplan_core::space::{Configuration, Path};
-use cplan_engine::{Kind, MotionPlan, Plan, Space, TaskPlan};
+use cplan_engine::task::TaskAnswer;
+use cplan_engine::{Answer, Detail, Motion, Plan, Space};
 use cplan_geometry::Point;
 use cplan_motion::line_a_field;
 use schemars::JsonSchema;
@@ -149,13 +150,13 @@ pub fn cspace_schema() -> serde_json::Value {
 pub fn cspaces(plan: &Plan) -> CSpaces {
     let is_exact = plan.options().planner.is_exact();
     let axes = plan.arm().joints.each_ref().map(Axis::of);
-    let spaces = match plan.made() {
-        Kind::Motion(made) => vec![CSpace::of_motion(made, is_exact)],
-        Kind::Task(made) => spaces_of_task(made, is_exact),
+    let spaces = match plan.detail() {
+        Detail::Motion { problem, answer } => vec![CSpace::of_motion(problem, answer, is_exact)],
+        Detail::Task { task, answer } => spaces_of_task(task, answer, is_exact),
     };
     CSpaces {
         name: plan.problem().scene().workspace().name.clone(),
-        planner: plan.report().planner.clone(),
+        planner: plan.options().planner.method().to_string(),
         status: plan.status(),
         axes,
         spaces,
@@ -228,8 +229,7 @@ impl CSpace {
         }
     }
 
-    fn of_motion(plan: &MotionPlan, is_exact: bool) -> Self {
-        let MotionPlan { problem, answer, curve, .. } = plan;
+    fn of_motion(problem: &MotionProblem, answer: &Answer<Motion>, is_exact: bool) -> Self {
         let scene = problem.scene();
         let free = match &answer.space {
             Space::Regions(regions) => Some(FreeRegion {
@@ -239,11 +239,12 @@ impl CSpace {
             }),
             _ => None,
         };
+        let motion = answer.outcome.found().into_iter();
         let space = Self {
             goals: problem.goals().pieces().iter().map(|goal| goal.ends().map(Values::from)).collect(),
-            paths: curve.iter().map(|curve| Way::of(answer.method.to_string(), curve)).collect(),
+            paths: motion.map(|motion| Way::of(answer.method.to_string(), &motion.timed.curve)).collect(),
             free,
-            proof: answer.verdict.proof().map(boxes_of).unwrap_or_default(),
+            proof: answer.outcome.infeasible().map(boxes_of).unwrap_or_default(),
             ..Self::of_scene(scene, problem.start(), is_exact)
         };
         space.with_trace(&answer.drawn(), &answer.space)
@@ -302,9 +303,8 @@ impl Way {
     }
 }
 
-/// Returns a space for each world, in the order in which the arm moves in them; the last one is that of a failing step.
-fn spaces_of_task(plan: &TaskPlan, is_exact: bool) -> Vec<CSpace> {
-    let TaskPlan { task, answer } = plan;
+/// A space for each world, in the order in which the arm moves in them; that of the step that fails comes last.
+fn spaces_of_task(task: &Task, answer: &TaskAnswer, is_exact: bool) -> Vec<CSpace> {
     let mut scenes: Vec<&Arc<Scene>> = Vec::new();
     let mut spaces: Vec<CSpace> = Vec::new();
     for leg in &answer.legs {
@@ -320,7 +320,7 @@ fn spaces_of_task(plan: &TaskPlan, is_exact: bool) -> Vec<CSpace> {
         spaces[number].goals.push([path.goal().into(); 2]);
         spaces[number].paths.push(Way::of(name, curve));
     }
-    if let Some(fails) = answer.impossible() {
+    if let Some(fails) = answer.failed() {
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
         spaces.push(CSpace {
             goals: fails.ik_solutions.iter().map(|to| [to.ik_solution.into(); 2]).collect(),

@@ -7,7 +7,7 @@ use super::GpuError;
 pub enum Edge {
     /// The cells of the other end.
     Circle,
-    /// `Problem::outside`.
+    /// `GridEquations::outside`.
     Wall,
     /// The cell itself.
     Mirror,
@@ -26,7 +26,7 @@ pub enum Stencil {
 
 /// A grid of cells with their values, equations and boundary.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Problem {
+pub struct GridEquations {
     pub(super) cells: [usize; 2],
     pub(super) edges: [Edge; 2],
     pub(super) outside: f64,
@@ -38,10 +38,9 @@ pub struct Problem {
 /// Largest number of cells: places are counted in 32 bits, with four weights per cell.
 const MOST: usize = 1 << 29;
 
-impl Problem {
-    /// Creates a problem of `cells[0]` rows and `cells[1]` columns, row by row. `edges[0]` applies beyond the first and
-    /// the last row, and `outside` is the value beyond walls. `values` are fixed where `unknown` is false, and initial
-    /// values elsewhere. `O(cells)`.
+impl GridEquations {
+    /// Of `cells[0]` rows and `cells[1]` columns, row by row. `edges[0]` is beyond the first and the last row, `outside` the value
+    /// beyond walls; `values` are kept where `unknown` is false, and the start where it is true. `O(cells)`.
     ///
     /// # Errors
     /// [`GpuError::Refused`] if a list does not have one entry per cell, a number is not finite, or there are more than
@@ -75,7 +74,7 @@ impl Problem {
     /// Replaces the values, one per cell.
     ///
     /// # Errors
-    /// Same as [`Problem::new`].
+    /// As [`GridEquations::new`].
     pub fn from(self, values: Vec<f64>) -> Result<Self, GpuError> {
         Self::new(self.cells, self.edges, self.outside, values, self.unknown, self.stencil)
     }

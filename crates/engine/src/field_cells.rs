@@ -1,0 +1,24 @@
+//! The cells of a field, before anything solves it.
+
+use super::admission::Ends;
+use super::rungs::zoned_cells;
+use super::{CellCounts, GridSpace};
+use cplan_core::cspace::ZonedGrid;
+use cplan_core::model::MotionProblem;
+use cplan_fields::field_domain;
+use cplan_fields::{Cell, Domain, Limits};
+
+/// The cells of a problem's first level, with the world's preferences, and which of them are free, obstacles and goals: what the harmonic
+/// planner relaxes an equation on. There are so many along each axis, as `--cells` of that planner has it.
+///
+/// # Errors
+/// Where start or goal has no free cell near it, or no free cell leads to the goal: why, in words.
+pub fn field_on_cells(problem: &MotionProblem, cells: usize, limits: Limits) -> Result<(ZonedGrid, Domain), String> {
+    let space = zoned_cells(problem, GridSpace::Rows, Some(CellCounts::square(cells)), 0);
+    let space = space.ok_or_else(|| format!("there is no grid of {cells} x {cells} cells"))?;
+    let domain = field_domain(&space.grid, &Ends::new(problem, &space).query, limits)?;
+    if !domain.kinds().contains(&Cell::Free) {
+        return Err(format!("on {cells} x {cells} cells no free cell leads to the goal"));
+    }
+    Ok((space, domain))
+}

@@ -1,0 +1,80 @@
+//! The motion along a path that was found.
+
+use super::answer::{Answer, BoundedPath};
+use super::fastest::fastest;
+use super::moving::{Demand, InTime, Timing, in_time};
+use super::options::Options;
+use cplan_core::model::{MotionProblem, Outcome};
+use cplan_motion::{Fastest, Objective, Timed, TimingError};
+
+/// A motion that is certified free of collision.
+#[derive(Debug, Clone)]
+pub struct Motion {
+    /// The path that it follows, without blends.
+    pub path: BoundedPath,
+    /// The path with its blends, and when the arm is where.
+    pub timed: Timed,
+    /// How far it is from the fastest at the most, if that was asked for.
+    pub fastest: Option<Fastest>,
+    /// How it gets by what moves, if anything does.
+    pub timing: Option<Timing>,
+}
+
+impl AsRef<BoundedPath> for Motion {
+    fn as_ref(&self) -> &BoundedPath {
+        &self.path
+    }
+}
+
+impl Motion {
+    /// Drives along a path. Among what moves it may be that no timing is found: why, in words.
+    fn along(
+        problem: &MotionProblem,
+        path: BoundedPath,
+        options: &Options,
+    ) -> Result<Result<Self, String>, TimingError> {
+        let (mut timed, mut fastest) = match options.drive.optimize {
+            Objective::Length => (options.drive.along(problem.scene(), &path.certified, 1.0)?, None),
+            Objective::Time => fastest(problem, &path, options)?,
+        };
+        let mut timing = None;
+        if !problem.scene().workspace().movers.is_empty() {
+            // The fastest motion may take another path than the shortest, to another goal.
+            let taken = timed.curve.straight();
+            match in_time(problem, &taken, timed, options, &Demand::ALONE)? {
+                Ok(found) => {
+                    let InTime { timed: waiting, figures } = found;
+                    // The bound stays; the duration has its waits now.
+                    let duration = waiting.trajectory.duration();
+                    fastest = fastest.map(|fastest| Fastest::new(duration, fastest.lower_bound));
+                    (timed, timing) = (waiting, Some(figures));
+                }
+                Err(reason) => return Ok(Err(reason)),
+            }
+        }
+        let is_same = timed.curve.curve().path() == path.path();
+        let path = if is_same { path } else { path.replaced_by(timed.curve.straight()) };
+        Ok(Ok(Self { path, timed, fastest, timing }))
+    }
+}
+
+/// Drives along the path of an answer, if it has one.
+///
+/// # Errors
+/// A motion that lasts too long, or has too many samples.
+pub(super) fn driven(
+    problem: &MotionProblem,
+    answer: Answer,
+    options: &Options,
+) -> Result<Answer<Motion>, TimingError> {
+    let Answer { method, outcome, path_kind, history, run, space, stages } = answer;
+    let outcome = match outcome {
+        Outcome::Found(path) => match Motion::along(problem, path, options)? {
+            Ok(motion) => Outcome::Found(motion),
+            Err(reason) => Outcome::Unknown(reason.into()),
+        },
+        Outcome::Infeasible(proof) => Outcome::Infeasible(proof),
+        Outcome::Unknown(unknown) => Outcome::Unknown(unknown),
+    };
+    Ok(Answer { method, outcome, path_kind, history, run, space, stages })
+}
