@@ -371,7 +371,7 @@ Exit codes: 0 the proof or bound holds, 1 it does not, or bad input or I/O, 2 wr
 pub struct RecheckArgs {
     #[command(flatten)]
     pub files: Files,
-    /// A result of the main job, with the proof that there is no path or a bound on the shortest (`optimum`): .json.
+    /// A result of the main job, with the proof that there is no path or a bound on the shortest (`optimum`); or a certificate: .json.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub proof: PathBuf,
     #[command(flatten)]

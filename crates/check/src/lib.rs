@@ -81,7 +81,15 @@ pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<Stri
         std::fs::read_to_string(path).map_err(|error| CheckError::in_file(input, message(error)))
     };
     let texts = [read(Input::Urdf, urdf)?, read(Input::World, world)?, read(Input::Certificate, certificate)?];
-    judged(texts.each_ref().map(String::as_str), [urdf, world].map(|path| Some(path.to_owned())))
+    check_beside(texts.each_ref().map(String::as_str), [urdf, world])
+}
+
+/// The same of three texts. What the URDF and the world name is looked for beside these paths.
+///
+/// # Errors
+/// As [`check`], and files that cannot be read.
+pub fn check_beside(texts: [&str; 3], beside: [&Path; 2]) -> Result<String, CheckError> {
+    judged(texts, beside.map(|path| Some(path.to_owned())))
 }
 
 /// Checks a certificate of texts, and where they are from.

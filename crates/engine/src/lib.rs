@@ -70,9 +70,11 @@ mod subdivision;
 pub mod task;
 mod thinned;
 
-pub use bound::{Bound, bound, checked_bound};
+pub use bound::{Bound, bound};
 pub use cell_counts::CellCounts;
-pub use certificate::{NoCertificate, certificate_of_recording};
+pub use certificate::{
+    BoundCertificate, NoCertificate, certificate_of_bound, certificate_of_boxes, certificate_of_recording,
+};
 pub use field_problem::FieldProblem;
 pub use grid_space::GridSpace;
 pub use kind::Kind;

@@ -2,22 +2,21 @@
 
 mod bound;
 mod contacts;
+mod lower_bound;
 mod motion;
+mod stated;
 mod task;
 
 pub use motion::recorded as certificate_of_recording;
+pub use stated::{BoundCertificate, certificate_of_bound, certificate_of_boxes};
 
-use super::bound::{claim, motions};
-use super::motion_plan::MotionPlan;
 use super::task::TaskVerdict;
 use super::{Kind, Plan, TaskPlan};
-use bound::{LeastLength, Ways};
 use contacts::Contacts;
 use cplan_core::check::{Cell, StuckBox};
 use cplan_core::model::{Arm, MotionProblem, Scene, Status, inverse};
-use cplan_core::space::{Configuration, JointRange, Metric, Segment, Topology};
-use cplan_geometry::cross;
-use cplan_proofs::bound::ClosedSegment;
+use cplan_core::space::{Configuration, JointRange, Segment, Topology};
+use lower_bound::LowerBound;
 use cplan_world::{Digests, Overrides, TipPoint};
 use serde::Serialize;
 use serde_json::json;
@@ -43,15 +42,6 @@ pub enum NoCertificate {
     Untimed,
 }
 
-/// A box as it stands in a certificate.
-#[derive(Serialize)]
-struct Stuck {
-    lower: [f64; 2],
-    upper: [f64; 2],
-    shape: usize,
-    part: usize,
-}
-
 impl Plan {
     /// The certificate of the answer, where it has one. What `asked` says in place of the world file is in it, and which `files` it is about.
     ///
@@ -67,13 +57,13 @@ impl Plan {
         let (answer, evidence) = match (self.trajectory(), plan.answer.verdict.proof()) {
             (Some(trajectory), _) => {
                 let mut evidence = vec![motion::evidence(problem.scene().arm(), trajectory)];
-                evidence.extend(least_length(plan, asked, &mut contacts).into_iter().flatten());
+                let least = plan.answer.bound.and_then(|stated| LowerBound::of(problem, &stated, asked));
+                evidence.extend(least.into_iter().flat_map(|least| least.evidence(&mut contacts)));
                 ("found", evidence)
             }
             (None, Some(proof)) => {
                 let stuck = [proof.stuck(), &ruled_out(problem).0].concat();
-                let boxes: Vec<Stuck> = stuck.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
-                ("infeasible", vec![("boxes", lines(&boxes))])
+                ("infeasible", vec![contacts.boxes(&stuck)])
             }
             (None, None) => return Err(NoCertificate::Answer(self.status())),
         };
@@ -103,115 +93,6 @@ impl Plan {
             _ => Err(NoCertificate::Answer(self.status())),
         }
     }
-}
-
-/// That no motion is shorter than the bound, up to a hair; none where nothing is known of that, or goals are a curve.
-///
-/// To one configuration, or to wherever the tip is at the place that was asked for: then the boxes about those of these configurations that are
-/// not free come first.
-fn least_length(plan: &MotionPlan, asked: &Overrides, contacts: &mut Contacts) -> Option<Evidence> {
-    let (problem, stated) = (&plan.problem, plan.answer.bound.as_ref()?);
-    let motions = motions(problem, stated.metric);
-    let topology = problem.scene().arm().topology();
-    let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
-    let ways = Ways {
-        topology: &topology,
-        metric: stated.metric,
-        start: topology.wrap(motions.start),
-        goals: &goals,
-        about: if to.is_some() { 0.0 } else { ABOUT_A_GOAL },
-        limit: stated.upper,
-    };
-    let claim = claim(&motions, stated);
-    let of = |looks: usize| LeastLength::new(&ways, claim.closed(motions.scene, motions.clearance, looks));
-    let mut least = of(LOOKS[0])?;
-    if least.length < stated.lower * (1.0 - MUCH) {
-        least = of(LOOKS[1]).filter(|closer| closer.length > least.length).unwrap_or(least);
-    }
-    let wall = |wall: &ClosedSegment| {
-        let (shape, part) = contacts.numbers(wall.pair);
-        let [from, to] = wall.ends.map(<[f64; 2]>::from);
-        json!({ "from": from, "to": to, "shape": shape, "part": part })
-    };
-    let walls: Vec<_> = least.walls.iter().map(wall).collect();
-    let potential = |p: &bound::Potential| match p.turns {
-        [0, 0] => json!({ "wall": p.wall, "end": p.end, "value": p.value }),
-        turns => json!({ "wall": p.wall, "end": p.end, "turns": turns, "value": p.value }),
-    };
-    let potentials: Vec<_> = least.potentials.iter().map(potential).collect();
-    let metric = match stated.metric {
-        Metric::Euclidean => json!("euclidean"),
-        Metric::Weighted { weights } => json!({ "weights": weights }),
-        Metric::Time { speeds } => json!({ "speeds": speeds }),
-    };
-    let to = to.map_or_else(String::new, |to| format!("\"to\": {}, ", json!(to)));
-    let (length, walls, potentials) = (least.length, lines(&walls), lines(&potentials));
-    let members =
-        format!(r#"{to}"length": {length}, "metric": {metric}, "walls": {walls}, "potentials": {potentials}"#);
-    let boxes: Vec<Stuck> = boxes.iter().flat_map(|stuck| contacts.stuck(stuck)).collect();
-    let boxes = (!boxes.is_empty()).then(|| ("boxes", lines(&boxes)));
-    Some(boxes.into_iter().chain([("bound", format!("{{ {members} }}"))]).collect())
-}
-
-/// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, ...
-const LOOKS: [usize; 2] = [60, 300];
-
-/// ... and more if the bound loses more than this share: where shapes come apart slowly, as in a slot, walls end too early.
-const MUCH: f64 = 1e-3;
-
-/// Where a bound leads to.
-struct Ends {
-    /// One configuration, if it is about that; or else the goal, wherever the tip is at the place.
-    to: Option<Configuration>,
-    /// All that may count as goals.
-    goals: Vec<Configuration>,
-    /// About those that are none.
-    boxes: Vec<StuckBox>,
-}
-
-impl Ends {
-    /// None where goals are a curve, or not told from what is beside them.
-    fn of(problem: &MotionProblem, asked: &Overrides) -> Option<Self> {
-        let (arm, pieces) = (problem.scene().arm(), problem.goals().pieces());
-        let topology = arm.topology();
-        if !pieces.iter().all(Segment::is_point) {
-            return None;
-        }
-        let goals: Vec<Configuration> = pieces.iter().map(|goal| inward(&topology, goal.ends()[0])).collect();
-        if let ([goal], None) = (&goals[..], asked.goal_tip) {
-            return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
-        }
-        let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
-        // All of them share the parts that a checker looks at: those on other turns, too.
-        let least = STRETCHED * solved.solutions(arm).len().max(1) as f64;
-        if solved.free.is_some() || solved.branches.iter().any(|q| tells_apart(arm, *q) <= least) {
-            return None;
-        }
-        let (boxes, left) = ruled_out(problem);
-        Some(Self { to: None, goals: [goals, left].concat(), boxes })
-    }
-}
-
-/// What a checker leaves open of where the tip is at a place, as a share of the way: it looks for these configurations itself, down to a
-/// part in 10^12 of the joints' ranges.
-const ABOUT_A_GOAL: f64 = 1e-6;
-
-/// Where [`tells_apart`] is less, a checker does not tell configurations that put the tip at a place from those beside them, as it cuts both
-/// joints' ranges in equal shares.
-const STRETCHED: f64 = 0.012;
-
-/// The area between the ways in which the joints move the tip, as a share of the square of both together: at most a quarter, and nothing where
-/// the arm is stretched or folded.
-fn tells_apart(arm: &Arm, q: Configuration) -> f64 {
-    const STEP: f64 = 1e-6;
-    let ranges = arm.topology().ranges;
-    let moved = |k: usize| {
-        let (lower, upper) = ranges[k].domain();
-        let step = Configuration::from_fn(|i, _| if i == k { STEP * (upper - lower) } else { 0.0 });
-        arm.tip_at(q + step) - arm.tip_at(q - step)
-    };
-    let [a, b] = [moved(0), moved(1)];
-    cross(a, b).abs() / (a.norm() + b.norm()).powi(2)
 }
 
 /// Members of a certificate, by name, as they are written.

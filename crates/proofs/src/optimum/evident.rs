@@ -1,16 +1,16 @@
-//! What closes ways shorter than a bound, as evidence for the judge.
+//! What closes ways shorter than a bound, as evidence for a checker.
 
 use super::closed::Wall as FoundWall;
 use super::strips::Strips;
-use crate::bound::{Barrier, Slice, Wall};
+use crate::evidence::{Barrier, Slice, Wall};
 use cplan_core::check::{Deviation, Posture};
 use cplan_core::model::{Pair, Scene};
-use cplan_core::space::{Configuration, GoalSet};
+use cplan_core::space::Configuration;
 use cplan_geometry::Ordered;
 
 impl Strips<'_> {
     /// All slices that were looked at, with what was found closed. What link 1 closes is closed all along the slices beside it.
-    pub fn claim(&self, scene: &Scene) -> Vec<Slice> {
+    pub fn evident(&self, scene: &Scene) -> Vec<Slice> {
         let pairs = self.closed.by_number();
         let (bottom, top) = self.topology().ranges[1].domain();
         let count = self.strips.len();
@@ -21,7 +21,7 @@ impl Strips<'_> {
                 let strip = &self.strips[number];
                 let before = number.checked_sub(1).or(round.then_some(count - 1));
                 let closed = strip.closed || before.is_some_and(|before| self.strips[before].closed);
-                let mut walls = claimed(strip.walls.as_deref().unwrap_or(&[]), &pairs);
+                let mut walls = found_closed(strip.walls.as_deref().unwrap_or(&[]), &pairs);
                 walls.extend(whole(strip.from).filter(|_| closed));
                 let found = strip.barriers.as_deref().unwrap_or(&[]);
                 let barriers = found.iter().map(|&(ends, number)| Barrier { ends, pair: pairs[number] }).collect();
@@ -29,27 +29,15 @@ impl Strips<'_> {
             })
             .collect();
         if let Some(strip) = self.strips.last().filter(|_| !round) {
-            let mut walls = claimed(&self.last, &pairs);
+            let mut walls = found_closed(&self.last, &pairs);
             walls.extend(whole(strip.to).filter(|_| strip.closed));
             slices.push(Slice { q1: strip.to, walls, barriers: Vec::new() });
         }
         slices
     }
-
-    /// What is closed at the values of joint 1 at which goals lie, all along, as it counts for these.
-    pub fn claim_at_goals(&mut self, goals: &GoalSet) -> Vec<Slice> {
-        let pairs = self.closed.by_number();
-        let pieces: Vec<_> = goals.wrapped(self.topology()).collect();
-        let upright = pieces.iter().filter(|piece| !piece.is_point() && piece.ends()[0][0] == piece.ends()[1][0]);
-        let mut places: Vec<f64> = upright.map(|piece| piece.ends()[0][0]).collect();
-        places.sort_by(f64::total_cmp);
-        places.dedup();
-        let slice = |q1: f64| Slice { q1, walls: claimed(&self.closed.walls(q1), &pairs), barriers: Vec::new() };
-        places.into_iter().map(slice).collect()
-    }
 }
 
-fn claimed(walls: &[FoundWall], pairs: &[Pair]) -> Vec<Wall> {
+fn found_closed(walls: &[FoundWall], pairs: &[Pair]) -> Vec<Wall> {
     walls.iter().map(|wall| Wall { lower: wall.lower, upper: wall.upper, pair: pairs[wall.pair] }).collect()
 }
 

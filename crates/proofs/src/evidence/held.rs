@@ -8,9 +8,6 @@ use cplan_geometry::penetration_depth;
 /// Share of the lengths involved by which a depth must exceed the motion, far above the rounding of either.
 const ROUNDING: f64 = 1e-12;
 
-/// Looks in each of the two directions from the middle at most: where shapes hardly overlap all along each covers little.
-pub(super) const MOST_LOOKS: usize = 100_000;
-
 /// A look that covers less than this share of the segment is the last: towards its end shapes come apart.
 const LEAST: f64 = 1e-12;
 
