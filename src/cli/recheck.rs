@@ -10,7 +10,7 @@ use crate::engine::{Bound, certificate_of_bound, certificate_of_boxes};
 use crate::input::{self, LoadedScene, Overrides, Source};
 use crate::model::MotionProblem;
 use crate::text::counted;
-use cplan_check::{CheckError, Input, check_beside};
+use cplan_check_files::{CheckError, Input, check_beside};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::fmt::Display;
@@ -130,7 +130,10 @@ fn bound_holds(
     }
     let unseen = |why: String| failed(args, format!("the bound is not seen to hold: {why}"));
     let seen = certificate_of_bound(problem, stated, asked).ok_or_else(|| {
-        unseen("there is no certificate for a goal that leaves a joint free, or at which the arm is nearly stretched".into())
+        unseen(
+            "there is no certificate for a goal that leaves a joint free, or at which the arm is nearly stretched"
+                .into(),
+        )
     })?;
     if seen.length < lower * (1.0 - UNSEEN) {
         return Err(unseen(format!("none below {lower} is stated, none below {} is seen", seen.length)));
