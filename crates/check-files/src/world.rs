@@ -22,6 +22,7 @@ mod course;
 pub mod hung;
 mod map;
 mod picture;
+mod steps;
 pub mod task;
 
 type Value<'a> = Spanned<DeValue<'a>>;
