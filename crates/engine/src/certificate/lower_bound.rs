@@ -25,7 +25,7 @@ pub(super) struct LowerBound {
 
 impl LowerBound {
     /// Finds the evidence anew. None if goals are a curve, or not told from what is beside them.
-    pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides) -> Option<Self> {
+    pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, care: &Care) -> Option<Self> {
         let motions = motions(problem, stated.metric);
         let topology = problem.scene().arm().topology();
         let Ends { to, goals, boxes } = Ends::of(problem, asked)?;
@@ -39,9 +39,12 @@ impl LowerBound {
         };
         let evidence = evidence(&motions, stated);
         let of = |looks: usize| LeastLength::new(&ways, evidence.segments(motions.scene, motions.clearance, looks));
-        let mut least = of(LOOKS[0])?;
-        if least.length < stated.lower * (1.0 - MUCH) {
-            least = of(LOOKS[1]).filter(|closer| closer.length > least.length).unwrap_or(least);
+        let (first, more) = care.looks.split_first()?;
+        let mut least = of(*first)?;
+        for looks in more {
+            if least.length < stated.lower * (1.0 - care.loss) {
+                least = of(*looks).filter(|closer| closer.length > least.length).unwrap_or(least);
+            }
         }
         Some(Self { least, metric: stated.metric, to, boxes })
     }
@@ -83,11 +86,21 @@ impl LowerBound {
     }
 }
 
-/// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, ...
-const LOOKS: [usize; 2] = [60, 300];
+/// How closely walls are looked at.
+pub(super) struct Care {
+    /// Looks along a wall in either direction, where a checker is to look as well that takes longer: as many as do for most, and then more ...
+    looks: &'static [usize],
+    /// ... if the bound loses more than this share. Where shapes come apart slowly, as in a slot, walls end too early.
+    loss: f64,
+}
 
-/// ... and more if the bound loses more than this share: where shapes come apart slowly, as in a slot, walls end too early.
-const MUCH: f64 = 1e-3;
+impl Care {
+    /// For certificates, which are to be small and soon checked.
+    pub const USUAL: Self = Self { looks: &[60, 300], loss: 1e-3 };
+
+    /// For bounds that are to be seen whole.
+    pub const CLOSE: Self = Self { looks: &[60, 300, 2000], loss: 1e-7 };
+}
 
 /// Where a bound leads to.
 struct Ends {

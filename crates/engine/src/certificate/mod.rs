@@ -17,7 +17,7 @@ use cplan_core::check::{Cell, StuckBox};
 use cplan_core::model::{Arm, MotionProblem, Scene, Status, inverse};
 use cplan_core::space::{Configuration, JointRange, Segment, Topology};
 use cplan_world::{Digests, Overrides, TipPoint};
-use lower_bound::LowerBound;
+use lower_bound::{Care, LowerBound};
 use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -57,7 +57,7 @@ impl Plan {
         let (answer, evidence) = match (self.trajectory(), plan.answer.verdict.proof()) {
             (Some(trajectory), _) => {
                 let mut evidence = vec![motion::evidence(problem.scene().arm(), trajectory)];
-                let least = plan.answer.bound.and_then(|stated| LowerBound::of(problem, &stated, asked));
+                let least = plan.answer.bound.and_then(|stated| LowerBound::of(problem, &stated, asked, &Care::USUAL));
                 evidence.extend(least.into_iter().flat_map(|least| least.evidence(&mut contacts)));
                 ("found", evidence)
             }
